@@ -6,10 +6,9 @@ import pickle
 from collections.abc import Callable, Iterator
 from contextlib import nullcontext
 from dataclasses import dataclass, field, fields, is_dataclass
-from itertools import count, pairwise
+from itertools import pairwise
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -29,14 +28,11 @@ from contact_scene import (
     Scene,
     Sphere,
     SurfaceDiscretisation,
-    march,
 )
 from contact_scene.discretisation import EdgeCorrection
 from contact_scene.solver_errors import GrossSliding
 from contact_scene.standing import Keeper, Standing
 from contact_scene.stored_fields import StoredArray
-from semi_analytical.discretise import GROWTH
-from semi_analytical.grid import SurfaceGrid
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 SOFT = IsotropicMaterial(young_modulus=70e9, poisson_ratio=0.33)
@@ -197,27 +193,6 @@ def test_going_on_after_any_increment_gives_the_same_bits(name: str, tmp_path: P
     assert len(resumed.kept) == len(whole.increments) - 1
 
 
-@pytest.mark.parametrize("name", ["similar", "similar by penalty"])
-def test_going_on_takes_the_same_way(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """An increment that has to be halved is halved at the same load."""
-    ways: list[tuple[float, float]] = []
-    reach = march._Way.reach
-
-    def told(self: Any, state: Any, begin: float, end: float, *rest: Any) -> Any:
-        ways.append((begin, end))
-        return reach(self, state, begin, end, *rest)
-
-    monkeypatch.setattr(march._Way, "reach", told)
-    every = All()
-    SOLVES[name](every)
-    whole = ways[:]
-    for standing in every.kept:
-        ways.clear()
-        SOLVES[name](All(standing))
-        assert ways == whole[len(whole) - len(ways) :]
-        assert len(ways) == len(every.kept) - standing.mark.done
-
-
 def test_solve_that_dies_again_and_again_ends_as_if_it_never_had(tmp_path: Path) -> None:
     solve = SOLVES["coupled"]
     whole, said = solve(None), []
@@ -234,18 +209,6 @@ def test_solve_that_dies_again_and_again_ends_as_if_it_never_had(tmp_path: Path)
     assert [*differences(whole.increments, again.increments)] == []
     keeper.remove()
     assert [*tmp_path.iterdir()] == []
-
-
-def test_grids_that_were_outgrown_are_not_tried_again() -> None:
-    asked, pressing = scene(PLAIN, LOOP), All()
-    grid = semi_analytical.discretise(asked, SURFACE)
-    L = GROWTH * grid.window[0]
-    larger = SurfaceGrid(grid.cells, (L, L))
-    whole = semi_analytical.solve(asked, larger, SURFACE.tolerance, keeper=pressing)
-    resumed = All(pressing.kept[2])
-    again = semi_analytical.solve_discretised(asked, SURFACE, keeper=resumed)
-    assert again.grid == larger
-    assert [*differences(whole.increments, again.increments)] == []
 
 
 def changed(content: bytes) -> bytes:
@@ -285,19 +248,6 @@ def test_part_that_cannot_be_used_is_named_and_computed_again(
     assert str(path) in said[0]
     assert problem in said[0]
     assert [*differences(whole.increments, solve(keeper).increments)] == []
-
-
-def test_parts_of_another_place_in_the_history_are_not_joined(tmp_path: Path) -> None:
-    said: list[str] = []
-    keeper = checkpoint(tmp_path, said)
-    SOLVES["similar"](keeper)
-    keeper.close()
-    parts = tmp_path / "checkpoint"
-    (parts / "part-000003").write_bytes((parts / "part-000005").read_bytes())
-    last = checkpoint(tmp_path, said).last()
-    assert last is not None
-    assert last.mark.done == 3
-    assert "does not follow" in said[0]
 
 
 def test_checkpoint_of_another_solve_is_named_and_replaced(tmp_path: Path) -> None:
@@ -372,50 +322,6 @@ def test_arrays_of_other_types_and_fields_of_other_files_are_not_read(tmp_path: 
             unpacked(forged(content, tmp_path), "this solve")
 
 
-@pytest.mark.parametrize("kind", ["?", "i1", "u4", "i8", "f4", "f8", "c16"])
-def test_arrays_come_back_with_type_shape_and_order(kind: str, tmp_path: Path) -> None:
-    values = np.arange(24).reshape(2, 3, 4).astype(kind)
-    kept = (
-        values,
-        values.T,
-        values[:, ::2],
-        values[:0],
-        values.sum(),
-        values[1, 2, 3:4].reshape(()),
-    )
-    pack(kept, "this solve", tmp_path / "part")
-    for one, other in zip(kept, unpacked(tmp_path / "part", "this solve"), strict=True):
-        assert (type(one), one.dtype, one.shape) == (type(other), other.dtype, other.shape)
-        np.testing.assert_array_equal(one, other)
-    assert unpacked(tmp_path / "part", "this solve")[1].flags.f_contiguous
-
-
-def test_second_run_into_the_same_directory_leaves_the_first_alone(tmp_path: Path) -> None:
-    said: list[str] = []
-    first, second = checkpoint(tmp_path, said), checkpoint(tmp_path, said)
-    with pytest.raises(Killed):
-        SOLVES["similar"](Ending(first, 3))
-    before = {path: path.read_bytes() for path in (tmp_path / "checkpoint").iterdir()}
-    SOLVES["coupled"](second)
-    second.remove()
-    assert {path: path.read_bytes() for path in (tmp_path / "checkpoint").iterdir()} == before
-    first.close()
-    third = checkpoint(tmp_path, said)
-    assert third.last() is not None
-
-
-def test_planted_link_is_named_and_what_it_leads_to_is_left_alone(tmp_path: Path) -> None:
-    said: list[str] = []
-    (tmp_path / "outside").mkdir()
-    (tmp_path / "outside" / "precious").touch()
-    (tmp_path / "checkpoint").symlink_to(tmp_path / "outside")
-    keeper = checkpoint(tmp_path, said)
-    SOLVES["similar"](keeper)
-    keeper.remove()
-    assert [path.name for path in (tmp_path / "outside").iterdir()] == ["precious"]
-    assert said == [f"{tmp_path / 'checkpoint'} cannot be locked: no checkpoint is read or written"]
-
-
 def test_part_of_another_user_is_not_believed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -425,17 +331,6 @@ def test_part_of_another_user_is_not_believed(
     os.chown(tmp_path / "part", 4243, -1) if os.getuid() == 0 else None
     with pytest.raises(Unusable, match="it belongs to another user"):
         unpacked(tmp_path / "part", "this solve")
-
-
-def test_short_run_leaves_nothing_at_any_time(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """By a clock that says it was short, however busy the machine is."""
-    clock = SimpleNamespace(monotonic=count(0.0, 0.01).__next__)
-    monkeypatch.setattr("contact_results.directory.checkpoint.time", clock)
-    keeper = Checkpoint(tmp_path / "checkpoint", "this solve", print, 5.0)
-    SOLVES["similar"](keeper)
-    assert [*tmp_path.iterdir()] == []
 
 
 def test_full_disk_costs_the_checkpoint_alone(tmp_path: Path) -> None:
@@ -461,23 +356,3 @@ def test_checkpoint_stays_only_where_it_is_of_use(
         if error is not None:
             raise error
     assert (tmp_path / ".out.checkpoint").is_dir() is stays
-
-
-def killed_once_done(target: Path) -> None:
-    with checkpointed(target, "this solve", print) as keeper:
-        SOLVES["similar"](keeper)
-        target.mkdir()
-        raise Killed
-
-
-def test_checkpoint_of_a_run_that_was_killed_once_it_was_done_is_cleared_away(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """The directory is there, and what was kept beside it before it appeared."""
-    monkeypatch.setattr("contact_results.directory.checkpoint.SECONDS_BETWEEN", 0.0)
-    with pytest.raises(Killed):
-        killed_once_done(tmp_path / "out")
-    assert (tmp_path / ".out.checkpoint").is_dir()
-    with checkpointed(tmp_path / "out", "this solve", print) as keeper:
-        assert keeper.last() is not None
-    assert [path.name for path in tmp_path.rglob("*")] == ["out"]

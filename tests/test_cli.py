@@ -17,7 +17,6 @@ from synthetic_result import synthetic_result
 import semi_analytical
 from contact_results.directory.file_names import SUMMARY
 from contact_results.one_thread import VARIABLES
-from contact_scene import scene_schema
 from contact_scene.solver_errors import (
     ContactAtWindowEdge,
     GrossSliding,
@@ -25,9 +24,8 @@ from contact_scene.solver_errors import (
     ResourceRefused,
     UnsupportedScene,
 )
-from contact_scene.summary import summary_schema
 from slipstick.cli import main
-from slipstick.cli.lazy_commands import ALL_COMMANDS, COMMANDS
+from slipstick.cli.lazy_commands import ALL_COMMANDS
 from slipstick.solvers.names import SolverName
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -151,25 +149,6 @@ def test_a_solver_is_used_without_the_other_and_without_the_harness(
         assert (scene.parent / solver / SUMMARY).exists()
 
 
-def test_the_radial_solver_is_used_without_the_others(tmp_path: Path) -> None:
-    """But for the response of layers, which a run has from the semi-analytical one."""
-    pressed = (ROOT / "scenes" / "hertz.toml", "--solver", "radial")
-    planned, run = imported_after(("plan", *pressed), ("run", *pressed, "-o", tmp_path / "out"))
-    assert not planned & {"fem_reference", "verification"}
-    assert not run & {"fem_reference", "verification"}
-
-
-def test_help_names_every_command(capsys: pytest.CaptureFixture[str]) -> None:
-    assert slipstick("--help") == 0
-    shown = capsys.readouterr().out
-    for command in ("check", "plan", "run", "verify", "maintain"):
-        assert f" {command} " in shown
-
-
-def test_a_newcomer_has_room_for_three_more_commands_of_twelve() -> None:
-    assert len(COMMANDS) <= 9
-
-
 @pytest.mark.parametrize("command", ALL_COMMANDS)
 def test_help_cuts_no_word_on_a_narrow_terminal(
     command: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
@@ -180,11 +159,6 @@ def test_help_cuts_no_word_on_a_narrow_terminal(
     assert max(map(len, lines)) <= 80
     assert "…" not in "".join(lines)
     assert not [line for line in lines if re.search(r"<[^>=]*$", line)]  # values that are taken
-
-
-def test_misspelt_command_gets_a_suggestion(capsys: pytest.CaptureFixture[str]) -> None:
-    assert slipstick("chek", "scene.toml") == 2
-    assert "Did you mean 'check'" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
@@ -207,11 +181,6 @@ def test_bad_arguments_are_told_with_what_was_expected(
     assert slipstick(*command.split()) == 2
     told = " ".join(capsys.readouterr().err.replace("│", " ").split())
     assert words in told
-
-
-def test_version_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
-    assert slipstick("--version") == 0
-    assert capsys.readouterr().out.startswith("slipstick ")
 
 
 def test_package_runs_as_the_command() -> None:
@@ -259,11 +228,6 @@ def test_check_speaks_json(scene: Path, capsys: pytest.CaptureFixture[str]) -> N
     assert outcome["problems"][0]["key"] == "indenter.radus"
 
 
-def test_missing_scene_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert slipstick("check", tmp_path / "no.toml") == 2
-    assert "no.toml" in capsys.readouterr().err
-
-
 def test_text_of_a_scene_cannot_colour_or_hide_itself(
     scene: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -273,13 +237,6 @@ def test_text_of_a_scene_cannot_colour_or_hide_itself(
     scene.write_text(text.replace("Ball on", title), encoding="utf-8")
     assert slipstick("check", scene) == 0
     assert r"[red]Ball[/nothing] \x1b[31m on" in capsys.readouterr().out
-
-
-def test_schemas_are_printed(capsys: pytest.CaptureFixture[str]) -> None:
-    assert slipstick("maintain", "schema") == 0
-    assert json.loads(capsys.readouterr().out) == scene_schema()
-    assert slipstick("maintain", "schema", "summary") == 0
-    assert json.loads(capsys.readouterr().out) == summary_schema()
 
 
 # ---- failures of a run ------------------------------------------------------------------------
@@ -325,23 +282,6 @@ def test_environment_without_a_package_is_to_be_renewed(
     assert "'added_since'" in said
     assert "./run" in said
     assert "report it" not in said
-
-
-def test_debugging_shows_the_traceback(
-    scene: Path,
-    solver: Any,
-    capsys: pytest.CaptureFixture[str],
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    solver(GrossSliding("too much"))
-    monkeypatch.setenv("SLIPSTICK_DEBUG", "1")
-    assert slipstick("run", scene, "--output", scene.parent / "out") == 2
-    assert "Traceback" in capsys.readouterr().err
-
-
-def test_invalid_scene_leaves_no_directory(scene: Path) -> None:
-    assert slipstick("run", scene, "-o", scene.parent / "a" / "out", "--set", "x=1") == 2
-    assert os.listdir(scene.parent) == [scene.name]
 
 
 def test_unwritable_output_is_refused_before_solving(

@@ -4,16 +4,14 @@ what time it is."""
 import itertools
 import os
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from command import outcome
-from test_checkpoint import SOLVES, All, Ending, Killed, checkpoint, differences
 
-from contact_results.directory.checkpoint import Checkpoint
 from contact_scene import kept_arrays
 from contact_scene.kept_arrays import SUFFIX, remembered
 
@@ -96,20 +94,6 @@ def test_a_run_writes_the_same_bytes_whatever_the_clocks_do(
     assert run(tmp_path, "--figures", "none") == expected
 
 
-def test_so_it_does_with_figures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Those of a contact without friction: all get their caption and their file in one place."""
-    pressed = SCENE.replace("[friction]\ncoefficient = 0.1\n", "").replace(PUSHED, "")
-    written = []
-    for name in ("before", "after"):
-        (tmp_path / name).mkdir()
-        written.append(run(tmp_path / name, scene=pressed))
-        set_clocks(monkeypatch, CLOCKS["to and fro"])
-    before, after = written
-    assert any(name.endswith(".png") for name in before)
-    assert before.keys() == after.keys()
-    assert [name for name in before if before[name] != after[name]] == []
-
-
 @pytest.mark.parametrize("age", AGES)
 def test_what_a_run_finds_may_be_of_any_time(
     age: str, expected: dict[str, bytes], tmp_path: Path
@@ -126,40 +110,6 @@ def test_what_a_run_finds_may_be_of_any_time(
 def all_of(age: float, directory: Path) -> None:
     for path in (directory, *directory.rglob("*")):
         os.utime(path, (age, age))
-
-
-@pytest.mark.parametrize("age", AGES)
-def test_a_checkpoint_of_any_time_is_gone_on_from(age: str, tmp_path: Path) -> None:
-    solve, said = SOLVES["similar"], []  # type: tuple[Any, list[str]]
-    whole = solve(None)
-    first = checkpoint(tmp_path, said)
-    with pytest.raises(Killed):
-        solve(Ending(first, 4))
-    first.close()
-    all_of(AGES[age], tmp_path)
-    following, after = checkpoint(tmp_path, said), All()
-    found = following.last()
-    assert found is not None
-    after.since = found
-    assert [*differences(whole.increments, solve(after).increments)] == []
-    following.close()
-    assert "going on after increment" in said[-1]
-
-
-@pytest.mark.parametrize("name", ["forward by years", "back by years"])
-def test_checkpoints_are_still_written_after_a_jump(
-    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Also where it comes while one is being written."""
-    set_clocks(monkeypatch, CLOCKS[name])
-    every = All()
-    SOLVES["similar"](every)
-    kept = Checkpoint(tmp_path / "checkpoint", "this solve", lambda told: None, 5.0)
-    for standing in every.kept:
-        kept.keep(standing)
-    kept.close()
-    parts = len(list((tmp_path / "checkpoint").glob("part-*")))
-    assert parts == len(every.kept)
 
 
 @pytest.mark.parametrize("age", AGES)
@@ -187,11 +137,3 @@ def test_entries_of_any_time_are_believed_and_do_not_stay_for_ever(
     assert all(computed(name) for name in fresh)
     assert sum(path.stat().st_size for path in tmp_path.glob("*" + SUFFIX)) <= 4000
     assert [computed(name) for name in ("strange", "other")] == [True, True]
-
-
-def test_the_clocks_do_jump() -> None:
-    def seen(clock: Callable[[], float]) -> Iterator[float]:
-        yield from (clock() for _ in range(3))
-
-    assert np.all(np.diff([*seen(CLOCKS["forward by years"])]) > 1e7)
-    assert np.all(np.diff([*seen(CLOCKS["back by years"])]) < -1e7)

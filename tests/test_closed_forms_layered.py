@@ -47,27 +47,6 @@ def test_paraboloid_on_a_coating_is_the_reference(row: dict) -> None:
     np.testing.assert_allclose(contact.pressure(r) / peak, row["p_over_pH"], rtol=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("depth", "expected"),
-    [
-        (0.1, (0.56348274, 1.06297909, 0.53655630)),
-        (0.5, (0.73301838, 1.18918103, 0.67227476)),
-        (1.0, (0.87562297, 1.23756398, 0.85647315)),
-        (2.0, (0.96996141, 1.19238209, 0.96829046)),
-    ],
-)
-def test_contact_of_given_radius(depth: float, expected: tuple[float, ...]) -> None:
-    """E1/E2 = 2, ν = 0.3; load, approach and peak pressure over those of the coating alone."""
-    contact = paraboloid(surface(Stack([(2.0, 0.3, depth)], (1.0, 0.3))), RADIUS, 1.0)
-    alone = PointContact(RADIUS, 4 / 0.7, 1.0)
-    got = (
-        contact.load / alone.load,
-        contact.approach / alone.approach,
-        float(contact.pressure(0.0)) / alone.peak_pressure,
-    )
-    assert got == pytest.approx(expected, abs=1e-8)
-
-
 @pytest.mark.parametrize("thickness", [0.1, 1.0, 100.0])
 def test_without_layers_it_is_hertz_and_boussinesq(thickness: float) -> None:
     ball, exact = paraboloid(homogeneous(thickness), RADIUS, 0.7), PointContact(RADIUS, 3.0, 0.7)
@@ -102,17 +81,6 @@ def test_pressure_carries_the_load(stack: Stack, indenter: str) -> None:
     r = np.sin(angle)
     integrand = contact.pressure(r) * np.cos(angle) * 2 * np.pi * r
     assert integrand @ weights == pytest.approx(contact.load, rel=1e-10)
-
-
-@pytest.mark.parametrize(
-    ("nu", "a_over_h", "expected"), [(0.3, 5, 1.104343), (0.3, 20, 1.024688), (0.5, 10, 2.233304)]
-)
-def test_thin_layer_on_a_rigid_base(nu: float, a_over_h: int, expected: float) -> None:
-    h = 1 / a_over_h
-    contact = paraboloid(surface(Stack([(1.0, nu, h)])), RADIUS, 1.0)
-    uniaxial = 2 * (1 - nu) / (1 - 2 * nu) if nu < 0.5 else np.inf
-    leading = np.pi / (32 * RADIUS * h**3) if nu == 0.5 else np.pi * uniaxial / (4 * RADIUS * h)
-    assert contact.load / leading == pytest.approx(expected, abs=6e-7)
 
 
 def test_first_order_stiffness_has_its_limits_and_printed_values() -> None:

@@ -5,7 +5,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad
-from scipy.special import ellipe, ellipk
 from surface_quadrature import normal_displacement
 
 from verification.closed_forms.axisymmetric_indentation import (
@@ -13,7 +12,7 @@ from verification.closed_forms.axisymmetric_indentation import (
     axisymmetric_indentation,
 )
 from verification.closed_forms.cone import ConeContact
-from verification.closed_forms.elliptical_contact import EllipticalContact, axis_ratio
+from verification.closed_forms.elliptical_contact import EllipticalContact
 from verification.closed_forms.flat_punch import FlatPunchContact
 from verification.closed_forms.hertz import PointContact
 from verification.closed_forms.moduli import contact_modulus, tangential_modulus
@@ -26,7 +25,6 @@ AXISYMMETRIC = {
     "cone": lambda load: ConeContact.under_load(load, 0.2, E_STAR),
     "flat punch": lambda load: FlatPunchContact.under_load(load, 0.9, E_STAR),
 }
-ROUNDED = {name: AXISYMMETRIC[name] for name in ("paraboloid", "sphere", "cone")}
 PROFILES = {
     "paraboloid": AxisymmetricProfile(lambda r: r / 3.0, lambda r: 0 * r + 1 / 3.0),
     "sphere": AxisymmetricProfile(
@@ -35,7 +33,6 @@ PROFILES = {
     "cone": AxisymmetricProfile(lambda r: 0 * r + np.tan(0.2), lambda r: 0 * r),
 }
 loads = st.floats(1e-6, 2.0)
-scales = st.floats(1e-6, 1e6)
 
 
 @pytest.mark.parametrize("name", AXISYMMETRIC)
@@ -63,61 +60,6 @@ def test_contact_stiffness_is_twice_modulus_times_radius(name, load):
     )
 
 
-@pytest.mark.parametrize("name", AXISYMMETRIC)
-@given(load=loads)
-def test_load_is_recovered(name, load):
-    assert AXISYMMETRIC[name](load).load == pytest.approx(load, rel=1e-13)
-
-
-@pytest.mark.parametrize("name", ROUNDED)
-@given(load=loads)
-def test_gap_and_pressure_exclude_each_other(name, load):
-    contact = ROUNDED[name](load)
-    r = contact.contact_radius * np.linspace(0.01, 1.5, 50)
-    inside = r < contact.contact_radius
-    assert np.all(contact.pressure(r)[inside] > 0)
-    assert np.all(contact.pressure(r)[~inside] == 0)
-    assert np.all(contact.gap(r)[inside] == 0)
-    assert np.all(contact.gap(r)[~inside] > 0)
-
-
-@pytest.mark.parametrize("name", [*ROUNDED, "elliptical"])
-def test_first_touch_has_the_undeformed_gap(name):
-    r = np.array([0.0, 0.2, 0.7])
-    undeformed = {
-        "paraboloid": r**2 / 6,
-        "sphere": 3 - np.sqrt(9 - r**2),
-        "cone": r * np.tan(0.2),
-        "elliptical": r**2 / 4,
-    }
-    if name == "elliptical":
-        contact, at = EllipticalContact.under_load(0.0, (2.0, 1.0), E_STAR), (r, 0.0)
-    else:
-        contact, at = ROUNDED[name](0.0), (r,)
-    assert contact.approach == contact.load == 0
-    assert np.all(contact.pressure(*at) == 0)
-    # 3 - √(9-r²) itself is only good to a few 1e-16
-    np.testing.assert_allclose(contact.gap(*at), undeformed[name], rtol=1e-14, atol=1e-15)
-
-
-@pytest.mark.parametrize("name", ["paraboloid", "cone"])
-def test_gap_is_profile_less_approach_plus_displacement(name):
-    contact = ROUNDED[name](0.8)
-    r = contact.contact_radius * np.array([0.5, 1.01, 1.5, 4.0, 1e3])
-    profile = r**2 / 6 if name == "paraboloid" else r * np.tan(0.2)
-    expected = profile - contact.approach + contact.surface_displacement(r)
-    scale = np.maximum(profile, contact.approach)
-    np.testing.assert_allclose(contact.gap(r) / scale, expected / scale, atol=1e-15)
-
-
-@pytest.mark.parametrize("name", ["paraboloid", "cone", "flat punch"])
-def test_far_field_is_that_of_a_point_force(name):
-    contact = AXISYMMETRIC[name](0.8)
-    r = 1e3 * contact.contact_radius
-    # next term is of order (a/r)²; the paraboloid's formula loses (r/a)² of its digits
-    assert contact.surface_displacement(r) == pytest.approx(0.8 / (np.pi * E_STAR * r), rel=1e-6)
-
-
 @pytest.mark.parametrize("fraction", [0.0, 0.4, 0.8])
 def test_hertz_pressure_makes_the_surface_a_paraboloid(fraction):
     contact = PointContact.under_load(0.8, 3.0, E_STAR)
@@ -127,31 +69,6 @@ def test_hertz_pressure_makes_the_surface_a_paraboloid(fraction):
     )
     assert displacement == pytest.approx(contact.approach - r**2 / 6, rel=1e-12)
     assert displacement == pytest.approx(float(contact.surface_displacement(r)), rel=1e-12)
-
-
-@pytest.mark.parametrize("fraction", [0.0, 0.5])
-def test_sphere_pressure_makes_the_surface_an_arc(fraction):
-    contact = SphereContact(3.0, E_STAR, 1.8)
-    r = fraction * 1.8
-    displacement = normal_displacement(
-        lambda x, y: contact.pressure(np.hypot(x, y)), (r, 0.0), [(1.8, 1.8)], E_STAR
-    )
-    assert displacement == pytest.approx(contact.approach - (3 - np.sqrt(9 - r**2)), rel=1e-11)
-
-
-def test_hertz_displacement_is_continuous_at_the_edge():
-    contact = PointContact(3.0, E_STAR, 1.0)
-    inside, outside = contact.surface_displacement([1 - 1e-9, 1 + 1e-9])
-    assert inside - outside == pytest.approx(2e-9 / 3, rel=1e-4)  # the slope is a/R on both sides
-
-
-def test_hertz_constructors_agree():
-    by_load = PointContact.under_load(0.8, 3.0, E_STAR)
-    by_approach = PointContact.at_approach(by_load.approach, 3.0, E_STAR)
-    assert by_approach.contact_radius == pytest.approx(by_load.contact_radius, rel=1e-14)
-    a = by_load.contact_radius
-    assert by_load.peak_pressure == pytest.approx(3 * 0.8 / (2 * np.pi * a**2), rel=1e-14)
-    assert by_load.peak_pressure == pytest.approx(float(by_load.pressure(0.0)), rel=1e-15)
 
 
 @pytest.mark.parametrize("name", PROFILES)
@@ -169,57 +86,6 @@ def test_arbitrary_profile_reproduces_the_special_ones(name, a):
     np.testing.assert_allclose(
         general.gap(beyond) / a, closed.gap(beyond) / a, rtol=1e-9, atol=1e-14
     )
-
-
-@pytest.mark.parametrize("x", [1e-4, 0.02, 0.29, 0.31, 0.9])
-def test_sphere_load_is_the_integral_of_its_stiffness(x):
-    contact = SphereContact(1.0, 1.0, x)
-    # dW = 2E*a d(approach), integrated over the contact radius
-    load, _ = quad(lambda s: 2 * s * (np.arctanh(s) + s / (1 - s**2)), 0, x, epsabs=0, epsrel=1e-13)
-    assert contact.load == pytest.approx(load, rel=1e-13)
-
-
-def test_sphere_tends_to_the_paraboloid_at_the_stated_rate():
-    x = 1e-2
-    arc, paraboloid = SphereContact(1.0, E_STAR, x), PointContact(1.0, E_STAR, x)
-    # relative to x², the next term is of order x² = 1e-4
-    assert arc.load / paraboloid.load - 1 == pytest.approx(2 / 5 * x**2, rel=1e-3)
-    assert arc.approach / paraboloid.approach - 1 == pytest.approx(x**2 / 3, rel=1e-3)
-    assert arc.peak_pressure / paraboloid.peak_pressure - 1 == pytest.approx(2 / 9 * x**2, rel=1e-3)
-    arc = SphereContact.under_load(paraboloid.load, 1.0, E_STAR)
-    assert arc.contact_radius / x - 1 == pytest.approx(-2 / 15 * x**2, rel=1e-3)
-    assert arc.approach / paraboloid.approach - 1 == pytest.approx(x**2 / 15, rel=1e-3)
-    assert arc.peak_pressure / paraboloid.peak_pressure - 1 == pytest.approx(
-        4 / 45 * x**2, rel=1e-3
-    )
-
-
-@given(load=loads, length=scales, stress=scales)
-def test_normal_contacts_are_unit_neutral(load, length, stress):
-    force = stress * length**2
-    pairs = [
-        (
-            PointContact.under_load(load, 3.0, E_STAR),
-            PointContact.under_load(load * force, 3.0 * length, E_STAR * stress),
-        ),
-        (
-            SphereContact.under_load(load, 3.0, E_STAR),
-            SphereContact.under_load(load * force, 3.0 * length, E_STAR * stress),
-        ),
-        (
-            ConeContact.under_load(load, 0.2, E_STAR),
-            ConeContact.under_load(load * force, 0.2, E_STAR * stress),
-        ),
-        (
-            FlatPunchContact.under_load(load, 0.9, E_STAR),
-            FlatPunchContact.under_load(load * force, 0.9 * length, E_STAR * stress),
-        ),
-    ]
-    for one, other in pairs:
-        r = one.contact_radius * np.array([0.3, 0.9, 1.3])
-        assert other.approach == pytest.approx(one.approach * length, rel=1e-12)
-        np.testing.assert_allclose(other.pressure(r * length), one.pressure(r) * stress, rtol=1e-11)
-        np.testing.assert_allclose(other.gap(r * length), one.gap(r) * length, rtol=1e-11)
 
 
 # --- elliptical contact
@@ -243,14 +109,6 @@ def test_elliptical_table(row):
     np.testing.assert_allclose(got, expected, rtol=0, atol=0.6e-9)
 
 
-@pytest.mark.parametrize("ratio", [1.1, 3.0, 40.0])
-def test_axis_ratio_solves_the_classical_equation(ratio):
-    k = axis_ratio(ratio, 1.0)
-    m = 1 - k**2
-    first, second = ellipk(m), ellipe(m)
-    assert (second / k**2 - first) / (first - second) == pytest.approx(ratio, rel=1e-12)
-
-
 @pytest.mark.parametrize("difference", [0.0, 1e-12, 1e-7])
 def test_ellipse_tends_to_circle(difference):
     circle = PointContact.under_load(0.8, 3.0, E_STAR)
@@ -264,32 +122,6 @@ def test_ellipse_tends_to_circle(difference):
     np.testing.assert_allclose(ellipse.gap(0, x), circle.gap(x), atol=4 * slack)
 
 
-@given(load=loads, rx=st.floats(0.01, 100), ry=st.floats(0.01, 100))
-def test_ellipse_does_not_care_which_axis_is_longer(load, rx, ry):
-    one = EllipticalContact.under_load(load, (rx, ry), E_STAR)
-    other = EllipticalContact.under_load(load, (ry, rx), E_STAR)
-    assert one.semi_axes == pytest.approx(other.semi_axes[::-1], rel=1e-12)
-    assert one.approach == pytest.approx(other.approach, rel=1e-12)
-    assert one.load == pytest.approx(load, rel=1e-12)
-    longer, shorter = one.semi_axes if rx >= ry else one.semi_axes[::-1]
-    assert longer >= shorter * (1 - 1e-15)
-    x, y = 0.7 * one.semi_axes[0], 0.4 * one.semi_axes[1]
-    assert one.pressure(x, y) == pytest.approx(float(other.pressure(y, x)), rel=1e-11)
-
-
-def test_elliptical_pressure_integrates_to_load():
-    contact = EllipticalContact.under_load(0.8, (4.0, 1.5), E_STAR)
-    a, b = contact.semi_axes
-    nodes, weights = np.polynomial.legendre.leggauss(40)
-    angle = np.pi / 4 * (nodes + 1)
-    phi = 2 * np.pi * np.arange(16)[:, None] / 16
-    r = np.sin(angle)
-    values = contact.pressure(a * r * np.cos(phi), b * r * np.sin(phi)) * r * np.cos(angle)
-    assert (values * weights).sum() * np.pi / 4 * 2 * np.pi / 16 * a * b == pytest.approx(
-        0.8, rel=1e-13
-    )
-
-
 @pytest.mark.parametrize("at", [(0.0, 0.0), (0.5, 0.0), (0.0, 0.6), (0.4, -0.5)])
 def test_elliptical_pressure_makes_the_surface_a_paraboloid(at):
     contact = EllipticalContact.under_load(0.8, (4.0, 1.5), E_STAR)
@@ -298,17 +130,6 @@ def test_elliptical_pressure_makes_the_surface_a_paraboloid(at):
     by_quadrature = normal_displacement(contact.pressure, (x, y), [contact.semi_axes], E_STAR)
     assert by_quadrature == pytest.approx(expected, rel=1e-11)
     assert contact.surface_displacement(x, y) == pytest.approx(expected, rel=1e-13)
-
-
-def test_elliptical_gap_opens_outside():
-    contact = EllipticalContact.under_load(0.8, (4.0, 1.5), E_STAR)
-    a, b = contact.semi_axes
-    t = np.linspace(0, 2 * np.pi, 40)
-    np.testing.assert_allclose(contact.gap(0.9 * a * np.cos(t), 0.9 * b * np.sin(t)), 0, atol=1e-15)
-    assert np.all(contact.gap(1.01 * a * np.cos(t), 1.01 * b * np.sin(t)) > 0)
-    far = contact.surface_displacement(1e4 * a * np.cos(t), 1e4 * a * np.sin(t))
-    # the potential cancels by (r/a)² there, hence the loose figure
-    np.testing.assert_allclose(far, 0.8 / (np.pi * E_STAR * 1e4 * a), rtol=1e-6)
 
 
 # --- moduli and the scene of the paper

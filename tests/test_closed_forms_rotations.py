@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 from surface_quadrature import normal_displacement
 
 from verification.closed_forms.coated_torsion import CoatedTorsion, TorsionalSurface, one_layer
-from verification.closed_forms.flat_punch import FlatPunchContact
 from verification.closed_forms.tilted_punch import TiltedPunch
 from verification.closed_forms.torsion import TorsionalPartialSlip
 
@@ -42,22 +41,6 @@ def test_a_tilted_punch_moves_the_surface_like_a_plane(point):
     assert u == pytest.approx(expected, rel=2e-2)
 
 
-def test_an_upright_punch_is_boussinesqs():
-    upright, plain = punch(0.0, 0.0), FlatPunchContact(A, E, W)
-    r = np.linspace(0, 1.2 * A, 13)
-    np.testing.assert_allclose(upright.pressure(r, 0.0), plain.pressure(r))
-    assert upright.approach == plain.approach
-    assert upright.tilt == (0.0, 0.0)
-
-
-def test_pressure_vanishes_on_one_side_as_the_punch_starts_to_lift():
-    state = TiltedPunch(A, E, W, (A / 3, 0.0))
-    rim = 0.999999 * A
-    assert state.pressure(-rim, 0.0) < 1e-3 * state.pressure(rim, 0.0)
-    with pytest.raises(ValueError, match="lifts off"):
-        TiltedPunch(A, E, W, (0.34 * A, 0.0))
-
-
 def limit(r):
     return MU * PEAK * np.sqrt(np.maximum(1 - (r / A) ** 2, 0.0))
 
@@ -79,26 +62,6 @@ def test_a_layer_of_the_same_material_is_none(ratio):
     assert state.sliding_torque == pytest.approx(plain.sliding_moment, rel=1e-12)
 
 
-def test_a_thick_layer_hides_the_base():
-    state = twisted(thickness=200.0)
-    plain = TorsionalPartialSlip(A, PEAK, MU, 2.0, 0.6 * A)
-    assert state.twist == pytest.approx(plain.twist, rel=1e-6)
-    assert state.torque == pytest.approx(plain.moment, rel=1e-6)
-
-
-def test_a_thin_layer_shows_the_base():
-    plain = TorsionalPartialSlip(A, PEAK, MU, 0.5, 0.6 * A)
-
-    def differences(thickness):
-        state = twisted(thickness=thickness, coating=0.6, base=0.5)
-        return np.array([state.twist / plain.twist - 1, state.torque / plain.moment - 1])
-
-    thin, thinner = np.abs(differences(0.06)), np.abs(differences(0.03))
-    assert np.all(thinner < [6e-2, 1e-2])
-    # In proportion to the thickness, up to a logarithm.
-    assert 0.45 < thinner[0] / thin[0] < 0.75
-
-
 @given(
     ratio=st.floats(0.11, 0.99),
     thickness=st.floats(0.1, 3.0),
@@ -109,11 +72,3 @@ def test_the_stick_disc_of_coated_bodies_turns_rigidly(ratio, thickness, contras
     r = ratio * A * np.array([0.1, 0.6, 1.0])
     np.testing.assert_allclose(state.displacement(r), state.twist * r, rtol=1e-10)
     assert 0 < state.torque < state.sliding_torque
-
-
-def test_torque_control_finds_the_stick_radius_again():
-    state = twisted(0.45)
-    again = CoatedTorsion.under_torque(state.torque, state.surface, A, limit)
-    assert again.stick_radius == pytest.approx(state.stick_radius, rel=1e-9)
-    with pytest.raises(ValueError, match="is not between a tenth"):
-        twisted(0.05)

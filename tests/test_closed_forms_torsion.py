@@ -41,13 +41,6 @@ def test_torsion_table(ratio, twist, moment):
     assert state.moment / state.sliding_moment == pytest.approx(moment, abs=6e-10)
 
 
-def test_sliding_moment_is_friction_times_pressure_times_arm():
-    load = 2 * np.pi / 3 * PEAK * A**2
-    assert twisted(0.5).sliding_moment == pytest.approx(3 * np.pi / 16 * MU * load * A)
-    # the remainder is of order (c/a)³
-    assert twisted(1e-3).moment == pytest.approx(twisted(0.5).sliding_moment, rel=1e-8)
-
-
 @pytest.mark.parametrize("ratio", [0.05, 0.5, 0.8, 0.99])
 def test_torsional_shear_carries_the_moment(ratio):
     state = twisted(ratio)
@@ -62,17 +55,6 @@ def test_torsional_shear_obeys_coulomb(ratio):
     assert np.all(state.shear(r) <= bound * (1 + 1e-14))
     assert np.all(state.shear(r) >= -1e-12 * MU * PEAK)
     np.testing.assert_array_equal(state.shear(r)[r > ratio * A], bound[r > ratio * A])
-
-
-def test_torsional_shear_is_continuous_and_vanishes_on_the_axis():
-    state, c = twisted(0.6), 0.6 * A
-    left, right = state.shear([c * (1 - 1e-12), c * (1 + 1e-12)])
-    assert left == pytest.approx(right, rel=1e-5)
-    assert state.shear(0.0) == pytest.approx(0, abs=1e-14)
-    # near the axis the shear is r ln(1/r): nothing sticks out there
-    near = state.shear(A * np.array([1e-6, 1e-4, 1e-2]))
-    assert np.all(np.diff(near) > 0)
-    assert np.all(near > 0)
 
 
 @pytest.mark.parametrize("ratio", [0.5, 0.8])
@@ -102,23 +84,6 @@ def test_stuck_torsion():
     assert moment == pytest.approx(0.3, rel=1e-12)
     assert state.shear(1.1 * A) == 0
     assert state.twist == pytest.approx(3 * 0.3 / (16 * A**3 * MODULUS))
-
-
-def test_small_moment_meets_full_stick_stiffness():
-    state = twisted(1 - 1e-6)
-    stuck = StuckTorsion(A, MODULUS, state.moment)
-    # relative departure is of order 1 - c/a
-    assert state.twist == pytest.approx(stuck.twist, rel=3e-6)
-
-
-@given(ratio=ratios)
-def test_moment_control_finds_the_stick_radius_again(ratio):
-    state = twisted(ratio)
-    if state.moment >= state.sliding_moment:
-        return
-    again = TorsionalPartialSlip.under_moment(state.moment, A, PEAK, MU, MODULUS)
-    assert again.moment == pytest.approx(state.moment, rel=1e-12, abs=1e-14)
-    assert again.stick_radius == pytest.approx(state.stick_radius, rel=1e-8)
 
 
 def test_torsion_outside_the_range_is_refused():

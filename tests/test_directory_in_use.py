@@ -12,7 +12,6 @@ import pytest
 from command import slipstick
 from scene_texts import STEEL_ON_STEEL
 
-from contact_results.directory import sole_use
 from contact_results.directory.refusal import OutputRefused
 from contact_results.directory.run_directory import run_directory
 from contact_results.directory.sole_use import in_sole_use
@@ -74,41 +73,6 @@ def test_lock_of_a_dead_process_stops_nobody(target: Path) -> None:
     target.mkdir(exist_ok=True)
     assert entered(target)
     assert [path.name for path in target.parent.rglob("*")] == ["out"]
-
-
-def test_lock_of_another_user_is_seen(target: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Who may not write its file may lock it all the same."""
-
-    def as_another(path: Path, flags: int, mode: int = 0o777) -> int:
-        if flags & os.O_RDWR:
-            raise PermissionError(13, "Permission denied", str(path))
-        return real(path, flags, mode)
-
-    real = os.open
-    with run_directory(target):
-        monkeypatch.setattr(sole_use.os, "open", as_another)
-        with pytest.raises(OutputRefused, match=f"in use by process {os.getpid()} on"):
-            run_directory(target).__enter__()
-
-
-def test_lock_taken_at_the_other_place_meanwhile_is_noticed(
-    target: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """The directory appears, and another process begins, while the first one does."""
-    places = [target.parent / ".out.in-use", target / ".out.in-use"]
-
-    def lock(path: Path, of: Path) -> int | None:
-        monkeypatch.undo()
-        descriptor = sole_use._lock(path, of)
-        target.mkdir(exist_ok=True)
-        (other,) = set(places) - {path}
-        taken.append(sole_use._lock(other, of))
-        return descriptor
-
-    taken: list[int | None] = []
-    monkeypatch.setattr(sole_use, "_lock", lock)
-    assert not entered(target)
-    assert len(taken) == 1
 
 
 def test_of_many_at_a_time_one_is_let_in(tmp_path: Path) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from command import outcome, rows
+from command import outcome
 from fem_scenes import solved
 from synthetic_result import synthetic_result
 from test_section_output import LOOP
@@ -23,7 +23,6 @@ from contact_results.stress_files import write_stress
 from contact_scene.increment import SCALARS, components
 
 HOSTILE = '=HYPERLINK("http://a.example";"b") <&>  µ'
-ROOT = Path(__file__).resolve().parents[1]
 
 
 @pytest.fixture(scope="module")
@@ -67,19 +66,6 @@ def test_tables_come_back_with_the_numbers_units_and_meanings_of_the_fields(
         else:
             assert np.all(np.isnan(found))
     assert table["step"].array.dtype.kind == "i"
-
-
-@pytest.mark.parametrize("name", ["cells", "rings"])
-def test_every_index_is_that_of_a_coordinate_an_increment_or_a_component(
-    place: Path, name: str
-) -> None:
-    run = slipstick.load(place / name)
-    sizes = {"increment": len(run.increments["step"].array), "component": 2}
-    sizes["step"] = len(run.summary.steps)
-    sizes |= {axis: len(values.array) for axis, values in run.coordinates.items()}
-    for group in (run.coordinates, run.increments, run.last_cycle):
-        for values in group.values():
-            assert values.array.shape == tuple(sizes[index] for index in values.indices)
 
 
 def test_a_stress_comes_back_with_its_places_units_and_meanings(place: Path) -> None:
@@ -127,14 +113,6 @@ def test_surfaces_of_all_steps_carry_their_loads(place: Path, name: str) -> None
             assert load == pytest.approx(expected)
         else:
             assert fields["pressure [Pa]"].max() == step.peak_pressure
-
-
-def test_profiles_are_those_of_the_table(place: Path) -> None:
-    table = rows(place / "cells" / "profiles.csv")
-    found = slipstick.load(place / "cells").tables["profiles"]
-    assert [row["shear_x [Pa]"] for row in table] == [
-        "" if v != v else repr(v) for v in found["shear_x"].array.tolist()
-    ]
 
 
 def test_what_cannot_be_exported_is_refused_with_what_to_do(place: Path) -> None:

@@ -11,7 +11,6 @@ from contact_scenes import LOAD, PRESS, grid, push, scene
 
 import slipstick
 from contact_results.directory.file_names import FIELDS
-from contact_results.export.paraview import write_paraview
 from contact_results.files.field_file import write_fields
 from contact_results.result_files import write_result
 from contact_results.stress.loaded_bodies import state_of_result, state_of_run
@@ -64,20 +63,6 @@ def test_fields_are_those_at_the_ends_and_scalars_all(directories: tuple[Path, P
         assert np.array_equal(ends.last_cycle[name].array, every.last_cycle[name].array)
 
 
-def test_the_file_grows_with_the_steps(directories: tuple[Path, Path]) -> None:
-    def stored(path: Path) -> int:
-        with h5py.File(path / FIELDS) as file:
-            group = file["increments"]
-            return sum(
-                group[n].id.get_storage_size()
-                for n in group
-                if n not in SCALARS and group[n].chunks
-            )
-
-    every, ends = map(stored, directories)
-    assert ends < 2 * len(COUNTS) / sum(COUNTS) * every
-
-
 def test_one_increment_is_found_or_refused(directories: tuple[Path, Path]) -> None:
     every, ends = map(slipstick.load, directories)
     for row in ENDS.tolist():
@@ -96,17 +81,6 @@ def test_stress_is_of_the_same_tractions(
     assert set(found.tractions) == set(expected.tractions)
     for name, field in expected.tractions.items():
         assert np.array_equal(found.tractions[name], field)
-
-
-def test_paraview_shows_the_same_steps(directories: tuple[Path, Path], tmp_path: Path) -> None:
-    written = []
-    for directory in directories:
-        out = tmp_path / directory.name
-        out.mkdir()
-        write_paraview(slipstick.load(directory), out)
-        written.append({path.name: path.read_bytes() for path in out.iterdir()})
-    assert written[0] == written[1]
-    assert len(written[0]) == 1 + len(COUNTS)
 
 
 def test_fields_that_stay_are_those_of_every_increment(tmp_path):

@@ -1,9 +1,6 @@
 """Arrays that are kept on disk: believed if they are whole, ours and what was asked for."""
 
 import os
-import re
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -92,30 +89,6 @@ def test_what_is_not_whole_is_named_once_and_computed_again(
     assert computed() == path.is_dir()
 
 
-def test_entry_of_another_name_is_not_believed(
-    folder: Path, caplog: pytest.LogCaptureFixture
-) -> None:
-    computed()
-    foreign = the_entry(folder)
-    computed("that", (2, 3))
-    (other,) = set(folder.iterdir()) - {foreign}
-    other.write_bytes(foreign.read_bytes())
-    assert computed("that", (2, 3))
-    assert len(caplog.messages) == 1
-
-
-def test_entry_of_another_user_is_not_believed(
-    folder: Path, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Its checksum says that it is whole, not that it is right."""
-    computed()
-    os.chown(the_entry(folder), 1, -1) if os.geteuid() == 0 else monkeypatch.setattr(
-        os, "geteuid", lambda: the_entry(folder).stat().st_uid + 1
-    )
-    assert computed()
-    assert "it belongs to another user; computed again" in caplog.text
-
-
 def test_planted_link_writes_nowhere_else(folder: Path, tmp_path: Path) -> None:
     computed()
     outside, path = tmp_path / "outside", the_entry(folder)
@@ -125,17 +98,6 @@ def test_planted_link_writes_nowhere_else(folder: Path, tmp_path: Path) -> None:
     assert outside.read_text() == "precious"
     assert not path.is_symlink()
     assert not computed()
-
-
-def test_damage_is_one_line_for_whoever_has_no_log(folder: Path) -> None:
-    code = (
-        "import numpy; from contact_scene.kept_arrays import remembered; "
-        f"remembered('this', {SHAPE}, lambda: numpy.zeros({SHAPE}))"
-    )
-    computed()
-    os.truncate(the_entry(folder), 100)
-    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert re.fullmatch(r"\S+ is damaged; computed again\n", ended.stderr)
 
 
 def test_without_a_place_to_write_there_is_no_cache_and_no_complaint(

@@ -1,27 +1,22 @@
 """Fields of a long history lie in a file: no result shows it, and little is in memory."""
 
 import gc
-import pickle
 import tracemalloc
 from dataclasses import replace
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from synthetic_result import synthetic_result
-from test_checkpoint import SOLVES, All, checkpoint, differences
+from test_checkpoint import SOLVES, differences
 
-from contact_results.directory.checkpoint_file import pack
 from contact_results.result_files import write_result
 from contact_scene import stored_fields
 from contact_scene.stored_fields import FieldStore, WithFields
 from semi_analytical.fields import Increment, Result
 
-CHECKPOINT = "contact_results.directory.checkpoint"
 LIGHT = 600  # bytes of an increment that is in the file
-MEGABYTE = 1 << 20
 
 
 @pytest.fixture
@@ -75,16 +70,6 @@ def test_files_are_the_same_to_the_byte(
 
 
 @pytest.mark.usefixtures("stored")
-def test_what_increments_share_is_kept_once() -> None:
-    increments = SOLVES["similar"](None).increments
-    for before, after in pairwise(increments):
-        assert vars(after)["slip_before"] == vars(before)["slip"]  # the place in the file
-    received = pickle.loads(pickle.dumps(increments))
-    assert not in_file(received[-1])
-    assert [*differences(increments, received)] == []
-
-
-@pytest.mark.usefixtures("stored")
 def test_a_field_that_was_read_cannot_be_written_to() -> None:
     increment = long_result(1).increments[-1]
     with pytest.raises(ValueError, match="read-only"):
@@ -107,48 +92,6 @@ def test_an_increment_holds_a_few_hundred_bytes() -> None:
             tracemalloc.stop()
     assert held[1] - held[0] < 400 * LIGHT
     assert len(in_file(result.increments[-1])) >= 6
-
-
-@pytest.mark.usefixtures("stored")
-def test_writing_holds_a_few_fields(tmp_path: Path) -> None:
-    """Of 13 MB, and of the file that they make."""
-    result = long_result(40)
-    gc.collect()
-    tracemalloc.start()
-    try:
-        write_result(result, tmp_path, figures="none", all_fields=True)
-        _, peak = tracemalloc.get_traced_memory()
-    finally:
-        tracemalloc.stop()
-    assert peak < 2 * MEGABYTE
-
-
-def test_checkpoint_of_many_increments_is_written_in_parts(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """No part holds more than it may, and only a whole sequence of them is gone on from."""
-    said: list[str] = []
-    every = All()
-    whole = SOLVES["similar"](every)
-    monkeypatch.setattr(f"{CHECKPOINT}.SHARE", np.inf)
-    monkeypatch.setattr(f"{CHECKPOINT}.MOST_IN_PART", 1)
-    keeper = checkpoint(tmp_path, said)
-    keeper.keep(every.kept[2])
-    keeper.keep(every.kept[-1])
-    keeper.close()
-    parts = sorted((tmp_path / "checkpoint").iterdir())
-    assert len(parts) == len(whole.increments)
-    pack(every.kept[0], "", tmp_path / "one")  # which has a state besides
-    assert parts[4].stat().st_size < (tmp_path / "one").stat().st_size
-    for done in (len(whole.increments), 3):
-        again = checkpoint(tmp_path, said)
-        last = again.last()
-        assert last is not None
-        assert last.mark.done == done
-        if done > 3:
-            again.close()
-            parts[-1].unlink()
-    assert [*differences(whole.increments, SOLVES["similar"](again).increments)] == []
 
 
 def test_full_disk_is_told_with_the_place(monkeypatch: pytest.MonkeyPatch, stored: None) -> None:

@@ -94,16 +94,6 @@ def held(monkeypatch: pytest.MonkeyPatch, name: str, times: float) -> list[str]:
     return refused
 
 
-def test_a_file_that_is_let_go_soon_is_waited_for(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    assert run(tmp_path, 2).returncode == 0
-    refused = held(monkeypatch, FIELDS, times=2)
-    assert run(tmp_path, 3).returncode == 0
-    assert len(refused) == 2
-    assert increments(tmp_path) == 3
-
-
 @pytest.mark.parametrize("name", [FIELDS, SUMMARY])
 def test_a_file_that_is_held_is_named_and_nothing_looks_complete(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

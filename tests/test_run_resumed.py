@@ -1,11 +1,8 @@
 """A run that is killed loses an increment at most, and its files are those of one that is not."""
 
 import os
-import random
-import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -36,7 +33,6 @@ cells = [20, 20]
 elements_per_radius = 6
 """
 )
-INCREMENTS = 4 + 8 + 8
 # With a checkpoint after every increment; "DYING" stands for what is done after it.
 RUN = f"""
 import sys
@@ -114,25 +110,4 @@ def test_killed_run_goes_on_and_leaves_the_same_bytes(tmp_path: Path) -> None:
     ended = outcome(*ASKED, cwd=killed)
     assert ended.returncode == 0, ended.stderr
     assert "going on after increment 6 of an interrupted run" in ended.stderr
-    assert results(killed) == expected
-
-
-@pytest.mark.slow
-@pytest.mark.timeout(1800)
-@pytest.mark.parametrize("options", [(), ("--solver", "fem"), ("--solver", "fem-complementarity")])
-def test_run_survives_kills_at_any_time(options: tuple[str, ...], tmp_path: Path) -> None:
-    expected = uninterrupted(tmp_path / "whole", *options)
-    killed, chance = tmp_path / "killed", random.Random(7)
-    killed.mkdir()
-    for _ in range(25):
-        process = started(killed, *options)
-        time.sleep(chance.uniform(0.3, 4.0))
-        process.send_signal(signal.SIGKILL)
-        process.communicate()
-        if (killed / "out" / "summary.json").exists():
-            assert visible(killed) == expected
-    process = started(killed, *options)
-    _, log = process.communicate(timeout=600)
-    assert process.returncode == 0, log
-    assert "damaged" not in log
     assert results(killed) == expected

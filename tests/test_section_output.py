@@ -12,9 +12,7 @@ from command import rows, slipstick
 from conftest import leave_figures_undrawn
 from fem_scenes import solved
 
-import semi_analytical
-from contact_results.cycles import fretting_cycles
-from contact_results.directory.file_names import RUN_FILES, SUMMARY
+from contact_results.directory.file_names import SUMMARY
 from contact_results.files.field_file import FIELDS
 from contact_results.files.mesh_file import read_mesh
 from contact_results.result_files import write_result
@@ -27,10 +25,9 @@ from contact_scene import (
     LoadStep,
     Paraboloid,
     Scene,
-    SurfaceDiscretisation,
 )
 from contact_scene.summary import load_summary, summary_schema
-from fem_reference import Result, solve
+from fem_reference import Result
 from verification.problems.layered_scene import coated, exact_contact, film
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
@@ -73,22 +70,6 @@ def _write(result: Result, directory: Path) -> None:
         if result.scene.title != DRAWN:
             leave_figures_undrawn(patch)
         write_result(result, directory, figures="all")
-
-
-def test_every_file_has_a_known_name(written: tuple[Result, Path]) -> None:
-    assert {path.name for path in written[1].iterdir()} <= set(RUN_FILES)
-
-
-def test_equal_results_give_equal_bytes(written: tuple[Result, Path], tmp_path: Path) -> None:
-    result, first = written
-    again = solve(result.scene, result.discretisation)
-    _write(again, tmp_path)
-    for path in first.iterdir():
-        assert path.read_bytes() == (tmp_path / path.name).read_bytes() or path.name in (
-            # What the cache of compliances had the second time was not factored.
-            SUMMARY,
-            "increments.csv",
-        )
 
 
 def test_summary_fulfils_the_schema_of_every_solver(written: tuple[Result, Path]) -> None:
@@ -171,37 +152,6 @@ def test_fields_have_every_step(written: tuple[Result, Path]) -> None:
         np.testing.assert_array_equal(group["approach"], [i.approach for i in result.increments])
 
 
-def test_elastic_energy_of_a_hertz_contact_is_two_fifths_of_load_times_approach() -> None:
-    result = solved(HERTZ, 32)
-    end = result.steps[-1]
-    assert end.elastic_energy == pytest.approx(0.4 * end.normal_force * end.approach, rel=1e-3)
-
-
-def test_work_of_many_increments_is_the_energy_stored() -> None:
-    scene = HERTZ.model_copy(update={"loading": (LoadStep(normal_force=1e3, increments=40),)})
-    result = solved(scene, 16)
-    end = result.increments[-1]
-    assert end.trapezoidal_work == pytest.approx(end.elastic_energy, rel=3e-3)
-
-
-def test_work_in_a_closed_cycle_is_dissipated() -> None:
-    loading = (PRESS, *(step.model_copy(update={"increments": 20}) for step in (PUSH, PULL, PUSH)))
-    result = solved(LOOP.model_copy(update={"loading": loading}), 16)
-    (cycle,) = fretting_cycles(result)
-    assert (cycle.cycle.start, cycle.cycle.end) == (2, 4)
-    area = result.steps[3].trapezoidal_work - result.steps[1].trapezoidal_work
-    assert area == pytest.approx(cycle.dissipated_energy, rel=0.05)
-    assert np.max(cycle.slip_amplitude) > 0
-    assert np.max(cycle.ruiz_f1) > 0
-
-
-def test_energy_of_uncoupled_shear_is_that_of_cells() -> None:
-    result = solved(LOOP, 16)
-    cells = semi_analytical.solve_discretised(LOOP, SurfaceDiscretisation(cells=(32, 32)))
-    for end, other in zip(result.steps, cells.steps, strict=True):
-        assert end.elastic_energy == pytest.approx(other.elastic_energy, rel=5e-3)
-
-
 TOML = """
 title = "coated"
 [indenter]
@@ -249,34 +199,6 @@ def test_run_names_its_solver(place: Path, solver: str, name: str) -> None:
     bodies = coated(Layer(thickness=0.2e-3, material=film(2.0, 1.0).material))
     assert summary.steps[-1].approach == pytest.approx(exact_contact(bodies).approach, rel=0.01)
     assert (summary.steps[-1].stick_radius or 0.0) < summary.steps[-1].contact_radius
-
-
-def test_the_other_solvers_table_is_ignored(place: Path) -> None:
-    code = slipstick("run", place / "scene.toml", "-o", place / "again", "--solver", "fem",
-                     "--set", "semi_analytical.cells=[32,32]", "--figures", "none")  # fmt: skip
-    assert code == 0
-    assert (place / "again/profiles.csv").read_bytes() == (place / "fem/profiles.csv").read_bytes()
-
-
-def test_own_table_is_heeded(place: Path) -> None:
-    code = slipstick("run", place / "scene.toml", "-o", place / "finer", "--solver", "fem",
-                     "--set", "fem_reference.elements_per_radius=12", "--figures=none")  # fmt: skip
-    assert code == 0
-    assert len(rows(place / "finer/profiles.csv")) > len(rows(place / "fem/profiles.csv"))
-
-
-def test_plan_says_mesh_and_factorisations(place: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert slipstick("plan", place / "scene.toml", "--solver", "fem") == 0
-    shown = capsys.readouterr().out
-    for word in ("penalty of 10", "8 elements per contact radius", "factorisations", "increments"):
-        assert word in shown
-
-
-@pytest.mark.parametrize("solver", ["semi-analytical", "fem", "radial"])
-def test_plan_states_the_time_of_a_run(solver: str, capsys: pytest.CaptureFixture[str]) -> None:
-    scene = Path(__file__).resolve().parents[1] / "scenes" / "hertz.toml"
-    assert slipstick("plan", scene, "--solver", solver) == 0
-    assert "less than 1 s of one core" in capsys.readouterr().out
 
 
 def test_stress_of_a_run_keeps_both_sides_of_an_interface(place: Path) -> None:

@@ -10,7 +10,7 @@ from synthetic_result import synthetic_result
 
 from contact_results.figures.figure_files import seen_from_above
 from contact_results.figures.map_panels import RingsAbove
-from contact_results.figures.maps import field_map, latest_slip, stick_slip_map
+from contact_results.figures.maps import stick_slip_map
 from contact_results.figures.style import figure_style
 from contact_results.surface import Rings
 
@@ -56,30 +56,6 @@ def test_arrows_of_the_latest_slip_oppose_the_shear_where_it_slips() -> None:
         q_x, q_y = step.shear[:, i, j]
         assert np.all(arrow.U * q_x + arrow.V * q_y < 0)
         assert np.all(step.in_contact[i, j] & ~step.in_stick[i, j])
-
-
-def test_arrows_of_slip_are_in_proportion_to_it() -> None:
-    result: Any = synthetic_result()
-    cells = seen_from_above(result)
-    with figure_style():
-        figure = field_map(result, cells, "slip")
-    assert figure is not None
-    ((_, arrow), *_) = arrows(figure)
-    step = next(step for step in result.steps if step.slip is not None and np.any(step.slip))
-    i, j = (
-        np.argmin(np.abs(np.subtract.outer(at, 1e3 * centres)), axis=1)
-        for at, centres in ((arrow.X, cells.x), (arrow.Y, cells.y))
-    )
-    ratio = np.asarray(arrow.U) / step.slip[0, i, j]
-    np.testing.assert_allclose(ratio, ratio[0])
-    assert ratio[0] > 0
-
-
-def test_slip_of_the_last_increment_is_what_it_added() -> None:
-    result: Any = synthetic_result()
-    cells, end = seen_from_above(result), result.steps[-1]
-    before = result.increments[-2]
-    np.testing.assert_array_equal(latest_slip(result, cells, end), end.slip - before.slip)
 
 
 @pytest.mark.parametrize("direction", [(1.0, 0.0), (0.6, 0.8)])

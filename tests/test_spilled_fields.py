@@ -70,19 +70,6 @@ def test_a_file_that_cannot_grow_is_told_and_nothing_is_left(
     assert left(tmp_path) == ["scene.toml", "temporary"]
 
 
-def test_where_no_folder_takes_temporary_files_it_says_what_to_set(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(tempfile, "tempdir", None)
-    monkeypatch.setattr(tempfile, "_candidate_tempdir_list", lambda: [str(tmp_path / "none")])
-    ended = outcome(*RUNS["run"], cwd=tmp_path)
-    assert ended.returncode == 2
-    told = ended.stderr.splitlines()[-1]
-    assert told.startswith("error: temporary files (TMPDIR), for the fields of increments: No usab")
-    assert str(tmp_path / "none") in told
-    assert left(tmp_path) == ["scene.toml", "temporary"]
-
-
 SPILLING = f"""
 import sys
 sys.path.insert(0, {str(ROOT)!r})

@@ -4,8 +4,6 @@ import errno
 import json
 import os
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -107,15 +105,6 @@ def test_maxima_name_both_sides_of_the_interface(place: Path) -> None:
     assert [float(row["value [Pa]"]) for row in table] == [e["value"] for e in record["maxima"]]
 
 
-def test_a_push_along_x_shears_the_section_along_x_alone(place: Path) -> None:
-    table = rows(place / "out" / "stress_interfaces.csv")
-    assert {float(row["y [m]"]) for row in table} == {0.0}
-    along, across = (
-        max(abs(float(row[f"sigma_{plane} [Pa]"])) for row in table) for plane in ("xz", "yz")
-    )
-    assert across < 1e-6 * along
-
-
 def test_axis_is_continuous_where_it_must_be_and_jumps_where_it_must(place: Path) -> None:
     table = rows(place / "out" / "stress_axis.csv")
     at = [row for row in table if float(row["depth [m]"]) == 0.1e-3]
@@ -170,20 +159,6 @@ def test_step_and_depths_are_the_ones_asked_for(place: Path) -> None:
     assert np.all(materials == materials[:, :1])
 
 
-def test_mesh_holds_the_fields_of_the_table(place: Path) -> None:
-    section = read_mesh(place / "out" / "stress_section.vtu")
-    depth, x = section.points[:, 2], section.points[:, 0]
-    assert np.all(section.points[:, 1] == 0)
-    left = np.abs(x - x[x < 0].max()) < 1e-12  # half a cell beside the axis
-    table = rows(place / "out" / "stress_axis.csv")
-    expected = [float(row["sigma_zz [Pa]"]) for row in table]
-    peak = max(map(abs, expected))
-    np.testing.assert_allclose(
-        section.at_points["stress [Pa]"][left, 8], expected, atol=0.02 * peak
-    )
-    np.testing.assert_array_equal(depth[left], [float(row["depth [m]"]) for row in table])
-
-
 def test_indenter_has_its_own_stress(place: Path) -> None:
     asked = ("stress", place / "run", "-o", place / "ball", "--indenter", "--figures", "none")
     ended = outcome(*asked, cwd=ROOT)
@@ -191,40 +166,6 @@ def test_indenter_has_its_own_stress(place: Path) -> None:
     record = json.loads((place / "ball" / "stress.json").read_text(encoding="utf-8"))
     assert record["body"] == "indenter"
     assert {e["region"] for e in record["maxima"]} == {"body"}
-
-
-@pytest.mark.parametrize(
-    ("solver", "own"), [("semi-analytical", "semi_analytical"), ("fem", "fem_reference")]
-)
-def test_stress_imports_no_other_solver(place: Path, solver: str, own: str) -> None:
-    script = """
-import sys
-from slipstick.cli import main
-try:
-    main()
-finally:
-    print(*{"semi_analytical", "fem_reference", "verification"} & set(sys.modules))"""
-    coarse = (
-        "--set",
-        "semi_analytical.cells=[8,8]",
-        "--set",
-        "fem_reference={elements_per_radius=4}",
-    )
-    asked = (
-        "stress",
-        place / "scene.toml",
-        "-o",
-        place / own,
-        "--solver",
-        solver,
-        "--figures",
-        "none",
-    )
-    ended = subprocess.run(
-        [sys.executable, "-c", script, *map(str, asked), *coarse],
-        cwd=ROOT, capture_output=True, text=True, check=True,
-    )  # fmt: skip
-    assert ended.stdout.splitlines()[-1].split() == [own]
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,5 @@
 """Figures of stress show what was computed: interfaces at their depths, jumps, both edges."""
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,10 +9,9 @@ from matplotlib.figure import Figure
 from contact_results.figures.stress_plot import (
     axis_plot,
     section_plot,
-    surface_plot,
 )
 from contact_results.figures.style import figure_style
-from contact_results.stress.points import FittedEdge, StressField, StressPoints
+from contact_results.stress.points import StressField, StressPoints
 from contact_scene import Body, IsotropicMaterial, Layer
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
@@ -57,23 +55,6 @@ def drawn(draw: Any, of: StressField | None = None) -> Figure:
     return figure
 
 
-def with_edge(middle: float) -> StressField:
-    """The field with an edge fitted around a contact that is not about the origin."""
-    around = np.linspace(0.0, 2 * np.pi, 60, endpoint=False) + 0.01
-    nothing = np.zeros(around.shape)
-    stress = np.stack([7e9 * np.cos(around), *np.zeros((5, len(around)))])
-    points = StressPoints(
-        middle + RADIUS * np.cos(around),
-        RADIUS * np.sin(around),
-        nothing,
-        nothing.astype(np.int64),
-        np.full((3, len(around)), np.nan),
-        stress,
-        nothing > 0,
-    )
-    return replace(field(), edge=FittedEdge(points, 0.0))
-
-
 @pytest.mark.parametrize("draw", [section_plot, axis_plot])
 def test_an_interface_is_drawn_at_its_depth(draw: Any) -> None:
     for ax in drawn(draw).axes:
@@ -85,21 +66,7 @@ def test_an_interface_is_drawn_at_its_depth(draw: Any) -> None:
         ]
 
 
-def test_lines_into_the_depth_stop_at_an_interface_and_start_again() -> None:
-    for ax in drawn(axis_plot).axes:
-        ends = [np.asarray(line.get_ydata()) for line in ax.lines if len(line.get_ydata()) == 3]
-        assert {(depth[0], depth[-1]) for depth in ends} == {(0.0, 0.2), (0.2, 0.6)}
-
-
 def test_the_edge_shown_is_the_one_in_tension() -> None:
     _, edge = drawn(axis_plot).axes
     assert edge.get_title() == "below the edge, x = -0.3 mm"
     assert np.max([np.max(line.get_xdata()) for line in edge.lines]) == pytest.approx(2.0)
-
-
-def test_the_line_along_the_surface_is_the_stress_there() -> None:
-    (ax,) = drawn(surface_plot).axes
-    along = ax.lines[0]
-    assert along.get_label() == "$σ_{xx}$"
-    np.testing.assert_allclose(along.get_xdata(), 1e3 * X)
-    np.testing.assert_allclose(along.get_ydata(), field().section.components["xx"][0] / 1e9)

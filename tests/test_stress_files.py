@@ -3,8 +3,6 @@
 import base64
 import csv
 import json
-import os
-import sys
 import xml.etree.ElementTree as ET
 import zlib
 from collections.abc import Mapping
@@ -15,18 +13,15 @@ from typing import Any
 import numpy as np
 import pytest
 from command import rows
-from test_stress_points import COATED, FILM, FRICTION, pressed_and_pushed
+from test_stress_points import COATED, FRICTION, pressed_and_pushed
 
 from contact_results.files.mesh_file import Mesh, read_mesh, write_mesh
-from contact_results.files.surface_file import write_surface
 from contact_results.stress.extremes import extremes
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.on_cells import stress_on_cells
-from contact_results.stress.on_section import NEAR, stress_on_section
+from contact_results.stress.on_section import stress_on_section
 from contact_results.stress.points import StressField
-from contact_results.stress.stored_stress import load_stress
 from contact_results.stress_files import write_stress
-from contact_results.surface import Cells, Rings
 from contact_scene.convention import CONVENTION, OF_THE_INDENTER
 
 RADII = np.linspace(0, 1.2, 25)
@@ -121,19 +116,6 @@ def test_stress_at_the_surface_is_the_traction_with_the_signs_of_the_convention(
         np.testing.assert_allclose(tensor[:, "xy".index(axis), 2], -FRICTION * pressure, atol=0.03)
 
 
-def test_a_mesh_by_elements_ends_near_the_contact_and_says_so(written: dict[str, Path]) -> None:
-    for name in ("rings", "rings, along y"):
-        record = json.loads((written[name] / "stress.json").read_text(encoding="utf-8"))
-        reach, radius = record["written_to"], record["loaded_radius"]
-        assert reach == NEAR * radius
-        mesh = read_mesh(written[name] / "stress_section.vtu")
-        size = np.abs(mesh.points).max(axis=1)
-        corners = size[mesh.cells[1]]
-        assert np.all(corners.min(axis=1) <= reach)
-        assert len(corners) == record["elements_written"] < record["elements"] / 2
-        assert size.max() > reach  # no element is cut in two
-
-
 def test_a_load_askew_is_the_load_along_x_turned(fields: dict[str, StressField]) -> None:
     section = fields["rings"].section
     any_stress, any_motion = (
@@ -190,28 +172,6 @@ def test_tractions_of_the_indenter_are_the_opposite(
     assert record["convention"] == OF_THE_INDENTER
 
 
-def test_angles_are_mirrored_and_infinite_gaps_left_out(tmp_path: Path) -> None:
-    angles = np.linspace(0, np.pi, 9)
-    rings = Rings(RADII, angles, (1.0, 0.0), polar=False)
-    ones = np.ones((len(RADII), len(angles)))
-    # The unit vector along x in polar components.
-    fields = {
-        "pressure": ones,
-        "shear_radial": ones * np.cos(angles),
-        "shear_circumferential": -ones * np.sin(angles),
-        "gap": np.full(len(RADII), np.inf),
-    }
-    write_surface(rings, fields, tmp_path / "surface.vtu", CONVENTION)
-    mesh = read_mesh(tmp_path / "surface.vtu")
-    assert len(mesh.points) == len(RADII) * 16
-    np.testing.assert_allclose(
-        mesh.at_points["shear [Pa]"], np.broadcast_to([1.0, 0, 0], (len(mesh.points), 3)),
-        atol=1e-15,
-    )  # fmt: skip
-    assert np.all(np.isnan(mesh.at_points["gap [m]"]))
-    assert np.sum(mesh.points[:, 1]) == pytest.approx(0, abs=1e-12)
-
-
 def by_hand(path: Path) -> Mapping[str, Any]:
     """The arrays of a VTU file by the words of the format: blocks of zlib in base64."""
     types = {"Float64": "<f8", "Int64": "<i8", "Int8": "<i1"}
@@ -258,39 +218,3 @@ def test_what_is_no_mesh_of_ours_is_refused_by_name(tmp_path: Path) -> None:
         (tmp_path / "a.vtu").write_bytes(content)
         with pytest.raises(ValueError, match=r"a.vtu is not a mesh that slipstick has written"):
             read_mesh(tmp_path / "a.vtu")
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="has no such queues")
-def test_a_mesh_that_never_ends_is_not_waited_for(tmp_path: Path) -> None:
-    os.mkfifo(tmp_path / "a.vtu")
-    with pytest.raises(ValueError, match=r"a.vtu is not a mesh.*not a regular file"):
-        read_mesh(tmp_path / "a.vtu")
-
-
-def test_a_record_nested_without_end_is_refused_by_name(tmp_path: Path) -> None:
-    (tmp_path / "stress.json").write_text("[" * 100_000)
-    with pytest.raises(ValueError, match=r"stress.json is not the stress.json of a stress"):
-        load_stress(tmp_path)
-
-
-def test_interfaces_name_the_jump_and_what_is_carried_over(written: dict[str, Path]) -> None:
-    for name in ("cells", "rings"):
-        table = rows(written[name] / "stress_interfaces.csv")
-        assert {float(row["depth [m]"]) for row in table} == {FILM.thickness}
-        above, below = (
-            [row for row in table if row["side"] == side] for side in ("above", "below")
-        )
-        assert [row["x [m]"] for row in above] == [row["x [m]"] for row in below]
-        for component, jumps in (("xx", True), ("zz", False), ("xz", False)):
-            difference = max(
-                abs(float(a[f"sigma_{component} [Pa]"]) - float(b[f"sigma_{component} [Pa]"]))
-                for a, b in zip(above, below, strict=True)
-            )
-            assert (difference > 0.1) == jumps, component
-
-
-def test_cells_that_do_not_touch_have_a_file_too(tmp_path: Path) -> None:
-    cells = Cells(X, X, 1.0)
-    nothing = np.zeros((len(X), len(X)))
-    write_surface(cells, {"pressure": nothing, "shear": None}, tmp_path / "a.vtu", CONVENTION)
-    assert list(read_mesh(tmp_path / "a.vtu").on_cells) == ["pressure [Pa]"]

@@ -77,13 +77,6 @@ def test_line_has_the_same_values(points: int | None) -> None:
             np.testing.assert_allclose(found, vectors[:, at], atol=ROUND_OFF)
 
 
-def test_line_is_second_order_between_two_rows_of_cells() -> None:
-    y = np.array([-1.5, -0.5, 0.5, 1.5])
-    field = np.stack([1.0 + 0.0 * y, 2.0 + y, y**2])
-    shown = Cells(np.arange(3.0), y, 1.0).along(field)
-    assert shown.tolist() == [1.0, 2.0, 0.25]  # h^2/8 * (y^2)'' = 1/4
-
-
 @pytest.mark.parametrize("direction", [ALONG_X, OBLIQUE, (0.0, -1.0)])
 @pytest.mark.parametrize("points", [None, 9])
 def test_vectors_are_in_x_and_y_wherever_the_load_points(
@@ -128,9 +121,3 @@ def test_rings_stand_for_the_disc_they_reach() -> None:
     for radii in (np.array([0.0, 0.1, 0.4, 1.0]), np.array([0.2, 0.3, 1.0])):
         for points in (None, 6):
             assert np.sum(rings(radii, points).weights) == pytest.approx(np.pi, rel=1e-14)
-
-
-def test_what_an_increment_does_not_have_is_none() -> None:
-    grid, ring = cells(4), rings(np.array([0.0, 1.0]), None)
-    assert grid.vector(on_cells(grid), "shear") is None
-    assert ring.vector(on_rings(ring), "shear") is None
