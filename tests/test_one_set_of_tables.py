@@ -24,11 +24,9 @@ from contact_scene import (
     Scene,
     SurfaceDiscretisation,
 )
-from contact_scene.increment import COUNTERS, SCALARS, components
+from contact_scene.increment import SCALARS, components
 from contact_scene.reported import Kind, reported
-from contact_scene.summary import StepSummary, summary_schema
 from fem_reference import Method
-from verification.quantities import named_values, unit_of
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 BODIES = {
@@ -128,17 +126,6 @@ def test_the_increment_says_what_its_tables_say(written: tuple[Any, Path]) -> No
             ], name
 
 
-def test_no_zero_has_a_sign(written: tuple[Any, Path]) -> None:
-    """Not in the increment, and so in no table of it."""
-    result, directory = written
-    given = [
-        v for i in result.increments for name in SCALARS if (v := getattr(i, name)) is not None
-    ]
-    zeros = [part for value in given for part in np.ravel(value) if part == 0]
-    assert not np.any(np.signbit(zeros))
-    assert "-0.0" not in {cell for row in table(directory) for cell in row.values()}
-
-
 def test_a_step_takes_its_increments_together(written: tuple[Any, Path]) -> None:
     result, directory = written
     steps = json.loads((directory / SUMMARY).read_text(encoding="utf-8"))["steps"]
@@ -151,35 +138,3 @@ def test_a_step_takes_its_increments_together(written: tuple[Any, Path]) -> None
             if mark.kind is Kind.LARGEST:
                 expected = max(known, default=None)
             assert step[name] == expected, name
-
-
-def test_what_a_solver_keeps_account_of_is_told(written: tuple[Any, Path]) -> None:
-    result, _ = written
-    end = result.increments[-1]
-    told = {name for name in SCALARS if getattr(end, name) is not None}
-    assert {"contact_area", "contact_radius", "worst_residual"} <= told
-    counted = {name for name in COUNTERS if getattr(end, name) is not None}
-    cells = result.solver == "semi_analytical"
-    costs = {"convolutions", "rounds"} if cells else {"factorizations", "sweeps"}
-    assert {"iterations", "halvings"} | costs <= counted
-    if result.scene.friction is None:
-        assert {"elastic_energy", "input_work"} <= told
-    else:
-        assert {"stick_area", "stick_radius"} <= told
-    assert ("overlap" in told) == (result.solver == "fem_reference.penalty")
-
-
-def test_the_schema_of_a_step_has_every_scalar_with_its_unit() -> None:
-    properties = summary_schema()["$defs"][StepSummary.__name__]["properties"]
-    for name, mark in SCALARS.items():
-        assert properties[name]["unit"] == (mark.unit or "1")
-        assert properties[name]["description"] == mark.meaning
-
-
-def test_quantities_that_are_followed_are_the_key_ones(written: tuple[Any, Path]) -> None:
-    values = named_values(written[0].increments[-1])
-    keys = {part for name, mark in SCALARS.items() if mark.key for part in components(name)}
-    assert set(values) <= keys
-    for part in values:
-        stem = part if part in SCALARS else part[:-2]
-        assert unit_of(part) == SCALARS[stem].unit

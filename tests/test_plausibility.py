@@ -48,42 +48,6 @@ def test_scenes_without_units_or_in_their_own_are_left_alone(E, R):
     assert implausible(ball(E, R, 1.0), semi_analytical=dimensionless) == ()
 
 
-@pytest.mark.parametrize(
-    ("E", "R", "key", "meant"),
-    [
-        *((E / 1e9, 18e-3, "body.material.young_modulus", "GPa") for E in (2e9, 70e9, 420e9)),
-        *((210e9, R, "indenter.radius", "mm") for R in (1.5, 6.35, 500.0)),
-    ],
-)
-def test_a_number_that_lacks_its_prefix_is_met_with_the_unit_that_was_meant(E, R, key, meant):
-    (told,) = [remark for remark in implausible(ball(E, R, 1.0)) if remark.startswith(key)]
-    number = E if meant == "GPa" else R
-    assert f'was "{number:g} {meant}" meant?' in told
-
-
-def test_windows_shifts_and_coefficients_are_looked_at_too():
-    scene = ball(210e9, 18e-3, 1.0, coefficient=10.0)
-    wide = SurfaceDiscretisation(window=(1.2, 1.2e-3))
-    told = implausible(scene, semi_analytical=wide)
-    assert [remark.split(":")[0] for remark in told] == [
-        "friction.coefficient",
-        "semi_analytical.window[1]",
-        "semi_analytical.window",  # which is less than the contact
-    ]
-    assert '"10 per cent"' in told[0]
-
-
-@pytest.mark.parametrize("E", MATERIALS.values(), ids=MATERIALS)
-@pytest.mark.parametrize("R", [1e-8, 18e-3, 0.5])
-@pytest.mark.parametrize("by", ["force", "approach"])
-def test_a_load_that_ends_linear_theory_is_told_whatever_the_material_and_size(E, R, by):
-    pressed = ball(E, R, 1000.0)
-    if by == "approach":
-        step = {"approach": 0.5 * R}
-        pressed = Scene.model_validate({**pressed.model_dump(), "loading": [step]})
-    assert any("strains of about" in remark for remark in implausible(pressed))
-
-
 COATED = (
     STEEL_ON_STEEL
     + """
@@ -137,33 +101,6 @@ def test_a_usual_mistake_is_told(coated, change, remark):
     assert any(remark in one for one in told), told
 
 
-FILMS = {
-    "DLC": ("2 um", "150 GPa", 0.2),
-    "20 nm of DLC": ("20 nm", "150 GPa", 0.2),
-    "PTFE": ("20 um", "0.5 GPa", 0.46),
-    "a soft film, thin": ("20 nm", "1 MPa", 0.49),
-    "rubber": ("2 mm", "5 MPa", 0.49),
-    "a hard shell": ("0.2 mm", "500 GPa", 0.2),
-}
-
-
-@pytest.mark.parametrize(("thickness", "E", "nu"), FILMS.values(), ids=FILMS)
-@pytest.mark.parametrize("force", [1.0, 100.0])
-def test_real_films_are_plausible(coated, thickness, E, nu, force):
-    layer = f'{{thickness="{thickness}",material={{young_modulus="{E}",poisson_ratio={nu}}}}}'
-    changes = (f"body.layers=[{layer}]", f"loading=[{{normal_force={force}}}]")
-    scene = read_scene_file(coated, changes).scene
-    told = [remark for remark in implausible(scene) if "strains" not in remark]
-    assert told == []
-
-
-def test_a_map_of_friction_in_per_cent_is_told(coated):
-    np.save(coated.parent / "mu.npy", np.full((8, 8), 30.0))
-    changed = 'friction.coefficient={map="mu.npy",spacing="0.1 mm"}'
-    (told,) = implausible(read_scene_file(coated, (changed,)).scene)
-    assert told.startswith("friction.coefficient.map: 30 is above")
-
-
 @pytest.mark.parametrize("command", ["plan", "run"])
 def test_whoever_does_not_check_is_told_too(
     command: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
@@ -188,14 +125,6 @@ def test_heights_that_are_not_in_metres_are_told(unit):
         document["indenter"] = {**surface, "material": document["body"]["material"]}
         told = implausible(Scene.model_validate(document))
         assert ["read in metres" in remark for remark in told] == [True] * expected
-
-
-def test_check_tells_remarks_and_ends_well(capsys: pytest.CaptureFixture[str]) -> None:
-    soft = ("check", SCENES[0], "--set", "body.material.young_modulus=210")
-    assert slipstick(*soft) == 0
-    assert 'was "210 GPa" meant?' in capsys.readouterr().err
-    assert slipstick(*soft, "--json") == 0
-    assert "210 GPa" in json.loads(capsys.readouterr().out)["remarks"][0]
 
 
 def test_check_says_how_large_maps_are(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -10,7 +10,6 @@ import tracemalloc
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -18,19 +17,13 @@ import h5py
 import numpy as np
 import pytest
 from command import outcome
-from study_cases import Number, Square
 from synthetic_result import synthetic_result
 
-import radial
 from contact_results.directory.checkpoint_file import FORMAT, Unusable, unpacked
 from contact_results.directory.file_names import FIELDS, SUMMARY
-from contact_results.files import stored_values
 from contact_results.files.stored_run import load
 from contact_results.result_files import write_result
 from contact_results.stress.loaded_bodies import NoSuchState, state_of_run
-from contact_scene import RIGID, Body, IsotropicMaterial, LoadStep, Paraboloid, Scene
-from contact_scene.solver_errors import ResourceRefused
-from verification.running.case_store import CaseStore, DamagedRecord
 
 ROOT = Path(__file__).resolve().parents[1]
 MEGABYTE = 1_000_000
@@ -140,17 +133,6 @@ def test_huge_scene_is_refused_at_once(
     assert ended.seconds - refusal_of_nothing.seconds < SOON
 
 
-@pytest.mark.parametrize("line", [b"\n", b"#\n"])
-def test_huge_scene_without_mistakes_is_read_soon(tmp_path: Path, line: bytes) -> None:
-    words = SCENE.replace('"height_map"', '"sphere"').replace('file = "heights.npy"', "radius = 1")
-    scene = words.replace('spacing = "1 um"', "").encode()
-    (tmp_path / "scene.toml").write_bytes(line * (9 * MEGABYTE // len(line)) + scene)
-    ended = slipstick("check", tmp_path / "scene.toml")
-    assert ended.code == 0
-    assert ended.memory < MOST_MEMORY
-    assert ended.seconds < READ
-
-
 @pytest.mark.parametrize(("dtype", "by_columns"), [(float, False), ("i8", True)])
 def test_largest_map_is_checked_with_little_more_than_itself(
     tmp_path: Path, dtype: Any, by_columns: bool
@@ -181,17 +163,6 @@ def test_height_map_of_zeros_that_are_not_there_is_refused_at_once(
     assert "heights.npy" in ended.said
     assert ended.memory < MOST_MEMORY
     assert ended.seconds - refusal_of_nothing.seconds < SOON
-
-
-def test_result_of_zeros_that_are_not_there_is_refused_at_once(
-    tmp_path: Path, refusal_of_nothing: Ended
-) -> None:
-    surface_result(tmp_path / FIELDS, increments_of_pressure=(6, HUGE, HUGE))
-    ended = slipstick("stress", tmp_path, "-o", tmp_path / "stress")
-    assert ended.code == 2
-    assert f"is not the {FIELDS} of a run" in ended.said
-    assert CLAIM in ended.said
-    assert ended.memory < MOST_MEMORY
 
 
 # ---- within a process ----------------------------------------------------------------------------
@@ -237,14 +208,6 @@ def claimed(dataset: h5py.Dataset) -> None:
 def surface_result(path: Path, **changed: tuple[int, ...]) -> None:
     """A result of 8 x 8 cells and 6 increments."""
     claiming(synthetic_result((8, 8)), path, **changed)
-
-
-@cache
-def on_rings() -> Any:
-    ball = Paraboloid(radius=1.0, material=RIGID)
-    soft = IsotropicMaterial(young_modulus=1.0, poisson_ratio=0.3)
-    step = LoadStep(normal_force=1e-3)
-    return radial.solve(Scene(indenter=ball, body=Body(material=soft), loading=(step,)))
 
 
 RESULT_BOMBS: dict[str, tuple[Callable[[Path], object], str]] = {
@@ -296,36 +259,12 @@ def one_chunk(path: Path) -> None:
     signed(path)
 
 
-@pytest.mark.parametrize("row", [None, 0])
-def test_field_without_values_is_refused(tmp_path: Path, row: int | None) -> None:
-    with h5py.File(tmp_path / FIELDS, "w") as file:
-        empty = file.create_dataset("pressure", (0, 8, 8), float)
-        with pytest.raises(stored_values.MISREAD):
-            stored_values.values(empty, row)
-
-
 @pytest.mark.parametrize(("write", "words"), RESULT_BOMBS.values(), ids=RESULT_BOMBS)
 def test_claims_of_a_surface_result_are_refused_unread(
     tmp_path: Path, write: Callable[[Path], object], words: str
 ) -> None:
     write(tmp_path / FIELDS)
     with frugal(), pytest.raises(NoSuchState, match=f"is not the {FIELDS} of a run: .*{words}"):
-        state_of_run(tmp_path, None)
-
-
-@pytest.mark.parametrize(
-    "changed",
-    [
-        {"radii": (1 << 40,)},
-        {"increments_of_pressure": (1, 1 << 40)},
-        {"increments_of_shear_radial": (1, 1 << 40)},
-        {"angles": (1 << 40,), "increments_of_pressure": (1, 8, 1 << 40)},
-        {"increments_of_step": (1 << 40,), "increments_of_pressure": (1 << 40, 8)},
-    ],
-)
-def test_claims_of_a_section_are_refused_unread(tmp_path: Path, changed: dict[str, Any]) -> None:
-    claiming(on_rings(), tmp_path / FIELDS, **changed)
-    with frugal(), pytest.raises(NoSuchState, match=f"is not the {FIELDS} of a run"):
         state_of_run(tmp_path, None)
 
 
@@ -401,40 +340,8 @@ def test_fields_that_were_changed_or_lie_elsewhere_are_refused(
     assert (done.returncode, words in done.stderr) == (2, True)
 
 
-def test_fields_in_use_are_refused(tmp_path: Path) -> None:
-    surface_result(tmp_path / FIELDS)
-    fcntl = pytest.importorskip("fcntl")
-    with (tmp_path / FIELDS).open("rb") as held:
-        fcntl.flock(held, fcntl.LOCK_EX)
-        with pytest.raises(ValueError, match="is in use by another process"):
-            load(tmp_path)
-
-
-def test_values_beyond_the_memory_are_refused_unread(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Packed zeros are what the file says, and still too much."""
-    with h5py.File(tmp_path / FIELDS, "w") as file:
-        file.create_dataset("x", data=np.zeros(MEGABYTE), chunks=True, compression="gzip")
-    monkeypatch.setattr(stored_values, "available_bytes", lambda: 7 * MEGABYTE)
-    with (
-        h5py.File(tmp_path / FIELDS) as file,
-        frugal(),
-        pytest.raises(ResourceRefused, match="can be had"),
-    ):
-        stored_values.values(file["x"])
-
-
 @pytest.mark.parametrize("head", [b"", FORMAT + b"\nthis solve\n"])
 def test_checkpoint_of_zeros_is_refused_unread(tmp_path: Path, head: bytes) -> None:
     sparse(tmp_path / "part", head)
     with frugal(), pytest.raises(Unusable, match=r"no checkpoint of this version|larger than"):
         unpacked(tmp_path / "part", "this solve")
-
-
-def test_record_of_zeros_is_refused_unread(tmp_path: Path) -> None:
-    store, case = CaseStore(tmp_path, Number), Square(2.0)
-    store.save(case, case.compute())
-    sparse(store.path(case), store.path(case).read_bytes())
-    with frugal(), pytest.raises(DamagedRecord, match="larger than any record"):
-        store.load(case)

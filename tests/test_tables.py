@@ -11,7 +11,6 @@ import pytest
 from command import outcome
 
 from slipstick.tables.catalogue import TABLES
-from slipstick.tables.table import Found, Table
 from verification.references import load_reference
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -63,19 +62,6 @@ def test_the_punch_has_the_numbers_that_the_documentation_sets_against_others() 
     for over, kappa in printed:
         (row,) = TABLES["punch"].rows({"a_over_h": [float(over)], "nu": [0.5]})
         assert f"{row['kappa']:.8f}" == kappa
-
-
-def test_a_thick_layer_is_a_half_space() -> None:
-    (row,) = TABLES["punch"].rows({"a_over_h": [1e-9], "nu": [0.3]})
-    assert row["kappa"] == pytest.approx(1.0, abs=1e-8)
-
-
-def test_an_uncertainty_holds_what_doubling_changes_and_what_the_load_misses() -> None:
-    punch = TABLES["punch"]
-    found = lambda _, fine: Found((1.0 + fine,), 0.5, (0.25,))  # noqa: E731
-    made = Table("made", punch.axes, punch.quantities, "", "", found)
-    (row,) = made.rows({"a_over_h": [1.0], "nu": [0.5]})
-    assert row["kappa_uncertainty"] == pytest.approx(2 * 1.0 + 0.5 * 2.0 + 0.25)
 
 
 def test_csv_and_json_have_the_same_numbers_and_provenance() -> None:
