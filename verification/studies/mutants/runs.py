@@ -22,9 +22,7 @@ COPIED = (
 )
 # Kernels, and the files of tests that are theirs.
 KERNELS = {
-    "semi_analytical/frf/surface.py": (
-        "test_frf", "test_frf_bilayer_closed_form", "test_frf_properties",
-    ),
+    "semi_analytical/frf/surface.py": ("test_frf", "test_frf_properties"),
     "semi_analytical/influence/closed_form.py": ("test_influence_closed_form",),
     "semi_analytical/contact_area.py": ("test_contact_area",),
     "semi_analytical/stick_slip.py": ("test_stick_slip",),
