@@ -71,6 +71,20 @@ def test_springs_that_leave_overlap_are_refused(augmentations: int) -> None:
         solve(asked, elements(penalty=0.1, augmentations=augmentations), method=Method.PENALTY)
 
 
+@pytest.mark.parametrize("share", [0.5, 0.1, 0.01])
+def test_residual_shear_is_unloaded_with_the_contact(share: float) -> None:
+    """The displacement of residual shear is too small a scale for the strain of springs."""
+    unload = {"normal_force": share * LOAD, "increments": 16}
+    asked = scene(PRESS, push(0.4, increments=4), push(0.0, increments=4), unload)
+    found = penalised(asked)
+    exact = solve(asked, elements(), method=Method.COMPLEMENTARITY).steps[-1]
+    last, hertz_approach = found.steps[-1], HERTZ.approach * share ** (2 / 3)
+    assert last.approach == pytest.approx(hertz_approach, abs=1e-3 * HERTZ.approach)
+    assert last.dissipated_energy == pytest.approx(exact.dissipated_energy, rel=0.08)
+    largest = max(abs(step.tangential_shift[0]) for step in found.steps)
+    assert last.tangential_shift == pytest.approx(exact.tangential_shift, abs=5e-3 * largest)
+
+
 def test_overlap_is_reported() -> None:
     """Springs alone overlap by p0/ε; augmentation leaves a small part of it."""
     asked = scene(PRESS, friction=None)

@@ -159,21 +159,29 @@ class _Increment:
         """Compute the error of the penalty in a pass [1].
 
         It is the overlap over the approach, or the strain of springs along the surface over the
-        displacement there, both weighted with the shear; the larger of the two. At Gauss points it
-        counts with the square of the part of the mesh's contact zone that is in contact. The error
-        of the elements is inverse to that square, and the penalty's need not be smaller.
+        largest displacement there in the history, both weighted with the shear; the larger of the
+        two. Residual shear without a load moves the bodies by less than the elements resolve of the
+        displacement before. At Gauss points the error counts with the square of the part of the
+        mesh's contact zone that is in contact. The error of the elements is inverse to that square,
+        and the penalty's need not be smaller.
         """
-        w, q = self.contact.compliance.areas, length(one.solution.shear)
-        moved = float(np.sum(w * q * length(one.displacement)))
-        moved += ROUND_OFF * abs(one.solution.approach) * float(np.sum(w * q))
-        along = over(float(np.sum(w * q * length(one.strain[:2]))), moved)
-        left = max(one.overlap_share, along)
+        moved = self.moved(one) + ROUND_OFF * abs(one.solution.approach)
+        left = max(one.overlap_share, over(self.weighted(one, one.strain[:2]), moved))
         if not self.contact.at_gauss_points:
             return left
         rings = self.contact.rings
         touching = np.flatnonzero(one.solution.pressure > 0)
         reached = float(rings.radii[touching[-1]]) if len(touching) else rings.reach
         return left * min(1.0, WIDEST_ZONE * reached / rings.reach) ** 2
+
+    def moved(self, one: _Pass) -> float:
+        """Compute the largest mean tangential displacement of the history, until a pass [length]."""
+        return max(self.before.moved, self.weighted(one, one.displacement))
+
+    def weighted(self, one: _Pass, vectors: Field) -> float:
+        """Compute the mean length of vectors, weighted with the shear of a pass."""
+        shear = self.contact.compliance.areas * length(one.solution.shear)
+        return over(float(np.sum(shear * length(vectors))), float(np.sum(shear)))
 
     def state(self, passes: list[_Pass]) -> PointState:
         """Collect the state at the end of the last pass."""
@@ -210,6 +218,7 @@ class _Increment:
             dissipated_energy=energy,
             residuals=last.residuals,
             overlap=last.overlap,
+            moved=self.moved(last),
             turns=last.turns,
             solves=last.solves,
             augmentations=len(passes) - 1,

@@ -24,6 +24,7 @@ class PointState:
     motion             shift [length] or twist [radian]; None at the friction limit under a load
     dissipated_energy  None where the motion is
     overlap            largest overlap that springs leave [length]
+    moved              largest mean tangential displacement so far, weighted with the shear [length]
     turns, solves      of the alternating iteration, and linear systems solved
     augmentations      updates of the multipliers
     way                how pressure and shear were found; None where they do not depend on each
@@ -47,6 +48,7 @@ class PointState:
     dissipated_energy: float | None
     residuals: Residuals
     overlap: float = 0.0
+    moved: float = 0.0
     turns: int = 0
     solves: int = 0
     augmentations: int = 0
