@@ -15,13 +15,16 @@ from contact_scene.refusal import refusal, shown
 _FEWEST, _MOST = 4, 16384
 _MOST_VALUES = 4096 * 4096  # 134 MB, more than any grid has that can be solved on
 _AT_ONCE = 1 << 20
+_MOST_TEXT = 1 << 28  # bytes
+# Of a text file, where an instrument has found no surface; in lower case.
+_MISSING = {"", "nan", "bad", "na", "n/a", "null", "***", "---"}
 
 
 @dataclass(frozen=True)
 class ArrayFile:
     """A two-dimensional array and the name it came by; equal by content.
 
-    values  finite numbers, read-only, index [i, j] = (x_i, y_j)
+    values  read-only, index [i, j] = (x_i, y_j); NaN where a text file or an array has no value
     name    as the scene file names it; empty for an array made in Python
     digest  SHA-256 of shape and values
     """
@@ -43,9 +46,9 @@ class ArrayFile:
 def array_file(value: Any, info: ValidationInfo) -> ArrayFile:
     """Return the array that a file key names.
 
-    A scene file names a `.npy` file in or below its own folder, `info.context["folder"]`. A stored
-    run has the array by the name of its key, in `info.context["arrays"]`. Python code may pass any
-    path or the array itself.
+    A scene file names a `.npy`, `.csv` or `.txt` file in or below its own folder,
+    `info.context["folder"]`. A stored run has the array by the name of its key, in
+    `info.context["arrays"]`. Python code may pass any path or the array itself.
     """
     if isinstance(value, ArrayFile):
         return value
@@ -61,7 +64,7 @@ def array_file(value: Any, info: ValidationInfo) -> ArrayFile:
         value = str(value)
     if not isinstance(value, str) or not value:
         hint = "hand over numpy.asarray(...) of it, in SI" if hasattr(value, "__array__") else ""
-        raise refusal(f"got {shown(value)}", 'the name of a .npy file such as "heights.npy"', hint)
+        raise refusal(f"got {shown(value)}", 'the name of a file such as "heights.npy"', hint)
     path = Path(value) if folder is None else _inside(folder, value)
     return _checked(_read(path, value), value)
 
@@ -73,8 +76,9 @@ FileKey = Annotated[
     WithJsonSchema(
         {
             "type": "string",
-            "pattern": r"\.npy$",
-            "description": "name of a .npy file in or below the folder of the scene file",
+            "pattern": r"\.(npy|csv|txt)$",
+            "description": "name of a .npy, .csv or .txt file in or below the folder of the scene "
+            "file",
         }
     ),
 ]
@@ -100,11 +104,19 @@ def _holds(folder: Path, path: Path) -> bool:
 
 
 def _read(path: Path, name: str) -> NDArray[np.float64]:
-    """The array in a `.npy` file, a part at a time: two whole ones take too much memory."""
-    expected = "a .npy file with a two-dimensional array of numbers (numpy.save writes it)"
+    """The array in a file; of a `.npy` file a part at a time: two whole ones take too much
+    memory."""
+    expected = (
+        "a .npy file with a two-dimensional array of numbers (numpy.save writes it), or a .csv or "
+        ".txt file with as many numbers in every line"
+    )
     try:
         if not path.is_file():
             raise refusal(f"there is no file {shown(name)}", expected)
+        if path.suffix.lower() in (".csv", ".txt"):
+            values = _text(path, name)
+            _check_shape(values.shape, name)
+            return values
         with path.open("rb") as stream:
             shape, by_columns, dtype = _header(stream, path.stat().st_size, name)
             values = np.empty(shape)
@@ -120,6 +132,36 @@ def _read(path: Path, name: str) -> NDArray[np.float64]:
     except (OSError, ValueError, EOFError, SyntaxError, TypeError, MemoryError) as error:
         reason = getattr(error, "strerror", None) or "not a .npy file"
         raise refusal(f"cannot read {shown(name)}: {reason}", expected) from None
+
+
+def _text(path: Path, name: str) -> NDArray[np.float64]:
+    """The array in a text file, printed as it is seen from above: x to the right, y upwards.
+
+    Fields are separated by semicolons, tabs, commas or spaces; lines before the first numbers are
+    skipped. Fields of `_MISSING` are NaN.
+    """
+    if path.stat().st_size > _MOST_TEXT:
+        raise refusal(f"the file {shown(name)} is too long", "a .npy file of so many numbers")
+    lines = path.read_text(encoding="utf-8-sig", errors="replace").splitlines()
+    lines = [line for line in lines if line.strip() and line.strip()[0] not in "#%"]
+    last = lines[-1] if lines else ""
+    separator = next((mark for mark in ";\t," if mark in last), None)
+    rows: list[list[float]] = []
+    for line in lines:
+        fields = (line if separator == "," else line.replace(",", ".")).split(separator)
+        try:
+            rows.append([np.nan if f.strip().lower() in _MISSING else float(f) for f in fields])
+        except ValueError:
+            if rows:
+                raise refusal(f"{shown(name)} has no number in {shown(line)}", "") from None
+    counts = {len(row) for row in rows}
+    if len(counts) > 1 or counts == {3}:
+        got = f"the lines of {shown(name)} have {min(counts)} to {max(counts)} numbers"
+        raise refusal(got, "values alone, in rows and columns, as many in every line")
+    values = np.array(rows or [[]]).T[:, ::-1]
+    if separator and last.endswith(separator):
+        values = values[:-1]
+    return np.ascontiguousarray(values)
 
 
 def _header(stream: BinaryIO, size: int, name: str) -> tuple[tuple[int, ...], bool, np.dtype[Any]]:
@@ -168,12 +210,21 @@ def _check_shape(shape: tuple[int, ...], name: str) -> None:
 
 
 def _checked(values: NDArray[np.float64], name: str) -> ArrayFile:
-    if not np.all(np.isfinite(values)):
-        i, j = np.argwhere(~np.isfinite(values))[0]
-        raise refusal(
-            f"the array {_named(name)} holds {values[i, j]} at [{i}, {j}]", "finite numbers"
-        )
+    _refuse(np.isinf(values), values, name)
     values.flags.writeable = False
     digest = hashlib.sha256(repr(values.shape).encode())
     digest.update(values.data)
     return ArrayFile(values, name, digest.hexdigest())
+
+
+def refuse_missing(array: ArrayFile) -> None:
+    """Refuse an array with NaN; raises a refusal that names the first one."""
+    _refuse(np.isnan(array.values), array.values, array.name)
+
+
+def _refuse(bad: NDArray[np.bool_], values: NDArray[np.float64], name: str) -> None:
+    if np.any(bad):
+        i, j = np.argwhere(bad)[0]
+        raise refusal(
+            f"the array {_named(name)} holds {values[i, j]} at [{i}, {j}]", "finite numbers"
+        )

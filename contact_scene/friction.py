@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Discriminator, Tag, model_validator
 
-from contact_scene.array_file import FileKey
+from contact_scene.array_file import FileKey, refuse_missing
 from contact_scene.description import Description
 from contact_scene.height_map import PairOfSpacings, interpolate_between
 from contact_scene.quantity import FrictionCoefficient, Length
@@ -28,7 +28,8 @@ class FrictionMap(Description):
     """Coefficients of friction that vary over the surface."""
 
     map: FileKey
-    """A `.npy` file with coefficients, index [i, j] = (x_i, y_j); linear in between."""
+    """A `.npy` file with coefficients, index [i, j] = (x_i, y_j), or a `.csv` or `.txt` file as
+    seen from above; linear in between."""
 
     spacing: PairOfSpacings
     """Distance of neighbouring coefficients along x and y [length]; one number for both. A map of
@@ -39,6 +40,7 @@ class FrictionMap(Description):
 
     @model_validator(mode="after")
     def _is_never_negative(self) -> "FrictionMap":
+        refuse_missing(self.map)
         if np.any(self.map.values < 0.0):
             raise refusal(
                 f"the map {self.map} holds {self.map.values.min():.6g}", "coefficients not below 0"

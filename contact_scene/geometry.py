@@ -7,15 +7,26 @@ from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from pydantic import Discriminator, Tag
+from pydantic import Discriminator, Tag, model_validator
 
 from contact_scene.array_file import ArrayFile, FileKey
 from contact_scene.body import Body
-from contact_scene.height_map import PairOfSpacings, interpolate, lowest_point
+from contact_scene.height_map import (
+    HeightUnit,
+    PairOfSpacings,
+    filled,
+    interpolate,
+    lowest_point,
+)
 from contact_scene.quantity import PositiveLength, SlopeAngle
+from contact_scene.refusal import refusal
 
 Gap = NDArray[np.float64]
 Pair = tuple[float, float]
+
+# Share of the points of a height map without a height: the corners around a round field of view
+# take 1 - π/4 = 0.21, and more on few points.
+_MOST_UNMEASURED = 1 / 3
 
 
 class ShapedBody(Body):
@@ -251,11 +262,18 @@ class HeightMap(ShapedBody):
 
     shape: Literal["height_map"] = "height_map"
     file: FileKey
-    """A `.npy` file with heights [length], index [i, j] = (x_i, y_j); the lowest
-    point of the interpolated surface touches first."""
+    """A `.npy` file with heights, index [i, j] = (x_i, y_j), or a `.csv` or `.txt` file, printed as
+    seen from above with x to the right and y upwards; the lowest point of the interpolated surface
+    touches first. NaN, empty fields of a text file too, are points that were not measured."""
 
     spacing: PairOfSpacings
     """Distance of neighbouring heights along x and y [length]; one number for both."""
+
+    height_unit: HeightUnit = 1.0
+    """Unit of the heights, such as "um"."""
+
+    flip: bool = False
+    """Whether the heights count towards the body, as of an indenter measured from outside."""
 
     @property
     def gap_exponent(self) -> float:
@@ -265,8 +283,7 @@ class HeightMap(ShapedBody):
     @property
     def is_even(self) -> bool:
         """Where its heights are, to the last bit."""
-        heights = self.file.values
-        return all(np.array_equal(heights, np.flip(heights, axis)) for axis in (0, 1))
+        return all(np.array_equal(self.heights, np.flip(self.heights, axis)) for axis in (0, 1))
 
     @property
     def extent(self) -> Pair:
@@ -274,10 +291,30 @@ class HeightMap(ShapedBody):
         (nx, ny), (dx, dy) = self.file.shape, self.spacing
         return nx * dx, ny * dy
 
+    @model_validator(mode="after")
+    def _is_measured(self) -> "HeightMap":
+        if self.unmeasured > _MOST_UNMEASURED:
+            raise refusal(
+                f"the map {self.file} has no height at {self.unmeasured:.0%} of its points",
+                f"at most {_MOST_UNMEASURED:.0%}",
+                "cut the map to the part that was measured",
+            )
+        return self
+
+    @property
+    def unmeasured(self) -> float:
+        """Share of points without a height."""
+        return float(np.mean(np.isnan(self.file.values)))
+
+    @property
+    def heights(self) -> Gap:
+        """Above the body, smooth where they were not measured [length]."""
+        return _surface(self.file, self.height_unit, self.flip)[0]
+
     @property
     def lowest_on_rim(self) -> bool:
         """Whether the lowest point, which touches first, is an outermost one."""
-        *_, place = _first_contact(self.file)
+        *_, place = _surface(self.file, self.height_unit, self.flip)
         return any(at in (0.0, n - 1.0) for at, n in zip(place, self.file.shape, strict=True))
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
@@ -285,16 +322,18 @@ class HeightMap(ShapedBody):
 
         ValueError if a point lies outside the map.
         """
-        heights = self.file.values
-        lowest, dip, _ = _first_contact(self.file)
+        heights, lowest, dip, _ = _surface(self.file, self.height_unit, self.flip)
         return np.asarray(interpolate(heights - lowest, self.spacing, x, y) - dip)
 
 
-@lru_cache(maxsize=8)
-def _first_contact(file: ArrayFile) -> tuple[float, float, Pair]:
-    """Lowest height of a map, minimum of the interpolated surface above it (not positive), and the
-    position of this minimum in indices of points."""
-    return float(np.min(file.values)), *lowest_point(file.values)
+@lru_cache(maxsize=2)
+def _surface(file: ArrayFile, unit: float, flip: bool) -> tuple[Gap, float, float, Pair]:
+    """Heights of a map, the lowest one, the minimum of the interpolated surface above it (not
+    positive), and the position of this minimum in indices of points."""
+    factor = -unit if flip else unit
+    heights = file.values if factor == 1.0 else factor * file.values
+    heights = filled(heights)
+    return heights, float(np.min(heights)), *lowest_point(heights)
 
 
 SHAPES: dict[str, type[ShapedBody]] = {

@@ -20,6 +20,8 @@ _NEGATIVE_WEIGHTS = 9 / 32
 # samples, whose minimum is refined; refinements, each to a quarter of the width.
 _BLOCK, _MOST_PATCHES, _PATCHES, _REFINEMENTS = 1 << 17, 8192, 64, 14
 
+_SWEEPS = 20  # of the Jacobi iteration, on every level
+
 
 def _one_for_both(value: Any) -> Any:
     return value if isinstance(value, list | tuple) else (value, value)
@@ -31,6 +33,44 @@ PairOfSpacings = Annotated[
         _one_for_both, json_schema_input_type=PositiveLength | tuple[PositiveLength, PositiveLength]
     ),
 ]
+HeightUnit = Annotated[
+    PositiveLength,
+    BeforeValidator(lambda value: f"1 {value}" if _is_name(value) else value),
+]
+
+
+def _is_name(value: Any) -> bool:
+    """Whether a unit is given by its name alone."""
+    return isinstance(value, str) and value[:1].isalpha()
+
+
+def filled(heights: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Replace NaN by a solution of Laplace's equation, to about 1 % of the heights around.
+
+    Cascadic multigrid: Jacobi iteration from the solution on half the points along each side
+    (Bornemann and Deuflhard 1996, Numer. Math. 75, 135). Every iterate is a mean of measured
+    heights: none is lower than the lowest of these.
+    """
+    known = np.isfinite(heights)
+    if np.all(known):
+        return heights
+    nx, ny = heights.shape
+    sums, counts = (
+        np.pad(one, ((0, nx % 2), (0, ny % 2)))
+        .reshape((nx + 1) // 2, 2, (ny + 1) // 2, 2)
+        .sum(axis=(1, 3))
+        for one in (np.where(known, heights, 0.0), known)
+    )
+    coarse = filled(sums / np.where(counts, counts, np.nan))
+    found = np.where(known, heights, coarse.repeat(2, axis=0).repeat(2, axis=1)[:nx, :ny])
+    i, j = np.nonzero(~known)
+    around = [
+        np.ravel_multi_index((i + di, j + dj), (nx, ny), mode="clip")
+        for di, dj in ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1))
+    ]
+    for _ in range(_SWEEPS):
+        found.ravel()[around[0]] = np.mean([found.take(at) for at in around], axis=0)
+    return found
 
 
 def interpolate(

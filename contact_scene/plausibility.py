@@ -94,7 +94,7 @@ def unlikely(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
     return (
         *unusual,
         *_steep(scene),
-        *_on_rim(scene),
+        *_measured(scene),
         *_too_small(scene, pressed, fineness),
         *_of_no_effect(scene, pressed),
         *_far(pressed),
@@ -150,23 +150,31 @@ def _without_units(scene: Scene) -> bool:
 
 def _steep(scene: Scene) -> Iterator[str]:
     if isinstance(indenter := scene.indenter, HeightMap):
-        rows, (dx, dy) = indenter.file.values, indenter.spacing
+        rows, (dx, dy) = indenter.heights, indenter.spacing
         # Row by row, without a second array of that size.
         along_x = max(float(np.max(np.abs(b - a))) for a, b in pairwise(rows)) / dx
         along_y = max(float(np.max(np.abs(np.diff(row)))) for row in rows) / dy
         if (steepest := max(along_x, along_y)) > _STEEP:
-            range_ = quantity(float(np.ptp(indenter.file.values)), "m")
+            range_ = quantity(float(np.ptp(rows)), "m")
             yield (
                 f"indenter.file: the heights differ by {range_} and neighbours by {steepest:.2g} "
-                "times their distance; they are read in metres"
+                "times their distance; indenter.height_unit names their unit, by default metres"
             )
 
 
-def _on_rim(scene: Scene) -> Iterator[str]:
-    if isinstance(indenter := scene.indenter, HeightMap) and indenter.lowest_on_rim:
+def _measured(scene: Scene) -> Iterator[str]:
+    if not isinstance(indenter := scene.indenter, HeightMap):
+        return
+    if indenter.lowest_on_rim:
         yield (
             "indenter.file: the lowest point lies on the rim of the map, and the contact begins "
-            "there; heights count away from the body: change their sign if they count towards it"
+            "there; heights count away from the body, with flip = true towards it: change "
+            "indenter.flip if the map is inverted"
+        )
+    if indenter.unmeasured:
+        yield (
+            f"indenter.file: {indenter.unmeasured:.2g} of the points were not measured; heights "
+            "there solve Laplace's equation between their neighbours"
         )
 
 

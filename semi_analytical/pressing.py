@@ -244,8 +244,8 @@ def _lower(model: ContactModel) -> str:
     if model.scene.indenter.extent is None:
         return _wider(model)
     return (
-        "heights count away from the body: change their sign if they count towards it, and remove "
-        "the slope of a measured map"
+        "heights count away from the body, with flip = true towards it: change indenter.flip if "
+        "the map is inverted, and remove the slope of a measured map"
     )
 
 

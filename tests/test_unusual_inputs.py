@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from pydantic import ValidationError
 
 import slipstick
 from contact_results.directory.checkpoint import Checkpoint
@@ -215,7 +216,7 @@ def test_a_map_that_touches_first_at_its_rim_is_refused_at_once(
     asked = scene(PRESS, PUSH, indenter=measured(heights), friction=MU)
     told: list[object] = []
     assert any("lies on the rim of the map" in remark for remark in implausible(asked))
-    with pytest.raises(ContactAtWindowEdge, match=r"border of the window.*change their sign"):
+    with pytest.raises(ContactAtWindowEdge, match=r"border of the window.*change indenter.flip"):
         slipstick.solve(asked, progress=told.append)
     assert not told
 
@@ -275,3 +276,97 @@ def test_a_contact_on_a_layer_of_many_radii_is_laid_out_without_a_solve() -> Non
         slipstick.solve(layered, "fem-complementarity")
     assert tracemalloc.get_traced_memory()[1] < 100e6  # imports
     tracemalloc.stop()
+
+
+# A measured map means the same in every form that instruments write.
+
+PLACES = np.meshgrid(*(np.linspace(-1, 1, n) for n in (9, 7)), indexing="ij")
+TOLD = (
+    3.0 + PLACES[0] ** 2 + 0.3 * PLACES[1] + 0.2 * PLACES[0] * PLACES[1]
+)  # um, even about nothing
+PICTURE = TOLD.T[::-1]
+
+
+def printed(separator: str, *, end: str = "", head: str = "", missing: str = "nan") -> str:
+    def field(value: float) -> str:
+        text = missing if np.isnan(value) else repr(float(value))
+        return text.replace(".", ",") if separator != "," else text
+
+    return head + "\n".join(separator.join(map(field, row)) + end for row in PICTURE) + "\n"
+
+
+def read_map(folder: Path, name: str, text: str, **more: object) -> HeightMap:
+    (folder / name).write_text(text, encoding="utf-8")
+    given = {"shape": "height_map", "material": "rigid", "file": name, "spacing": 1e-5, **more}
+    return HeightMap.model_validate(given, context={"folder": folder})
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("plain.csv", printed(",")),
+        ("spaces.txt", "\ufeff" + printed(" ").replace(",", ".")),
+        ("tabs.txt", printed("\t", head="# Channel: height\n# Width: 80 µm\n")),
+        ("decimal commas.csv", printed(";", end=";", head="Profil 3\nBreite;0,08 mm\n\n")),
+    ],
+)
+def test_a_text_file_is_the_map_as_seen_from_above(name: str, text: str, tmp_path: Path) -> None:
+    for unit in ("um", "1 um", 1e-6):
+        found = read_map(tmp_path, name, text, height_unit=unit)
+        np.testing.assert_allclose(found.heights, TOLD * 1e-6, rtol=1e-14)
+        assert found.extent == pytest.approx((9e-5, 7e-5))
+
+
+def test_a_map_that_counts_towards_the_body_is_flipped() -> None:
+    surface = ball_map(32)
+    towards = {"file": -1e6 * surface.file.values, "height_unit": "um", "flip": True}
+    flipped = HeightMap(material=RIGID, spacing=surface.spacing, **towards)  # type: ignore[arg-type]
+    ends = [
+        slipstick.solve(scene({"approach": APPROACH}, indenter=one)).steps[-1]
+        for one in (surface, flipped)
+    ]
+    assert ends[1].normal_force == pytest.approx(ends[0].normal_force, rel=1e-9)
+
+
+@pytest.mark.parametrize("word", ["", "NaN", "bad", "***"])
+def test_points_that_were_not_measured_are_never_lowest(word: str, tmp_path: Path) -> None:
+    """Laplace's equation has TOLD - PLACES[0]² as a solution and its extremes are measured."""
+    harmonic = TOLD - PLACES[0] ** 2
+    gaps = harmonic.copy()
+    gaps[[0, 4, 4, 5, 8], [0, 3, 4, 3, 6]] = np.nan
+    rows = ([word if np.isnan(v) else repr(float(v)) for v in row] for row in gaps.T[::-1])
+    found = read_map(tmp_path, "gaps.csv", "\n".join(map(",".join, rows)))
+    inside = np.s_[1:-1, 1:-1]
+    np.testing.assert_allclose(
+        found.heights[inside], harmonic[inside], atol=1e-2 * np.ptp(harmonic)
+    )
+    assert np.nanmin(gaps) <= np.min(found.heights)
+    assert np.max(found.heights) <= np.nanmax(gaps)
+    known = np.isfinite(gaps)
+    np.testing.assert_array_equal(found.heights[known], gaps[known])
+    remarks = implausible(scene(PRESS, indenter=found))
+    assert any("0.079 of the points were not measured" in remark for remark in remarks)
+
+
+@pytest.mark.parametrize(
+    ("text", "match"),
+    [
+        ("", "shape"),
+        ("some\nwords\n", "shape"),
+        ("1,2,3,4\n" * 3 + "1,x,3,4\n", 'no number in "1,x,3,4"'),
+        ("1,2,3,4\n" * 3 + "1,2,3\n", "3 to 4 numbers"),
+        ("0 0 1\n" * 9, "values alone, in rows and columns"),
+        (("1," * 9 + "inf\n") * 9, "holds inf"),
+        (("1" + "," * 9 + "\n") * 9, "no height at 89%"),
+    ],
+)
+def test_a_text_file_that_is_no_map_is_refused(text: str, match: str, tmp_path: Path) -> None:
+    with pytest.raises(ValidationError, match=match):
+        read_map(tmp_path, "map.csv", text)
+
+
+def test_a_map_of_friction_has_a_value_everywhere() -> None:
+    values = np.full((4, 4), 0.3)
+    values[1, 2] = np.nan
+    with pytest.raises(ValidationError, match=r"holds nan at \[1, 2\]"):
+        CoulombFriction.model_validate({"coefficient": {"map": values, "spacing": 1e-5}})

@@ -175,7 +175,7 @@ class _Increment:
         return left * min(1.0, WIDEST_ZONE * reached / rings.reach) ** 2
 
     def moved(self, one: _Pass) -> float:
-        """Compute the largest mean tangential displacement of the history, until a pass [length]."""
+        """Compute the largest mean tangential displacement of the history up to a pass [length]."""
         return max(self.before.moved, self.weighted(one, one.displacement))
 
     def weighted(self, one: _Pass, vectors: Field) -> float:
