@@ -4,6 +4,7 @@ from typing import Any
 
 from contact_scene.accuracy import AccuracyRequest
 from contact_scene.consistency import Parts
+from contact_scene.description import DescribedSchema
 from contact_scene.discretisation import (
     FiniteElementDiscretisation,
     RadialDiscretisation,
@@ -43,7 +44,7 @@ def scene_schema() -> dict[str, Any]:
 
     It holds what a schema can say; what the parts must have in common is checked on reading.
     """
-    schema = SceneFile.model_json_schema(mode="validation")
+    schema = SceneFile.model_json_schema(mode="validation", schema_generator=DescribedSchema)
     schema["title"] = "slipstick scene"
     for shape in SHAPES.values():  # in Python the class says it, in a file nothing else does
         schema["$defs"][shape.__name__]["required"].insert(0, "shape")

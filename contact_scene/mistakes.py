@@ -8,6 +8,7 @@ from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
 from contact_scene.body import Body
+from contact_scene.description import field_descriptions
 from contact_scene.document import SceneFile
 from contact_scene.friction import FrictionMap
 from contact_scene.geometry import SHAPES
@@ -206,13 +207,13 @@ def _known_keys(location: Location) -> list[str]:
 def _expected_value(location: Location) -> str:
     """What a key stands for, in words."""
     model, key = _model_at(location[:-1]), location[-1]
-    field = model.model_fields.get(str(key)) if model is not None else None
-    if field is None:
+    if model is None or str(key) not in model.model_fields:
         return ""
+    field = model.model_fields[str(key)]
     quantity = next((m for m in field.metadata if isinstance(m, Quantity)), None)
     if quantity is not None:
         return quantity.expected
-    sentence = " ".join((field.description or "").split()).rstrip(".")
+    sentence = " ".join(field_descriptions(model).get(str(key), "").split()).rstrip(".")
     return sentence[:1].lower() + sentence[1:]
 
 

@@ -11,7 +11,7 @@ from pydantic.dataclasses import dataclass as pydantic_dataclass
 from contact_scene import residuals
 from contact_scene.accuracy_reached import AccuracyReached
 from contact_scene.convention import CONVENTION
-from contact_scene.description import MAX_TITLE, Description
+from contact_scene.description import MAX_TITLE, DescribedSchema, Description
 from contact_scene.increment import Quality, State
 from contact_scene.reported import Reported
 from contact_scene.stated_error import Companion, StatedError
@@ -36,7 +36,6 @@ class ContactStatus(StrEnum):
 STRICT = ConfigDict(
     extra="forbid",
     allow_inf_nan=False,
-    use_attribute_docstrings=True,
     json_schema_serialization_defaults_required=True,
 )
 
@@ -191,5 +190,5 @@ def load_summary(text: str) -> RunSummary:
 
 def summary_schema() -> dict[str, Any]:
     """JSON Schema of `summary.json`, with meaning and unit of every key."""
-    schema = RunSummary.model_json_schema(mode="serialization")
+    schema = RunSummary.model_json_schema(mode="serialization", schema_generator=DescribedSchema)
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}

@@ -9,6 +9,7 @@ from pydantic import BaseModel
 
 from contact_scene import Body, IsotropicMaterial, Layer, LoadStep, Scene
 from contact_scene.accuracy import AccuracyRequest
+from contact_scene.description import field_descriptions
 from contact_scene.discretisation import (
     FiniteElementDiscretisation,
     RadialDiscretisation,
@@ -53,7 +54,8 @@ def scene_keys() -> str:
     """Every table of a scene file with its keys."""
     parts = []
     for title, model in TABLES.items():
-        rows = [_key(name, field) for name, field in model.model_fields.items()]
+        meanings = field_descriptions(model)
+        rows = [_key(name, f, meanings.get(name, "")) for name, f in model.model_fields.items()]
         rows = [row for row in rows if row[0] != "`shape`"]
         parts += [f"## {title}\n", _first_sentence(model.__doc__), table(("key", "expects"), rows)]
     return "\n".join(parts)
@@ -99,20 +101,20 @@ def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
 
 def parameters(model: type[BaseModel]) -> Iterator[tuple[str, str]]:
     """Names and meanings of what makes a value of a scene, in reStructuredText."""
+    meanings = field_descriptions(model)
     for name, field in model.model_fields.items():
-        if field.description is None:
+        if name not in meanings:
             continue
-        meaning = " ".join(field.description.split())
+        meaning = " ".join(meanings[name].split())
         marks = [mark.expected for mark in _marks(field.annotation, field.metadata)]
         yield name, f"{meaning} *{marks[0]}*" if marks else meaning
 
 
-def _key(name: str, field: Any) -> tuple[str, str]:
+def _key(name: str, field: Any, meaning: str) -> tuple[str, str]:
     quantity = next((m for m in _marks(field.annotation, field.metadata)), None)
-    meaning = _cell(field.description or "")
     expects = f" *{quantity.expected}*" if quantity is not None else ""
     must = "**needed.** " if field.is_required() else ""
-    return f"`{name}`", f"{must}{meaning}{expects}"
+    return f"`{name}`", f"{must}{_cell(meaning)}{expects}"
 
 
 def _marks(annotation: Any, metadata: Iterable[Any]) -> Iterator[Quantity]:
