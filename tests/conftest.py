@@ -37,7 +37,7 @@ LONGEST = (
     "test_verification_resumed", "test_threads", "test_run_output", "test_promises",
     "test_stress_command", "test_cli", "test_memory_estimate", "test_stated_errors",
     "test_fretting_cycles", "test_verification_can_fail", "test_checkpoint",
-    "test_energy_balance", "test_study_refinement", "test_study_stability",
+    "test_energy_balance", "test_convergence_studies", "test_study_stability",
     "test_stability_sections", "test_section_output", "test_cli_run", "test_coupled_histories",
     "test_radial", "test_fem_harmonics", "test_examples", "test_stress_influence",
     "test_coupled_increment", "test_stress_on_disc", "test_hostile_outputs", "test_radial_turning",

@@ -13,7 +13,6 @@ from verification.convergence.observed_order import (
     observed_order,
     refined_value,
     triplets_agree,
-    triplets_of_changes,
 )
 
 SIZES = 0.25 * 2.0 ** -np.arange(6)
@@ -163,11 +162,6 @@ def test_a_value_that_does_not_change_has_no_order() -> None:
 def test_three_levels_are_too_few() -> None:
     with pytest.raises(ValueError, match="at least 4"):
         refined_value(SIZES[:3], SIZES[:3], 1.0)
-
-
-def test_orders_by_triplets_are_those_of_the_last_two_pairs_of_changes() -> None:
-    """Finer first; a change that is left out of both says nothing."""
-    assert triplets_of_changes((8, 4, 2, 1), (5, 8, 4, 1)) == pytest.approx((2, 1), rel=1e-12)
 
 
 def test_halves_that_contradict_each_other_are_part_of_the_uncertainty() -> None:

@@ -23,11 +23,7 @@ from verification.cases import (
     turned,
 )
 from verification.cases.apart_everywhere import Apart, apart_everywhere
-from verification.convergence.stored_field import PRESSURE, StoredField
-from verification.judging.outcome import Status
 from verification.quantities import largest_difference
-from verification.running.row import CaseRecord
-from verification.studies.refinement import domain, window
 
 READ: dict[Any, tuple[str, ...]] = {
     largest_difference: ("pressure", "shear", "tangential_shift", "approach"),
@@ -68,26 +64,6 @@ class End:
         self.tangential_shift = (value, 1e-6)
 
 
-def level(value: float) -> CaseRecord:
-    """A record whose measures are numbers, as always, and whose pressure may be none."""
-    measures = dict.fromkeys(("approach", "normal_force", "contact_radius"), 1.0)
-    pressure = StoredField.of(np.full((1, 2, 2), 1 + value), 1.0)
-    return CaseRecord(measures=measures, fields={PRESSURE: pressure}, parameters={"size": 1.0})
-
-
-def of_window(values: list[float]) -> str:
-    said = window._unchanged([*map(level, values), level(0.0)], 1.0)
-    assert said.outcome is (Status.FAIL if np.isnan(values).any() else Status.PASS)
-    return said.measured
-
-
-def of_section(values: list[float]) -> str:
-    start = SimpleNamespace(box=1.0, radius=1.0, asked=SimpleNamespace(box=None))
-    said = domain._left({str(n): value for n, value in enumerate(values)}, start)
-    assert said.outcome is (Status.FAIL if np.isnan(values).any() else Status.PASS)
-    return said.measured
-
-
 def of_places(values: list[float]) -> str:
     places = np.array([0.0, 1.0])
     lines = [
@@ -106,8 +82,6 @@ def of_steps(values: list[float]) -> str:
 
 
 TOLD: dict[str, Callable[[list[float]], str]] = {
-    "changes with the window": of_window,
-    "what a section leaves": of_section,
     "differences that are left out": of_places,
     "largest residual": of_residuals,
     "strains": lambda values: str(beyond_linear_theory(scene(PRESS), map(End, values))),

@@ -193,7 +193,7 @@ ORDERS = {
         *("selection", "verdicts", "charts", "traction_charts", "gross_sliding"),
         "coated_tractions",
     ),
-    "verification.studies.mutants": ("mutation", "runs", "study"),
+    "verification.studies.refinement": ("scene_level", "estimate", "study"),
     "verification.studies.seeded_defects": ("runs", "findings", "statements", "tables", "study"),
     "verification.studies.stability": (
         *("cell", "record", "loading", "pose", "solvers", "judged", "views"),

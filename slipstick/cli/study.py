@@ -64,7 +64,7 @@ def study(
             metavar="N",
             min=LEAST_LEVELS,
             max=MOST_LEVELS,
-            help="Levels of refinement of SCENE; 5 or 6 by --level if absent, one more of a mesh.",
+            help="Levels of refinement of SCENE. Default: 5 to 7 by --level.",
         ),
     ] = None,
     output: Annotated[
@@ -196,21 +196,17 @@ def _scene_study(
 ) -> Study:
     """The study of a scene, once it is clear that it can be made as asked."""
     from verification.studies.catalogue import SCENE_STUDIES
-    from verification.studies.refinement.studied_scene import CannotRefine
+    from verification.studies.refinement.scene_level import CELLS, CannotRefine
 
     known = SCENE_STUDIES[name]
-    able = [
-        one for one in SolverName if one is not SolverName.RADIAL and one.method in known.methods
-    ]
-    if solver not in (None, *able):
-        raise typer.BadParameter(
-            f"study {name} is of {' or '.join(able)}, and --solver is {solver}"
-        )
-    method = known.methods[0] if solver is None else solver.method
-    if method is None:
+    chosen = known.solvers[0] if solver is None else solver.value
+    if chosen not in known.solvers:
+        able = " or ".join(known.solvers)
+        raise typer.BadParameter(f"study {name} is of {able}, and --solver is {solver}")
+    if chosen == CELLS:
         _refuse_odd(settings.cells)
     try:
-        study = known.of(scene, overrides, step, method)
+        study = known.of(scene, overrides, step, chosen)
         study.cases(settings)
     except CannotRefine as error:
         raise typer.BadParameter(str(error)) from None

@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from contact_scene import Body, IsotropicMaterial
-from verification.convergence.stored_field import at_centres
+from verification.convergence.cell_centres import at_centres
 from verification.exhibits.chart import Chart
 from verification.exhibits.convergence_chart import convergence_chart
 from verification.judging.case import Case, Comparison, Level

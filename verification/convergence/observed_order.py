@@ -144,18 +144,6 @@ def refined_value(sizes: Sequence[float], values: Sequence[float], expected: flo
     return RefinedValue(observed, triplets, limit, uncertainty)
 
 
-def triplets_of_changes(sizes: Sequence[float], changes: Sequence[float]) -> Triplets:
-    """Orders by two triplets of levels, from the changes between neighbours of one ratio.
-
-    sizes    h of the coarser level of each change, coarse to fine, at least three
-    changes  > 0
-    """
-    h, d = np.asarray(sizes, dtype=float)[::-1], np.asarray(changes, dtype=float)[::-1]
-    k = _stride(h, reach=1)
-    last, before = (float(np.log(d[n + k] / d[n]) / np.log(h[n + k] / h[n])) for n in (0, 1))
-    return last, before
-
-
 def _stride(h: Vector, reach: int) -> int:
     """Levels from one member of a triplet to the next, so that two triplets fit in.
 

@@ -14,7 +14,6 @@ from typing import Any, ClassVar, Protocol, Self, TypeVar
 from pydantic import Field
 
 from contact_scene.description import Description
-from verification.convergence.stored_field import StoredField
 
 Value = str | bool | int | float | None
 
@@ -57,9 +56,6 @@ class CaseRecord(Row):
 
     parts: tuple[Row, ...] = ()
     """What it saw on its way."""
-
-    fields: dict[str, StoredField] = Field(default_factory=dict)
-    """Fields that other cases are compared with."""
 
     seconds: float = 0.0
     """CPU time, of the worker's whole work where the case measures none; with `repeats`, all that

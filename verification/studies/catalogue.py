@@ -1,21 +1,20 @@
 """The studies that `slipstick maintain study` knows."""
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
-from fem_reference import Method
 from verification.running.study import Study
 from verification.studies.cross_check import STUDY as CROSS_CHECK
 from verification.studies.error_budget.study import STUDY as ERROR_BUDGET
 from verification.studies.error_coverage.study import STUDY as ERROR_COVERAGE
-from verification.studies.mutants.study import STUDY as MUTANTS
+from verification.studies.mutants import STUDY as MUTANTS
 from verification.studies.promises.study import STUDY as PROMISES
-from verification.studies.refinement.domain import domain_study
-from verification.studies.refinement.increments import increments_study
-from verification.studies.refinement.mesh import mesh_study
-from verification.studies.refinement.sampling import sampling_study
-from verification.studies.refinement.window import window_study
+from verification.studies.refinement.scene_level import CELLS, METHODS
+from verification.studies.refinement.study import (
+    SceneStudyOf,
+    domain_study,
+    increments_study,
+    mesh_study,
+)
 from verification.studies.scoreboard import STUDY as SCOREBOARD
 from verification.studies.seeded_defects.study import STUDY as SEEDED_DEFECTS
 from verification.studies.sliding.coated_tractions import STUDY as COATED_TRACTIONS
@@ -23,24 +22,18 @@ from verification.studies.sliding.gross_sliding import STUDY as GROSS_SLIDING
 from verification.studies.stability.study import STUDY as STABILITY
 from verification.studies.work_precision.study import STUDY as WORK_PRECISION
 
-SURFACE = None  # the semi-analytical method, among those of the finite elements
-SECTION = (Method.COMPLEMENTARITY, Method.PENALTY)
-
-# Path, overrides, number of a loading step, and the method.
-SceneStudyOf = Callable[[Path, Sequence[str], int | None, Method | None], Study]
-
 
 @dataclass(frozen=True)
 class SceneStudy:
-    """A study that any scene file can have.
+    """A study of any scene file.
 
     title    a line for lists
-    methods  by which it can be made; the first is taken if none is named
+    solvers  that can make it; the first one is the default
     """
 
     title: str
     of: SceneStudyOf
-    methods: tuple[Method | None, ...]
+    solvers: tuple[str, ...]
 
 
 STUDIES: dict[str, Study] = {
@@ -61,18 +54,13 @@ STUDIES: dict[str, Study] = {
 }
 SCENE_STUDIES: dict[str, SceneStudy] = {
     "mesh": SceneStudy(
-        "What finite cells or elements cost in SCENE", mesh_study, (SURFACE, *SECTION)
+        "Error of finite cells or elements in SCENE", mesh_study, (CELLS, *METHODS)
     ),
     "increments": SceneStudy(
-        "What finite increments cost in SCENE", increments_study, (SURFACE, *SECTION)
+        "Error of finite increments in SCENE", increments_study, (CELLS, *METHODS)
     ),
     "domain": SceneStudy(
-        "What the end of the finite elements' section costs in SCENE", domain_study, SECTION
+        "Error of the end of the section of the finite elements in SCENE", domain_study,
+        tuple(reversed(METHODS)),
     ),
-    "window": SceneStudy(
-        "Whether the window of the surface grid matters in SCENE", window_study, (SURFACE,)
-    ),
-    "sampling": SceneStudy(
-        "What sampling the frequency response would cost in SCENE", sampling_study, (SURFACE,)
-    ),
-}
+}  # fmt: skip

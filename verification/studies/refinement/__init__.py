@@ -1,1 +1,1 @@
-"""Refinement of any scene: orders of convergence, limits and what the levels leave open."""
+"""Convergence studies of a user's scene: limit, its uncertainty and the error that remains."""

@@ -1,1 +1,0 @@
-"""Random mutants of kernels, and whether the kernels' own tests notice."""

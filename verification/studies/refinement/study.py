@@ -1,0 +1,387 @@
+"""Studies of a scene's mesh, increments and section: what is refined, and the verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from contact_scene.increment_error import with_error
+from semi_analytical import discretise
+from verification.exhibits.chart import Chart
+from verification.exhibits.log_chart import drawable, log_chart, point_curves, slope_line
+from verification.exhibits.numbers import plain, value_text
+from verification.exhibits.table import Table, table_of
+from verification.judging.case import Level
+from verification.judging.outcome import Status
+from verification.running.row import CaseRecord, Row, found
+from verification.running.row_views import number
+from verification.running.rules import RESIDUAL
+from verification.running.study import Conclusion, Records, Settings, Statement, Study
+from verification.studies.refinement.estimate import FEWEST_LEVELS, Estimate, estimates
+from verification.studies.refinement.scene_level import (
+    CannotRefine,
+    SceneLevel,
+    StudiedScene,
+    section_size,
+)
+
+LEVELS = {Level.QUICK: 5, Level.STANDARD: 6, Level.FULL: 7}
+# Neighbouring grids are not multiples of each other: an edge cuts the cells of each differently.
+RATIO = 2**0.5
+FEWEST = {True: 8, False: 4}  # cells along a side; elements over the radius
+COARSER, FINER = 4, 4  # coarsest and finest increments over those of a run
+SMALLEST, SPAN = 5.0, 16.0  # smallest section in contact radii; the section of a run over it
+SECTION_ORDER = 2.0  # as in the error estimate of a run
+
+REMARKS = (
+    "Each level is solved as `slipstick run` solves it, edge correction included.",
+    "An uncertainty and a remaining error hold at 95 %. The limit of one kind of refinement still "
+    "has the error of the others.",
+    "An order is a finding: numbers are judged where the scene requests an accuracy.",
+)
+
+
+@dataclass(frozen=True)
+class Refinement:
+    """Something that is refined while all else stays.
+
+    axis    size of a level, in words
+    levels  coarse to fine
+    order   theoretical order of all numbers; None where each has its own
+    """
+
+    name: str
+    title: str
+    question: str
+    axis: str
+    levels: Callable[[Settings], Sequence[SceneLevel]]
+    order: float | None = None
+
+
+SceneStudyOf = Callable[[Path, Sequence[str], int | None, str], Study]
+
+
+def mesh_study(path: Path, overrides: Sequence[str], step: int | None, solver: str) -> Study:
+    """Refine the cells of the surface or the elements of the section.
+
+    Raises SceneError and CannotRefine.
+    """
+    scene = StudiedScene.of(path, overrides, step, solver)
+    what = "cells" if scene.on_cells else "elements"
+    increments = scene.increments()
+
+    def levels(settings: Settings) -> tuple[SceneLevel, ...]:
+        contents = scene.read()
+        if scene.on_cells:
+            finest = discretise(contents.scene, contents.semi_analytical).cells
+            if settings.cells is not None:
+                finest = (settings.cells, settings.cells)
+            return tuple(
+                SceneLevel(scene, (("cells", (nx, ny)),), increments, f"{nx} x {ny} cells")
+                for nx, ny in _counts(finest, settings, on_cells=True)
+            )
+        elements = settings.cells or contents.fem_reference.elements_per_radius
+        return tuple(
+            SceneLevel(
+                scene, (("elements_per_radius", n),), increments, f"{n} elements over the radius"
+            )
+            for (n,) in _counts((elements,), settings, on_cells=False)
+        )
+
+    return _study(
+        scene,
+        Refinement(
+            "mesh",
+            f"{what.capitalize()} of {scene.title}",
+            f"What error do finite {what} leave at the end of step {scene.step}? From level to "
+            f"level the {what} become smaller by √2.",
+            f"side of the {what} over that of the finest",
+            levels,
+        ),
+    )
+
+
+def _counts(
+    finest: tuple[int, ...], settings: Settings, *, on_cells: bool
+) -> list[tuple[int, ...]]:
+    """Cells or elements of all levels, coarse to fine.
+
+    Raises CannotRefine where the coarsest has too few.
+    """
+    least, even = FEWEST[on_cells], 2 if on_cells else 1
+    counts = [
+        tuple(even * round(count / RATIO**number / even) for count in finest)
+        for number in reversed(range(settings.levels or LEVELS[settings.level]))
+    ]
+    if settings.levels is None:
+        counts = [count for count in counts if min(count) >= least] or counts
+    if len(counts) < FEWEST_LEVELS or min(counts[0]) < least:
+        raise CannotRefine(
+            f"{max(FEWEST_LEVELS, len(counts))} levels up to {finest} would begin below {least}; "
+            "use more --cells or fewer levels"
+        )
+    return counts
+
+
+def increments_study(path: Path, overrides: Sequence[str], step: int | None, solver: str) -> Study:
+    """Refine the increments of the load steps that have an increment error.
+
+    Raises SceneError and CannotRefine.
+    """
+    scene = StudiedScene.of(path, overrides, step, solver)
+    own = scene.increments()
+    matters = with_error(scene.read().scene)
+
+    def levels(settings: Settings) -> tuple[SceneLevel, ...]:
+        if not any(matters):
+            return ()
+        most = max(count for count, matter in zip(own, matters, strict=True) if matter)
+        found = []
+        for doublings in range(settings.levels or LEVELS[settings.level]):
+            factor = 2**doublings / min(COARSER, most)
+            counts = tuple(
+                max(1, round(factor * count)) if matter else count
+                for count, matter in zip(own, matters, strict=True)
+            )
+            words = f"{round(factor * most)} in a step"
+            found.append(SceneLevel(scene, _cells(settings, scene), counts, words, 1 / factor))
+        return tuple(found)
+
+    return _study(
+        scene,
+        Refinement(
+            "increments",
+            f"Increments of {scene.title}",
+            f"What error do finite increments leave at the end of step {scene.step}? From level to "
+            "level each load step with an increment error has twice the increments.",
+            "increments of a run over those of the level",
+            levels,
+            1.0,
+        ),
+    )
+
+
+def _cells(settings: Settings, scene: StudiedScene) -> tuple[tuple[str, object], ...]:
+    if settings.cells is None:
+        return ()
+    if scene.on_cells:
+        return (("cells", (settings.cells, settings.cells)),)
+    return (("elements_per_radius", settings.cells),)
+
+
+def domain_study(path: Path, overrides: Sequence[str], step: int | None, solver: str) -> Study:
+    """Refine the size of the section of the finite elements, up to that of a run.
+
+    Raises SceneError, and CannotRefine for a section that is too small to refine.
+    """
+    scene = StudiedScene.of(path, overrides, step, solver)
+    increments = scene.increments()
+    own, radius = section_size(scene)
+    bodies = scene.read().scene.body, scene.read().scene.indenter
+    layers = max(sum(layer.thickness for layer in body.layers) for body in bodies)
+    smallest = max(own / SPAN, SMALLEST, 2 * layers / radius)
+    if own < 2 * smallest:
+        raise CannotRefine(
+            f"a section of {own:.3g} contact radii is less than twice the smallest, "
+            f"{smallest:.3g}; use a larger fem_reference.box"
+        )
+
+    def levels(settings: Settings) -> tuple[SceneLevel, ...]:
+        last = (settings.levels or LEVELS[settings.level]) - 1
+        boxes = [smallest * (own / smallest) ** (number / last) for number in range(last + 1)]
+        return tuple(
+            SceneLevel(
+                scene, (*_cells(settings, scene), ("box", box)), increments,
+                f"{box:.4g} contact radii", 1 / box,
+            )
+            for box in boxes
+        )  # fmt: skip
+
+    return _study(
+        scene,
+        Refinement(
+            "domain",
+            f"Section of {scene.title}",
+            "What error does the end of the section leave? Outside, the displacements of a point "
+            "load are prescribed. The section grows to that of a run, with equal elements in the "
+            "contact.",
+            "contact radius over size of the section",
+            levels,
+            SECTION_ORDER,
+        ),
+    )
+
+
+def _study(scene: StudiedScene, refined: Refinement) -> Study:
+    """Make the study of one refinement."""
+    contents = scene.read()
+    shares = {} if contents.accuracy is None else contents.accuracy.shares()
+
+    def conclude(settings: Settings, records: Records) -> Conclusion:
+        asked = refined.levels(settings)
+        if not asked:
+            return Conclusion(statements=(EXACT,))
+        every = list(found(asked, records).values())
+        solved = [level for level in every if "refused" not in level.words]
+        of = estimates(solved, refined.order)
+        too_few = () if len(solved) >= FEWEST_LEVELS else (_too_few(len(solved)),)
+        return Conclusion(
+            statements=(
+                *too_few,
+                *(_requested(one, shares[one.of]) for one in of if one.of in shares),
+                *map(_finding, of),
+                *_infinite(solved),
+            ),
+            tables=(_estimate_table(of), _level_table(every)),
+            charts=(_chart(refined, of),) if of else (),
+            rows=tuple(map(row_of, of)),
+            remarks=REMARKS,
+        )
+
+    def cases(settings: Settings) -> tuple[SceneLevel, ...]:
+        return tuple(refined.levels(settings))
+
+    return Study(refined.name, refined.title, refined.question, cases, conclude)
+
+
+EXACT = Statement(
+    claim="no load step has an increment error",
+    outcome=None,
+    measured="one increment per step is exact, and nothing was computed: 'slipstick plan' gives "
+    "the reasons",
+)
+
+
+def _too_few(count: int) -> Statement:
+    return Statement(
+        claim="enough levels",
+        outcome=Status.INCONCLUSIVE,
+        measured=f"{count} levels were solved, and a limit needs {FEWEST_LEVELS}",
+        because="the table of levels gives the reasons; use more --cells or a smaller window",
+    )
+
+
+def _infinite(solved: Iterable[CaseRecord]) -> list[Statement]:
+    names = {level.words["infinite"] for level in solved if "infinite" in level.words}
+    return [
+        Statement(
+            claim=f"limit of the {label(name)}",
+            outcome=None,
+            measured="it has none: the exact value is infinite",
+            because="the shape of the indenter has a rim or a tip; round it, or read another "
+            "number",
+        )
+        for name in names
+    ]
+
+
+def label(name: str) -> str:
+    """Name of a number in words."""
+    stem, _, axis = name.rpartition("_")
+    return f"{stem} along {axis}".replace("_", " ") if axis in "xy" else name.replace("_", " ")
+
+
+def _requested(one: Estimate, share: float) -> Statement:
+    """Judge a number against the request of the scene."""
+    reached = one.remaining / one.largest
+    outcome = Status.PASS if reached <= share else Status.FAIL
+    return Statement(
+        claim=f"requested accuracy of the {label(one.name)}",
+        outcome=outcome if one.resolved else Status.INCONCLUSIVE,
+        measured=f"error on the finest level {plain(reached, 2)}, requested {plain(share, 2)}",
+        because="relative to its largest value in the history"
+        + (f"; not asymptotic, because {one.open}" if one.open else ""),
+        about=row_of(one),
+    )
+
+
+def _finding(one: Estimate) -> Statement:
+    limit = value_text(one.limit, one.unit, 7)
+    open_ = f"; not asymptotic, because {one.open}" if one.open else ""
+    return Statement(
+        claim=f"limit of the {label(one.name)}",
+        outcome=None,
+        measured=f"{limit} ± {value_text(one.uncertainty, one.unit, 2)}; error on the finest level "
+        f"{plain(one.remaining / one.largest, 2)}",
+        because=f"observed order {one.order_text}, theoretical order {one.order:g}{open_}",
+        about=row_of(one),
+    )
+
+
+def row_of(one: Estimate) -> Row:
+    """Numbers of an estimate, in SI."""
+    return Row(
+        parameters={"quantity": one.name, "unit": one.unit or "1", "theoretical_order": one.order},
+        measures={
+            "finest": one.values[-1],
+            "limit": one.limit,
+            "uncertainty": one.uncertainty,
+            "remaining": one.remaining / one.largest,
+            "order": None if one.observed is None else one.observed.order,
+            "half_width": None if one.observed is None else one.observed.half_width,
+        },
+        units=dict.fromkeys(("finest", "limit", "uncertainty"), "its unit"),
+        words={"open": one.open} if one.open else {},
+    )
+
+
+def _estimate_table(of: Sequence[Estimate]) -> Table:
+    return table_of(
+        "Limits and errors",
+        {
+            "quantity": lambda one: label(one.name),
+            "finest": lambda one: value_text(one.values[-1], one.unit, 7),
+            "limit": lambda one: value_text(one.limit, one.unit, 7),
+            "uncertainty": lambda one: value_text(one.uncertainty, one.unit, 2),
+            "error on the finest": lambda one: plain(one.remaining / one.largest, 2),
+            "observed order": lambda one: one.order_text,
+            "theoretical order": lambda one: f"{one.order:g}",
+            "asymptotic": lambda one: "no" if one.open else "yes",
+        },
+        of,
+        "Errors are relative to the largest value in the history.",
+    )
+
+
+def _level_table(levels: Sequence[CaseRecord]) -> Table:
+    """One row per level; a refused level has its reason."""
+    solved = [level for level in levels if "refused" not in level.words]
+    names = [name for name in (solved[-1].measures if solved else ()) if name != RESIDUAL]
+    counters: Mapping[str, int] = solved[-1].counters if solved else {}
+    return table_of(
+        "Levels",
+        {
+            "level": lambda row: str(row.parameters["level"]),
+            **{label(name): _value(name) for name in names},
+            **{name: number(name) for name in counters},
+            "largest residual": lambda row: row.words.get("refused") or number(RESIDUAL)(row),
+        },
+        levels,
+    )
+
+
+def _value(name: str) -> Callable[[CaseRecord], str]:
+    def text(row: CaseRecord) -> str:
+        return value_text(row.measures[name], row.units[name]) if name in row.units else "–"
+
+    return text
+
+
+def _chart(refined: Refinement, of: Sequence[Estimate]) -> Chart:
+    finest = of[0].sizes[-1] if refined.order is None else 1.0
+    lines = [(label(one.name), drawable((h / finest, e) for h, e in one.points)) for one in of]
+    slopes = [
+        line
+        for order in sorted({one.order for one in of})
+        for line in slope_line(max((points for _, points in lines), key=len), order)
+    ]
+    return log_chart(
+        f"{refined.name}_errors",
+        "Errors under refinement",
+        "Distance from the limit, relative to the largest value in the history. Lines: theoretical "
+        "orders.",
+        refined.axis,
+        "relative error",
+        [*point_curves(lines), *slopes],
+    )  # fmt: skip
