@@ -38,11 +38,13 @@ from contact_errors.price import price
 from contact_errors.refinement import SPARE, Refinement, RefinementLevel
 from contact_errors.refinement_on_cells import CellFineness, CellLevels, even_smooth
 from contact_errors.refinement_on_elements import ElementLevels
-from contact_errors.stress_errors import largest_tensile_stress
+from contact_errors.stress_errors import largest_tensile_stress, stress_errors
 from contact_results import result_files
 from contact_results.directory import checkpoint
 from contact_results.directory.checkpoint_file import Unusable, pack, unpacked
 from contact_results.stress import on_cells as stress_on_cells
+from contact_results.stress.extremes import extremes
+from contact_results.stress.loaded_bodies import state_of_result
 from contact_scene import (
     Body,
     Cone,
@@ -55,11 +57,12 @@ from contact_scene import (
     SurfaceDiscretisation,
 )
 from contact_scene.scene_file import read_accuracy, read_scene_file
-from contact_scene.solver_errors import AccuracyOutOfReach
+from contact_scene.solver_errors import AccuracyOutOfReach, ResourceRefused
 from contact_scene.stated_error import ErrorStatus, StatedError, StatedErrors
 from contact_scene.summary import load_summary
 from fem_reference import Method
 from semi_analytical import solve
+from semi_analytical.stress import field as stress_field
 from slipstick import solve as solve_file
 from slipstick.cli.plan import requests_of
 from slipstick.solvers.names import SolverName
@@ -281,6 +284,30 @@ def test_levels_with_a_largest_stress_take_the_memory_that_is_estimated() -> Non
         for at in (1, None)
     )
     assert with_stress > 4 * without
+
+
+def test_stress_is_refused_before_it_takes_more_memory_than_there_is(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Fields, their extremes and errors together."""
+    pressed = scene(PRESS, friction=None)
+    result = solve(
+        pressed, semi_analytical.discretise(pressed, SurfaceDiscretisation(cells=(64, 64))), 1e-6
+    )
+    state = state_of_result(result, 1, None)
+    required: list[int] = []
+    monkeypatch.setattr(stress_field, "FIXED", 0)
+    monkeypatch.setattr(stress_field, "available_bytes", lambda: max(required, default=1 << 40))
+    tracemalloc.start()
+    field = stress_on_cells.stress_on_cells(state)
+    stress_errors(state, field, extremes(field, state.body))
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    required.append(int(0.95 * peak))
+    with pytest.raises(ResourceRefused, match="take fewer cells or depths"):
+        stress_on_cells.stress_on_cells(state)
+    required.append(int(1.15 * peak))
+    assert stress_on_cells.stress_on_cells(state).points.stress.shape == field.points.stress.shape
 
 
 def test_the_largest_tension_is_as_accurate_as_was_asked() -> None:

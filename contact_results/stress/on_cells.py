@@ -60,13 +60,14 @@ def stress_on_cells(
     section_only  whether the stress near the edge is needed in the section alone
     Raises ValueError for a depth that is not in the body, ResourceRefused.
     """
-    from semi_analytical.stress import subsurface
+    from semi_analytical.stress import refuse_beyond_memory, subsurface
 
     body = state.indenter if indenter else state.body
     grid, pressure, shear = _with_margin(state)
     counted = float(np.sqrt(np.count_nonzero(pressure) * grid.cell_area / np.pi))
     radius = counted if state.contact_radius is None else state.contact_radius
     levels = _levels(body, depths, radius)
+    refuse_beyond_memory(grid.cells, len(levels), NUMBERS)
     if indenter and shear is not None:
         shear = -shear
     field = subsurface(body, grid, *_as_seen_from_afar(state, pressure, shear), levels)

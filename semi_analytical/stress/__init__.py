@@ -1,7 +1,12 @@
 """Displacement and stress below the surface."""
 
 from semi_analytical.frf.depth import Level
-from semi_analytical.stress.field import SubsurfaceField, subsurface, subsurface_section
+from semi_analytical.stress.field import (
+    SubsurfaceField,
+    refuse_beyond_memory,
+    subsurface,
+    subsurface_section,
+)
 from semi_analytical.stress.levels import default_depths, interfaces
 from semi_analytical.stress.near_edge import EdgeNotSeen, NearEdge, near_edge, near_surface
 
@@ -14,6 +19,7 @@ __all__ = [
     "interfaces",
     "near_edge",
     "near_surface",
+    "refuse_beyond_memory",
     "subsurface",
     "subsurface_section",
 ]

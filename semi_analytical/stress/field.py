@@ -176,14 +176,19 @@ def _tractions(grid: SurfaceGrid, pressure: Field, shear: Field | None) -> Field
     return tractions
 
 
-def required_bytes(cells: tuple[int, int], levels: int) -> int:
-    """Peak memory of fields on whole planes [byte]."""
-    return DOUBLE * cells[0] * cells[1] * (WORK + len(FIELDS) * levels) + FIXED
+def required_bytes(cells: tuple[int, int], levels: int, numbers: int = 0) -> int:
+    """Peak memory of fields on whole planes [byte].
+
+    numbers  largest count of numbers per point that follow from the fields, these included
+    """
+    arrays = max(WORK + len(FIELDS) * levels, numbers * levels)
+    return DOUBLE * cells[0] * cells[1] * arrays + FIXED
 
 
-def refuse_beyond_memory(cells: tuple[int, int], levels: int) -> None:
-    """Raise ResourceRefused if fields at so many levels do not fit into the free memory."""
-    required, available = required_bytes(cells, levels), available_bytes()
+def refuse_beyond_memory(cells: tuple[int, int], levels: int, numbers: int = 0) -> None:
+    """Raise ResourceRefused if fields at so many levels, and the numbers that follow from them, do
+    not fit into the free memory."""
+    required, available = required_bytes(cells, levels, numbers), available_bytes()
     if required > available:
         raise ResourceRefused(
             f"fields at {levels} depths on {cells[0]} x {cells[1]} cells need "
