@@ -9,24 +9,30 @@ from semi_analytical.plan import Coupling, Plan
 DOUBLE = 8
 # Arrays of the size of the window held at once: coefficients, spectra, work space, solver vectors,
 # results of an increment. Of two numbers the second has the size of the reduced domain. Measured of
-# complete runs on fitted windows, of which the contact takes nine tenths along each side. A history
-# of bodies that couple takes as much on any domain.
+# complete runs on fitted windows, of which the contact takes nine tenths along each side.
 PRESSURE_ARRAYS = 12, 20
-HISTORY_ARRAYS, COUPLED_HISTORY_ARRAYS = 4, 60
+HISTORY_ARRAYS = 4
 SHEAR_ARRAYS = 28, 54
 # Arms and unit motions, and what they are multiplied with.
 TILT_ARRAYS = 10
 TORSION_ARRAYS = 6
-# Spectra of the coupling, and the Krylov vectors of a Newton step with their displacements.
-COUPLING_ARRAYS = {Coupling.NONE: 0, Coupling.ONE_WAY: 8, Coupling.FULL: 8}
+# Spectra of the coupling in one direction.
+ONE_WAY_ARRAYS = 8
+# Of coupled bodies, by the number of mirror images: arrays at most during an increment, and between
+# increments; of the first increment, and of later ones. Counted by tracemalloc on 256 x 256 cells.
+COUPLED_ARRAYS = {
+    1: ((175, 44), (195, 72)),
+    2: ((112, 50), (145, 85)),
+    4: ((67, 37), (85, 54)),
+}
 # Spectra of what tractions do within the cells, and that along the edge, in about as many cells as
 # a side has; more of it where loads turn, whose edges stay inside the cells. Those of shear are of
-# the window, in work space that shear has, too. So are all of bodies that couple, beside the arrays
-# of their reduced domain.
+# the window, in work space that shear has, too. So are all of bodies that couple, counted as above;
+# some of them remain for later increments.
 EDGE_ARRAYS = 25
 EDGE_RIM = 74_000  # bytes per cell of a side, in the mean
 EDGE_SHEAR, EDGE_SHEAR_ARRAYS = 23 << 20, 100
-EDGE_COUPLED, EDGE_COUPLED_ARRAYS, EDGE_BESIDE_PART = 60 << 20, 55, 70
+EDGE_COUPLED, EDGE_COUPLED_ARRAYS, EDGE_COUPLED_RIM, EDGE_KEPT = 38 << 20, 101, 34_000, 30
 EDGE_SHEAR_RIM = 49_000
 EDGE_TURNED_RIM = 150_000
 # Arrays that every increment leaves behind: pressure and gap; shear, slip, its distance and
@@ -49,7 +55,10 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
     increments = sum(plan.increments)
     kept = PRESSURE_RESULT + (SHEAR_RESULT if plan.shear else 0)
     held = min(array * kept * increments, MOST_HELD) + LIGHT * increments
-    solving = array * _arrays(grid, plan) + _edges(grid, plan)
+    if plan.coupling is Coupling.FULL:
+        solving = _coupled(grid, plan)
+    else:
+        solving = array * _arrays(grid, plan) + _edges(grid, plan)
     return int(LIBRARIES + held + max(solving, _drawing(array, plan)))
 
 
@@ -63,12 +72,23 @@ def _arrays(grid: SurfaceGrid, plan: Plan) -> float:
     share = _share(grid, plan)
     arrays = PRESSURE_ARRAYS[0] + PRESSURE_ARRAYS[1] * share
     if plan.shear:
-        arrays += SHEAR_ARRAYS[0] + (SHEAR_ARRAYS[1] + COUPLING_ARRAYS[plan.coupling]) * share
+        arrays += SHEAR_ARRAYS[0] + SHEAR_ARRAYS[1] * share
+        arrays += ONE_WAY_ARRAYS * share * (plan.coupling is Coupling.ONE_WAY)
     arrays += TILT_ARRAYS * plan.tilt + TORSION_ARRAYS * plan.torsion
-    if sum(plan.increments) > 1:
-        arrays += HISTORY_ARRAYS
-        arrays += COUPLED_HISTORY_ARRAYS if plan.coupling is Coupling.FULL else 0
-    return arrays
+    return arrays + HISTORY_ARRAYS * (sum(plan.increments) > 1)
+
+
+def _coupled(grid: SurfaceGrid, plan: Plan) -> float:
+    """Bytes of coupled bodies, of the solve or of the edge correction after it."""
+    array, side = grid.cells[0] * grid.cells[1] * DOUBLE, sum(grid.cells) / 2
+    by_increment = COUPLED_ARRAYS[plan.symmetry.images if grid.even else 1]
+    during, between = by_increment[sum(plan.increments) > 1]
+    more = TILT_ARRAYS * plan.tilt + TORSION_ARRAYS * plan.torsion
+    if plan.edge == "off":
+        return array * (during + more)
+    during += EDGE_KEPT * (len(plan.path) > 1 or plan.edge == "all")
+    most = max(during, between + EDGE_COUPLED_ARRAYS)
+    return array * (most + more) + EDGE_COUPLED + EDGE_COUPLED_RIM * side
 
 
 def _edges(grid: SurfaceGrid, plan: Plan) -> float:
@@ -80,9 +100,6 @@ def _edges(grid: SurfaceGrid, plan: Plan) -> float:
     alone = EDGE_ARRAYS * array + EDGE_RIM * side
     if not plan.shear:
         return alone * share
-    if plan.couples:
-        coupled = EDGE_COUPLED_ARRAYS + EDGE_BESIDE_PART * (share < 1)
-        return alone + EDGE_COUPLED + coupled * array + EDGE_SHEAR_RIM * side
     # Where the way to the end of a step matters, that end alone does not tell the edge of stick.
     steps = sum(plan.edge == "all" or not s.path_matters or s.count == 1 for s in plan.path[1:])
     if not steps:

@@ -40,6 +40,7 @@ TURNED_ROUND = "".join(
     f"[[loading]]\ntangential_force = [{force}, 0]\nincrements = 2\n"
     for force in (60, -60, 60, -60)
 )
+PRESSED_ON = "[[loading]]\nnormal_force = 2000\nincrements = 10"
 UNLOADED = "[[loading]]\nnormal_force = 500\nincrements = 20"
 TILTED = "[[loading]]\nmoment = [0.02, 0]\nincrements = 2"
 
@@ -63,6 +64,7 @@ SCENES = {
     "libraries": scene(32),
     "pressed": scene(512),
     "edge not seen in the stress": scene(94, layer=LAYER),
+    "coupled and pushed": scene(224, nu=0.0, then=PUSHED),
 }
 DEAR = {
     "figures of five steps": scene(32, then=TURNED_ROUND),
@@ -82,7 +84,9 @@ DEAR = {
     "tilted and sheared": scene(256, then=f"{PUSHED}\nmoment = [0.02, 0]"),
     "coupled": scene(512, nu=0.0),
     "coupled, cells on the mirror planes": scene(511, nu=0.0, edge="off"),
-    "coupled and pushed": scene(512, nu=0.0, then=PUSHED),
+    "coupled and pushed, fine": scene(512, nu=0.0, then=PUSHED),
+    "coupled, pressed in increments": scene(256, nu=0.0, then=PRESSED_ON),
+    "coupled, coated and pushed": scene(384, nu=0.0, layer=LAYER, then=PUSHED),
     "coupled and pushed, cells alone": scene(512, nu=0.0, then=PUSHED, edge="off"),
     "coupled and pushed obliquely": scene(512, nu=0.0, then=OBLIQUE),
     "coupled, edges": scene(256, nu=0.0, edge="all"),
