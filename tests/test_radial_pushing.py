@@ -64,6 +64,23 @@ def push(share: float, increments: int = 4, angle: float = 0.0) -> LoadStep:
     return LoadStep(tangential_force=force, increments=increments)
 
 
+@pytest.mark.parametrize(
+    "steps",
+    [
+        (PRESS, push(0.6)),
+        (PRESS, push(0.6), push(0.5, angle=0.6)),
+        (PRESS, LoadStep(tangential_shift=(1e-5, 0.0), increments=4)),
+    ],
+    ids=["pushed", "turned", "sliding"],
+)
+def test_reported_shear_of_coupled_bodies_is_within_its_limit(steps: tuple[LoadStep, ...]) -> None:
+    for one in radial.solve(scene(*steps)).increments:
+        assert np.all(one.pressure >= 0)
+        around = 0.0 if one.shear_circumferential is None else one.shear_circumferential
+        excess = np.hypot(one.shear_radial, around) - FRICTION * one.pressure
+        assert np.max(excess) <= 1e-14 * one.peak_pressure
+
+
 @cache
 def loop() -> radial.Result:
     """Of bodies that do not couple: pressed, and pushed to and fro."""

@@ -2,8 +2,8 @@
 
 Within a disc r = a sin φ integrals are those of a spline in φ, since tractions fall to zero or rise
 like a root at the edge. Tractions at points on rings are hats (piecewise linear in r); their
-integrals are exact. Angles of points have equal weights. The fields between the points' angles are
-interpolated by the solver, and obey the laws of friction only approximately.
+integrals are exact. Angles of points have equal weights. The solver interpolates between the
+points' angles: there the shear is within its limit, but opposite to slip only approximately.
 
 Without friction while it is pressed, a contact has the normal displacement δ - f and the
 tangential displacement of slip and rigid motion. Otherwise particles move past each other before
@@ -196,7 +196,7 @@ def _violations(before: _Surface | None, now: _Surface) -> Iterator[float]:
         return
     # The arm of an empty limit is no scale: without friction any shear is too much.
     most = now.over(now.limit) or told.normal_force
-    yield now.over(np.maximum(np.hypot(*now.q) - now.limit, 0.0)) / most
+    yield float(np.max(np.hypot(*now.q) - now.limit)) / (np.max(now.limit) or np.max(p))
     due = np.array([*(told.tangential_force or (0.0, 0.0)), told.torque or 0.0])
     missing = np.abs(now.carried - due) / most
     yield from missing[:2]
