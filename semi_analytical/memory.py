@@ -18,12 +18,13 @@ TILT_ARRAYS = 10
 TORSION_ARRAYS = 6
 # Spectra of the coupling in one direction.
 ONE_WAY_ARRAYS = 8
-# Of coupled bodies, by the number of mirror images: arrays at most during an increment, and between
-# increments; of the first increment, and of later ones. Counted by tracemalloc on 256 x 256 cells.
+# Of coupled bodies, by the number of mirror images: arrays at most during an increment, as far as
+# they are written to, and between increments, counted by tracemalloc on 256 x 256 cells; of the
+# first increment, and of later ones.
 COUPLED_ARRAYS = {
-    1: ((175, 44), (195, 72)),
-    2: ((112, 50), (145, 85)),
-    4: ((67, 37), (85, 54)),
+    1: ((122, 44), (182, 72)),
+    2: ((81, 50), (141, 85)),
+    4: ((60, 37), (120, 54)),
 }
 # Spectra of what tractions do within the cells, and that along the edge, in about as many cells as
 # a side has; more of it where loads turn, whose edges stay inside the cells. Those of shear are of
@@ -32,7 +33,7 @@ COUPLED_ARRAYS = {
 EDGE_ARRAYS = 25
 EDGE_RIM = 74_000  # bytes per cell of a side, in the mean
 EDGE_SHEAR, EDGE_SHEAR_ARRAYS = 23 << 20, 100
-EDGE_COUPLED, EDGE_COUPLED_ARRAYS, EDGE_COUPLED_RIM, EDGE_KEPT = 38 << 20, 101, 34_000, 30
+EDGE_COUPLED, EDGE_COUPLED_ARRAYS, EDGE_COUPLED_RIM, EDGE_KEPT = 24 << 20, 101, 34_000, 30
 EDGE_SHEAR_RIM = 49_000
 EDGE_TURNED_RIM = 150_000
 # Arrays that every increment leaves behind: pressure and gap; shear, slip, its distance and
