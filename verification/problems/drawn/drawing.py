@@ -1,76 +1,69 @@
-"""What families of scenes are drawn from: materials, sizes, histories and grids."""
+"""Distributions of the drawn scenes: materials, bodies, shapes, histories and grids."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any, Protocol
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter
 
 from contact_scene import (
+    RIGID,
     Body,
+    Cone,
+    Ellipsoid,
     FiniteElementDiscretisation,
+    FlatPunch,
+    HeightMap,
     IsotropicMaterial,
     Layer,
-    LoadStep,
     Paraboloid,
+    Sphere,
     SurfaceDiscretisation,
 )
-from verification.problems.drawn.known_scene import (
-    APPROACH,
-    CELLS,
-    ELEMENTS,
-    MOMENT,
-    NORMAL,
-    TILT,
-    Fineness,
-)
+from contact_scene.geometry import ShapedBody
+from verification.problems.drawn.known_scene import CELLS, ELEMENTS, Fineness
 
 Rng = np.random.Generator
-Array = NDArray[np.float64]
+Bodies = tuple[Body, Body]
+Lower = Callable[[Rng, float], Body]
+Pair = Callable[[Rng, float], Bodies]
 
 FEWEST, MOST = 16, 128  # cells along a side
-PER_RADIUS = (4.0, 60.0)  # cells over a contact radius
+COARSEST = 4.0  # cells over a contact radius
 WIDTHS = (2.3, 3.4)  # window over the contact radius
 ELEMENTS_PER_RADIUS = (8, 32)
 STRAINS = (3e-3, 3e-2)  # contact radius over radius of curvature
-BY_MOTION = 0.3  # of the scenes are led by motions, not by forces
-ROOM = 1.5  # cells between a contact beside the centre and the edge of the window
+MAP_POINTS, MAP_WIDTH = 24, 4.0  # of a height map: along a side; over the contact radius
 
 
 def logarithmic(rng: Rng, low: float, high: float) -> float:
-    """A number whose logarithm is spread evenly."""
+    """Draw a number with a uniform logarithm."""
     return float(np.exp(rng.uniform(np.log(low), np.log(high))))
 
 
+# ---- bodies: the lower one and that of the indenter; a is the contact radius [length] ----------
+
+
 def material(rng: Rng, poisson_ratio: float | None = None) -> IsotropicMaterial:
-    """E from 5 to 400 GPa, ν from 0 to 0.49 unless given."""
+    """Draw E from 5 to 400 GPa, and ν from 0 to 0.49 unless given."""
     nu = float(rng.uniform(0.0, 0.49)) if poisson_ratio is None else poisson_ratio
     return IsotropicMaterial(young_modulus=logarithmic(rng, 5e9, 4e11), poisson_ratio=nu)
 
 
-def sizes(rng: Rng) -> tuple[float, float]:
-    """Radius of curvature and contact radius [length]."""
-    radius = logarithmic(rng, 1e-3, 0.1)
-    return radius, radius * logarithmic(rng, *STRAINS)
-
-
-def friction(rng: Rng) -> float:
-    """µ."""
-    return logarithmic(rng, 0.05, 0.8)
-
-
-def coated_body(rng: Rng, contact_radius: float, most_layers: int = 1) -> Body:
-    """h/a from 0.2 to 3 of every layer, E over that of the base from 1/10 to 10, of several layers
-    from 1/3 to 3: neighbours differ by no more than 10."""
+def layered(
+    rng: Rng, a: float, contrast: float, thickness: tuple[float, float], most_layers: int = 1
+) -> Body:
+    """Draw layers within h/a, and within a ratio of Young's moduli to that of the base."""
     base, count = material(rng), int(rng.integers(1, most_layers + 1))
-    most = 10.0 ** (1 / count)
     layers = tuple(
         Layer(
-            thickness=contact_radius * logarithmic(rng, 0.2, 3.0),
+            thickness=a * logarithmic(rng, *thickness),
             material=IsotropicMaterial(
-                young_modulus=base.young_modulus * logarithmic(rng, 1 / most, most),
+                young_modulus=base.young_modulus
+                * logarithmic(rng, contrast ** (-1 / count), contrast ** (1 / count)),
                 poisson_ratio=float(rng.uniform(0.0, 0.49)),
             ),
         )
@@ -79,79 +72,140 @@ def coated_body(rng: Rng, contact_radius: float, most_layers: int = 1) -> Body:
     return Body(material=base, layers=layers)
 
 
-def ball_like(body: Body, radius: float) -> Paraboloid:
-    """A paraboloid of the same materials: nothing couples."""
-    return Paraboloid(radius=radius, material=body.material, layers=body.layers)
+def coated(rng: Rng, a: float) -> Body:
+    """Draw one or two layers of 1/10 to 10 times the base modulus."""
+    return layered(rng, a, 10.0, (0.2, 3.0), 2)
 
 
-def fineness(
-    rng: Rng, reach: tuple[float, float], sections: bool, finest: float = PER_RADIUS[1]
-) -> Fineness:
-    """A grid around a contact, odd or even along each side, or elements over a contact radius that
-    is left to the solver to find.
+def film(rng: Rng, a: float) -> Body:
+    """Draw a film of 1/100 to 100 times the base modulus."""
+    return layered(rng, a, 100.0, (0.03, 3.0))
 
-    reach   semi-axes of the contact [length]
-    finest  cells per contact radius, at most
+
+def bare(rng: Rng, a: float) -> Body:
+    """Draw an uncoated body."""
+    return Body(material=material(rng))
+
+
+def without_poisson(rng: Rng, a: float) -> Body:
+    """Draw an uncoated body with ν = 0."""
+    return Body(material=material(rng, 0.0))
+
+
+def below_rigid(lower: Lower) -> Pair:
+    """Pair a body with a rigid indenter."""
+    return lambda rng, a: (lower(rng, a), Body(material=RIGID))
+
+
+def alike(lower: Lower) -> Pair:
+    """Pair a body with an indenter of its own materials, so that nothing couples."""
+    return lambda rng, a: (lower(rng, a),) * 2
+
+
+def unlike(lower: Lower) -> Pair:
+    """Pair a body with an uncoated indenter."""
+    return lambda rng, a: (lower(rng, a), bare(rng, a))
+
+
+# ---- shapes: r is the radius of curvature [length] ----------------------------------------------
+
+
+class Profile(ShapedBody):
+    """Shape of revolution.
+
+    Its gap is max(|r - ring| - flat, 0)^power / (power scale^(power-1)).
     """
-    if sections:
-        count = round(logarithmic(rng, *ELEMENTS_PER_RADIUS))
-        asked = FiniteElementDiscretisation(elements_per_radius=count)
-        return Fineness(ELEMENTS, asked, float(count))
-    width = float(rng.uniform(*WIDTHS))
-    nx = round(logarithmic(rng, PER_RADIUS[0], finest) * width)
-    nx = int(np.clip(nx, FEWEST, MOST - 1))
-    window = (width * reach[0], width * float(rng.uniform(0.97, 1.1)) * reach[1])
-    grid = SurfaceDiscretisation(cells=(nx, nx + int(rng.integers(0, 2))), window=window)
-    return Fineness(CELLS, grid, nx / width)
 
-
-class Pressed(Protocol):
-    """A contact of revolution that was pressed."""
+    power: float = 2.0
+    scale: float
+    flat: float = 0.0
+    ring: float = 0.0
 
     @property
-    def load(self) -> float: ...
+    def is_of_revolution(self) -> bool:
+        """Always true."""
+        return True
+
     @property
-    def approach(self) -> float: ...
-    @property
-    def contact_radius(self) -> float: ...
+    def gap_exponent(self) -> float | None:
+        """The power at a point of first touch."""
+        return None if self.flat or self.ring else self.power
+
+    def initial_gap(self, x: Any, y: Any) -> NDArray[np.float64]:
+        """Return the gap, a function of the radius."""
+        r = np.maximum(np.abs(np.hypot(x, y) - self.ring) - self.flat, 0.0)
+        return np.asarray(r**self.power / (self.power * self.scale ** (self.power - 1)))
 
 
-def pressing(
-    rng: Rng, contact: Pressed, radius: float, fine: Fineness
-) -> tuple[LoadStep, dict[str, float]]:
-    """A paraboloid pressed on by force or by approach, on a grid beside the centre of its contact
-    by tilt or by moment, and those of the four that follow.
+def ball(rng: Rng, r: float, a: float) -> ShapedBody:
+    """Return a paraboloid."""
+    return Paraboloid(radius=r, material=RIGID)
 
-    x²/2R - φx = (x - Rφ)²/2R - Rφ²/2: a tilted paraboloid is a shifted one.
+
+def sphere(rng: Rng, r: float, a: float) -> ShapedBody:
+    """Return a sphere."""
+    return Sphere(radius=r, material=RIGID)
+
+
+def cone(rng: Rng, r: float, a: float) -> ShapedBody:
+    """Return a cone with the height of the ball at r = a."""
+    return Cone(slope_angle=a / (2 * r), material=RIGID)
+
+
+def punch(rng: Rng, r: float, a: float) -> ShapedBody:
+    """Return a flat punch."""
+    return FlatPunch(radius=a, material=RIGID)
+
+
+def ellipsoid(rng: Rng, r: float, a: float) -> ShapedBody:
+    """Draw radii of curvature with a ratio of 0.3 to 3."""
+    return Ellipsoid(radii=(r, r * logarithmic(rng, 0.3, 3.0)), material=RIGID)
+
+
+def power_law(rng: Rng, r: float, a: float) -> ShapedBody:
+    """Draw r^k with k from 1.5 to 8: above 2 the pressure has a ridge near the edge."""
+    k = logarithmic(rng, 1.5, 8.0)
+    return Profile(power=k, scale=a * (r / a) ** (1 / (k - 1)), material=RIGID)
+
+
+def rounded_flat(rng: Rng, r: float, a: float) -> ShapedBody:
+    """Draw the radius of the flat."""
+    return Profile(scale=r, flat=a * float(rng.uniform(0.2, 0.8)), material=RIGID)
+
+
+def ring(rng: Rng, r: float, a: float) -> ShapedBody:
+    """Draw the radius of a ring-shaped indenter."""
+    return Profile(scale=r, ring=a * float(rng.uniform(0.3, 0.7)), material=RIGID)
+
+
+def smooth_map(rng: Rng, r: float, a: float) -> ShapedBody:
+    """Draw a paraboloid with waves of two thirds of the contact radius and longer."""
+    return _height_map(rng, r, a, waves=float(rng.uniform(2.0, 4.0)), rough=0.1)
+
+
+def rough_map(rng: Rng, r: float, a: float) -> ShapedBody:
+    """Draw a paraboloid with short waves, so that the contact has several patches."""
+    return _height_map(rng, r, a, waves=float(rng.uniform(1.0, 1.5)), rough=0.4)
+
+
+def _height_map(rng: Rng, r: float, a: float, waves: float, rough: float) -> ShapedBody:
+    """Draw heights: waves [points] and their root mean square over the height at r = a."""
+    side = MAP_WIDTH * a / MAP_POINTS
+    x = (np.arange(MAP_POINTS) - (MAP_POINTS - 1) / 2) * side
+    field = gaussian_filter(rng.standard_normal((MAP_POINTS, MAP_POINTS)), waves, mode="wrap")
+    parabola = (x[:, None] ** 2 + x**2) / (2 * r)
+    heights = parabola + rough * a**2 / (2 * r) * field / np.std(field)
+    return HeightMap(file=heights, spacing=side, material=RIGID)  # type: ignore[arg-type]
+
+
+# ---- histories and grids ------------------------------------------------------------------------
+
+
+def pushes(rng: Rng) -> tuple[float, ...]:
+    """Draw tangential forces or torques over the limit at the ends of steps.
+
+    A push with a stop, a push and a way back, or one of two loops.
     """
-    given = (NORMAL, APPROACH)[by_motion(rng)], (TILT, MOMENT)[int(rng.integers(2))]
-    values: dict[str, Any] = {NORMAL: contact.load, APPROACH: contact.approach}
-    grid = fine.asked
-    if isinstance(grid, SurfaceDiscretisation):
-        assert grid.window is not None
-        assert grid.cells is not None
-        side = np.divide(grid.window, grid.cells)
-        room = np.array(grid.window) / 2 - contact.contact_radius - ROOM * side
-        x, y = rng.uniform(-1, 1, 2) * np.maximum(room, side / 2)
-        values[APPROACH] -= (x**2 + y**2) / (2 * radius)
-        values |= {TILT: (y / radius, x / radius), MOMENT: (contact.load * y, contact.load * x)}
-    step = LoadStep(**{name: value for name, value in values.items() if name in given})
-    return step, {n: float(np.ravel(v)[0]) for n, v in values.items() if n not in given}
-
-
-def by_motion(rng: Rng) -> bool:
-    """Whether motions are prescribed, not forces."""
-    return bool(rng.random() < BY_MOTION)
-
-
-def closes(forces: Sequence[float]) -> bool:
-    """Tell whether the last of the forces or torques of `parts` closes a cycle."""
-    return len(forces) > 1 and forces[-1] == forces[0]
-
-
-def parts(rng: Rng) -> tuple[float, ...]:
-    """Tangential forces or torques over the sliding one, at the ends of steps: a push with a stop,
-    a push and a way back, or a loop with a stop."""
     most = float(rng.uniform(0.3, 0.95))
     between = most * float(rng.uniform(-0.9, 0.9))
     histories = (
@@ -161,3 +215,31 @@ def parts(rng: Rng) -> tuple[float, ...]:
         (most, -most, most),
     )
     return histories[int(rng.integers(len(histories)))]
+
+
+def near_gross_slip(rng: Rng) -> tuple[float, ...]:
+    """Draw one push to nearly the friction limit."""
+    return (1 - logarithmic(rng, 1e-4, 1e-2),)
+
+
+def closes(forces: Sequence[float]) -> bool:
+    """Determine if the last of the forces closes a cycle."""
+    return len(forces) > 1 and forces[-1] == forces[0]
+
+
+def fineness(rng: Rng, reach: tuple[float, float], solver: str, finest: float) -> Fineness:
+    """Draw a grid around a contact, odd or even along each side, or elements over its radius.
+
+    reach   semi-axes of the contact [length]
+    finest  cells per contact radius, at most
+    """
+    if solver == ELEMENTS:
+        count = round(logarithmic(rng, *ELEMENTS_PER_RADIUS))
+        return Fineness(
+            ELEMENTS, FiniteElementDiscretisation(elements_per_radius=count), float(count)
+        )
+    width = float(rng.uniform(*WIDTHS))
+    nx = int(np.clip(round(logarithmic(rng, COARSEST, finest) * width), FEWEST, MOST - 1))
+    window = (width * reach[0], width * float(rng.uniform(0.97, 1.1)) * reach[1])
+    grid = SurfaceDiscretisation(cells=(nx, nx + int(rng.integers(0, 2))), window=window)
+    return Fineness(CELLS, grid, nx / width)

@@ -1,59 +1,180 @@
-"""The families of scenes that are drawn, and how many of each are judged."""
+"""Families of drawn scenes: their bodies, shapes and histories, and the rule for their answers."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import partial
+from math import pi
+from typing import TypeVar
 from zlib import crc32
 
 import numpy as np
 
-from verification.problems.drawn import coated, coated_indented, homogeneous, refined
-from verification.problems.drawn.drawing import Rng
-from verification.problems.drawn.known_scene import KnownScene
+from contact_scene import RIGID, CoulombFriction, Ellipsoid, LoadStep, Paraboloid, Scene
+from contact_scene.geometry import ShapedBody
+from contact_scene.pair import contact_modulus
+from verification.closed_forms.elliptical_contact import EllipticalContact
+from verification.problems.drawn import drawing as of
+from verification.problems.drawn.drawing import Bodies, Profile, Rng, logarithmic
+from verification.problems.drawn.known_scene import CELLS, ELEMENTS, KnownScene
+from verification.problems.drawn.references import (
+    Posed,
+    beside_the_centre,
+    by_rings,
+    pressed,
+    refined,
+    rings,
+    similar,
+    slid,
+)
 
-# Seeds. No rule is fitted to the scenes of one quantity or family. The common factor 0.6 of the
-# convergence orders was chosen with scenes of the first two seeds; the third judges.
-CHOOSING, JUDGING = (11, 12), 34
+# Seeds. No constant of the error estimate is fitted to scenes. The common factor 0.6 was chosen
+# with the first seeds, rules and families were tried with the second ones, the third judges.
+CHOOSING, TRIED, JUDGING = (11, 12, 34), (5001, 5002), 7013
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
 class Family:
     """Scenes drawn alike.
 
-    count  of scenes judged above the quick level, which takes one of each
+    shapes, pairs  one of each is drawn: of the indenter, and of the materials of both bodies
+    rule           for the answer
+    count          scenes above the quick level, which takes one of each family
+    forces         after pressing, over the friction limit; None for none
+    twists         whether these are torques
+    friction       whether there is friction without them
+    finest         cells per contact radius, at most
+    stressed       whether the largest stresses are judged
     """
 
-    draw: Callable[[Rng], KnownScene]
+    shapes: Sequence[Callable[[Rng, float, float], ShapedBody]]
+    pairs: Sequence[Callable[[Rng, float], Bodies]]
+    rule: Callable[[Rng, Posed], KnownScene]
     count: int
+    forces: Callable[[Rng], tuple[float, ...]] | None = None
+    twists: bool = False
+    friction: bool = False
+    finest: float = 40.0
+    stressed: bool = False
+    solver: str = CELLS
 
+    def posed(self, rng: Rng) -> Posed:
+        """Draw a scene."""
+        radius = logarithmic(rng, 1e-3, 0.1)
+        a = radius * logarithmic(rng, *of.STRAINS)
+        lower, upper = _one_of(rng, self.pairs)(rng, a)
+        shape = _one_of(rng, self.shapes)(rng, radius, a)
+        outer = {"material": upper.material, "layers": upper.layers}
+        bases = [body.material for body in (lower, upper) if body.material != RIGID]
+        modulus = 1 / sum(1 / base.plane_strain_modulus for base in bases)
+        height = (
+            float(shape.initial_gap(a, 0.0)) if isinstance(shape, Profile) else a**2 / 2 / radius
+        )
+        load, mu = 2 * modulus * a * height, logarithmic(rng, 0.05, 0.8)
+        scene = Scene(
+            title=type(shape).__name__,
+            indenter=Paraboloid(radius=radius, material=RIGID),
+            body=lower,
+            friction=CoulombFriction(coefficient=mu) if self.friction or self.forces else None,
+            loading=(LoadStep(normal_force=load),),
+        ).model_copy(update={"indenter": shape.model_copy(update=outer)})
+        forces = () if self.forces is None else self.forces(rng)
+        if self.twists:
+            end = rings(scene, load)
+            limit = 2 * pi * mu * float(np.trapezoid(end.pressure * end.radii**2, end.radii))
+            forces = tuple(part * limit for part in forces)
+            steps = [LoadStep(torque=torque) for torque in forces]
+        else:
+            forces = tuple(part * mu * load for part in forces)
+            steps = [LoadStep(tangential_force=(force, 0.0)) for force in forces]
+        scene = scene.model_copy(update={"loading": (*scene.loading, *steps)})
+        fineness = of.fineness(rng, _reach(scene, load, a), self.solver, self.finest)
+        return Posed(scene, fineness, forces, self.stressed)
+
+    def known(self, rng: Rng) -> KnownScene:
+        """Draw a scene with its answer."""
+        return self.rule(rng, self.posed(rng))
+
+
+def _one_of(rng: Rng, ways: Sequence[T]) -> T:
+    return ways[int(rng.integers(len(ways)))]
+
+
+def _reach(scene: Scene, load: float, a: float) -> tuple[float, float]:
+    """Semi-axes of the contact without friction; about a where no reference has them."""
+    shape = scene.indenter
+    if isinstance(shape, Ellipsoid):
+        return EllipticalContact.under_load(load, shape.radii, contact_modulus(scene)).semi_axes
+    if not shape.is_of_revolution or (isinstance(shape, Profile) and shape.flat + shape.ring > 0):
+        return a, a
+    return (pressed(scene, load).radius,) * 2
+
+
+RIGID_ON_BARE, RIGID_ON_COATED, RIGID_ON_FILM = (
+    of.below_rigid(body) for body in (of.bare, of.coated, of.film)
+)
+UNLIKE, UNLIKE_COATED = of.unlike(of.bare), of.unlike(of.coated)
+ALIKE, ALIKE_COATED, NO_POISSON = (
+    of.alike(body) for body in (of.bare, of.coated, of.without_poisson)
+)
+PUSHED, COUPLED = 10.0, 7.0  # cells per radius that finer cells are affordable for
 
 FAMILIES = {
-    "hertz": Family(homogeneous.hertz, 40),
-    "shapes": Family(homogeneous.shapes, 8),
-    "ellipse": Family(homogeneous.ellipse, 8),
-    "cattaneo": Family(homogeneous.cattaneo, 36),
-    "near-sliding": Family(partial(homogeneous.cattaneo, near=True), 12),
-    "sliding": Family(homogeneous.sliding, 20),
-    "similar": Family(refined.similar, 20),
-    "twisted": Family(homogeneous.twisted, 6),
-    "indented": Family(homogeneous.indented, 10),
-    "coated": Family(coated.pressed, 90),
-    "films": Family(coated.films, 60),
-    "coated-stress": Family(partial(coated.pressed, stressed=True), 26),
-    "coated-twisted": Family(coated.twisted, 140),
-    "coated-sheared": Family(refined.sheared, 45),
-    "coated-indented": Family(coated_indented.pressed, 40),
-    "coated-pushed": Family(refined.coupled, 16),
-    "sections": Family(partial(homogeneous.hertz, sections=True), 3),
-    "sections-cattaneo": Family(partial(homogeneous.cattaneo, sections=True), 4),
-    "sections-indented": Family(partial(homogeneous.indented, sections=True), 5),
-    "sections-coated": Family(partial(coated.pressed, sections=True), 15),
-    "sections-coated-twisted": Family(partial(coated.twisted, sections=True), 15),
+    "balls": Family((of.ball, of.sphere), (RIGID_ON_BARE, UNLIKE), by_rings, 24, stressed=True),
+    "shapes": Family((of.cone, of.punch, of.power_law), (RIGID_ON_BARE, UNLIKE), by_rings, 32),
+    "coated": Family((of.ball,), (RIGID_ON_COATED, UNLIKE_COATED), by_rings, 32, stressed=True),
+    "films": Family((of.ball, of.sphere), (RIGID_ON_FILM,), by_rings, 32),
+    "tilted": Family((of.ball,), (RIGID_ON_BARE, UNLIKE_COATED), beside_the_centre, 28),
+    "pushed": Family((of.ball,), (NO_POISSON,), similar, 16, of.pushes),
+    "pushed-shapes": Family(
+        (of.cone, of.power_law, of.sphere, of.ellipsoid), (NO_POISSON,), similar, 20, of.pushes
+    ),
+    "near-sliding": Family((of.ball,), (NO_POISSON,), similar, 16, of.near_gross_slip),
+    "sliding": Family((of.ball,), (ALIKE,), slid, 20, of.near_gross_slip),
+    "twisted": Family(
+        (of.ball, of.cone, of.power_law),
+        (ALIKE, ALIKE_COATED),
+        by_rings,
+        18,
+        of.pushes,
+        twists=True,
+    ),
+    "indented": Family(
+        (of.ball, of.cone),
+        (RIGID_ON_BARE, RIGID_ON_COATED),
+        by_rings,
+        18,
+        friction=True,
+        finest=24.0,
+    ),
+    "similar": Family(
+        (of.ball, of.cone, of.ellipsoid), (ALIKE,), refined, 16, of.pushes, finest=PUSHED
+    ),
+    "coated-pushed": Family((of.ball,), (ALIKE_COATED,), refined, 16, of.pushes, finest=PUSHED),
+    "coupled": Family(
+        (of.ball,), (RIGID_ON_BARE, RIGID_ON_COATED), refined, 14, of.pushes, finest=COUPLED
+    ),
+    "films-pushed": Family(
+        (of.ball,), (RIGID_ON_FILM,), refined, 14, of.pushes, finest=COUPLED, stressed=True
+    ),
+    "ridges": Family((of.rounded_flat, of.ring), (ALIKE,), refined, 14, of.pushes, finest=PUSHED),
+    "smooth-maps": Family((of.smooth_map,), (ALIKE,), refined, 14, of.pushes, finest=PUSHED),
+    "rough-maps": Family((of.rough_map,), (ALIKE,), refined, 14, of.pushes, finest=PUSHED),
+    "elements": Family(
+        (of.ball, of.cone), (RIGID_ON_BARE, RIGID_ON_COATED), by_rings, 24, solver=ELEMENTS
+    ),
+    "elements-pushed": Family((of.ball,), (NO_POISSON,), similar, 14, of.pushes, solver=ELEMENTS),
+    "elements-twisted": Family(
+        (of.ball,), (ALIKE, ALIKE_COATED), by_rings, 14, of.pushes, twists=True, solver=ELEMENTS
+    ),
+    "elements-indented": Family(
+        (of.ball,), (RIGID_ON_BARE, RIGID_ON_COATED), by_rings, 14, friction=True, solver=ELEMENTS
+    ),
 }
 
 
 def drawn(family: str, seed: int, number: int) -> KnownScene:
-    """One scene of a family, the same at every call."""
-    return FAMILIES[family].draw(np.random.default_rng([seed, crc32(family.encode()), number]))
+    """One scene of a family, equal at every call."""
+    return FAMILIES[family].known(np.random.default_rng([seed, crc32(family.encode()), number]))

@@ -1,1 +1,1 @@
-"""Whether the errors that runs state hold: scenes whose answer is known from elsewhere."""
+"""Coverage of the errors that runs state, over drawn scenes of known answer."""

@@ -1,9 +1,9 @@
-"""A drawn scene solved as `slipstick run` solves it, and what is wrong beside what it states."""
+"""A drawn scene, solved as `slipstick run` solves it, with its stated and true errors."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,11 +15,11 @@ from contact_errors import on_cells, on_elements
 from contact_errors.values import values_of
 from contact_results.cycles import fretting_cycles
 from contact_scene.solver_errors import SolverError
-from contact_scene.stated_error import StatedError
+from contact_scene.stated_error import StatedError, StatedErrors
 from verification.problems.drawn.families import drawn
 from verification.problems.drawn.known_scene import CELLS, STRESSES, KnownScene, Truth
-from verification.running.row import CaseRecord, Row, Value, parameters_of
-from verification.studies.error_coverage.stress_maxima import stress_maxima
+from verification.problems.drawn.stress_maxima import stress_maxima
+from verification.running.row import CaseRecord, Row, parameters_of
 
 WRONG, STATED, UNCERTAIN = "wrong", "stated", "uncertain"
 
@@ -37,17 +37,11 @@ class CoverageCase:
         return f"{self.family}-{self.seed}-{self.number}"
 
     def compute(self) -> CaseRecord:
-        """One part for every number that is known."""
+        """Return one part for each known number."""
         known = drawn(self.family, self.seed, self.number)
         started = time.process_time()
-        kind: dict[str, Value] = {
-            "homogeneous": known.homogeneous,
-            "friction": known.scene.friction is not None,
-            "loop": known.loops,
-            "solver": known.fineness.solver,
-        }
         record = CaseRecord(
-            parameters=parameters_of(self) | kind,
+            parameters=parameters_of(self) | {"solver": known.fineness.solver},
             measures={"per_radius": known.fineness.per_radius},
         )
         try:
@@ -59,24 +53,20 @@ class CoverageCase:
 
 
 def _judged(known: KnownScene) -> Iterator[Row]:
-    """Rows of what the run gives of the truths that have a size: shares of zero tell nothing."""
     result, errors = _run(known)
     steps = values_of(result, fretting_cycles(result))
     stressed = {truth.step for truth in known.truths if truth.quantity in STRESSES}
-    stresses = {step: stress_maxima(result, step) for step in sorted(stressed)}
+    stresses = {step: stress_maxima(result, step, errors) for step in stressed}
     for truth in known.truths:
-        if truth.reference.value == 0:
-            continue
         if truth.quantity in STRESSES:
             found, stated = stresses[truth.step][truth.quantity]
             yield judged(truth, found, stated)
         elif (found_here := truth.read(steps)) is not None:
-            stated_here = errors[truth.step - 1].get(truth.quantity)
-            yield judged(truth, found_here, stated_here)
+            yield judged(truth, found_here, errors.steps[truth.step - 1].get(truth.quantity))
 
 
 def judged(truth: Truth, found: float, stated: StatedError | None) -> Row:
-    """A number beside its truth and its error, over the truth; of a vector the x component."""
+    """Return the true and the stated error of a number over its true value."""
     size = abs(truth.reference.value)
     error = None if stated is None or stated.error is None else float(np.ravel(stated.error)[0])
     return Row(
@@ -90,12 +80,12 @@ def judged(truth: Truth, found: float, stated: StatedError | None) -> Row:
     )
 
 
-def _run(known: KnownScene) -> tuple[Any, Sequence[Mapping[str, StatedError]]]:
-    """A result, and what is stated of the ends of its steps."""
+def _run(known: KnownScene) -> tuple[Any, StatedErrors]:
+    """Solve a scene and state its errors."""
     asked: Any = known.fineness.asked
     if known.fineness.solver == CELLS:
         result = semi_analytical.solve_discretised(known.scene, asked)
-        return result, on_cells.stated_errors(result).steps
+        return result, on_cells.stated_errors(result)
     method = fem_reference.Method.COMPLEMENTARITY
     on_sections = fem_reference.solve(known.scene, asked, method)
-    return on_sections, on_elements.stated_errors(on_sections).steps
+    return on_sections, on_elements.stated_errors(on_sections)

@@ -1,4 +1,4 @@
-"""How often stated errors hold, and how often they are of the size of what is wrong."""
+"""Coverage of stated errors, and the fraction of them that are as small as the true errors."""
 
 from __future__ import annotations
 
@@ -7,30 +7,35 @@ from dataclasses import dataclass
 
 from scipy.special import betaincinv
 
+from contact_scene.stated_error import ErrorStatus
 from verification.running.row import Row, value_of
 from verification.studies.error_coverage.case import STATED, UNCERTAIN, WRONG
 
 CONFIDENCE = 0.95
-COVERED = 0.95
-TIMES = 10.0  # stated errors should be less than so many times what is wrong
+COVERED, COVERED_IN_ALL = 0.95, 0.97
+TIMES = 10.0  # stated errors should be less than so many times the true error
 TIGHT = 0.6
+CERTAIN = 0.1  # of a stated error: the reference has to be less uncertain
+MISSED = 3.0  # uncertainties beyond the stated error that leave no doubt
+BELIEVED = str(ErrorStatus.ESTIMATED), str(ErrorStatus.EXACT)
+DOUBTED = str(ErrorStatus.NOT_CONVERGED)
 
 
 @dataclass(frozen=True)
 class Share:
-    """So many of all, with Clopper and Pearson's interval (1934)."""
+    """A count, with the interval of Clopper and Pearson (1934)."""
 
     count: int
     of: int
 
     @property
     def part(self) -> float:
-        """Observed."""
-        return self.count / self.of
+        """Observed fraction."""
+        return self.count / self.of if self.of else 1.0
 
     @property
     def interval(self) -> tuple[float, float]:
-        """That leaves out 2.5 % on either side."""
+        """Interval that leaves out 2.5 % on either side."""
         k, n, tail = self.count, self.of, (1 - CONFIDENCE) / 2
         low = float(betaincinv(k, n - k + 1, tail)) if k else 0.0
         high = float(betaincinv(k + 1, n - k, 1 - tail)) if k < n else 1.0
@@ -38,44 +43,71 @@ class Share:
 
     @property
     def text(self) -> str:
-        """0.962 [0.931, 0.981]."""
+        """Fraction and interval, such as 0.962 [0.931, 0.981]."""
         low, high = self.interval
         return f"{self.part:.3f} [{low:.3f}, {high:.3f}]"
 
 
 @dataclass(frozen=True)
 class Coverage:
-    """Of numbers of one kind with a stated error."""
+    """Counts of a group of numbers.
 
-    kind: str
+    covered, tight  of the numbers that are estimated or exact, and decided
+    apart           covered ones of those not converged
+    undecided       numbers whose reference is not certain enough
+    not_stated      numbers without an error
+    """
+
+    group: str
     covered: Share
     tight: Share
+    apart: Share
+    undecided: int
+    not_stated: int
 
     @classmethod
-    def of(cls, kind: str, rows: Sequence[Row]) -> Coverage:
-        """By rows that have one."""
+    def of(cls, group: str, rows: Sequence[Row]) -> Coverage:
+        """Count the rows of a group."""
+        having = [row for row in rows if row.measures[STATED] is not None]
+        certain = [row for row in having if is_decided(row)]
+        believed = [row for row in certain if row.words["status"] in BELIEVED]
+        doubted = [row for row in certain if row.words["status"] == DOUBTED]
         return cls(
-            kind,
-            Share(sum(map(covers, rows)), len(rows)),
-            Share(sum(map(is_tight, rows)), len(rows)),
+            group,
+            Share(sum(map(covers, believed)), len(believed)),
+            Share(sum(map(is_tight, believed)), len(believed)),
+            Share(sum(map(covers, doubted)), len(doubted)),
+            len(having) - len(certain),
+            len(rows) - len(having),
         )
 
-    @property
-    def good(self) -> bool:
-        """Whether both demands are met."""
-        return self.covered.part >= COVERED and self.tight.part >= TIGHT
+    def good(self, covered: float) -> bool:
+        """Determine if both requirements are met."""
+        return self.covered.part >= covered and self.tight.part >= TIGHT
 
 
 def covers(row: Row) -> bool:
-    """Whether what is wrong lies within the stated error, as far as the truth is certain."""
+    """Determine if the true error is within the stated one, up to that of the reference."""
     return value_of(row, WRONG) <= value_of(row, STATED) + value_of(row, UNCERTAIN)
 
 
 def is_tight(row: Row) -> bool:
-    """Whether the stated error is of the size of what is wrong."""
+    """Determine if the stated error is less than ten times the true one."""
     return value_of(row, STATED) < TIMES * value_of(row, WRONG)
 
 
-def with_status(rows: Iterable[Row], *statuses: str) -> list[Row]:
-    """Those whose error has one of these statuses."""
-    return [row for row in rows if row.words["status"] in statuses]
+def is_decided(row: Row) -> bool:
+    """Determine if the reference is certain enough for a verdict.
+
+    Its uncertainty is an order below the stated error, or the number is missed in any case.
+    """
+    stated, uncertain = value_of(row, STATED), value_of(row, UNCERTAIN)
+    return uncertain <= CERTAIN * stated or value_of(row, WRONG) > stated + MISSED * uncertain
+
+
+def grouped(rows: Iterable[tuple[str, Row]]) -> dict[str, Coverage]:
+    """Count the rows by the names of their groups."""
+    groups: dict[str, list[Row]] = {}
+    for name, row in rows:
+        groups.setdefault(name, []).append(row)
+    return {name: Coverage.of(name, members) for name, members in groups.items()}

@@ -1,0 +1,384 @@
+"""Rules for the answers of drawn scenes: ring solver, closed forms, finer cells and increments.
+
+Each rule completes a posed scene: it may prescribe motions in place of forces, and returns the
+scene with its known numbers. No rule uses an error estimate.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import sqrt
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+import radial
+import semi_analytical
+from contact_errors.values import Values, prescribed, values_of
+from contact_results.cycles import fretting_cycles
+from contact_scene import Ellipsoid, LoadStep, Paraboloid, Scene, SurfaceDiscretisation
+from contact_scene.increment_error import with_error
+from contact_scene.pair import contact_modulus
+from verification.closed_forms.cattaneo_mindlin import PartialSlip
+from verification.closed_forms.elliptical_contact import EllipticalContact
+from verification.closed_forms.ruiz import CycledContact
+from verification.closed_forms.sheared_surface import (
+    stress_by_hertz_pressure,
+    stress_by_hertz_shear,
+)
+from verification.problems.drawn.drawing import Rng, closes
+from verification.problems.drawn.known_scene import (
+    AMPLITUDE,
+    APPROACH,
+    CELLS,
+    CYCLE,
+    ELASTIC,
+    ENERGY,
+    F1,
+    F2,
+    KIND_OF,
+    MOMENT,
+    NORMAL,
+    PEAK,
+    RADIUS,
+    SHIFT,
+    STICK,
+    STRESSES,
+    TANGENTIAL,
+    TENSION,
+    TILT,
+    TORQUE,
+    TWIST,
+    WORK,
+    Fineness,
+    KnownScene,
+    Truth,
+    known,
+)
+from verification.problems.drawn.stress_maxima import stress_maxima
+from verification.problems.reference import ROUNDING, Reference, ReferenceKind
+
+Array = NDArray[np.float64]
+
+BY_MOTION = 0.3  # of the scenes are controlled by motions
+ROOM = 1.5  # cells between a contact beside the centre and the edge of the window
+FAR = 50.0  # shift over the one at which gross slip begins
+TURNED = 1e-3  # relative error by slip across such a shift
+DOUBLED = 2  # rings, orders and points, and increments of the ring solver
+# Cells along a side over those that are judged. The finer solve errs by 2.5 times the difference
+# of the two at order 1, and by about the difference at order 2.
+FINER, ORDER_ONE = (3.5, 2.5), 2.5
+# Least increments of a step, the limit of which is extrapolated. The effect of increments on the
+# cells that are judged differs by this part from that on fine cells.
+MANY, OTHER_CELLS = (64, 32), 0.07
+SIMILAR_ERROR = 1e-9
+PER_CYCLE = (ENERGY, CYCLE, AMPLITUDE, F1, F2)  # that symmetry does not repeat along a loop
+LED = (SHIFT, TANGENTIAL, TWIST, TORQUE)  # zero before the first force or torque
+
+
+@dataclass(frozen=True)
+class Posed:
+    """A drawn scene without answer.
+
+    forces    tangential forces or torques at the ends of the steps after pressing
+    stressed  whether the largest stresses are judged
+    """
+
+    scene: Scene
+    fineness: Fineness
+    forces: tuple[float, ...] = ()
+    stressed: bool = False
+
+    def known(self, truths: Iterable[Truth], scene: Scene | None = None) -> KnownScene:
+        """Keep each finite number that is neither prescribed nor equal to another one."""
+        scene, sizes, seen = scene or self.scene, [0.0, *map(abs, self.forces)], {"0"}
+        infinite = scene.indenter.rim is not None or scene.indenter.gap_exponent == 1
+        path, kept = scene.load_path(), []
+        for truth in truths:
+            name, step, value = truth.quantity, truth.step, f"{abs(truth.reference.value):.6g}"
+            repeated = step > 2 and sizes[step - 1] == sizes[1] and name not in PER_CYCLE
+            quarter = name == ENERGY and step == 2 and closes(self.forces)
+            endless = name == PEAK and infinite
+            still = name in LED and not any(sizes[:step])
+            given = name in prescribed(path[step - 1])
+            if not (repeated or quarter or endless or still or given or value in seen):
+                kept.append(truth)
+                seen.add(value)
+        return KnownScene(scene, tuple(kept), self.fineness)
+
+
+class Pressed(NamedTuple):
+    """A contact without friction."""
+
+    load: float
+    approach: float
+    radius: float
+    peak: float
+    elastic: float
+
+    @property
+    def values(self) -> dict[str, float]:
+        return {
+            APPROACH: self.approach, RADIUS: self.radius, PEAK: self.peak,
+            ELASTIC: self.elastic, WORK: self.elastic,
+        }  # fmt: skip
+
+
+def pressed(scene: Scene, load: float) -> Pressed:
+    """Solve the contact without friction: ellipses in closed form, others by the ring solver."""
+    if isinstance(tip := scene.indenter, Ellipsoid):
+        contact = EllipticalContact.under_load(load, tip.radii, contact_modulus(scene))
+        radius = sqrt(contact.semi_axes[0] * contact.semi_axes[1])
+        elastic = 0.4 * load * contact.approach
+        return Pressed(load, contact.approach, radius, contact.peak_pressure, elastic)
+    end = rings(scene, load)
+    return Pressed(load, end.approach, end.contact_radius, end.peak_pressure, end.elastic_energy)
+
+
+def rings(scene: Scene, load: float) -> Any:
+    """Solve the contact without friction by the ring solver."""
+    alone = {"friction": None, "loading": (LoadStep(normal_force=load),)}
+    return radial.solve(scene.model_copy(update=alone)).steps[-1]
+
+
+# ---- rules --------------------------------------------------------------------------------------
+
+
+def by_rings(rng: Rng, posed: Posed) -> KnownScene:
+    """Solve by the ring solver; twice the rings and increments give the uncertainty."""
+    once = radial.solve(posed.scene)
+    counts = tuple(DOUBLED * n if n > 1 else n for n in once.plan.increments)
+    twice = radial.solve(posed.scene, plan=replace(once.plan, increments=counts), fineness=DOUBLED)
+    known = posed.known(_compared(once, twice, posed.stressed))
+    if rng.random() >= BY_MOTION or len(posed.scene.loading) > 1:
+        return known
+    end, step = twice.steps[0], Truth(1, NORMAL, _other(posed.scene.loading[0].normal_force))
+    led = posed.scene.model_copy(update={"loading": (LoadStep(approach=end.approach),)})
+    return posed.known((*known.truths, step), led)
+
+
+def _other(value: float | None) -> Reference:
+    assert value is not None
+    return Reference(value, ReferenceKind.OTHER_SOLVER, "the load", ROUNDING * value)
+
+
+def _compared(once: Any, twice: Any, stressed: bool) -> Iterator[Truth]:
+    both = [values_of(result, fretting_cycles(result)) for result in (once, twice)]
+    for step, (less, more) in enumerate(zip(*both, strict=True), start=1):
+        for name in (name for name in KIND_OF if name in less and name in more):
+            yield _truth(step, name, float(more[name][0]), abs(float((more[name] - less[name])[0])))
+    if stressed:
+        for name, (value, error) in stress_maxima(twice, 1).items():
+            if isinstance(error.error, float) and name in STRESSES:
+                yield _truth(1, name, value, error.error)
+
+
+def _truth(step: int, name: str, value: float, apart: float) -> Truth:
+    uncertainty = max(apart, ROUNDING * abs(value))
+    reference = Reference(value, ReferenceKind.OTHER_SOLVER, "the ring solver", uncertainty)
+    return Truth(step, name, reference)
+
+
+def beside_the_centre(rng: Rng, posed: Posed) -> KnownScene:
+    """Tilt a paraboloid, or apply a moment: x²/2R - φx = (x - Rφ)²/2R - Rφ²/2 shifts it."""
+    tip, grid = posed.scene.indenter, posed.fineness.asked
+    (step,) = posed.scene.loading
+    load = step.normal_force
+    assert isinstance(tip, Paraboloid)
+    assert isinstance(grid, SurfaceDiscretisation)
+    assert load is not None
+    upright = pressed(posed.scene, load)
+    side = np.divide(grid.window or 0.0, grid.cells or 1)
+    room = np.array(grid.window) / 2 - upright.radius - ROOM * side
+    x, y = (float(place) for place in rng.uniform(-1, 1, 2) * np.maximum(room, side / 2))
+    both = {TILT: (y / tip.radius, x / tip.radius), MOMENT: (load * y, load * x)}
+    named = (TILT, MOMENT)[int(rng.integers(2))]
+    values = upright.values | {name: value[0] for name, value in both.items()}
+    values[APPROACH] -= (x**2 + y**2) / (2 * tip.radius)
+    del values[WORK]
+    tilted = LoadStep(normal_force=load, **{named: both[named]})  # type: ignore[arg-type]
+    scene = posed.scene.model_copy(update={"loading": (tilted,)})
+    truths = known(1, "a shifted paraboloid", values, ROUNDING, ReferenceKind.OTHER_SOLVER)
+    return posed.known(truths, scene)
+
+
+@dataclass(frozen=True)
+class Similar:
+    """Partial slip of uncoated bodies of one material with ν = 0 (Jäger 1998, Ciavarella 1998).
+
+    The shear is µ times the difference of two pressed contacts. After a reversal the curve of first
+    loading is doubled (Masing). With S = ∫ shift dT the work of a first loading is T shift - S, and
+    a quarter of a loop, T shift - 2 S, is dissipated.
+    """
+
+    scene: Scene
+    load: float
+    mu: float
+
+    @cached_property
+    def full(self) -> Pressed:
+        return pressed(self.scene, self.load)
+
+    def first(self, force: float) -> Array:
+        """Shift, stick radius, energy dissipated, and energy stored since the first loading."""
+        stick = pressed(self.scene, self.load - force / self.mu)
+        shift = self.mu * (self.full.approach - stick.approach)
+        full, part = (p.load * p.approach - p.elastic for p in (self.full, stick))
+        area = self.mu**2 * (self.full.approach * (self.load - stick.load) - full + part)
+        lost = force * shift - 2 * area
+        return np.array([shift, stick.radius, lost, (force * shift - lost) / 2])
+
+    def along(self, forces: Sequence[float]) -> Iterator[Array]:
+        """Yield the states at the ends of steps between these forces, from zero."""
+        last, direction, turn = 0.0, 1.0, 0.0
+        reached, base = np.zeros(4), None
+        for force in forces:
+            if np.sign(force - last) != direction:
+                direction, base, turn = -direction, reached, last
+            if base is None:
+                reached = self.first(force)
+            else:
+                half = self.first(abs(turn - force) / 2)
+                slid, stored = 2 * direction * half[0], direction * (turn + force) * half[0]
+                reached = base + np.array([slid, half[1] - base[1], 2 * half[2], stored])
+            last = force
+            yield reached
+
+    def truths(self, forces: Sequence[float]) -> Iterator[Truth]:
+        """Yield the numbers of the whole history."""
+        states = list(self.along(forces))
+        values = [self.full.values]
+        for force, (shift, stick, lost, stored) in zip(forces, states, strict=True):
+            elastic = self.full.elastic + stored
+            values.append({
+                SHIFT: shift, TANGENTIAL: force, STICK: stick, ENERGY: lost,
+                ELASTIC: elastic, WORK: elastic + lost,
+            })  # fmt: skip
+        if closes(forces):
+            values[-1] |= {CYCLE: states[-1][2] - states[0][2]}
+        for step, found in enumerate(values, start=1):
+            yield from known(step, "Jäger 1998", found, SIMILAR_ERROR, ReferenceKind.CLOSED_FORM)
+
+
+def similar(rng: Rng, posed: Posed) -> KnownScene:
+    """Apply the forces, or the shifts that belong to them, to bodies without coating."""
+    made, scene = _similar(posed), posed.scene
+    if rng.random() < BY_MOTION:
+        shifts = (LoadStep(tangential_shift=(s[0], 0.0)) for s in made.along(posed.forces))
+        scene = scene.model_copy(update={"loading": (scene.loading[0], *shifts)})
+    truths = [*made.truths(posed.forces)]
+    if isinstance(scene.indenter, Paraboloid):
+        truths += _of_balls(made, posed)
+    return posed.known(truths, scene)
+
+
+def slid(rng: Rng, posed: Posed) -> KnownScene:
+    """Move balls far beyond the onset of gross slip."""
+    made, tip = _similar(posed), posed.scene.indenter
+    assert isinstance(tip, Paraboloid)
+    far = FAR * made.mu * made.full.radius**2 / tip.radius
+    scene = posed.scene.model_copy(
+        update={"loading": (posed.scene.loading[0], LoadStep(tangential_shift=(far, 0.0)))}
+    )
+    tension = {TENSION: _edge_tension(made, 0.0), TANGENTIAL: made.mu * made.load}
+    pressing = known(1, "Hertz 1882", made.full.values, ROUNDING, ReferenceKind.CLOSED_FORM)
+    sliding = known(2, "Hamilton 1966", tension, TURNED, ReferenceKind.CLOSED_FORM)
+    return posed.known((*pressing, *sliding), scene)
+
+
+def _similar(posed: Posed) -> Similar:
+    load, friction = posed.scene.loading[0].normal_force, posed.scene.friction
+    assert load is not None
+    assert friction is not None
+    assert friction.uniform is not None
+    return Similar(posed.scene, load, friction.uniform)
+
+
+def _edge_tension(made: Similar, stick_radius: float) -> float:
+    """Compute the tensile stress at the trailing edge of balls (Hamilton and Goodman 1966).
+
+    The shear is that of gross slip less that of the stick disc.
+    """
+    material = made.scene.body.elastic_materials[0]
+    a, nu, q0 = made.full.radius, material.poisson_ratio, made.mu * made.full.peak
+    stress = stress_by_hertz_pressure(-a, a, made.full.peak, nu)
+    stress = stress + stress_by_hertz_shear(-a, a, q0, nu)
+    if stick_radius:
+        part = q0 * stick_radius / a
+        stress = stress - stress_by_hertz_shear(-a, stick_radius, part, nu)
+    return float(stress)
+
+
+def _of_balls(made: Similar, posed: Posed) -> Iterator[Truth]:
+    """Compute the tensile stress of the first push and the largest fields of a cycle."""
+    force, a, full = posed.forces[0], made.full.radius, made.full
+    values = {TENSION: _edge_tension(made, float(made.first(force)[1]))}
+    if posed.fineness.solver == CELLS:
+        yield from known(2, "Hamilton 1966", values, SIMILAR_ERROR, ReferenceKind.CLOSED_FORM)
+    if closes(posed.forces):
+        modulus = contact_modulus(made.scene)
+        cycled = CycledContact(PartialSlip(full.load, a, made.mu, modulus, force), full.peak)
+        values = {AMPLITUDE: float(cycled.slip_amplitude(a)), F1: cycled.largest_f1}
+        if posed.fineness.solver == CELLS and cycled.largest_f2 > 0:
+            values[F2] = cycled.largest_f2
+        last = len(posed.forces) + 1
+        yield from known(last, "Ruiz 1984", values, SIMILAR_ERROR, ReferenceKind.CLOSED_FORM)
+
+
+def refined(rng: Rng, posed: Posed) -> KnownScene:
+    """Numbers on finer cells, with the effect of more increments on the cells that are judged."""
+    matters = with_error(posed.scene)
+    counts = semi_analytical.plan(posed.scene).increments
+    fine, less = (_Level.of(posed, times, counts) for times in FINER)
+    base = many = half = less
+    if any(matters):
+        base = _Level.of(posed, 1.0, counts)
+        many, half = (
+            _Level.of(posed, 1.0, tuple(
+                max(least, n * least // 8) if m else n
+                for n, m in zip(counts, matters, strict=True)
+            ))
+            for least in MANY
+        )  # fmt: skip
+    return posed.known(_of_levels(fine, less, base, many, half))
+
+
+class _Level(NamedTuple):
+    """Numbers of a solve at the ends of the steps, largest stresses of the last step included."""
+
+    steps: Sequence[Values]
+
+    @classmethod
+    def of(cls, posed: Posed, times: float, counts: tuple[int, ...]) -> _Level:
+        asked = posed.fineness.asked
+        assert isinstance(asked, SurfaceDiscretisation)
+        cells = tuple(2 * round(times * n / 2) if times > 1 else n for n in asked.cells or ())
+        plan = semi_analytical.plan(posed.scene, edge=asked.edge).cut_into(counts)
+        finer = asked.model_copy(update={"cells": cells})
+        result = semi_analytical.solve_discretised(posed.scene, finer, plan=plan)
+        steps = list(values_of(result, fretting_cycles(result)))
+        if posed.stressed:
+            found = stress_maxima(result, len(steps))
+            steps[-1] = {**steps[-1], **{n: np.atleast_1d(found[n][0]) for n in STRESSES}}
+        return cls(steps)
+
+
+def _of_levels(
+    fine: _Level, less: _Level, base: _Level, many: _Level, half: _Level
+) -> Iterator[Truth]:
+    source = (
+        f"the same solver on {FINER[0]:g} and {FINER[1]:g} times the cells, with the effect of at "
+        f"least {MANY[0]} and {MANY[1]} increments a step"
+    )
+    every = [level.steps for level in (fine, less, base, many, half)]
+    for step, values in enumerate(zip(*every, strict=True), start=1):
+        for name in (name for name in KIND_OF if all(name in level for level in values)):
+            best, other, at, much, some = (float(v[name][0]) for v in values)
+            effect, open_path = 2 * much - some - at, abs(much - some)
+            value = best + effect
+            apart = ORDER_ONE * abs(best - other) + open_path + OTHER_CELLS * abs(effect)
+            reference = Reference(value, ReferenceKind.OWN_REFINEMENT, source, apart)
+            yield Truth(step, name, reference)
