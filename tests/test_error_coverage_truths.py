@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Iterator
 from typing import Any
 
@@ -21,23 +20,22 @@ from verification.problems.drawn.references import Similar, refined, similar
 from verification.problems.drawn.stress_maxima import stress_maxima
 
 SEED = 2  # of draws that neither tried the rules nor judge them
-# Their references are the solver itself, or take a minute.
-DEAR = [name for name, one in FAMILIES.items() if one.rule is refined] + ["elements-indented"]
-CHEAP = [name for name in FAMILIES if name not in DEAR]
+# Cheap families of all rules but that of finer cells.
+CHEAP = "shapes", "tilted", "pushed-shapes", "sliding", "twisted", "elements-pushed"
 COARSE, FINE = 16, 48  # cells along a side
 FEW, MANY = 6, 18  # elements per contact radius
-# The root mean square error falls at least by this while cells become a third as large: smooth
-# quantities fall by nine on average, square roots by 1.7, and each depends on the cut of the edge.
-FALLS = 1.5
-SMALL = 1e-3  # chance on the coarse grid
+# Smooth errors fall by nine while cells become a third as large, square roots by 1.7. Each depends
+# on the cut of the edge, which is off by at most one of some 16 cells per radius; slip at the edge
+# by somewhat more.
+FALLS, CHANCE, LARGEST = 1.5, 1e-4, 0.1
 
 
-def errors(known: KnownScene, *, fine: bool) -> Iterator[tuple[str, float]]:
-    """Relative errors beyond the uncertainty of the answer, by kind."""
+def errors(known: KnownScene, *, fine: bool) -> Iterator[float]:
+    """Relative errors beyond the uncertainty of the answer."""
     asked: Any = known.fineness.asked
     if known.fineness.solver == CELLS:
         cells = FINE if fine else COARSE
-        asked = asked.model_copy(update={"cells": (cells, cells + 1), "edge": "off"})
+        asked = asked.model_copy(update={"cells": (cells, cells + 1)})
         result: Any = semi_analytical.solve_discretised(known.scene, asked)
     else:
         asked = asked.model_copy(update={"elements_per_radius": MANY if fine else FEW})
@@ -51,19 +49,16 @@ def errors(known: KnownScene, *, fine: bool) -> Iterator[tuple[str, float]]:
         if found is not None:
             reference = truth.reference
             beyond = abs(found - reference.value) - reference.uncertainty
-            yield truth.kind, max(beyond, 0.0) / abs(reference.value)
+            yield max(beyond, 0.0) / abs(reference.value)
 
 
 @pytest.mark.parametrize("family", CHEAP)
 def test_errors_fall_towards_the_answer(family: str) -> None:
-    largest: dict[bool, dict[str, float]] = {}
-    for fine in (False, True):
-        largest[fine] = defaultdict(float)
-        for number in range(2):
-            for kind, error in errors(drawn(family, SEED, number), fine=fine):
-                largest[fine][kind] = max(largest[fine][kind], error)
-    bounds = {kind: max(SMALL, error / FALLS) for kind, error in largest[False].items()}
-    assert {k: e for k, e in largest[True].items() if e > bounds[k]} == {}
+    """All are small on fine cells, and their geometric mean falls, chance agreements aside."""
+    known = drawn(family, SEED, 0)
+    coarse, fine = (np.array([*errors(known, fine=fine)]) for fine in (False, True))
+    assert np.max(fine) <= LARGEST
+    assert np.mean(np.log(fine + CHANCE)) <= np.mean(np.log(coarse + CHANCE)) - np.log(FALLS)
 
 
 def test_scenes_are_equal_at_every_call_and_differ_between_seeds() -> None:
@@ -71,12 +66,6 @@ def test_scenes_are_equal_at_every_call_and_differ_between_seeds() -> None:
         assert drawn(family, SEED, 0) == drawn(family, SEED, 0)
         scenes = [drawn(family, seed, 0).scene for seed in (*CHOOSING, *TRIED, JUDGING)]
         assert len({scene.model_dump_json() for scene in scenes}) == len(scenes)
-
-
-def test_every_family_has_numbers_of_several_kinds() -> None:
-    assert {name for name, one in FAMILIES.items() if one.count < 8} == set()
-    kinds = {truth.kind for name in CHEAP for truth in drawn(name, SEED, 0).truths}
-    assert len(kinds) >= 12
 
 
 def similar_balls() -> Similar:

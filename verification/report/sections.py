@@ -15,7 +15,7 @@ TITLES = {
     "coated-tractions": "Coated contacts: the paper's figures 3 and 4",
     "gross-sliding": "Gross sliding of a coated contact",
     "work-precision": "What accuracy costs",
-    "error-coverage": "Whether stated errors hold",
+    "error-coverage": "Coverage of stated errors",
     "error-budget": "Where the error of the headline cases comes from",
     "stability": "The stability map",
     "seeded-defects": "Seeded defects",

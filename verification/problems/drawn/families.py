@@ -122,22 +122,22 @@ ALIKE, ALIKE_COATED, NO_POISSON = (
 PUSHED, COUPLED = 10.0, 7.0  # cells per radius that finer cells are affordable for
 
 FAMILIES = {
-    "balls": Family((of.ball, of.sphere), (RIGID_ON_BARE, UNLIKE), by_rings, 24, stressed=True),
+    "balls": Family((of.ball, of.sphere), (RIGID_ON_BARE, UNLIKE), by_rings, 50, stressed=True),
     "shapes": Family((of.cone, of.punch, of.power_law), (RIGID_ON_BARE, UNLIKE), by_rings, 32),
     "coated": Family((of.ball,), (RIGID_ON_COATED, UNLIKE_COATED), by_rings, 32, stressed=True),
-    "films": Family((of.ball, of.sphere), (RIGID_ON_FILM,), by_rings, 32),
-    "tilted": Family((of.ball,), (RIGID_ON_BARE, UNLIKE_COATED), beside_the_centre, 28),
-    "pushed": Family((of.ball,), (NO_POISSON,), similar, 16, of.pushes),
+    "films": Family((of.ball, of.sphere), (RIGID_ON_FILM,), by_rings, 30, stressed=True),
+    "tilted": Family((of.ball,), (RIGID_ON_BARE, UNLIKE_COATED), beside_the_centre, 100),
+    "pushed": Family((of.ball,), (NO_POISSON,), similar, 46, of.pushes),
     "pushed-shapes": Family(
-        (of.cone, of.power_law, of.sphere, of.ellipsoid), (NO_POISSON,), similar, 20, of.pushes
+        (of.cone, of.power_law, of.sphere, of.ellipsoid), (NO_POISSON,), similar, 10, of.pushes
     ),
     "near-sliding": Family((of.ball,), (NO_POISSON,), similar, 16, of.near_gross_slip),
-    "sliding": Family((of.ball,), (ALIKE,), slid, 20, of.near_gross_slip),
+    "sliding": Family((of.ball,), (ALIKE,), slid, 26, of.near_gross_slip),
     "twisted": Family(
         (of.ball, of.cone, of.power_law),
         (ALIKE, ALIKE_COATED),
         by_rings,
-        18,
+        40,
         of.pushes,
         twists=True,
     ),
@@ -145,32 +145,32 @@ FAMILIES = {
         (of.ball, of.cone),
         (RIGID_ON_BARE, RIGID_ON_COATED),
         by_rings,
-        18,
+        22,
         friction=True,
         finest=24.0,
     ),
     "similar": Family(
-        (of.ball, of.cone, of.ellipsoid), (ALIKE,), refined, 16, of.pushes, finest=PUSHED
+        (of.ball, of.cone, of.ellipsoid), (ALIKE,), refined, 13, of.pushes, finest=PUSHED
     ),
-    "coated-pushed": Family((of.ball,), (ALIKE_COATED,), refined, 16, of.pushes, finest=PUSHED),
+    "coated-pushed": Family((of.ball,), (ALIKE_COATED,), refined, 11, of.pushes, finest=PUSHED),
     "coupled": Family(
-        (of.ball,), (RIGID_ON_BARE, RIGID_ON_COATED), refined, 14, of.pushes, finest=COUPLED
+        (of.ball,), (RIGID_ON_BARE, RIGID_ON_COATED), refined, 9, of.pushes, finest=COUPLED
     ),
     "films-pushed": Family(
-        (of.ball,), (RIGID_ON_FILM,), refined, 14, of.pushes, finest=COUPLED, stressed=True
+        (of.ball,), (RIGID_ON_FILM,), refined, 9, of.pushes, finest=COUPLED, stressed=True
     ),
-    "ridges": Family((of.rounded_flat, of.ring), (ALIKE,), refined, 14, of.pushes, finest=PUSHED),
-    "smooth-maps": Family((of.smooth_map,), (ALIKE,), refined, 14, of.pushes, finest=PUSHED),
-    "rough-maps": Family((of.rough_map,), (ALIKE,), refined, 14, of.pushes, finest=PUSHED),
+    "ridges": Family((of.rounded_flat, of.ring), (ALIKE,), refined, 13, of.pushes, finest=PUSHED),
+    "smooth-maps": Family((of.smooth_map,), (ALIKE,), refined, 13, of.pushes, finest=PUSHED),
+    "rough-maps": Family((of.rough_map,), (ALIKE,), refined, 15, of.pushes, finest=PUSHED),
     "elements": Family(
-        (of.ball, of.cone), (RIGID_ON_BARE, RIGID_ON_COATED), by_rings, 24, solver=ELEMENTS
+        (of.ball, of.cone), (RIGID_ON_BARE, RIGID_ON_COATED), by_rings, 34, solver=ELEMENTS
     ),
-    "elements-pushed": Family((of.ball,), (NO_POISSON,), similar, 14, of.pushes, solver=ELEMENTS),
+    "elements-pushed": Family((of.ball,), (NO_POISSON,), similar, 9, of.pushes, solver=ELEMENTS),
     "elements-twisted": Family(
-        (of.ball,), (ALIKE, ALIKE_COATED), by_rings, 14, of.pushes, twists=True, solver=ELEMENTS
+        (of.ball,), (ALIKE, ALIKE_COATED), by_rings, 24, of.pushes, twists=True, solver=ELEMENTS
     ),
     "elements-indented": Family(
-        (of.ball,), (RIGID_ON_BARE, RIGID_ON_COATED), by_rings, 14, friction=True, solver=ELEMENTS
+        (of.ball,), (RIGID_ON_BARE, RIGID_ON_COATED), by_rings, 22, friction=True, solver=ELEMENTS
     ),
 }
 
