@@ -1,148 +1,377 @@
-"""Refine until the stated errors meet a requested accuracy, or a limit on time or memory."""
+"""Requested accuracy: refine until stated errors meet it, or a limit on time or memory is reached.
+
+The first level determines the numbers that a request binds, and refuses a request beyond reach. A
+parameter is refined by (part / allowed)^(1/(0.6 p)), at most 4 times at once. Each part of an error
+is allowed an equal share of the request. Where a number has not converged the cells are doubled.
+"""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from typing import Generic, TypeVar
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
-from contact_errors.accuracy_targets import (
-    Targets,
-    refuse_absent,
-    refuse_unreachable,
-    targets_of,
+from contact_errors.coarse_solves import (
+    DiscretisedSolver,
+    Fineness,
+    InContext,
+    Refinement,
+    no_context,
+    solved_run,
 )
-from contact_errors.refinement import Levels, RefinementLevel
-from contact_scene.accuracy import AccuracyRequest
-from contact_scene.accuracy_reached import AccuracyReached
-from contact_scene.solver_errors import SolverError
+from contact_errors.cost_estimate import estimated_seconds
+from contact_errors.error_formula import BELIEVED, ORDERS, SolvedRun, largest_so_far
+from contact_errors.stress_errors import largest_tensile_stress
+from contact_errors.values import Values, scale
+from contact_scene.accuracy import LARGEST_TENSION, AccuracyRequest
+from contact_scene.accuracy_reached import AccuracyReached, AccuracySettings
+from contact_scene.free_memory import available_bytes
+from contact_scene.solver_errors import AccuracyOutOfReach, ContactNotResolved, SolverError
+from contact_scene.stated_error import ErrorStatus, Part, StatedError, StatedErrors
 
-F = TypeVar("F")
 # Called after each level: its number, the requested and the reached errors.
 Estimated = Callable[[int, Mapping[str, float], Mapping[str, float | None]], None]
 
+# Errors have to be below 1/1.15 of the request: a stop at the first error below a bound selects
+# errors that are too small.
+SPARE = 1.15
+# Largest and smallest refinement of the cells at once, and that of a number not converged.
+MOST_AT_ONCE, LEAST_AT_ONCE, UNCONVERGED = 4.0, 1.15, 2.0
+# Doublings of the cells of the first level until they resolve the contact.
+MOST_DOUBLINGS = 5
 MOST_ROUNDS = 7
+# The first level may overestimate the refinement of the cells by this factor, and a refinement
+# beyond the other is not told from it.
+DOUBT, FURTHEST = 2.0, 1e4
+# Of the natural size of a number: a smaller number is a zero with round-off.
+ROUND_OFF = 1e-7
+
+ABSENT = "the results of this scene by this solver do not have it"
+INFINITE = "it is infinite in the exact answer"
 
 
 @dataclass(frozen=True)
-class Refined(Generic[F]):
-    """The best level, and its accuracy compared with the request."""
+class RefinementLevel:
+    """A result with its error estimates.
 
-    level: RefinementLevel[F]
+    values, stated  numbers and their errors at the ends of the steps
+    run             the result with its coarse solves
+    orders          convergence orders of numbers that the run does not have
+    seconds, processor_seconds
+                    of the solve with its coarse solves
+    """
+
+    fineness: Fineness
+    result: Any
+    values: Sequence[Values]
+    stated: StatedErrors
+    run: SolvedRun
+    seconds: float
+    processor_seconds: float
+    orders: Mapping[str, float] = field(default_factory=dict)
+
+    def largest(self, name: str) -> float:
+        """Largest size of a number in the history; 0 for an absent number."""
+        return float(np.max(largest_so_far(self.values)[-1].get(name, 0.0)))
+
+    def errors(self, name: str) -> Iterator[StatedError]:
+        """Errors of a number at the ends of all steps that have it."""
+        return (step[name] for step in self.stated.steps if name in step)
+
+    def reached(self, name: str) -> float | None:
+        """Largest error of a number relative to its largest size; None unless all converged."""
+        errors = list(self.errors(name))
+        if any(e.error is None or e.status is ErrorStatus.NOT_CONVERGED for e in errors):
+            return None
+        return float(max(np.max(e.error or 0.0) for e in errors)) / self.largest(name)
+
+    def meets(self, shares: Mapping[str, float]) -> bool:
+        """Whether all errors meet the request with the margin of `SPARE`."""
+        reached = {name: self.reached(name) for name in shares}
+        return all(r is not None and SPARE * r <= shares[name] for name, r in reached.items())
+
+    def needed(self, shares: Mapping[str, float], believed: float = BELIEVED) -> Refinement:
+        """Refinement of every parameter that meets a request.
+
+        believed  fraction of the convergence orders: 1 for the most likely refinement
+        """
+        space: Part = next(iter(self.run.required))
+        factors: dict[Part, float] = {}
+        for name, share in shares.items():
+            of_cells = self.orders.get(name) or self.run.order(name)
+            for error in self.errors(name):
+                parts = {p: float(np.max(s)) / self.largest(name) for p, s in error.parts.items()}
+                allowed = share / SPARE / max(1, sum(size > 0 for size in parts.values()))
+                if error.status is ErrorStatus.NOT_CONVERGED:
+                    factors[space] = max(factors.get(space, 1.0), UNCONVERGED)
+                for part, size in parts.items():
+                    order = believed * ORDERS.get(part, of_cells)
+                    if part != "neglected" and size > allowed:
+                        factors[part] = max(factors.get(part, 1.0), (size / allowed) ** (1 / order))
+        return Refinement(factors.pop(space, 1.0), factors.pop("increments", 1.0), factors)
+
+
+@dataclass(frozen=True)
+class Levels:
+    """Refinement levels of a scene by one solver.
+
+    stress_at  load step at whose end the largest tensile stress is requested, or None
+    watching, keeping
+               contexts of each solve, with its progress and its checkpoint store
+    """
+
+    solver: DiscretisedSolver
+    stress_at: int | None = None
+    watching: InContext = no_context
+    keeping: InContext = no_context
+
+    def first(self) -> RefinementLevel:
+        """Solve the coarsest level whose cells resolve the contact; raises a SolverError."""
+        asked, plan = self.solver.asked, self.solver.plan
+        fineness = Fineness(self.solver.first(), plan.increments, asked.tolerance)
+        for _ in range(MOST_DOUBLINGS):
+            try:
+                return self.solved(fineness)
+            except ContactNotResolved:
+                fineness = self.solver.refined(fineness, Refinement(UNCONVERGED))
+        return self.solved(fineness)
+
+    def solved(self, fineness: Fineness) -> RefinementLevel:
+        """Solve a level with its errors; raises a SolverError."""
+        began, began_processor = time.perf_counter(), time.process_time()
+        result = self.solver.solve(fineness, self.watching, self.keeping)
+        run, companions = solved_run(self.solver, result)
+        values, errors, orders = list(run.values), list(run.errors()), {}
+        if self.stress_at is not None:
+            at, stated = self.stress_at - 1, StatedErrors(tuple(errors), companions)
+            below = largest_tensile_stress(result, stated, self.stress_at)
+            if below is not None:
+                values[at] = {**values[at], LARGEST_TENSION: np.array([below.value])}
+                errors[at] = {**errors[at], LARGEST_TENSION: below.error}
+                orders[LARGEST_TENSION] = below.order
+        return RefinementLevel(
+            fineness=self.solver.fineness_of(result),
+            result=result,
+            values=values,
+            stated=StatedErrors(tuple(errors), companions),
+            run=run,
+            seconds=time.perf_counter() - began,
+            processor_seconds=time.process_time() - began_processor,
+            orders=orders,
+        )
+
+    def settings(self, fineness: Fineness) -> AccuracySettings:
+        """Discretisation for the summary."""
+        return AccuracySettings(
+            increments=fineness.increments,
+            tolerance=fineness.tolerance,
+            **self.solver.shown(fineness.space),
+        )
+
+    def too_large(self, fineness: Fineness) -> str | None:
+        """Reason why a level is beyond the solver or the memory; None for one that fits."""
+        ((name, size),) = self.solver.shown(fineness.space).items()
+        shown = f"{name} = {size}"
+        if np.max(size) > self.solver.most:
+            return f"a round with {shown} is beyond {self.solver.most:g}"
+        needed, available = self.solver.memory(fineness), available_bytes()
+        if needed <= available:
+            return None
+        return (
+            f"a round with {shown} needs about {needed / 2**30:.1f} GiB; "
+            f"{available / 2**30:.1f} GiB are available"
+        )
+
+
+def bounded(by: Refinement, most: float = MOST_AT_ONCE) -> Refinement:
+    """Limit all refinement factors; some parameter is refined in any case."""
+    cells, increments = min(by.cells, most), min(by.increments, most)
+    others = {part: min(factor, most**2) for part, factor in by.others.items()}
+    if max(cells, increments) < LEAST_AT_ONCE and not others:
+        cells = LEAST_AT_ONCE
+    return Refinement(cells, increments, others)
+
+
+@dataclass(frozen=True)
+class Targets:
+    """Numbers that a request binds.
+
+    shares    largest error of each number, relative to its largest value in the history
+    left_out  numbers that are not bound, with the reason
+    """
+
+    shares: Mapping[str, float]
+    left_out: Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class Refined:
+    """The finest level, and its accuracy compared with the request."""
+
+    level: RefinementLevel
     accuracy: AccuracyReached
 
 
 @dataclass(frozen=True)
-class Progress(Generic[F]):
+class Progress:
     """State of a refinement between two levels, sufficient to resume it.
 
-    targets    numbers that are bound
-    rounds     levels solved so far
-    spent      their seconds
-    best       discretisation of the best level
-    shortfall  its largest error over its request
-    next       discretisation of the next level
-    needed     expected seconds of the next level; None without a limit on time
+    targets  numbers that are bound
+    rounds   levels solved so far
+    spent    their seconds
+    last     discretisation of the last level
+    next     discretisation of the next level
+    needed   expected seconds of the next level
     """
 
     targets: Targets
     rounds: int
     spent: float
-    best: F
-    shortfall: float
-    next: F
-    needed: float | None
+    last: Fineness
+    next: Fineness
+    needed: float
 
-    def after(self, level: RefinementLevel[F], levels: Levels[F], timed: bool) -> Progress[F]:
-        """State after a level; `timed` requests the expected seconds of the next one."""
-        began, shares = time.perf_counter(), self.targets.shares
-        shortfall = level.shortfall(shares)
-        better = shortfall <= self.shortfall
-        finer = level.fineness
-        if not level.meets(shares):
-            finer = levels.refined(level.fineness, level.needed(shares).bounded())
-        shared = max(1.0, level.seconds / max(level.processor_seconds, 1e-3))
-        return Progress(
-            targets=self.targets,
-            rounds=self.rounds + 1,
-            spent=self.spent + level.seconds + time.perf_counter() - began,
-            best=level.fineness if better else self.best,
-            shortfall=shortfall if better else self.shortfall,
-            next=finer,
-            needed=shared * levels.seconds(finer, level) if timed else None,
-        )
+
+@dataclass(frozen=True)
+class Price:
+    """Cost of one request.
+
+    settings  discretisation of the last level
+    seconds   CPU time of the first and the last level
+    memory    of the last level [byte]
+    fits      whether so much memory is available
+    """
+
+    settings: AccuracySettings
+    seconds: float
+    memory: int
+    fits: bool
 
 
 def refine(
-    levels: Levels[F],
+    levels: Levels,
     request: AccuracyRequest,
-    most_seconds: float | None = None,
+    most_seconds: float = np.inf,
     estimated: Estimated | None = None,
-    begun: Progress[F] | None = None,
-    between: Callable[[Progress[F]], None] | None = None,
-) -> Refined[F]:
+    begun: Progress | None = None,
+    between: Callable[[Progress], None] | None = None,
+) -> Refined:
     """Solve ever finer levels until a request is met.
 
     most_seconds  no level is begun that would exceed the sum of the seconds
     begun         state to resume from, as passed to `between`
     between       called before each level but the first
 
-    If a limit is reached, or a finer level has no result, the best level is returned with the
+    If a limit is reached, or a finer level has no result, the last level is returned with the
     reason. Raises AccuracyOutOfReach for a request beyond reach, and the errors of the first level.
     """
-    state, stopped, met = begun, None, False
-    best: RefinementLevel[F] | None = None
-    while state is None or not met:
-        if state is None:
-            refuse_absent(request, levels.scene)
-            level = levels.solved(levels.first())
-            targets = targets_of(request, level)
-            refuse_unreachable(targets, level, levels.most_growth(level.fineness))
-            state = Progress(targets, 0, 0.0, level.fineness, np.inf, level.fineness, None)
-        else:
-            stopped = _stopped(state, levels, most_seconds)
-            if stopped is not None:
-                break
-            if between is not None:
-                between(state)
-            try:
-                level = levels.solved(state.next)
-            except SolverError as error:
-                stopped = f"the next round has no answer: {error}"
-                break
-        shares = state.targets.shares
-        met, state = level.meets(shares), state.after(level, levels, most_seconds is not None)
-        if state.best is level.fineness:
-            best = level
+    state, level, stopped = begun, None, None
+    if state is None:
+        level = levels.first()
+        state = _after(level, levels, targets_of(request, level, levels), 1, level.seconds)
         if estimated is not None:
-            estimated(state.rounds, shares, {name: level.reached(name) for name in shares})
-    if best is None:  # solved before the resume point
-        best = levels.solved(state.best)
+            estimated(1, *_compared(level, state.targets))
+    shares = state.targets.shares
+    while level is None or not level.meets(shares):
+        if stopped := _stopped(state, levels, most_seconds):
+            break
+        if between is not None:
+            between(state)
+        try:
+            level = levels.solved(state.next)
+        except SolverError as error:
+            stopped = f"the next round has no answer: {error}"
+            break
+        spent = state.spent + level.seconds
+        state = _after(level, levels, state.targets, state.rounds + 1, spent)
+        if estimated is not None:
+            estimated(state.rounds, *_compared(level, state.targets))
+    if level is None:  # solved before the resume point
+        level = levels.solved(state.last)
+    asked, reached = _compared(level, state.targets)
     accuracy = AccuracyReached(
-        asked=dict(state.targets.shares),
-        reached={name: best.reached(name) for name in state.targets.shares},
-        met=met,
-        settings=levels.settings(best.fineness),
+        asked=dict(asked),
+        reached=dict(reached),
+        met=stopped is None,
+        settings=levels.settings(level.fineness),
         rounds=state.rounds,
         left_out=dict(state.targets.left_out),
         stopped=stopped,
     )
-    return Refined(best, accuracy)
+    return Refined(level, accuracy)
 
 
-def _stopped(state: Progress[F], levels: Levels[F], most_seconds: float | None) -> str | None:
+def _compared(
+    level: RefinementLevel, targets: Targets
+) -> tuple[Mapping[str, float], Mapping[str, float | None]]:
+    """Requested errors, and those of a level."""
+    return targets.shares, {name: level.reached(name) for name in targets.shares}
+
+
+def _after(
+    level: RefinementLevel, levels: Levels, targets: Targets, rounds: int, spent: float
+) -> Progress:
+    """State after a level."""
+    finer = levels.solver.refined(level.fineness, bounded(level.needed(targets.shares)))
+    shared = max(1.0, level.seconds / max(level.processor_seconds, 1e-3))
+    works = levels.solver.work(level.fineness), levels.solver.work(finer)
+    needed = estimated_seconds(shared * level.processor_seconds, *works)
+    return Progress(targets, rounds, spent, level.fineness, finer, needed)
+
+
+def price(levels: Levels, first: RefinementLevel, request: AccuracyRequest) -> Price:
+    """Estimate the cost of a request from the first level; raises AccuracyOutOfReach."""
+    shares = targets_of(request, first, levels).shares
+    needed = bounded(first.needed(shares, believed=1.0), FURTHEST)
+    fineness = first.fineness
+    if not first.meets(shares):
+        fineness = levels.solver.refined(fineness, needed)
+    works = levels.solver.work(first.fineness), levels.solver.work(fineness)
+    seconds = first.processor_seconds + estimated_seconds(first.processor_seconds, *works)
+    fits, memory = levels.too_large(fineness) is None, levels.solver.memory(fineness)
+    return Price(levels.settings(fineness), seconds, memory, fits)
+
+
+def targets_of(request: AccuracyRequest, level: RefinementLevel, levels: Levels) -> Targets:
+    """Determine the numbers that a request binds, by a first result.
+
+    Raises AccuracyOutOfReach for a named number that is absent or infinite, and for a number that
+    the finest affordable cells will not meet.
+    """
+    left_out = {name: why for name in request.shares() if (why := _why_left_out(name, level))}
+    for name in request.named:
+        if name in left_out:
+            raise AccuracyOutOfReach(f"no accuracy of {name} can be had: {left_out[name]}")
+    shares = {name: share for name, share in request.shares().items() if name not in left_out}
+    needed = bounded(level.needed(shares, believed=1.0), FURTHEST)
+    finest = levels.solver.refined(level.fineness, Refinement(needed.cells / DOUBT))
+    if needed.cells > DOUBT and (too_large := levels.too_large(finest)):
+        raise AccuracyOutOfReach(f"no grid can meet the request: {too_large}")
+    return Targets(shares, left_out)
+
+
+def _why_left_out(name: str, level: RefinementLevel) -> str:
+    """Empty for a number that is bound."""
+    if not any(name in step for step in level.stated.steps):
+        return ABSENT
+    if name == "peak_pressure" and any(features.infinite for features in level.run.features):
+        return INFINITE
+    natural = max(scale(name, step) for step in level.run.values)
+    return "it is zero throughout" if level.largest(name) <= ROUND_OFF * natural else ""
+
+
+def _stopped(state: Progress, levels: Levels, most_seconds: float) -> str | None:
     """Reason why the next level is not begun; None without one."""
     if state.rounds == MOST_ROUNDS:
         return f"{state.rounds} rounds have not met it"
     if too_large := levels.too_large(state.next):
         return too_large
-    needed = state.needed or 0.0
-    if most_seconds is None or state.spent + needed <= most_seconds:
+    if state.spent + state.needed <= most_seconds:
         return None
     return (
-        f"after {state.spent:.3g} s the next round would take about {needed:.2g} s, "
+        f"after {state.spent:.3g} s the next round would take about {state.needed:.2g} s, "
         f"beyond the {most_seconds:.3g} s of --most-seconds"
     )

@@ -1,78 +1,298 @@
-"""Coarse solves of one result, each made once and recorded."""
+"""Coarse solves of a result, and their comparison with it: one procedure for all solvers.
+
+A solver is described by its discretisation parameters, which are coarsened for error estimates and
+refined for a requested accuracy. The first coarse solves change the cells (elements, rings) alone.
+One of them is the base of the comparisons in which the other parameters of a mesh and the
+increments are changed.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterator, Sequence
-from dataclasses import dataclass, field
-from math import log
-from typing import Any
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass, field, replace
+from math import ceil, log
+from typing import Any, ClassVar, TypeAlias
 
-from contact_errors.error_formula import Comparison
+import numpy as np
+
+from contact_errors.cost_estimate import Work
+from contact_errors.error_formula import Comparison, Features, SolvedRun
 from contact_errors.values import Values, values_of
 from contact_results.cycles import fretting_cycles
+from contact_scene import Scene
+from contact_scene.increment_error import with_error
 from contact_scene.solver_errors import SolverError
-from contact_scene.stated_error import Companion
+from contact_scene.stated_error import Companion, Part, StatedErrors
+from contact_scene.summary import ContactStatus
 
+# Context of the solve of a discretisation: its observer of increments, or its checkpoint store.
+InContext: TypeAlias = Callable[[Any], AbstractContextManager[Any]]
+
+# Coarse solves: description, share of the cells along a side, and further cells.
+PAIR = ("half the {}", 1 / 2, 0), ("two thirds of the {}", 2 / 3, 0)
+TRIPLE = (*PAIR, ("half the {} and two", 1 / 2, 2))
 # A step with fewer increments is compared with many, as halves of few do not converge regularly.
 FEW, MANY = 4, (32, 8)
+LEAST_TOLERANCE = 1e-13
+
+
+def no_context(fineness: object) -> AbstractContextManager[None]:
+    """Context of a solve without observer or checkpoint store."""
+    return nullcontext()
 
 
 @dataclass(frozen=True)
-class CoarseSolves:
-    """Coarse solves of a result.
+class Refinement:
+    """Refinement factors.
 
-    made   records of the solves
-    known  their results by key, None without one
+    cells       of the cells along a side, or of the elements or rings over the radius
+    increments  of the increments of all steps with an increment error
+    others      of the remaining parameters, by the part of the error
     """
 
-    result: Any
-    made: list[Companion] = field(default_factory=list)
-    known: dict[Hashable, Any] = field(default_factory=dict)
+    cells: float = 1.0
+    increments: float = 1.0
+    others: Mapping[Part, float] = field(default_factory=dict)
 
-    def values(self, result: Any) -> tuple[Values, ...]:
-        """Numbers at the ends of the load steps."""
-        return values_of(result, fretting_cycles(result))
 
-    def solved(self, key: Hashable, solve: Callable[[], Any], record: Companion) -> Any:
-        """Result of a coarse solve; None for a refused one."""
-        if key in self.known:
-            return self.known[key]
-        try:
-            found = solve()
-        except SolverError as error:
-            found = None
-            self.made.append(record.model_copy(update={"refused": str(error)}))
-        else:
-            spent = {"iterations": sum(i.iterations for i in found.increments)}
-            if getattr(found.increments[0], "convolutions", None) is not None:
-                spent["convolutions"] = sum(i.convolutions for i in found.increments)
-            self.made.append(record.model_copy(update=spent))
-        self.known[key] = found
-        return found
+@dataclass(frozen=True)
+class Fineness:
+    """Discretisation of a solve.
 
-    def compared(self, part: Any, found: Any, ratio: float, order: float | None = None,
-                 base: Any = None) -> Iterator[Comparison]:  # fmt: skip
-        """Compare a coarse solve, if it has a result, with the run or another base."""
-        if found is not None and ratio != 1:
-            values = self.values(base or self.result)
-            yield Comparison(part, values, self.values(found), [ratio] * len(values), order)
+    space       grid of cells, mesh of elements, or multiple of the rings
+    increments  of every load step
+    tolerance   bound of every residual
+    """
 
-    def by_increments(
-        self, matters: Sequence[bool], solve: Callable[[tuple[int, ...]], Any]
-    ) -> Iterator[Comparison]:
-        """Compare other increments with those of the run, both on one coarse discretisation.
+    space: Any
+    increments: tuple[int, ...]
+    tolerance: float
 
-        solve  a coarse solve with these increments; None for a refused one
+
+@dataclass(frozen=True)
+class CoarseSolve:
+    """A coarse solve to be made.
+
+    part     discretisation parameter that is coarsened
+    differs  description
+    space    see `Fineness`
+    ratio    coarsening factor; None where it is that of the sides of the cells
+    """
+
+    part: Part
+    differs: str
+    space: Any
+    ratio: float | None = None
+
+
+@dataclass(frozen=True)
+class DiscretisedSolver(ABC):
+    """A solver of one scene.
+
+    asked    parameters that are kept, and the coarsest values of the others
+    decided  plan of a result; None for that of the first level of refinement
+    """
+
+    scene: Scene
+    asked: Any
+    decided: Any = None
+
+    # Part of the error, name of the cells, their largest number along a side (over the radius, or
+    # multiple of the rings), and cells times increments up to which three coarse solves are made.
+    part: ClassVar[Part]
+    cells: ClassVar[str]
+    most: ClassVar[float]
+    small: ClassVar[float] = 0.0
+
+    @property
+    @abstractmethod
+    def plan(self) -> Any:
+        """Effects and increments."""
+
+    @abstractmethod
+    def solve(
+        self, fineness: Fineness, watching: InContext = no_context, keeping: InContext = no_context
+    ) -> Any:
+        """Solve the scene; raises a SolverError."""
+
+    @abstractmethod
+    def space_of(self, result: Any) -> Any:
+        """Grid, mesh or multiple of the rings of a result."""
+
+    def fineness_of(self, result: Any) -> Fineness:
+        """Discretisation of a result."""
+        return Fineness(self.space_of(result), result.plan.increments, result.tolerance)
+
+    # ---- coarse solves
+
+    @abstractmethod
+    def coarser(self, result: Any, share: float, more: int) -> Any:
+        """Grid, mesh or rings with a share of the cells along a side, and more."""
+
+    def of_mesh(self, base: Any, result: Any) -> Iterable[CoarseSolve]:
+        """Coarse solves in the other parameters of a mesh, from that of a first coarse solve."""
+        return ()
+
+    def few(self, base: Any, result: Any) -> Any:
+        """Grid, mesh or rings of the solves that compare increments."""
+        return base
+
+    @abstractmethod
+    def sides(self, result: Any) -> tuple[float, ...]:
+        """Sides of a cell."""
+
+    @abstractmethod
+    def shown(self, space: Any) -> Mapping[str, Any]:
+        """Discretisation for the record."""
+
+    @abstractmethod
+    def features(self, result: Any) -> Sequence[Features]:
+        """Resolution at the end of each step."""
+
+    def residuals(self, result: Any) -> Sequence[float]:
+        """Bound of the residuals of each step."""
+        return [result.tolerance] * len(result.steps)
+
+    def neglected(self, result: Any) -> Mapping[str, float]:
+        """Relative errors of numbers by effects that the solver neglects."""
+        return {}
+
+    # ---- refinement
+
+    @abstractmethod
+    def first(self) -> Any:
+        """Grid, mesh or rings of the coarsest level."""
+
+    @abstractmethod
+    def finer(self, space: Any, by: Refinement) -> Any:
+        """Grid, mesh or rings refined by at least these factors."""
+
+    def refined(self, fineness: Fineness, by: Refinement) -> Fineness:
+        """Discretisation refined by at least these factors.
+
+        Steps without an increment error keep their increments.
         """
-        counts = self.result.plan.increments
-        base = solve(counts) if any(matters) else None
-        if base is not None:
-            for others in dict.fromkeys(recounted(counts, matters)):
-                found = solve(others)
-                if found is not None:
-                    values = self.values(base), self.values(found)
-                    factors = ratios(counts, others, matters)
-                    yield Comparison("increments", *values, factors, order=1.0)
+        return replace(
+            fineness,
+            space=self.finer(fineness.space, by),
+            increments=tuple(
+                ceil(by.increments * count - 1e-9) if matters else count
+                for count, matters in zip(fineness.increments, with_error(self.scene), strict=True)
+            ),
+            tolerance=max(LEAST_TOLERANCE, fineness.tolerance / by.others.get("tolerance", 1.0)),
+        )
+
+    @abstractmethod
+    def work(self, fineness: Fineness) -> Work:
+        """Size of a solve."""
+
+    @abstractmethod
+    def memory(self, fineness: Fineness) -> int:
+        """Largest memory of a solve [byte]."""
+
+
+def estimated(solver: DiscretisedSolver, result: Any) -> StatedErrors:
+    """Estimate the errors of all numbers at the ends of all steps."""
+    run, companions = solved_run(solver, result)
+    return StatedErrors(tuple(run.errors()), companions)
+
+
+def solved_run(solver: DiscretisedSolver, result: Any) -> tuple[SolvedRun, tuple[Companion, ...]]:
+    """Make the coarse solves of a result, each once."""
+    run, made = solver.fineness_of(result), list[Companion]()
+    known: dict[Fineness, Any] = {run: result}
+
+    def solved(differs: str, coarse: Fineness) -> Any:
+        """Result of a coarse solve; None for a refused one."""
+        if coarse not in known:
+            shown, increments = solver.shown(coarse.space), coarse.increments
+            record = Companion(differs=differs, increments=increments, **shown)
+            try:
+                known[coarse] = solver.solve(coarse)
+                made.append(record.model_copy(update=_spent(known[coarse])))
+            except SolverError as error:
+                known[coarse] = None
+                made.append(record.model_copy(update={"refused": str(error)}))
+        return known[coarse]
+
+    def compared(base: Any, by: Iterable[CoarseSolve]) -> Iterator[Comparison]:
+        for coarse in by:
+            required[coarse.part] = [True] * len(values)
+            found = solved(coarse.differs, replace(run, space=coarse.space))
+            if found is not None:
+                sides = zip(solver.sides(found), solver.sides(base), strict=True)
+                ratio = coarse.ratio or min(there / here for there, here in sides)
+                both = numbers(base), numbers(found)
+                yield Comparison(coarse.part, *both, [ratio] * len(values))
+
+    values, matters = numbers(result), with_error(result.scene)
+    required: dict[Part, Sequence[bool]] = {solver.part: [True] * len(values)}
+    small = np.prod([*solver.shown(run.space).values()]) * len(result.increments) <= solver.small
+    comparisons = list(
+        compared(
+            result,
+            [
+                CoarseSolve(
+                    solver.part, text.format(solver.cells), solver.coarser(result, share, more)
+                )
+                for text, share, more in (TRIPLE if small else PAIR)
+            ],
+        )
+    )
+    bases = [fineness.space for fineness, found in known.items() if found is not None][1:2]
+    for base in bases:
+        comparisons += compared(known[replace(run, space=base)], solver.of_mesh(base, result))
+        few = replace(run, space=solver.few(base, result))
+        first = solved("few increments", few) if any(matters) else None
+        for others in dict.fromkeys(recounted(run.increments, matters)) if first else ():
+            found = solved("other increments", replace(few, increments=others))
+            if found is not None:
+                factors = ratios(run.increments, others, matters)
+                both = numbers(first), numbers(found)
+                comparisons.append(Comparison("increments", *both, factors))
+    return SolvedRun(
+        scene=result.scene,
+        values=values,
+        tolerance=solver.residuals(result),
+        features=solver.features(result),
+        comparisons=comparisons,
+        required={**required, "increments": matters},
+        neglected=solver.neglected(result),
+    ), tuple(made)
+
+
+def at_ends(result: Any, resolved: Callable[[Any], Features]) -> Sequence[Features]:
+    """Resolution at the end of each step; without contact that of the preceding step."""
+    found: list[Features] = []
+    for end in result.steps:
+        found.append(resolved(end) if end.contact_area else found[-1])
+    return found
+
+
+def slip_zone(end: Any, per_length: float) -> tuple[float | None, float | None]:
+    """Stick zone and width of the slip zone of a contact of revolution, in cells."""
+    if end.stick_radius is None:
+        return None, None
+    slips = end.status is not ContactStatus.FULL_STICK
+    annulus = per_length * (end.contact_radius - end.stick_radius) if slips else None
+    return per_length * end.stick_radius, annulus
+
+
+def numbers(result: Any) -> tuple[Values, ...]:
+    """Return the numbers at the ends of the load steps."""
+    return values_of(result, fretting_cycles(result))
+
+
+def _spent(found: Any) -> Mapping[str, int]:
+    """Work of a solve."""
+    names = ("iterations", "convolutions")
+    return {
+        name: sum(getattr(increment, name) for increment in found.increments)
+        for name in names
+        if getattr(found.increments[0], name, None) is not None
+    }
 
 
 def recounted(counts: Sequence[int], matters: Sequence[bool]) -> list[tuple[int, ...]]:

@@ -59,9 +59,9 @@ def work_on_elements(per_radius: int, increments: Sequence[int], harmonics: int)
     return Work(per_radius**2, repetitions, ELEMENT_OVERHEAD)
 
 
-def work_on_rings(increments: Sequence[int]) -> Work:
-    """Determine the size of a radial solve: all have the same rings and angles."""
-    return Work(1.0, sum(increments), 0.0)
+def work_on_rings(increments: Sequence[int], fineness: float = 1.0) -> Work:
+    """Determine the size of a radial solve with a multiple of its rings and angles."""
+    return Work(fineness**4, sum(increments), 0.0)
 
 
 def estimated_seconds(measured: float, coarse: Work, solve: Work) -> float:

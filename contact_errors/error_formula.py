@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from types import MappingProxyType
 
 import numpy as np
@@ -33,6 +34,10 @@ Numbers = NDArray[np.float64]
 BELIEVED = 0.6
 # Means of smooth fields; values at the edge of a zone that lies within a cell; square roots.
 SMOOTH, EDGE, ROOT = 2.0, 1.0, 0.5
+# Orders of all numbers in the parameters other than the cells.
+ORDERS: Mapping[str, float] = MappingProxyType(
+    {"increments": 1.0, "section": 2.0, "penalty": 1.0, "harmonics": 2.0, "tolerance": 1.0}
+)
 # Residuals of the tolerance leave errors of about ten times as much. The edge correction applies
 # 0.6 of each change (`semi_analytical.edge_correction.pressure.DAMPED`), so that 0.4/0.6 of the
 # last change is left where the next solve would not change.
@@ -68,30 +73,25 @@ class Features:
     layer     thinnest layer
     wave      mean wavelength of a height map
     stick     smaller semi-axis of the stick zone
-    annulus   width of the slip zone around it
-    cell      side of a cell [length]
+    annulus   width of the slip zone around it; 0 if slip of all cells may hide a stick zone
     fitted    whether the edge of the contact is fitted within the cells
     stick_fitted
               the same of the edge of the stick zone
-    whole_rings
-              whether the stick radius is that of whole rings
     sharp     whether the indenter has a rim, below which all numbers converge with the first order
     infinite  whether the exact peak pressure is infinite
     cusp      whether friction acts back on the pressure
     ridge     whether the largest pressure is nearer to the edge of the contact than to its middle
-    slides    whether all of the contact slips
+    slides    whether all of the contact certainly slips
     changes   relative changes of numbers in the last iteration of the edge correction
     """
 
     contact: float
-    cell: float
     layer: float | None = None
     wave: float | None = None
     stick: float | None = None
     annulus: float | None = None
     fitted: bool = False
     stick_fitted: bool = False
-    whole_rings: bool = False
     sharp: bool = False
     infinite: bool = False
     cusp: bool = False
@@ -101,43 +101,28 @@ class Features:
 
     def order(self, name: str) -> float:
         """Convergence order of a number in the size of a cell."""
-        if name == PEAK:
-            return ROOT if self.cusp else EDGE if self.sharp or self.ridge else SMOOTH
-        if name in STRESS:
-            return ROOT
-        if name in AT_EDGES or self.sharp:
+        if self.sharp:
             return EDGE
-        if name in CONTACT_EDGE:
-            return SMOOTH if self.fitted else EDGE
-        if name in STICK_EDGE:
-            return SMOOTH if self.stick_fitted else EDGE
-        return SMOOTH
+        if name in STRESS or (name == PEAK and self.cusp):
+            return ROOT
+        first = (
+            name in AT_EDGES
+            or (name == PEAK and self.ridge)
+            or (name in CONTACT_EDGE and not self.fitted)
+            or (name in STICK_EDGE and not self.stick_fitted)
+        )
+        return EDGE if first else SMOOTH
 
     def resolve(self, name: str) -> bool:
         """Whether the cells resolve the features on which a number depends."""
-        if any(
-            size is not None and size < LIMITS[feature]
-            for feature, size in (
-                ("contact", self.contact), ("layer", self.layer), ("wave", self.wave)
-            )
-        ):  # fmt: skip
-            return False
+        sizes = {"contact": self.contact, "layer": self.layer, "wave": self.wave}
         if name in STICK_EDGE:
-            return self.stick is None or self.stick >= LIMITS["stick"]
-        if name == PEAK and self.cusp and not self.slides:
-            return self.stick is None or self.stick >= LIMITS["cusp"]
-        if name in OF_SLIP:
-            return self.annulus is None or self.annulus >= LIMITS["annulus"]
-        return True
-
-    def hidden(self, name: str) -> float:
-        """Number of cells by which the edge of a zone may be wrong on every level alike."""
-        if name in CONTACT_EDGE:
-            thin = self.layer is not None and self.layer < 2 * self.contact
-            return float(thin and not self.fitted)
-        if name in STICK_EDGE and not self.slides and self.stick is not None:
-            return float(self.whole_rings or self.stick < LIMITS["stick"])
-        return 0.0
+            sizes["stick"] = self.stick
+        elif name == PEAK and self.cusp and not self.slides:
+            sizes["cusp"] = self.stick
+        elif name in OF_SLIP:
+            sizes["annulus"] = self.annulus
+        return all(size is None or size >= LIMITS[feature] for feature, size in sizes.items())
 
 
 @dataclass(frozen=True)
@@ -146,21 +131,22 @@ class Comparison:
 
     part    of the error that the parameter contributes to
     ratios  coarsening factor of the parameter at the end of each step; 1 without an effect
-    order   of all numbers in the parameter; None where it is that of the cells
     """
 
     part: Part
     base: Sequence[Values]
     coarse: Sequence[Values]
     ratios: Sequence[float]
-    order: float | None = None
 
     def part_of(self, step: int, name: str, order: float) -> Numbers | None:
-        """Part of the error of a number at the end of a step, from 0; None without one."""
+        """Part of the error of a number at the end of a step, from 0; None without one.
+
+        order  of the number in the cells
+        """
         here, there = self.base[step].get(name), self.coarse[step].get(name)
         if self.ratios[step] == 1 or here is None or there is None:
             return None
-        power = BELIEVED * (order if self.order is None else self.order)
+        power = BELIEVED * ORDERS.get(self.part, order)
         return np.abs(here - there) / abs(self.ratios[step] ** power - 1)
 
 
@@ -185,37 +171,41 @@ class SolvedRun:
 
     def errors(self) -> Iterator[Mapping[str, StatedError]]:
         """Stated errors at the end of each step."""
-        largest = largest_so_far(self.values)
-        nearly = near_gross_slip(self.scene)
         before: dict[str, dict[Part, Numbers]] = {}
         for step, ramp in enumerate(self.scene.load_path()):
-            exact, found = prescribed(ramp), {}
-            for name, value in self.values[step].items():
-                features = self.features[step]
-                apart = not np.any(self.values[step]["contact_area"])
-                none = apart or (name in STICK_EDGE and features.slides)
-                if name in exact or (none and not np.any(value)):
-                    found[name] = EXACT
-                    continue
-                parts = self._parts(step, name, largest[step][name])
-                if parts is None:
-                    found[name] = UNKNOWN
-                    continue
-                if not np.any(value) and not any(
-                    np.any(size) for part, size in parts.items() if part != "tolerance"
-                ):
-                    found[name] = EXACT  # zero at every fineness: its cause is absent
-                    continue
-                last = before.get(name, {})
-                parts = {
-                    part: np.maximum(size, last.get(part, 0.0)) for part, size in parts.items()
-                }
-                before[name] = parts
-                total, floor = np.sum(list(parts.values()), axis=0), parts["tolerance"]
-                small = np.all(total <= LARGEST_SHARE * largest[step][name] + floor)
-                believed = features.resolve(name) and not (nearly[step] and name in OF_SLIP)
-                found[name] = stated(parts, bool(small and believed))
-            yield found
+            exact = prescribed(ramp)
+            yield {
+                name: EXACT if name in exact else self._error(step, name, before)
+                for name in self.values[step]
+            }
+
+    def _error(self, step: int, name: str, before: dict[str, dict[Part, Numbers]]) -> StatedError:
+        """Error of a number; `before` has its parts at earlier steps."""
+        features, value = self.features[step], self.values[step][name]
+        apart = not np.any(self.values[step]["contact_area"])
+        if not np.any(value) and (apart or name in STICK_EDGE):
+            return EXACT if apart or features.slides else UNKNOWN
+        largest = self._largest[step][name]
+        parts = self._parts(step, name, largest)
+        if parts is None:
+            return UNKNOWN
+        floor = parts["tolerance"]
+        if not np.any(value) and not np.any(sum(parts.values()) - floor):
+            return EXACT  # zero at every fineness: its cause is absent
+        last = before.get(name, {})
+        parts = {part: np.maximum(size, last.get(part, 0.0)) for part, size in parts.items()}
+        before[name] = parts
+        small = np.all(sum(parts.values()) <= LARGEST_SHARE * largest + parts["tolerance"])
+        nearly = name in OF_SLIP and self._nearly[step]
+        return stated(parts, bool(small and not nearly and features.resolve(name)))
+
+    @cached_property
+    def _largest(self) -> Sequence[Values]:
+        return largest_so_far(self.values)
+
+    @cached_property
+    def _nearly(self) -> Sequence[bool]:
+        return near_gross_slip(self.scene)
 
     def order(self, name: str) -> float:
         """Smallest convergence order of a number in the cells."""
@@ -239,28 +229,19 @@ class SolvedRun:
         parts["tolerance"] = PER_TOLERANCE * self.tolerance[step] * size
         if change := features.changes.get(name):
             parts["tolerance"] = parts["tolerance"] + PER_ITERATION * change * largest
-        if hidden := features.hidden(name) * features.cell:
-            radius = self.values[step][name.replace("_area", "_radius")]
-            area = 2 * np.pi * radius * hidden + np.pi * hidden**2
-            space = next(iter(self.required))
-            parts[space] = parts[space] + (area if name.endswith("_area") else hidden)
         if share := self.neglected.get(name):
             parts["neglected"] = share * largest
         return parts
 
     def _of_work(self, step: int) -> dict[Part, Numbers] | None:
         """The work of the loads is the sum of the energies, and so are its errors."""
-        total: dict[Part, Numbers] = {}
-        if ENERGIES[0] not in self.values[step]:
-            return None
+        values, total = self.values[step], dict[Part, Numbers]()
         for name in ENERGIES:
-            if name in self.values[step]:
-                size = np.abs(self.values[step][name])
-                parts = self._parts(step, name, size)
+            if name in values:
+                parts = self._parts(step, name, np.abs(values[name]))
                 if parts is None:
                     return None
-                for part, amount in parts.items():
-                    total[part] = total.get(part, np.zeros(1)) + amount
+                total = {part: size + total.get(part, 0.0) for part, size in parts.items()}
         return total or None
 
 

@@ -1,125 +1,161 @@
-"""Coarse solves of a semi-analytical result: half of the cells, and other increments."""
+"""The semi-analytical solver for error estimates and refinement: cells, increments, tolerance."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from math import ceil
+from typing import Any, ClassVar
 
 import numpy as np
+from scipy.fft import next_fast_len
 from scipy.ndimage import distance_transform_edt
 
-from contact_errors.coarse_solves import CoarseSolves
-from contact_errors.error_formula import PEAK, Comparison, Features, SolvedRun
+import semi_analytical
+from contact_errors.coarse_solves import (
+    DiscretisedSolver,
+    Fineness,
+    InContext,
+    Refinement,
+    at_ends,
+    estimated,
+    no_context,
+)
+from contact_errors.cost_estimate import Work, work_on_cells
+from contact_errors.error_formula import PEAK, Features
 from contact_results.remarks import left_out
-from contact_scene import HeightMap
-from contact_scene.increment_error import with_error
-from contact_scene.solver_errors import ContactAtWindowEdge, ResourceRefused
-from contact_scene.stated_error import Companion, StatedErrors
+from contact_results.stress import on_cells as stress_on_cells
+from contact_scene import SurfaceDiscretisation
+from contact_scene.stated_error import Part, StatedErrors
 from contact_scene.summary import ContactStatus
-from semi_analytical import Increment, Result, SurfaceGrid, solve
+from semi_analytical import Increment, Plan, Result, SurfaceGrid, memory
 from semi_analytical.edge.corrected import EdgeReport
 from semi_analytical.edge.film import film_law
 from semi_analytical.edge.fit import WIDE
 from semi_analytical.plan import Coupling
-from semi_analytical.resolution import Resolution, resolution
-
-Progress = Callable[[Increment], None]
-Cells = tuple[int, int]
+from semi_analytical.resolution import resolution
+from semi_analytical.solve import solve_within
 
 # Cells over the contact radius of the solves that estimate the increment error. The effect of
 # increments on 24² and on 64² cells differs by at most 7 %.
 PER_RADIUS = 11
 # Cells times increments of a run up to which a third coarse solve is made.
-SMALL = 100_000
-# Convolutions of a coarse solve, on a quarter of the cells, over those of the run; and those that
-# each increment may take in any case.
-MOST_CONVOLUTIONS, FEW_CONVOLUTIONS = 4, 200
+SMALL = 1e5
 # Largest height of a random surface in root mean squares: one place in a thousand exceeds it.
 HIGHEST = 3.0
-# Enlargement of a fitted window where the coarse contact reaches its edge.
-ROOM = 1.25
+# Cells along the shorter side of the first level; eleven per radius on a fitted window.
+FIRST_CELLS = 24
+# Error of the shear by increments on the first level.
+FIRST_PATH_ACCURACY = 4e-2
+MOST_CELLS = 16384
+# Enlargement of a fitted window, on as many more cells, where the contact reaches its edge.
+ROOM, MOST_ENLARGEMENTS = 1.25, 5
 
 
-def stated_errors(result: Result, *, progress: Progress | None = None) -> StatedErrors:
-    """Estimate the errors of all numbers at the ends of all steps, by coarse solves."""
-    run, companions = coarse_solves(result, progress=progress)
-    return StatedErrors(tuple(run.errors()), companions)
+@dataclass(frozen=True)
+class CellSolver(DiscretisedSolver):
+    """The semi-analytical solver; a space is a grid.
 
+    asked   window if given, ratio of the cells along the sides, largest tolerance
+    stress  whether the stress in the body is computed as well
+    """
 
-def coarse_solves(
-    result: Result, *, progress: Progress | None = None
-) -> tuple[SolvedRun, tuple[Companion, ...]]:
-    """Solve the scene of a result on fewer cells and with other increments."""
-    coarse = CoarseSolves(result)
-    matters, resolved = with_error(result.scene), resolution(result)
+    asked: SurfaceDiscretisation
+    decided: Plan | None = None
+    stress: bool = False
 
-    def solved(differs: str, cells: Cells, increments: tuple[int, ...]) -> Result | None:
-        record = Companion(differs=differs, cells=cells, increments=increments)
-        found: Result | None = coarse.solved(
-            (cells, increments), lambda: _coarse(result, cells, increments, progress), record
+    part: ClassVar[Part] = "cells"
+    cells: ClassVar[str] = "cells"
+    small: ClassVar[float] = SMALL
+    most: ClassVar[float] = MOST_CELLS
+
+    @property
+    def plan(self) -> Plan:
+        """Effects, and at least the increments that the scene names."""
+        return self.decided or semi_analytical.plan(
+            self.scene, FIRST_PATH_ACCURACY, self.asked.edge
         )
-        return found
 
-    comparisons: list[Comparison] = []
-    all_cells, counts = result.grid.cells, result.plan.increments
-    half = _part(all_cells, 0.5)
-    ways = {"half the cells": half, "half the cells and two": (half[0] + 2, half[1] + 2)}
-    rough = isinstance(result.scene.indenter, HeightMap)
-    if rough or np.prod(all_cells) * len(result.increments) <= SMALL:
-        ways["two thirds of the cells"] = _part(all_cells, 2 / 3)
-    for differs, cells in ways.items():
-        ratio = min(n / m for n, m in zip(all_cells, cells, strict=True))
-        if ratio > 1:
-            comparisons += coarse.compared("cells", solved(differs, cells, counts), ratio)
-    largest = max(step.contact for step in resolved)
-    few = min(_part(all_cells, min(PER_RADIUS / max(largest, 1.0), 1.0)), half)
-    comparisons += coarse.by_increments(
-        matters, lambda others: solved("few cells, other increments", few, others)
-    )
-    run = SolvedRun(
-        scene=result.scene,
-        values=coarse.values(result),
-        tolerance=[result.tolerance] * len(resolved),
-        features=_features(result, resolved),
-        comparisons=comparisons,
-        required={"cells": [True] * len(resolved), "increments": matters},
-        neglected={PEAK: HIGHEST * left_out(result)},
-    )
-    return run, tuple(coarse.made)
+    def solve(
+        self, fineness: Fineness, watching: InContext = no_context, keeping: InContext = no_context
+    ) -> Result:
+        """Solve on a larger window of equal cells where a fitted window is too small."""
+        grids, plan = [fineness.space], self.plan.cut_into(fineness.increments)
+        fixed = self.asked.window is not None or self.scene.indenter.extent is not None
+        for _ in range(0 if fixed else MOST_ENLARGEMENTS):
+            cells, (hx, hy) = scaled(grids[-1].cells, ROOM), grids[-1].spacing
+            grids.append(SurfaceGrid(cells, (cells[0] * hx, cells[1] * hy)))
+        with keeping(fineness) as keeper, watching(fineness) as progress:
+            return solve_within(self.scene, grids, fineness.tolerance, progress, plan, keeper)
 
+    def space_of(self, result: Result) -> SurfaceGrid:
+        return result.grid
 
-def _features(result: Result, resolved: Sequence[Resolution]) -> tuple[Features, ...]:
-    """Resolution at the end of each step."""
-    indenter, coupled = result.scene.indenter, result.plan.coupling is not Coupling.NONE
-    law = film_law(result.scene.body, result.scene.indenter, result.grid.spacing)
-    found: list[Features] = []
-    for end, cells in zip(result.steps, resolved, strict=True):
-        if end.contact_area == 0:
-            found.append(found[-1])
-            continue
-        fitted = end.edge_report is not None and end.edge_report.cause is None
-        report = end.edge_report if fitted else None
-        # The square root of a half-space is fitted to more cells than the film is thick.
-        if cells.layer is not None and cells.layer < WIDE.reach and (coupled or law is None):
-            fitted = False
-        features = Features(
-            contact=cells.contact,
-            cell=max(result.grid.spacing),
-            layer=cells.layer,
-            wave=cells.wave,
-            stick=cells.stick,
-            annulus=cells.annulus,
-            fitted=fitted,
-            stick_fitted=report is not None and report.border and not coupled,
-            sharp=indenter.rim is not None,
-            infinite=indenter.rim is not None or indenter.gap_exponent == 1,
-            cusp=coupled,
-            ridge=(report is not None and report.ridge) or _to_edge(end) < cells.contact / 2,
-            slides=end.status is ContactStatus.GROSS_SLIDING,
-        )
-        found.append(features if report is None else replace(features, changes=_changes(report)))
-    return tuple(found)
+    def coarser(self, result: Result, share: float, more: int) -> SurfaceGrid:
+        return SurfaceGrid(_part(result.grid.cells, share, more), result.grid.window)
+
+    def few(self, base: SurfaceGrid, result: Result) -> SurfaceGrid:
+        cells, most = result.grid.cells, max(step.contact for step in resolution(result))
+        few = _part(cells, min(PER_RADIUS / max(most, 1.0), 1 / 2))
+        return SurfaceGrid(min(few, cells), result.grid.window)
+
+    def sides(self, result: Result) -> tuple[float, ...]:
+        return result.grid.spacing
+
+    def shown(self, space: SurfaceGrid) -> Mapping[str, Any]:
+        return {"cells": space.cells}
+
+    def neglected(self, result: Result) -> Mapping[str, float]:
+        return {PEAK: HIGHEST * left_out(result)}
+
+    def features(self, result: Result) -> Sequence[Features]:
+        indenter, coupled = self.scene.indenter, result.plan.coupling is not Coupling.NONE
+        law = film_law(self.scene.body, indenter, result.grid.spacing)
+        resolved = resolution(result)
+
+        def at(end: Increment) -> Features:
+            cells, report = resolved[end.step - 1], end.edge_report
+            if report is not None and report.cause is not None:
+                report = None
+            # The square root of a half-space is fitted to more cells than the film is thick.
+            thin = cells.layer is not None and cells.layer < WIDE.reach
+            ridge = report is not None and report.ridge
+            sliding = end.status is ContactStatus.GROSS_SLIDING
+            hides = sliding and _may_hide_stick(end)
+            return Features(
+                contact=cells.contact,
+                layer=cells.layer,
+                wave=cells.wave,
+                stick=cells.stick,
+                annulus=0.0 if hides else cells.annulus,
+                fitted=report is not None and not (thin and (coupled or law is None)),
+                stick_fitted=report is not None and report.border and not coupled,
+                sharp=indenter.rim is not None,
+                infinite=indenter.rim is not None or indenter.gap_exponent == 1,
+                cusp=coupled,
+                ridge=ridge or _to_edge(end) < cells.contact / 2,
+                slides=sliding and not hides,
+                changes={} if report is None else _changes(report),
+            )
+
+        return at_ends(result, at)
+
+    def first(self) -> SurfaceGrid:
+        grid = semi_analytical.discretise(self.scene, self.asked)
+        return SurfaceGrid(scaled(grid.cells, FIRST_CELLS / min(grid.cells)), grid.window)
+
+    def finer(self, space: SurfaceGrid, by: Refinement) -> SurfaceGrid:
+        return SurfaceGrid(scaled(space.cells, by.cells), space.window)
+
+    def work(self, fineness: Fineness) -> Work:
+        return work_on_cells(fineness.space.cells, fineness.increments, self.plan.shear)
+
+    def memory(self, fineness: Fineness) -> int:
+        run = memory.estimated_bytes(fineness.space, self.plan.cut_into(fineness.increments))
+        if not self.stress or not self.scene.body.deforms:
+            return run
+        stress = stress_on_cells.estimated_bytes(self.scene.body, fineness.space)
+        return max(run, memory.LIBRARIES + stress)
 
 
 def _changes(report: EdgeReport) -> Mapping[str, float]:
@@ -135,35 +171,37 @@ def _to_edge(end: Increment) -> float:
     return float(distance_transform_edt(end.in_contact)[place])
 
 
-def _coarse(
-    run: Result, cells: Cells, increments: tuple[int, ...], progress: Progress | None
-) -> Result:
-    """Solve the scene of a run on other cells, on a larger window if a fitted one is too small."""
-    spent, plan = 0, run.plan.cut_into(increments)
-    most = MOST_CONVOLUTIONS * sum(i.convolutions for i in run.increments)
-    most = max(most, sum(increments) * FEW_CONVOLUTIONS)
+def _may_hide_stick(end: Increment) -> bool:
+    """Whether cells that all slip may hide a stick zone smaller than a cell.
 
-    def observe(increment: Increment) -> None:
-        nonlocal spent
-        spent += increment.convolutions
-        if spent > most:
-            raise ResourceRefused(f"the coarse solve would take more than {most} convolutions")
-        if progress is not None:
-            progress(increment)
-
-    grid = SurfaceGrid(cells, run.grid.window)
-    try:
-        return solve(run.scene, grid, run.tolerance, observe, plan)
-    except ContactAtWindowEdge:
-        if run.scene.indenter.extent is not None:
-            raise
-        nx, ny = _part(cells, ROOM)
-        hx, hy = grid.spacing
-        larger = SurfaceGrid((nx, ny), (nx * hx, ny * hy))
-        return solve(run.scene, larger, run.tolerance, observe, plan)
+    The least slip of a cell is then no more than its differences from the adjacent cells.
+    """
+    slip = np.hypot(*np.asarray(end.slip_increment)) * end.in_contact
+    i, j = np.unravel_index(np.argmin(np.where(end.in_contact, slip, np.inf)), slip.shape)
+    around = slip[max(i - 1, 0) : i + 2, max(j - 1, 0) : j + 2]
+    return bool(2 * slip[i, j] <= np.max(around))
 
 
-def _part(cells: Cells, part: float) -> Cells:
-    """A part of the cells along each side, rounded up to an even number."""
-    nx, ny = (2 * ceil(part * n / 2) for n in cells)
+def _part(cells: tuple[int, int], share: float, more: int = 0) -> tuple[int, int]:
+    """A share of the cells along each side, rounded up to an even number, and more."""
+    nx, ny = (2 * ceil(share * n / 2) + more for n in cells)
     return nx, ny
+
+
+def scaled(cells: tuple[int, int], factor: float) -> tuple[int, int]:
+    """Cells along each side: smallest even numbers from a multiple on with no prime factor above 5.
+
+    Fourier transforms of their multiples are fast.
+    """
+    nx, ny = (2 * next_fast_len(ceil(round(factor * n, 6) / 2), real=True) for n in cells)
+    return nx, ny
+
+
+def solver_of(result: Result) -> CellSolver:
+    """Return the solver with the discretisation of a result."""
+    return CellSolver(result.scene, SurfaceDiscretisation(), result.plan)
+
+
+def stated_errors(result: Result) -> StatedErrors:
+    """Estimate the errors of all numbers at the ends of all steps, by coarse solves."""
+    return estimated(solver_of(result), result)

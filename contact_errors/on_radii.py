@@ -1,98 +1,128 @@
-"""Coarse solves of a radial result: other orders and points, fewer rings, other increments."""
+"""The radial solver for error estimates and refinement: rings or orders, increments, tolerance."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
-from typing import Any
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar
 
 import numpy as np
 
-from contact_errors.coarse_solves import CoarseSolves
-from contact_errors.error_formula import EDGE, SMOOTH, Comparison, Features, SolvedRun
-from contact_scene.increment_error import with_error
-from contact_scene.stated_error import Companion, StatedErrors
+import radial
+from contact_errors.coarse_solves import (
+    DiscretisedSolver,
+    Fineness,
+    InContext,
+    Refinement,
+    at_ends,
+    estimated,
+    no_context,
+    slip_zone,
+)
+from contact_errors.cost_estimate import Work, work_on_rings
+from contact_errors.error_formula import Features
+from contact_scene import RadialDiscretisation
+from contact_scene.stated_error import Part, StatedErrors
 from contact_scene.summary import ContactStatus
-from radial import Increment, Result, solve
-
-Progress = Callable[[Increment], None]
+from radial import Increment, Plan, Result
+from radial.memory import estimated_bytes
 
 # Of double precision, with what rotations of a few hundred rows lose.
 PRECISION = 1e-13
 LINEAR = 2.0  # values linear between rings resolve a feature like twice as many cells
+FIRST_FINENESS, MOST_FINENESS = 0.5, 4.0
 
 
-def stated_errors(result: Result, progress: Progress | None = None) -> StatedErrors:
-    """Estimate the errors of all numbers at the ends of all steps, by coarse solves."""
-    coarse, plan = CoarseSolves(result), result.plan
-    matters, steps = with_error(result.scene), result.steps
+@dataclass(frozen=True)
+class RingSolver(DiscretisedSolver):
+    """The radial solver; a space is a multiple of its rings, or of its orders and points."""
 
-    def solved(part: float, others: tuple[int, ...]) -> Any:
-        recut = ", other increments" if others != plan.increments else ""
-        record = Companion(differs=f"{part:.2g} times the rings{recut}", increments=others)
-        cut = replace(plan, increments=others)
-        return coarse.solved(
-            (part, others),
-            lambda: solve(result.scene, result.fineness, progress, cut, fineness=part),
-            record,
-        )
+    asked: RadialDiscretisation
+    decided: Plan | None = None
 
-    # Without friction the orders and points are doubled instead.
-    counted = plan.coupled or plan.circle is not None
-    parts = (1 / 2, 2 / 3) if counted else (2.0,)
-    order = None if plan.circle else EDGE if counted else SMOOTH
-    comparisons: list[Comparison] = []
-    for part in parts:
-        found = solved(part, plan.increments)
-        comparisons += coarse.compared("quadrature", found, 1 / part, order)
-    usable = [part for part in parts if solved(part, plan.increments) is not None]
-    comparisons += coarse.by_increments(
-        matters, lambda others: solved(usable[0], others) if usable else None
-    )
-    run = SolvedRun(
-        scene=result.scene,
-        values=coarse.values(result),
-        tolerance=[max(step.worst_residual, PRECISION) for step in steps],
-        features=_features(result),
-        comparisons=comparisons,
-        required={"quadrature": [True] * len(steps), "increments": matters},
-        neglected={},
-    )
-    return StatedErrors(tuple(run.errors()), tuple(coarse.made))
+    part: ClassVar[Part] = "quadrature"
+    cells: ClassVar[str] = "rings"
+    most: ClassVar[float] = MOST_FINENESS
 
+    @property
+    def plan(self) -> Plan:
+        """Effects, and increments of the first level."""
+        return self.decided or radial.plan(self.scene)
 
-def _features(result: Result) -> tuple[Features, ...]:
-    """Resolution at the end of each step: the contact in widest rings, its zones in mean rings.
+    @property
+    def counted(self) -> bool:
+        """Whether numbers depend on rings. Without friction they depend on orders and points."""
+        return self.plan.coupled or self.plan.circle is not None
 
-    Without friction no number depends on the rings.
-    """
-    indenter, plan, found = result.scene.indenter, result.plan, list[Features]()
-    counted = plan.coupled or plan.circle is not None
-    for end in result.steps:
-        if end.contact_area == 0:
-            found.append(found[-1])
-            continue
+    def solve(
+        self, fineness: Fineness, watching: InContext = no_context, keeping: InContext = no_context
+    ) -> Result:
+        plan = self._plan_of(fineness)
+        asked = self.asked.model_copy(update={"tolerance": fineness.tolerance})
+        with keeping(fineness) as keeper, watching(fineness) as progress:
+            return radial.solve(self.scene, asked, progress, plan, keeper)
+
+    def space_of(self, result: Result) -> float:
+        return result.plan.fineness
+
+    def coarser(self, result: Result, share: float, more: int) -> float:
+        """Without friction numbers depend on orders and points, which are doubled."""
+        return result.plan.fineness * (share if self.counted else 2.0)
+
+    def sides(self, result: Result) -> tuple[float, ...]:
+        return (1 / result.plan.fineness,)
+
+    def shown(self, space: float) -> Mapping[str, Any]:
+        return {"ring_factor": space}
+
+    def residuals(self, result: Result) -> Sequence[float]:
+        return [max(step.worst_residual, PRECISION) for step in result.steps]
+
+    def features(self, result: Result) -> Sequence[Features]:
+        return at_ends(result, lambda end: self._resolved(result, end))
+
+    def _resolved(self, result: Result, end: Increment) -> Features:
+        """The contact in widest rings, its zones in mean rings."""
+        indenter, plan = self.scene.indenter, result.plan
         within = end.radii[end.radii <= end.contact_radius]
         widest = float(np.max(np.diff([0.0, *within, end.contact_radius])))
         side = end.contact_radius / (len(within) or 1)
-        stick, annulus = None, None
-        if counted and end.stick_radius is not None:
-            stick = LINEAR * end.stick_radius / side
-            if end.status is not ContactStatus.FULL_STICK:
-                annulus = LINEAR * (end.contact_radius - end.stick_radius) / side
-        found.append(
-            Features(
-                contact=LINEAR * end.contact_radius / widest if counted else np.inf,
-                cell=side,
-                stick=stick,
-                annulus=annulus,
-                fitted=not plan.circle,
-                stick_fitted=not plan.circle,
-                whole_rings=plan.circle is not None,
-                sharp=indenter.rim is not None and counted,
-                infinite=indenter.rim is not None or indenter.gap_exponent == 1,
-                cusp=plan.coupled,
-                slides=end.status is ContactStatus.GROSS_SLIDING,
-            )
+        stick, annulus = slip_zone(end, LINEAR / side) if self.counted else (None, None)
+        return Features(
+            contact=LINEAR * end.contact_radius / widest if self.counted else np.inf,
+            stick=stick,
+            annulus=annulus,
+            fitted=not plan.circle,
+            stick_fitted=not plan.circle,
+            # Values at rings are biased: all numbers converge with the first order.
+            sharp=self.counted and (plan.circle is None or indenter.rim is not None),
+            infinite=indenter.rim is not None or indenter.gap_exponent == 1,
+            cusp=plan.coupled,
+            slides=end.status is ContactStatus.GROSS_SLIDING,
         )
-    return tuple(found)
+
+    def first(self) -> float:
+        return FIRST_FINENESS if self.counted else 1.0
+
+    def finer(self, space: float, by: Refinement) -> float:
+        rings = by.cells * space
+        return rings if self.counted else float(np.ceil(rings))
+
+    def work(self, fineness: Fineness) -> Work:
+        return work_on_rings(fineness.increments, fineness.space)
+
+    def memory(self, fineness: Fineness) -> int:
+        return estimated_bytes(self.scene, self._plan_of(fineness))
+
+    def _plan_of(self, fineness: Fineness) -> Plan:
+        return replace(self.plan, fineness=fineness.space, increments=fineness.increments)
+
+
+def solver_of(result: Result) -> RingSolver:
+    """Return the solver with the discretisation of a result."""
+    return RingSolver(result.scene, result.fineness, result.plan)
+
+
+def stated_errors(result: Result) -> StatedErrors:
+    """Estimate the errors of all numbers at the ends of all steps, by coarse solves."""
+    return estimated(solver_of(result), result)

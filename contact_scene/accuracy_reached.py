@@ -17,6 +17,9 @@ class AccuracySettings(Description):
     elements_per_radius: int | None = None
     """Elements over the contact radius; null for cells."""
 
+    ring_factor: float | None = None
+    """Multiple of the rings (orders, points) that the radial solver chooses; null for others."""
+
     increments: tuple[int, ...]
     """Increments of every step."""
 

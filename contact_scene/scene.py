@@ -1,6 +1,6 @@
 """The scene: two bodies, friction between them, and how they are loaded."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from pydantic import Field, model_validator
@@ -73,6 +73,12 @@ class Scene(Description):
         from contact_scene.scene_file import changed_scene
 
         return changed_scene(self, changes, keys)
+
+    def with_increments(self, increments: Sequence[int]) -> "Scene":
+        """Return the scene with these increments of its load steps."""
+        steps = zip(self.loading, increments, strict=True)
+        loading = tuple(step.model_copy(update={"increments": count}) for step, count in steps)
+        return self.model_copy(update={"loading": loading})
 
     def load_path(self) -> tuple[LoadRamp, ...]:
         """The loading with nothing left implicit, one ramp for every step."""

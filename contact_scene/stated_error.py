@@ -70,6 +70,10 @@ class Companion(Description):
     elements_per_radius: int | None = None
     """Its elements over the contact radius; null for cells."""
 
+    ring_factor: float | None = None
+    """Its multiple of the rings (orders, points) that the radial solver chooses; null for
+    others."""
+
     increments: tuple[int, ...]
     """Its increments in every step."""
 

@@ -17,6 +17,7 @@ from contact_scene.scene_text import shape_text
 from contact_scene.solver_errors import ContactAtZoneEdge, UnsupportedScene
 from fem_reference.contact.method import ContactMethod
 from fem_reference.history import march
+from fem_reference.mesh.section_mesh import SectionMesh
 from fem_reference.mesh.section_outline import sufficient_box
 from fem_reference.model import ContactModel, outermost_modulus
 from fem_reference.plan import plan
@@ -32,6 +33,13 @@ COARSE_TOLERANCE = 1e-8
 LARGEST_COARSE_BOX = 1e4
 # In contact radii: the contact hardly depends on what lies below a thicker layer.
 DEEP = 100.0
+
+
+def sections_of(scene: Scene, discretisation: FiniteElementDiscretisation) -> list[SectionMesh]:
+    """Mesh the deformable bodies of a scene; equal bodies share their mesh."""
+    radius = meshed_radius(scene, discretisation.contact_radius)
+    sections = ContactModel.of(scene, discretisation, radius).sections
+    return list({id(section): section for section in sections if section is not None}.values())
 
 
 def meshed_radius(scene: Scene, asked: float | None) -> float:

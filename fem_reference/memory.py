@@ -1,9 +1,12 @@
 """What a factorisation will need, and whether this machine has it."""
 
+from collections.abc import Iterable
+
 import numpy as np
 
 from contact_scene.free_memory import available_bytes
 from contact_scene.solver_errors import ResourceRefused
+from fem_reference.mesh.section_mesh import SectionMesh
 
 # Entries of both factors per component, unknown and halving of the mesh; with unknown pressures.
 FILL, FILL_WITH_PRESSURE = 5.0, 11.0
@@ -14,6 +17,7 @@ COPIES_OF_ELEMENTS = 8
 LIBRARIES = 85 << 20
 DRAWING = 60 << 20
 PART_IN_USE = 0.62
+NODES_PER_ELEMENT = 4  # biquadratic: about one corner, two midsides and one centre each
 
 
 def required_bytes(elements: int, unknowns: int, components: int, with_pressure: bool) -> float:
@@ -30,6 +34,16 @@ def run_bytes(factoring: float) -> float:
     factoring  `required_bytes` of its largest section, a bound that nothing is refused below
     """
     return LIBRARIES + max(DRAWING, PART_IN_USE * factoring)
+
+
+def largest_bytes(sections: Iterable[SectionMesh], several_motions: bool) -> int:
+    """Memory for the factors of the largest section [byte].
+
+    several_motions  whether it moves along the angle, too
+    """
+    largest = max(section.quads.shape[1] for section in sections)
+    components = 3 if several_motions else 2
+    return int(required_bytes(largest, NODES_PER_ELEMENT * largest * components, components, False))
 
 
 def require_memory(needed: float) -> None:

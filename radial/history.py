@@ -40,7 +40,6 @@ def solve(
     progress: Progress | None = None,
     plan: Plan | None = None,
     keeper: Keeper | None = None,
-    fineness: float = 1,
 ) -> Result:
     """Contact of a scene of revolution, every increment of its load history.
 
@@ -56,9 +55,6 @@ def solve(
         What is computed; what the scene calls for if absent.
     keeper
         Of this very solve: what it has kept is not computed again.
-    fineness
-        How many times as many orders and points as the solver chooses, with friction rings: to see
-        what they cost.
 
     Raises
     ------
@@ -72,7 +68,7 @@ def solve(
     scene = normal_form(scene)
     decided = plan_of(scene) if plan is None else plan
     refuse_if_too_large(scene, decided)
-    solver = _solver(scene, asked, decided, fineness)
+    solver = _solver(scene, asked, decided)
     if asked.extrapolated and decided.circle:
         return Result(
             scene, asked, decided, _extrapolated(scene, solver, decided, progress, keeper)
@@ -113,16 +109,16 @@ def _extrapolated(
     return tuple(increments)
 
 
-def _solver(scene: Scene, asked: RadialDiscretisation, plan: Plan, fineness: float) -> Any:
+def _solver(scene: Scene, asked: RadialDiscretisation, plan: Plan) -> Any:
     if plan.circle:
         from radial.pushing import Pushing
 
-        return Pushing.of(scene, asked, plan, fineness)
+        return Pushing.of(scene, asked, plan)
     if plan.coupled:
         from radial.rubbing import Rubbing
 
-        return Rubbing.of(scene, asked, fineness)
-    pressing = _Solver.of(scene, asked, round(fineness))
+        return Rubbing.of(scene, asked, plan.fineness)
+    pressing = _Solver.of(scene, asked, round(plan.fineness))
     if not plan.twists:
         return pressing
     from radial.twisting import Twisting

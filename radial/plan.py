@@ -42,6 +42,8 @@ class Plan:
     still       steps before the contact is pushed
     circle      how much of a circle tells all, where contact and friction are solved together at
                 points; None where the pressure or its shear is known without
+    fineness    multiple of the orders and points that the solver chooses, with friction of the
+                rings and angles
     """
 
     coupled: bool
@@ -52,16 +54,22 @@ class Plan:
     direction: tuple[float, float] = (1.0, 0.0)
     still: int = 0
     circle: Circle | None = None
+    fineness: float = 1.0
 
     @property
     def rings(self) -> int:
         """Over a contact at points."""
-        return ROUND_RINGS if self.circle is Circle.ONE else RINGS
+        return round(self.fineness * (ROUND_RINGS if self.circle is Circle.ONE else RINGS))
+
+    @property
+    def highest(self) -> int:
+        """Highest angular harmonic of a contact at points."""
+        return round(self.fineness * ANGLES)
 
     @property
     def angles(self) -> int:
         """Of the points on a ring."""
-        return 0 if self.circle is None else len(self.circle.angles(ANGLES))
+        return 0 if self.circle is None else len(self.circle.angles(self.highest))
 
     @property
     def turned(self) -> int:

@@ -17,7 +17,7 @@ from radial.bodies import Bodies
 from radial.circle import Circle
 from radial.coupling import Coupling
 from radial.fields import Increment
-from radial.plan import ANGLES, ELSEWHERE, Plan
+from radial.plan import ELSEWHERE, Plan
 from radial.pressing import Pressed, Target, pressed
 from radial.pushed import Pushed, pushed, residuals_of
 from radial.ring_friction import MOST_STEPS, held
@@ -61,18 +61,16 @@ class Pushing:
         scene: Scene,
         asked: RadialDiscretisation,
         plan: Plan,
-        fineness: float,
         around: float = 1.0,
     ) -> Pushing:
         """That of a scene.
 
-        fineness  how many times as many rings and angles as it takes
-        around    how many times as many angles besides
+        around  how many times as many angles as the plan has
         """
         assert scene.friction is not None
         assert plan.circle is not None
         friction, circle = scene.friction, plan.circle
-        count, highest = round(plan.rings * fineness), round(ANGLES * fineness * around)
+        count, highest = plan.rings, round(plan.highest * around)
         both = Coupling.of(scene)
 
         def smooth(target: Target) -> float:

@@ -1,6 +1,6 @@
 """Solve a scene: plan, model, march."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from contact_scene import Scene, SurfaceDiscretisation
 from contact_scene.normal_form import normal_form
@@ -109,18 +109,32 @@ def solve_discretised(
             if larger == grids[-1]:  # all that a map of friction covers
                 break
             grids.append(larger)
-    last = keeper.last() if keeper else None
-    if len(grids) == 1 and not last and sum(decided.increments) >= FORESEEN:
+    kept = keeper is not None and keeper.last() is not None
+    if len(grids) == 1 and not kept and sum(decided.increments) >= FORESEEN:
         refuse_small_window(scene, first)
-    if last and last.extent in grids:  # the smaller ones have been outgrown
-        grids = grids[grids.index(last.extent) :]
-    for grid in grids:
-        try:
-            result = solve(scene, grid, discretisation.tolerance, progress, decided, keeper)
-        except ContactAtWindowEdge:
-            if grid is grids[-1]:
-                raise
-            continue
-        break
+    result = solve_within(scene, grids, discretisation.tolerance, progress, decided, keeper)
     refuse_unresolved(result)
     return result
+
+
+def solve_within(
+    scene: Scene,
+    grids: Sequence[SurfaceGrid],
+    tolerance: float,
+    progress: Progress | None = None,
+    plan: Plan | None = None,
+    keeper: Keeper | None = None,
+) -> Result:
+    """Solve a scene on the first of several grids whose window contains the contact.
+
+    Raises what `solve` raises.
+    """
+    last = keeper.last() if keeper else None
+    if last and last.extent in grids:  # the smaller ones have been outgrown
+        grids = grids[grids.index(last.extent) :]
+    for grid in grids[:-1]:
+        try:
+            return solve(scene, grid, tolerance, progress, plan, keeper)
+        except ContactAtWindowEdge:
+            continue
+    return solve(scene, grids[-1], tolerance, progress, plan, keeper)

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from contact_errors.error_formula import Comparison
-from contact_errors.stress_errors import above_the_middle
 from contact_scene.stated_error import ErrorStatus, StatedError
 from verification.judging.case import Level
 from verification.judging.outcome import Status
@@ -160,10 +159,3 @@ def test_a_defect_of_the_estimate_is_seen(
     if planted is not None:
         monkeypatch.setattr(Comparison, "part_of", planted(Comparison.part_of))
     assert worked_example().covered == Share(still_covered, 2)
-
-
-def test_between_three_points_a_parabola_is_highest_at_its_top() -> None:
-    """f = 5 - 3 (x - 0.2)² by x = -0.7, 0, 1.1: its top is 3·0.04 above the middle point."""
-    x = np.array([-0.7, 0.0, 1.1])
-    assert above_the_middle(x, 5 - 3 * (x - 0.2) ** 2) == pytest.approx(0.12)
-    assert above_the_middle(x, 5 + 3 * x) == 0

@@ -154,9 +154,7 @@ ORDERS = {
     ),
     "contact_errors": (
         *("values", "error_formula", "cost_estimate", "coarse_solves"),
-        *("on_cells", "on_elements", "on_radii", "stress_errors", "refinement"),
-        *("accuracy_targets", "adaptive_refinement", "price"),
-        *("refinement_on_cells", "refinement_on_elements"),
+        *("on_cells", "on_elements", "on_radii", "stress_errors", "adaptive_refinement"),
     ),
     "verification.challenge": (
         *("halves", "round_table", "asked", "often_asked", "frictional_cases", "cases_at_places"),

@@ -15,9 +15,9 @@ from scene_texts import COARSE, STEEL_BALL_PRESSED
 
 import contact_errors
 import slipstick as package
-from contact_errors import on_cells
-from contact_errors.coarse_solves import ratios, recounted
+from contact_errors.coarse_solves import Fineness, ratios, recounted
 from contact_errors.error_formula import Comparison, Features, SolvedRun, largest_so_far
+from contact_errors.on_cells import CellSolver
 from contact_errors.stress_errors import largest_tensile_stress, on_wide_cells
 from contact_errors.values import OF_CYCLES, PHYSICAL, values_of
 from contact_results.cycles import fretting_cycles
@@ -77,18 +77,18 @@ def test_a_worked_example() -> None:
     comparisons = [
         Comparison("cells", two, coarse, [2.0]),
         Comparison("cells", two, other, [1.875]),
-        Comparison("increments", two, recut, [2.0], order=1.0),
+        Comparison("increments", two, recut, [2.0]),
     ]
-    found = errors_of_one(2.0, comparisons, Features(contact=10, cell=1.0))
+    found = errors_of_one(2.0, comparisons, Features(contact=10))
     assert found.status is ErrorStatus.ESTIMATED
     assert found.parts == pytest.approx(
         {"cells": 0.04625, "increments": 0.01939, "tolerance": 2e-7}, abs=1e-5
     )
-    few = errors_of_one(2.0, comparisons, Features(contact=3.9, cell=1.0))
+    few = errors_of_one(2.0, comparisons, Features(contact=3.9))
     far = [Comparison("cells", two, [{"approach": np.array([4.0])}], [2.0])]
     assert few.status is ErrorStatus.NOT_CONVERGED
-    assert errors_of_one(2.0, far, Features(10, 1.0)).status is ErrorStatus.NOT_CONVERGED
-    assert errors_of_one(2.0, [], Features(10, 1.0)).error is None
+    assert errors_of_one(2.0, far, Features(10)).status is ErrorStatus.NOT_CONVERGED
+    assert errors_of_one(2.0, [], Features(10)).error is None
 
 
 @pytest.mark.parametrize("order", [0.5, 1.0, 2.0])
@@ -111,32 +111,38 @@ def test_components_of_a_vector_share_one_size_unless_they_are_round_off_of_a_ze
 
 def test_constants_are_those_that_are_explained() -> None:
     """A new constant in the package needs a derivation, and an entry here: no quantity and no kind
-    of scene has a constant of its own."""
-    found = set()
+    of scene has a constant of its own. Functions have units and round-off alone."""
+    found, within = set(), set()
     for path in Path(contact_errors.__file__).parent.glob("*.py"):
-        for node in ast.parse(path.read_text(encoding="utf-8")).body:
-            if isinstance(node, ast.Assign | ast.AnnAssign) and any(
-                isinstance(part, ast.Constant) and isinstance(part.value, int | float)
-                for part in ast.walk(node.value or node)
-            ):
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        for node in tree.body:
+            if isinstance(node, ast.Assign | ast.AnnAssign) and numbers_in(node.value or node):
                 target = node.targets[0] if isinstance(node, ast.Assign) else node.target
                 found |= {part.id for part in ast.walk(target) if isinstance(part, ast.Name)}
+            else:
+                within |= numbers_in(node)
     assert found == CONSTANTS
+    assert within <= {0, 0.5, 1, 2, 3, 4, 6, 10, 30, 1e-9, 1e-3}
+
+
+def numbers_in(node: ast.AST) -> set[float]:
+    parts = (part.value for part in ast.walk(node) if isinstance(part, ast.Constant))
+    return {value for value in parts if type(value) in (int, float)}
 
 
 CONSTANTS = {
     # of the formula
     *("BELIEVED", "SMOOTH", "EDGE", "ROOT", "PER_TOLERANCE", "PER_ITERATION", "LARGEST_SHARE"),
-    *("LIMITS", "ROUND_OFF", "PRECISION", "HIGHEST"),
+    *("ORDERS", "LIMITS", "ROUND_OFF", "PRECISION", "HIGHEST"),
     # of the coarse solves
-    *("FEW", "MANY", "PER_RADIUS", "SMALL", "MOST_CONVOLUTIONS", "FEW_CONVOLUTIONS", "ROOM"),
+    *("PAIR", "TRIPLE", "FEW", "MANY", "PER_RADIUS", "SMALL", "ROOM", "MOST_ENLARGEMENTS"),
     *("FEWEST_ELEMENTS", "SMALLEST_BOX", "FEWEST_HARMONICS", "LARGEST_OVERLAP", "LINEAR"),
     *("NEAR", "COARSE"),
     # of the refinement
-    *("SPARE", "DOUBT", "MOST_AT_ONCE", "LEAST_AT_ONCE", "UNCONVERGED", "ORDERS", "MOST_ROUNDS"),
-    *("FIRST_CELLS", "FIRST_PATH_ACCURACY", "MOST_CELLS", "LEAST_TOLERANCE", "MOST_ENLARGEMENTS"),
-    *("MOST_DOUBLINGS", "FIRST_ELEMENTS", "MOST_ELEMENTS", "MOST_HARMONICS", "FIRST_INCREMENTS"),
-    *("LEAST_OVERLAP", "LARGEST_BOX", "NODES_PER_ELEMENT"),
+    *("SPARE", "DOUBT", "FURTHEST", "MOST_AT_ONCE", "LEAST_AT_ONCE", "UNCONVERGED", "MOST_ROUNDS"),
+    *("FIRST_CELLS", "FIRST_PATH_ACCURACY", "MOST_CELLS", "LEAST_TOLERANCE", "MOST_DOUBLINGS"),
+    *("FIRST_ELEMENTS", "MOST_ELEMENTS", "MOST_HARMONICS", "LEAST_OVERLAP", "LARGEST_BOX"),
+    *("FIRST_FINENESS", "MOST_FINENESS"),
     # of the cost estimate
     *("EXPONENT", "CELL_OVERHEAD", "ELEMENT_OVERHEAD", "SET_UP_INCREMENTS"),
     *("MAX_CELLS", "MAX_ELEMENTS", "MAX_STEPS", "MAX_INCREMENTS"),
@@ -457,13 +463,14 @@ def test_a_coarse_solve_without_result_leaves_its_part_to_the_other(
 ) -> None:
     """And no number with an error where none has a result."""
     result, refused = solve(scene(PRESS), grid(16), 1e-8), {8}
+    solved = CellSolver.solve
 
-    def solved(of: Scene, on: SurfaceGrid, *more: Any) -> Any:
-        if on.cells[0] in refused:
+    def refusing(self: CellSolver, fineness: Fineness, *more: Any) -> Any:
+        if fineness.space.cells[0] in refused:
             raise NotConverged("the increment", 3, 1e-3, 1e-8)
-        return solve(of, on, *more)
+        return solved(self, fineness, *more)
 
-    monkeypatch.setattr(on_cells, "solve", solved)
+    monkeypatch.setattr(CellSolver, "solve", refusing)
     stated = stated_errors(result)
     assert "did not converge" in (stated.companions[0].refused or "")
     assert stated.steps[0]["approach"].error is not None
@@ -471,14 +478,17 @@ def test_a_coarse_solve_without_result_leaves_its_part_to_the_other(
     assert stated_errors(result).steps[0]["approach"].error is None
 
 
-def test_wide_cells_carry_the_same_force() -> None:
+@pytest.mark.parametrize("shift", [0, 1])
+def test_wide_cells_carry_the_same_force_at_the_same_place(shift: int) -> None:
     on = SurfaceGrid((9, 12), (3.0, 4.0))
     pressure = np.random.default_rng(1).random((9, 12))
     axes = {"x": on.x, "y": on.y}
     body = Body(material=steel())
-    wide = on_wide_cells(LoadedBodies("", body, body, 1, axes, {"pressure": pressure}, None))
-    assert [len(wide.axes[axis]) for axis in "xy"] == [5, 6]
-    assert 4 * np.sum(wide.tractions["pressure"]) == pytest.approx(np.sum(pressure))
+    wide = on_wide_cells(LoadedBodies("", body, body, 1, axes, {"pressure": pressure}, None), shift)
+    assert [len(wide.axes[axis]) for axis in "xy"] == [5, 6 + shift]
+    means = wide.tractions["pressure"]
+    assert 4 * np.sum(means) == pytest.approx(np.sum(pressure))
+    assert wide.axes["x"][0] == pytest.approx(on.x[0] + (1 / 2 - shift) * on.spacing[0])
 
 
 # ---- the command ------------------------------------------------------------------------------

@@ -60,7 +60,8 @@ def twist(share: float, increments: int = 3) -> LoadStep:
 
 def rough(asked: Scene, **how: Any) -> radial.Result:
     """On half the rings, which obey the same laws."""
-    return radial.solve(asked, fineness=0.5, **how)
+    plan = how.pop("plan", None) or radial.plan(asked)
+    return radial.solve(asked, plan=replace(plan, fineness=0.5), **how)
 
 
 def turned(vector: Any, angle: float) -> Any:

@@ -79,8 +79,7 @@ def stress_on_cells(
     points = _points(field, grid)
     fitted = None
     if edge is not None:
-        apart, least = edge.apart * edge.size, edge.least * edge.size
-        fitted = FittedEdge(_on_edge(edge), apart, least, not why)
+        fitted = FittedEdge(_on_edge(edge), edge.apart * edge.size, not why)
     return StressField(
         points,
         fitted,

@@ -154,14 +154,12 @@ class FittedEdge:
 
     points  on it (n,)
     apart   difference of the largest principal stress there by another fit [force/length²]
-    least   least error of that stress [force/length²]
     determined
             whether the stress there is determined; if not, it is a candidate for the largest
     """
 
     points: StressPoints
     apart: float
-    least: float = 0.0
     determined: bool = True
 
 

@@ -33,9 +33,6 @@ CORRECTED_STENCILS = ((NARROW, 1), (Stencil(4, 2.2), 1))
 COMPARED, LARGE, TOO_FAR_APART = 32, 0.8, 0.02
 # A cell slips if its shear over pressure is this part of the largest; rings that all have to.
 SLIPPING, SLIPPING_RINGS = 0.999, 2.5
-# Least error of the stress where fits agree and are both wrong: where fewer rings slip (6 % were
-# measured), and below films so much stiffer than the next material (8 %, at 10 times; .4 % at 4).
-NARROW_RINGS, STIFF, LEAST_ERROR = 5.0, 8.0, 0.08
 # How far beside and below the edge stress is evaluated anew, in cells; and from which depth on.
 BESIDE, BELOW, SHALLOWEST = 4.0, 4.0, 0.25
 # Shear that is round-off, over the largest pressure.
@@ -63,7 +60,6 @@ class NearEdge:
     tractions  with their edge
     phi        about points of the edge (n,)
     apart      difference of the largest principal stress there by another fit, over `size`
-    least      least error of that stress, over `size`
     size       largest of that stress and of the pressure of border cells [force/length²]: its
                error follows from that of the tractions, also where the stress is nearly 0
     plane      stress at z = 0 at the cell centres by the cells (6, nx, ny)
@@ -74,7 +70,6 @@ class NearEdge:
     tractions: EdgedTractions
     phi: Quadratic
     apart: float
-    least: float
     size: float
     plane: Field
 
@@ -173,8 +168,7 @@ def near_edge(
     plane = subsurface(stack, grid, pressure, shear, (0.0,)).stress[0]
     depth = distance_transform_edt(np.pad(region, 1))[1:-1, 1:-1]
     slipping = np.inf if stuck is None or not np.any(stuck) else np.min(depth[stuck])
-    wrong = slipping <= NARROW_RINGS or _is_stiff(stack)
-    found = NearEdge(stack, grid, one, _on_edge(phi), 0.0, LEAST_ERROR * wrong, 0.0, plane)
+    found = NearEdge(stack, grid, one, _on_edge(phi), 0.0, 0.0, plane)
     some = np.flatnonzero(both)[:: max(1, np.count_nonzero(both) // COMPARED)]
     tension, by_other = (
         _largest(_at_surface(replace(found, tractions=tractions), _on_edge(points.chosen(some))))
@@ -199,8 +193,7 @@ def near_edge(
             f"than {TOO_FAR_APART:g}: take smaller cells"
         )
     if cause is not None:
-        least = max(apart, LEAST_ERROR)
-        raise EdgeNotSeen(cause, replace(found, least=least))
+        raise EdgeNotSeen(cause, found)
     return found
 
 
@@ -210,14 +203,6 @@ def _stuck(pressure: Field, shear: Field) -> Mask:
     size = np.hypot(*shear)
     ratio = np.divide(size, pressure, out=np.zeros_like(size), where=region)
     return np.asarray(region & (ratio < SLIPPING * np.max(ratio)))
-
-
-def _is_stiff(stack: Stack) -> bool:
-    """Whether the outermost material is a film much stiffer than the next."""
-    moduli = [film.shear_modulus for film in stack.layers]
-    if stack.base is not None:
-        moduli.append(stack.base.shear_modulus)
-    return len(moduli) > 1 and moduli[0] >= STIFF * moduli[1]
 
 
 def _on_edge(phi: Quadratic) -> Quadratic:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
+from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
@@ -100,14 +101,14 @@ def refined_to(
     most_seconds: float | None,
     *,
     step: int | None = None,
-) -> "Iterator[Refined[Any]]":
+) -> "Iterator[Refined]":
     """The scene solved ever finer until a request is met. Beside the results every round leaves
     its own checkpoint if it is killed, and all of them where the next one goes on; those of the
     last round stay until the block is done, in which the results are written.
 
     step  at whose end the stress below the surface is wanted; the last if absent
     """
-    from contact_errors.adaptive_refinement import refine
+    from contact_errors.adaptive_refinement import Levels, refine
     from contact_results.directory.checkpoint import checkpointed
     from contact_results.directory.code_digest import SOLVERS, code_digest, solve_identity
     from contact_results.directory.kept_value import kept_value
@@ -129,13 +130,9 @@ def refined_to(
             yield observe
 
     fineness = solver.fineness(contents)
-    levels = solver.levels(
-        contents.scene,
-        fineness,
-        stress_at=(step or len(contents.scene.loading)) if request.binds_stress else None,
-        keeping=keeping,
-        watching=watching,
-    )
+    stress_at = (step or len(contents.scene.loading)) if request.binds_stress else None
+    refined = solver.refined(contents.scene, fineness, stress=request.binds_stress)
+    levels = Levels(refined, stress_at, watching, keeping)
     asked = (contents.scene, fineness, vars(solver), request, step)
     identity = solve_identity(*asked, code_digest((*SOLVERS, "contact_results", "contact_errors")))
     with kept_value(output, identity, tell, ROUNDS) as kept, ExitStack() as of_round:
@@ -149,4 +146,5 @@ def refined_to(
         begun = kept.last()
         if begun is not None:
             tell(f"going on after round {begun.rounds} of an interrupted run ({kept.path})")
-        yield refine(levels, request, most_seconds, tell_round, begun, between)
+        most = inf if most_seconds is None else most_seconds
+        yield refine(levels, request, most, tell_round, begun, between)

@@ -14,11 +14,11 @@ from slipstick.solvers.names import SolverName
 from slipstick.solvers.solver import increments_text, time_text
 
 if TYPE_CHECKING:
-    from contact_errors.price import Price
+    from contact_errors.adaptive_refinement import Price
     from contact_scene import Scene, SceneFile
     from slipstick.solvers.solver import Solver
 
-HEADINGS = ("accuracy", "cells or elements", "increments", "rounds", "time", "memory")
+HEADINGS = ("accuracy", "cells, elements, rings", "increments", "time", "memory")
 NAMED = re.compile(r"\s*([A-Za-z]\w*)")
 
 
@@ -85,7 +85,7 @@ def _by_radii(scene: "Scene") -> str | None:
 def _print_prices(option: str, solver: "Solver", contents: "SceneFile") -> None:
     """Print cells, increments, time and memory of every accuracy that an option names, and of those
     that no grid can meet why not."""
-    from contact_errors.price import price
+    from contact_errors.adaptive_refinement import Levels, price
     from contact_scene.scene_file import read_accuracy
     from contact_scene.solver_errors import AccuracyOutOfReach
     from slipstick.cli.terminal import print_pairs, print_table
@@ -93,9 +93,10 @@ def _print_prices(option: str, solver: "Solver", contents: "SceneFile") -> None:
     items = requests_of(option)
     requests = [read_accuracy(item, "--accuracy") for item in items]
     last = len(contents.scene.loading)
-    wanted = last if any(request.binds_stress for request in requests) else None
-    levels = solver.levels(contents.scene, solver.fineness(contents), stress_at=wanted)
-    first = levels.solved(levels.first())
+    stress = any(request.binds_stress for request in requests)
+    refined = solver.refined(contents.scene, solver.fineness(contents), stress=stress)
+    levels = Levels(refined, last if stress else None)
+    first = levels.first()
     rows, refused = [], []
     for item, request in zip(items, requests, strict=True):
         try:
@@ -126,11 +127,12 @@ def requests_of(option: str) -> list[str]:
 
 
 def _price_texts(found: "Price") -> tuple[str, ...]:
-    cells = found.settings.cells
+    cells, rings = found.settings.cells, found.settings.ring_factor
+    fineness = f"{rings:.2g} times the rings" if rings else ""
+    fineness = fineness or f"{found.settings.elements_per_radius} per radius"
     return (
-        f"{cells[0]} x {cells[1]}" if cells else f"{found.settings.elements_per_radius} per radius",
+        f"{cells[0]} x {cells[1]}" if cells else fineness,
         increments_text(found.settings.increments),
-        str(found.rounds),
         time_text(found.seconds),
         f"about {found.memory / 2**20:.0f} MiB" + ("" if found.fits else ", more than there is"),
     )

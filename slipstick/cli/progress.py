@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 
 from rich.console import Console
 from rich.progress import (
@@ -51,12 +51,10 @@ def solve_progress(increments: Sequence[int]) -> Iterator[Observer]:
         yield observe
 
 
-@contextmanager
-def companion_progress() -> Iterator[Observer]:
-    """The same for solves of which nobody knows beforehand how many there are."""
+def coarse_solves_shown() -> AbstractContextManager[object]:
+    """Show that coarse solves are made for the error estimates."""
     console = Console(stderr=True, highlight=False, soft_wrap=True)
-    with console.status("coarser solves for the errors"):
-        yield lambda increment: None
+    return console.status("coarse solves for the error estimates")
 
 
 def tell_round(

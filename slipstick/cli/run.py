@@ -160,10 +160,10 @@ def run(
 
 
 def _stated_errors(solver: "Solver", result: "Result") -> "StatedErrors":
-    from slipstick.cli.progress import companion_progress
+    from slipstick.cli.progress import coarse_solves_shown
 
-    with companion_progress() as observe:
-        return solver.errors(result, progress=observe)
+    with coarse_solves_shown():
+        return solver.errors(result)
 
 
 def _print_outcome(

@@ -215,7 +215,7 @@ def _state_of_scene(
 def _solved(
     contents: SceneFile, name: SolverName, error: bool
 ) -> tuple[Result, StatedErrors | None]:
-    from slipstick.cli.progress import companion_progress, solve_progress
+    from slipstick.cli.progress import coarse_solves_shown, solve_progress
 
     chosen = name.solver
     fineness = chosen.fineness(contents)
@@ -233,8 +233,8 @@ def _solved(
         result = chosen.solve(contents.scene, fineness, decided, observe)
     if not error:
         return result, None
-    with companion_progress() as observe:
-        return result, chosen.errors(result, progress=observe)
+    with coarse_solves_shown():
+        return result, chosen.errors(result)
 
 
 def _refuse_beside_run(given: dict[str, object]) -> None:

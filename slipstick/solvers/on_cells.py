@@ -29,8 +29,7 @@ from slipstick.solvers.solver import (
 )
 
 if TYPE_CHECKING:
-    from contact_errors.refinement import Keeping
-    from contact_errors.refinement_on_cells import CellLevels
+    from contact_errors.on_cells import CellSolver
 
 # Load steps, of one increment each, by which the saving of the plan is counted.
 FORCED_INCREMENTS = 4
@@ -60,25 +59,17 @@ class OnCells:
     ) -> Result:
         return semi_analytical.solve_discretised(scene, fineness, progress, plan, keeper)
 
-    def errors(self, result: Result, *, progress: Progress | None = None) -> StatedErrors:
+    def errors(self, result: Result) -> StatedErrors:
         from contact_errors.on_cells import stated_errors
 
-        return stated_errors(result, progress=progress)
+        return stated_errors(result)
 
-    def levels(
-        self,
-        scene: Scene,
-        fineness: SurfaceDiscretisation,
-        *,
-        stress_at: int | None = None,
-        keeping: Keeping | None = None,
-        watching: Keeping | None = None,
-    ) -> CellLevels:
-        from contact_errors.refinement import no_context
-        from contact_errors.refinement_on_cells import CellLevels
+    def refined(
+        self, scene: Scene, fineness: SurfaceDiscretisation, *, stress: bool = False
+    ) -> CellSolver:
+        from contact_errors.on_cells import CellSolver
 
-        kept, watched = keeping or no_context, watching or no_context
-        return CellLevels(scene, fineness, stress_at, kept, watched)
+        return CellSolver(scene, fineness, stress=stress)
 
     def work(self, scene: Scene, fineness: SurfaceDiscretisation, plan: Plan) -> Pairs:
         """Grid, tolerance, increments and memory; what the scene left open says so."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -18,17 +18,13 @@ from contact_scene.engineering_units import quantity
 from contact_scene.standing import Keeper
 from contact_scene.stated_error import StatedErrors
 from fem_reference import Method, Path, Plan, Result
-from fem_reference.expected_radius import meshed_radius
-from fem_reference.memory import run_bytes
+from fem_reference.expected_radius import meshed_radius, sections_of
+from fem_reference.memory import largest_bytes, run_bytes
 from fem_reference.mesh.section_mesh import SectionMesh
-from fem_reference.model import ContactModel
 from slipstick.solvers.solver import Pairs, Progress, increments_text, time_of_run
 
 if TYPE_CHECKING:
-    from contact_errors.refinement import Keeping
-    from contact_errors.refinement_on_elements import ElementLevels
-
-Meshes = tuple[SectionMesh | None, SectionMesh | None]
+    from contact_errors.on_elements import ElementSolver
 
 
 @dataclass(frozen=True)
@@ -59,50 +55,39 @@ class OnElements:
     ) -> Result:
         return fem_reference.solve(scene, fineness, self.method, progress, keeper)
 
-    def errors(self, result: Result, *, progress: Progress | None = None) -> StatedErrors:
+    def errors(self, result: Result) -> StatedErrors:
         from contact_errors.on_elements import stated_errors
 
-        return stated_errors(result, progress=progress)
+        return stated_errors(result)
 
-    def levels(
-        self,
-        scene: Scene,
-        fineness: FiniteElementDiscretisation,
-        *,
-        stress_at: int | None = None,
-        keeping: Keeping | None = None,
-        watching: Keeping | None = None,
-    ) -> ElementLevels:
-        from contact_errors.refinement import no_context
-        from contact_errors.refinement_on_elements import ElementLevels
+    def refined(
+        self, scene: Scene, fineness: FiniteElementDiscretisation, *, stress: bool = False
+    ) -> ElementSolver:
+        from contact_errors.on_elements import ElementSolver
 
-        return ElementLevels(
-            scene, fineness, self.method, keeping or no_context, watching or no_context
-        )
+        return ElementSolver(scene, fineness, method=self.method)
 
     def work(self, scene: Scene, fineness: FiniteElementDiscretisation, plan: Plan) -> Pairs:
         """Mesh, tolerance, increments, factorisations and memory."""
-        from contact_errors.refinement_on_elements import largest_bytes
-
         radius = meshed_radius(scene, fineness.contact_radius)
-        sections = ContactModel.of(scene, fineness, radius).sections
+        sections = sections_of(scene, fineness)
         chosen = "" if fineness.contact_radius else ", estimated without friction"
         yield "method", _method_text(self.method, fineness)
         yield "contact radius", f"{quantity(radius, 'm')}{chosen}"
         yield "mesh", _mesh_text(sections, fineness)
         yield "tolerance", f"{fineness.tolerance:.3g}"
         yield "increments", increments_text(plan.increments)
-        motions, distinct = _motions(plan, fineness), _distinct(sections)
+        motions = _motions(plan, fineness)
         text = "one per body and angular harmonic" if motions > 1 else "one per body"
-        yield "factorisations", f"{motions * len(distinct)}, {text}"
+        yield "factorisations", f"{motions * len(sections)}, {text}"
         yield self._time(scene, fineness, plan)
-        needed = run_bytes(largest_bytes(distinct, motions > 1))
+        needed = run_bytes(largest_bytes(sections, motions > 1))
         yield "memory", f"about {needed / 2**20:.0f} MiB"
 
     def _time(
         self, scene: Scene, fineness: FiniteElementDiscretisation, plan: Plan
     ) -> tuple[str, str]:
-        from contact_errors.on_elements import stated_errors, with_increments
+        from contact_errors.on_elements import stated_errors
 
         increments = coarse_increments(plan.increments[:MAX_STEPS])
         begin = scene.model_copy(update={"loading": scene.loading[:MAX_STEPS]})
@@ -110,7 +95,7 @@ class OnElements:
         coarse = fineness.model_copy(update={"elements_per_radius": elements})
         harmonics = fineness.harmonics if plan.path is Path.HARMONICS else 1
         return time_of_run(
-            lambda: fem_reference.solve(with_increments(begin, increments), coarse, self.method),
+            lambda: fem_reference.solve(begin.with_increments(increments), coarse, self.method),
             stated_errors,
             work_on_elements(elements, increments, harmonics),
             work_on_elements(fineness.elements_per_radius, plan.increments, harmonics),
@@ -121,7 +106,8 @@ class OnElements:
 
     def layout(self, result: Result) -> Pairs:
         yield "method", _method_text(self.method, result.discretisation)
-        yield "mesh", _mesh_text(result.sections, result.discretisation)
+        sections = {id(each): each for each in result.sections if each is not None}
+        yield "mesh", _mesh_text(sections.values(), result.discretisation)
 
 
 def _method_text(method: Method, asked: FiniteElementDiscretisation) -> str:
@@ -133,17 +119,12 @@ def _method_text(method: Method, asked: FiniteElementDiscretisation) -> str:
     )
 
 
-def _mesh_text(sections: Meshes, asked: FiniteElementDiscretisation) -> str:
+def _mesh_text(sections: Iterable[SectionMesh], asked: FiniteElementDiscretisation) -> str:
     parts = []
-    for section in _distinct(sections):
+    for section in sections:
         outline = section.outline
         parts.append(f"{section.quads.shape[1]} elements to {outline.box:.4g} contact radii")
     return f"{asked.elements_per_radius} elements per contact radius; " + ", ".join(parts)
-
-
-def _distinct(sections: Meshes) -> list[SectionMesh]:
-    """Each mesh once: bodies alike share theirs."""
-    return list({id(section): section for section in sections if section is not None}.values())
 
 
 def _motions(plan: Plan, asked: FiniteElementDiscretisation) -> int:

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING
 
 import radial
 from contact_errors.cost_estimate import MAX_STEPS, coarse_increments, work_on_rings
 from contact_scene import RadialDiscretisation, Scene, SceneFile
-from contact_scene.solver_errors import UnsupportedScene
 from contact_scene.standing import Keeper
 from contact_scene.stated_error import StatedErrors
 from radial import Plan, Result
 from radial.circle import Circle
 from slipstick.solvers.solver import Pairs, Progress, increments_text, time_of_run
+
+if TYPE_CHECKING:
+    from contact_errors.on_radii import RingSolver
 
 
 class OnRadii:
@@ -39,18 +41,17 @@ class OnRadii:
     ) -> Result:
         return radial.solve(scene, fineness, progress, plan, keeper)
 
-    def errors(self, result: Result, *, progress: Progress | None = None) -> StatedErrors:
+    def errors(self, result: Result) -> StatedErrors:
         from contact_errors.on_radii import stated_errors
 
-        return stated_errors(result, progress)
+        return stated_errors(result)
 
-    def levels(self, scene: Scene, fineness: RadialDiscretisation, **asked: Any) -> Any:
-        """There is none: what the solver takes depends on no fineness but the increments."""
-        raise UnsupportedScene(
-            "the radial solver is as accurate as its increments let it be in one run, which states "
-            "its errors; leave --accuracy, and the table [accuracy], out, and ask for the limit of "
-            "fine increments by [radial] extrapolated = true"
-        )
+    def refined(
+        self, scene: Scene, fineness: RadialDiscretisation, *, stress: bool = False
+    ) -> RingSolver:
+        from contact_errors.on_radii import RingSolver
+
+        return RingSolver(scene, fineness)
 
     def work(self, scene: Scene, fineness: RadialDiscretisation, plan: Plan) -> Pairs:
         """Rings, tolerance, increments, time and memory."""

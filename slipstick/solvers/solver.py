@@ -9,7 +9,7 @@ from contact_errors.cost_estimate import T, Work, cpu_seconds, estimated_run_sec
 from contact_scene.solver_errors import ContactNotResolved, SolverError
 
 if TYPE_CHECKING:
-    from contact_errors.refinement import Levels
+    from contact_errors.coarse_solves import DiscretisedSolver
     from contact_results.surface import Result
     from contact_scene import (
         FiniteElementDiscretisation,
@@ -54,22 +54,13 @@ class Solver(Protocol):
     ) -> Result:
         """The result of a plan; raises a SolverError."""
 
-    def errors(self, result: Any, *, progress: Progress | None = None) -> StatedErrors:
+    def errors(self, result: Any) -> StatedErrors:
         """How far off the numbers of a result may be, by companion solves."""
 
-    def levels(
-        self,
-        scene: Scene,
-        fineness: Any,
-        *,
-        stress_at: int | None = None,
-        keeping: Any = None,
-        watching: Any = None,
-    ) -> Levels[Any]:
-        """Ever finer solves of a scene, for an accuracy that is asked for.
-        stress_at       step at whose end the stress below it is; None where it is not wanted
-        keeping         from a fineness to a block that has the keeper of its solve
-        watching        the same for what is told of its increments
+    def refined(self, scene: Scene, fineness: Any, *, stress: bool = False) -> DiscretisedSolver:
+        """The solver with a discretisation that can be refined.
+
+        stress  whether a stress in the body is required
         """
 
     def work(self, scene: Scene, fineness: Any, plan: Any) -> Pairs:

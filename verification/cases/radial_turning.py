@@ -204,9 +204,9 @@ def _turned() -> float:
     """Of the last step, on half the rings and eight angles, turned by two of them."""
     here = _scene("pushed along x, then y", *(_push(*push, 2) for push in TURNING))
     scene = _scene("pushed along y, then -x", *(_push(*_quarter(push), 2) for push in TURNING))
-    plan = radial.plan(here)
+    plan = replace(radial.plan(here), fineness=0.5)
     one, other = (
-        np.asarray(radial.solve(asked, plan=plan, fineness=0.5).steps[-1].tangential_shift)
+        np.asarray(radial.solve(asked, plan=plan).steps[-1].tangential_shift)
         for asked in (here, scene)
     )
     return float(hypot(*np.subtract(_quarter(one), other)) / hypot(*_quarter(one)))

@@ -150,7 +150,7 @@ class RadiiRun:
         plan = radial.plan(self.scene)
         if self.at_points:
             plan = replace(plan, circle=Circle.ONE)
-        return radial.solve(self.scene, asked, plan=plan, fineness=self.fineness)
+        return radial.solve(self.scene, asked, plan=replace(plan, fineness=self.fineness))
 
 
 AnyRun = Run | SectionRun | RadiiRun

@@ -9,11 +9,11 @@ from typing import Any
 from zlib import crc32
 
 import numpy as np
-
-from contact_errors.adaptive_refinement import refine
 from contact_errors.refinement import RefinementLevel
 from contact_errors.refinement_on_cells import CellFineness, CellLevels
 from contact_errors.refinement_on_elements import ElementFineness, ElementLevels
+
+from contact_errors.adaptive_refinement import refine
 from contact_scene.accuracy import BOUND, LARGEST_TENSION, AccuracyRequest
 from contact_scene.solver_errors import SolverError
 from fem_reference import Method

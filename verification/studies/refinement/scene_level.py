@@ -14,15 +14,14 @@ import numpy as np
 import fem_reference
 import semi_analytical
 from contact_errors import on_cells, on_elements
+from contact_errors.coarse_solves import DiscretisedSolver
 from contact_errors.error_formula import LIMITS, PEAK, PER_ITERATION, PER_TOLERANCE, Features
-from contact_errors.on_elements import with_increments
 from contact_errors.values import OF_CYCLES, Values, scale, values_of
 from contact_results.cycles import fretting_cycles
 from contact_scene import Scene, SceneFile, read_scene_file
 from contact_scene.increment import SCALARS, components
 from contact_scene.solver_errors import SolverError
 from fem_reference import Method
-from semi_analytical.resolution import resolution
 from verification.quantities import largest_residual
 from verification.running.row import CaseRecord, Row, Value
 from verification.running.rules import RESIDUAL
@@ -141,16 +140,14 @@ class SceneLevel:
             plan = _plan(scene, asked).cut_into(self.increments)
             return semi_analytical.solve_discretised(scene, asked, plan=plan)
         method = METHODS[self.scene.solver]
-        return fem_reference.solve(with_increments(scene, self.increments), asked, method)
+        return fem_reference.solve(scene.with_increments(self.increments), asked, method)
 
     def _record(self, result: Any, parameters: dict[str, Value]) -> CaseRecord:
         steps = values_of(result, fretting_cycles(result))
-        if self.scene.on_cells:
-            features = on_cells._features(result, resolution(result))[-1]
-            side, work = max(result.grid.spacing), "convolutions"
-        else:
-            features = on_elements._features(result)[-1]
-            side, work = result.radius / result.discretisation.elements_per_radius, "iterations"
+        package: Any = on_cells if self.scene.on_cells else on_elements
+        solver: DiscretisedSolver = package.solver_of(result)
+        work = "convolutions" if self.scene.on_cells else "iterations"
+        features, side = solver.features(result)[-1], max(solver.sides(result))
         ends = list(_scalars(steps[-1]))
         return CaseRecord(
             parameters=parameters | {"size": self.size or side},

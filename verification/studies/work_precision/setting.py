@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import radial
@@ -189,7 +189,8 @@ class PrecisionCase:
 
     def _rings(self) -> radial.Result:
         scene = self.solved.posed(self._steps).scene
-        return radial.solve(scene, RadialDiscretisation(rings=TOLD), fineness=self._finer)
+        plan = replace(radial.plan(scene), fineness=self._finer)
+        return radial.solve(scene, RadialDiscretisation(rings=TOLD), plan=plan)
 
     def _section(self) -> Section:
         discretisation = FiniteElementDiscretisation(
