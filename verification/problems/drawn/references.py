@@ -151,7 +151,8 @@ def by_rings(rng: Rng, posed: Posed) -> KnownScene:
     """Solve by the ring solver; twice the rings and increments give the uncertainty."""
     once = radial.solve(posed.scene)
     counts = tuple(DOUBLED * n if n > 1 else n for n in once.plan.increments)
-    twice = radial.solve(posed.scene, plan=replace(once.plan, increments=counts), fineness=DOUBLED)
+    finer = replace(once.plan, increments=counts, fineness=DOUBLED)
+    twice = radial.solve(posed.scene, plan=finer)
     known = posed.known(_compared(once, twice, posed.stressed))
     if rng.random() >= BY_MOTION or len(posed.scene.loading) > 1:
         return known

@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import prod
 from typing import Any
 from zlib import crc32
 
 import numpy as np
-from contact_errors.refinement import RefinementLevel
-from contact_errors.refinement_on_cells import CellFineness, CellLevels
-from contact_errors.refinement_on_elements import ElementFineness, ElementLevels
 
-from contact_errors.adaptive_refinement import refine
+from contact_errors.adaptive_refinement import Levels, RefinementLevel, refine
+from contact_errors.coarse_solves import Fineness
+from contact_errors.on_cells import CellSolver
+from contact_errors.on_elements import ElementSolver
 from contact_scene.accuracy import BOUND, LARGEST_TENSION, AccuracyRequest
 from contact_scene.solver_errors import SolverError
-from fem_reference import Method
 from verification.problems.drawn.drawing import logarithmic
 from verification.problems.drawn.families import FAMILIES
 from verification.problems.drawn.known_scene import CELLS, KnownScene, Truth
@@ -29,20 +27,15 @@ MOST_CELLS, MOST_ELEMENTS = 1_500_000, 3_000
 ASKED, REACHED, TRUE = "asked", "reached", "true"
 
 
-class FewCells(CellLevels):
-    """Levels of cells up to a largest work."""
+@dataclass(frozen=True)
+class LimitedLevels(Levels):
+    """Levels up to a largest work."""
 
-    def too_large(self, fineness: CellFineness) -> str | None:
-        if prod(fineness.grid.cells) * sum(fineness.increments) > MOST_CELLS:
-            return "the next level takes more work than the study allows"
-        return super().too_large(fineness)
+    most: float = np.inf
 
-
-class FewElements(ElementLevels):
-    """Levels of elements up to a largest work."""
-
-    def too_large(self, fineness: ElementFineness) -> str | None:
-        if fineness.mesh.elements_per_radius * sum(fineness.increments) > MOST_ELEMENTS:
+    def too_large(self, fineness: Fineness) -> str | None:
+        sizes = self.solver.shown(fineness.space).values()
+        if np.prod([*sizes]) * sum(fineness.increments) > self.most:
             return "the next level takes more work than the study allows"
         return super().too_large(fineness)
 
@@ -69,9 +62,10 @@ class RequestCase:
         asked: Any = known.fineness.asked
         if known.fineness.solver == CELLS:
             stress_at = truths[0].step if quantity == LARGEST_TENSION else None
-            levels: Any = FewCells(known.scene, asked, stress_at)
+            on_cells = CellSolver(known.scene, asked, stress=stress_at is not None)
+            levels = LimitedLevels(on_cells, stress_at, most=MOST_CELLS)
         else:
-            levels = FewElements(known.scene, asked, Method.COMPLEMENTARITY)
+            levels = LimitedLevels(ElementSolver(known.scene, asked), most=MOST_ELEMENTS)
         try:
             made = refine(levels, AccuracyRequest(**{quantity: share}))
         except SolverError as error:
@@ -96,9 +90,7 @@ class RequestCase:
                 return family, known, fit[int(rng.integers(len(fit)))], share
 
 
-def _found(truth: Truth, level: RefinementLevel[Any]) -> float:
-    if truth.quantity == LARGEST_TENSION and level.below is not None:
-        return level.below.value
+def _found(truth: Truth, level: RefinementLevel) -> float:
     found = truth.read(level.values)
     return np.inf if found is None else found
 
