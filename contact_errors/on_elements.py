@@ -172,7 +172,8 @@ class ElementSolver(DiscretisedSolver):
         several = self.plan.path in (Path.TWISTING, Path.SHEARING, Path.HARMONICS)
         count = min(MOST_ELEMENTS, fineness.space.elements_per_radius)
         mesh = _with(fineness.space, elements_per_radius=count)
-        return largest_bytes(sections_of(self.scene, mesh), several)
+        elements = max(each.quads.shape[1] for each in sections_of(self.scene, mesh))
+        return largest_bytes(elements, several)
 
 
 def _with(mesh: FiniteElementDiscretisation, **update: object) -> FiniteElementDiscretisation:

@@ -1,12 +1,9 @@
 """What a factorisation will need, and whether this machine has it."""
 
-from collections.abc import Iterable
-
 import numpy as np
 
 from contact_scene.free_memory import available_bytes
 from contact_scene.solver_errors import ResourceRefused
-from fem_reference.mesh.section_mesh import SectionMesh
 
 # Entries of both factors per component, unknown and halving of the mesh; with unknown pressures.
 FILL, FILL_WITH_PRESSURE = 5.0, 11.0
@@ -36,14 +33,14 @@ def run_bytes(factoring: float) -> float:
     return LIBRARIES + max(DRAWING, PART_IN_USE * factoring)
 
 
-def largest_bytes(sections: Iterable[SectionMesh], several_motions: bool) -> int:
+def largest_bytes(elements: int, several_motions: bool) -> int:
     """Memory for the factors of the largest section [byte].
 
+    elements         of the section
     several_motions  whether it moves along the angle, too
     """
-    largest = max(section.quads.shape[1] for section in sections)
-    components = 3 if several_motions else 2
-    return int(required_bytes(largest, NODES_PER_ELEMENT * largest * components, components, False))
+    unknowns, components = NODES_PER_ELEMENT * elements, 3 if several_motions else 2
+    return int(required_bytes(elements, unknowns * components, components, False))
 
 
 def require_memory(needed: float) -> None:

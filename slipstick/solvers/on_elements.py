@@ -81,7 +81,9 @@ class OnElements:
         text = "one per body and angular harmonic" if motions > 1 else "one per body"
         yield "factorisations", f"{motions * len(sections)}, {text}"
         yield self._time(scene, fineness, plan)
-        needed = run_bytes(largest_bytes(sections, motions > 1))
+        needed = run_bytes(
+            largest_bytes(max(each.quads.shape[1] for each in sections), motions > 1)
+        )
         yield "memory", f"about {needed / 2**20:.0f} MiB"
 
     def _time(
