@@ -30,6 +30,7 @@ from verification.judging.observables import (
     STICK_RADIUS,
     WORK,
 )
+from verification.judging.run import Run
 from verification.problems.hertz import BALL
 from verification.problems.paper_scene import HERTZ, hertz_grid
 from verification.problems.problem import Problem
@@ -93,7 +94,7 @@ def test_the_pressure_is_judged_by_one_norm_on_cells_and_on_rings() -> None:
     def wrong(r: np.ndarray) -> np.ndarray:
         return np.asarray(HERTZ.pressure(r) * (1 + 0.1 * (r > 0.9 * BALL.radius)))
 
-    cells = SimpleNamespace(grid=grid, steps=[SimpleNamespace(pressure=wrong(r))])
+    cells = SimpleNamespace(grid=grid, steps=[SimpleNamespace(pressure=wrong(r), edge_report=None)])
     rings = SimpleNamespace(steps=[SimpleNamespace(pressure=wrong(radii), radii=radii)])
     errors = [PRESSURE_L2.error(BALL)(result) for result in (cells, rings)]
     # ∫ p² dA beyond 0.9 a over all of it: (1 - 0.81)²
@@ -122,8 +123,13 @@ def test_a_row_is_judged_on_the_finest_rung_or_on_those_it_names() -> None:
         ("approach", "128x128"): 0.1, ("required", "32x32"): 0.3, ("required", "64x64"): 0.2,
         **radius,
     }  # fmt: skip
-    (derived,) = (q.tolerance for q in made.quantities if isinstance(q.tolerance, Derived))
-    assert (derived.levels, derived.cap) == (grids.levels, 0.4)
+    (derived,) = (q for q in made.quantities if isinstance(q.tolerance, Derived))
+    assert isinstance(derived.tolerance, Derived)
+    assert (derived.tolerance.levels, derived.tolerance.cap) == (grids.levels, 0.4)
+    assert derived.run == "128x128, edge off"
+    asked = [run for run in made.runs if isinstance(run, Run) and run.edge != "off"]
+    assert [run.label for run in asked] == ["32x32", "64x64", "128x128"]
+    assert [run.label for run in made.runs[3:]] == list(grids.levels)
     assert [finding.run for finding in made.findings] == ["128x128"]
 
 
@@ -161,7 +167,8 @@ def test_runs_that_parts_share_are_solved_once() -> None:
     grids = on_cells(BALL, CELLS)
     again = judged(on_cells(BALL, CELLS[1:]), (Within(APPROACH, 0.1, "why"),))
     made = case("name", "title", "problem", judged(grids, ()), again, runs=grids.runs)
-    assert [run.label for run in made.runs] == ["32x32", "64x64", "128x128"]
+    assert [run.label for run in made.runs] == ["128x128", *grids.levels]
     assert [q.run for q in made.quantities] == ["128x128"]
     renamed = named("judged", grids)
-    assert renamed.levels == ("32x32", "64x64", "judged")
+    assert renamed.judged.run.label == "judged"
+    assert renamed.levels == grids.levels

@@ -73,8 +73,10 @@ WAYS = {
 }
 LOOP = push(0.6), push(-0.3)
 RUNS = {
-    "cells": Run("cells", scene(*LOOP, push(-0.3, 0.4)), GRID),
-    "cells, coupled": Run("cells, coupled", coupled(), GRID),
+    "cells": Run("cells", scene(*LOOP, push(-0.3, 0.4)), GRID, edge="off"),
+    "cells, corrected": Run("cells, corrected", scene(*LOOP), GRID),
+    "cells, coupled": Run("cells, coupled", coupled(), GRID, edge="off"),
+    "cells, coupled and corrected": Run("cells, coupled and corrected", coupled(), GRID),
     "cells, twisted": Run("cells, twisted", twisted(), GRID),
     "rings": SectionRun("rings", scene(*LOOP), MESH),
     "rings, coupled": SectionRun("rings, coupled", coupled(), MESH),
@@ -226,7 +228,7 @@ def test_increments_that_cannot_be_held_against_laws_are_counted(solved, name):
 
 
 def test_energy_that_is_taken_as_told_is_counted():
-    run = Run("cells, coupled", coupled(), GRID)
+    run = Run("cells, coupled", coupled(), GRID, edge="off")
     _, energy = judge_laws(Case("planted", "", "", (run,), ()), {run.label: run.solve()})
     assert "in 2 of 3 increments a contact with friction has grown" in energy.meaning
 

@@ -209,14 +209,16 @@ def test_failure_says_what_where_how_much_and_how_to_see_it_again() -> None:
     report = made_by(outcome)
     line = failure_line(outcome.name, outcome.verdicts[0], report.level)
     assert re.fullmatch(
-        r"FAIL hertz_point/approach \[32x32\]: 8\.36\d+ µm, expected 9\.00000 µm ± 0\.\d+ µm "
+        r"FAIL hertz_point/approach \[32x32, edge off\]: 8\.36\d+ µm, expected 9\.00000 µm ± "
+        r"0\.\d+ µm "
         r"\([\d.e+]+ U\); reproduce: slipstick verify hertz_point --level quick",
         line,
     )
     assert report.status is Status.FAIL
-    told = line.removeprefix("FAIL hertz_point/approach [32x32]: ").split("; reproduce")[0]
+    place = "[32x32, edge off]: "
+    told = line.removeprefix(f"FAIL hertz_point/approach {place}").split("; reproduce")[0]
     failed = render_page(report).split('<ul class="failures">')[1].split("</ul>")[0]
-    assert "hertz_point/approach</a> [32x32]: " + told in failed
+    assert f"hertz_point/approach</a> {place}{told}" in failed
 
 
 @pytest.mark.parametrize(

@@ -29,8 +29,9 @@ def cell_means(exact: AtPlaces, x: Field, y: Field, sides: tuple[Field, Field]) 
     sides  of the cells along x and y, each of the shape of x [length]
     """
     means = _means(exact, x, y, sides, SMOOTH)
-    off = np.abs(means - _means(exact, x, y, sides, WITH_CORNERS))
-    rough = off > DIFFERING * np.max(np.abs(means), initial=0.0)
+    with np.errstate(invalid="ignore"):
+        off = np.abs(means - _means(exact, x, y, sides, WITH_CORNERS))
+    rough = ~(off <= DIFFERING * np.max(np.abs(means), initial=0.0))  # or infinite in a corner
     own = sides[0][rough], sides[1][rough]
     means[rough] = _means(exact, x[rough], y[rough], own, ROUGH)
     return means

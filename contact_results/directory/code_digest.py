@@ -11,7 +11,7 @@ from pathlib import Path
 from contact_results.directory.machine import version_of
 
 SOLVERS = ("contact_scene", "semi_analytical", "fem_reference", "radial")
-PACKAGES = (*SOLVERS, "contact_results", "verification")
+PACKAGES = (*SOLVERS, "contact_results", "contact_errors", "verification")
 LIBRARIES = ("numpy", "scipy", "scikit-fem", "pydantic")
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -42,8 +43,9 @@ def coupled_history(level: Level = Level.QUICK) -> Case:
 def coupled_history_on(cells: int, elements: int, harmonics: int) -> Case:
     """The case on a square grid of so many cells per side, and with so many elements per radius and
     harmonics."""
-    runs = [BARE.run(cells), BARE.run(cells, TURN), BARE.run(cells, 90.0)]
-    films = [FILM.run(cells), FILM.run(cells, 90.0)]
+    # The history follows the states before the edge correction: so do the identities.
+    runs = [replace(BARE.run(cells, degrees), edge="off") for degrees in (0.0, TURN, 90.0)]
+    films = [replace(FILM.run(cells, degrees), edge="off") for degrees in (0.0, 90.0)]
     section = BARE.section(elements, harmonics)
     led = {run.label: LedByMotion() for run in (runs[0], films[0])}
     return Case(

@@ -32,4 +32,5 @@ ENERGY_PER_CYCLE = Observable(
     "J",
     lambda result, *_: loop_energy(result),
     lambda loop: float(loop.energy_per_cycle),
+    scalar=("energy_per_cycle", 0),
 )

@@ -57,6 +57,8 @@ class Quantity:
     quantity    what is measured, where the name says more than that; by it numbers of different
                 cases and solvers are found to be of one kind
     at          the load that it is measured at, over its limit, where that tells quantities apart
+    scalar      registered scalar, component and load step, whose stated error is judged, too; None
+                for other numbers
     """
 
     name: str
@@ -70,6 +72,7 @@ class Quantity:
     scale_name: str = "the reference"
     quantity: str = ""
     at: float | None = None
+    scalar: tuple[str, int, int] | None = None
 
 
 @dataclass(frozen=True)

@@ -91,10 +91,19 @@ class Judged:
 
 
 def judged(ladder: Ladder, rows: Sequence[Row]) -> Judged:
-    """Every row on the rungs that it is about; on rungs that the ladder does not have, none."""
+    """Judge each row on its levels; levels that are not solved have no verdicts."""
+    quantities = tuple(quantity for row in rows for quantity in _quantities(row, ladder))
+    runs = ladder.runs
+    if ladder.uncorrected:
+        named = {quantity.run for quantity in quantities}
+        if not rows or not all(isinstance(row, Falls) for row in rows):
+            named.add(ladder.judged.run.label)
+        corrected = tuple(rung.run for rung in ladder.rungs if rung.run.label in named)
+        ordered = any(isinstance(row, Falls | Refined) for row in rows)
+        runs = (*corrected, *(runs if ordered else ()))
     return Judged(
-        ladder.runs,
-        tuple(quantity for row in rows for quantity in _quantities(row, ladder)),
+        runs,
+        quantities,
         tuple(_order(row, ladder) for row in rows if isinstance(row, Falls)),
         tuple(_finding(row, ladder) for row in rows if isinstance(row, Reported)),
         ladder.problem.equations,
@@ -139,8 +148,12 @@ def case(
 def _quantities(row: Row, ladder: Ladder) -> tuple[Quantity, ...]:
     if isinstance(row, Refined):
         cap = _allowed(row.cap, ladder.judged)
-        tolerance = Derived(ladder.levels, row.order, cap, row.because)
-        return (_quantity(row.what, ladder, ladder.judged, tolerance),)
+        derived = Derived(ladder.levels, row.order, cap, row.because)
+        found = (_quantity(row.what, ladder, ladder.refined, derived),)
+        if ladder.refined.run.label == ladder.judged.run.label or row.what.scalar is None:
+            return found
+        # The corrected method has no order that a tolerance could be derived from.
+        return (*found, _quantity(row.what, ladder, ladder.judged, Required(cap, row.because)))
     if not isinstance(row, Within):
         return ()
     if isinstance(row.allowed, Mapping):
@@ -177,6 +190,7 @@ def _quantity(
         scale_name=what.scale_name,
         quantity=what.name,
         at=what.part,
+        scalar=None if what.scalar is None else (*what.scalar, what.step),
     )
 
 

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from verification import norms
+from verification.cell_means import cell_means
 from verification.observed import ring_errors
 from verification.observed.ring_errors import judged_within
+from verification.observed.unseen import is_corrected
 from verification.problems.paper_scene import FRICTION
 from verification.problems.problem import OVER_PEAK, Problem
 from verification.problems.sheared import OVER_LIMIT
@@ -20,18 +22,28 @@ Field = NDArray[np.float64]
 AT_EDGE = 0.1  # contact radii to each side of a stick edge
 
 
+def _exact(result: Any, end: Any, exact: Callable[..., Field], problem: Problem) -> Field:
+    """Exact field on the cells: at their centres, or its means where edges are corrected."""
+    x, y = result.grid.coordinates()
+    if not is_corrected(end):
+        return problem.on_surface(exact, x, y)
+    sides = np.full_like(x, result.grid.spacing[0]), np.full_like(x, result.grid.spacing[1])
+    return cell_means(lambda x, y: problem.on_surface(exact, x, y), x, y, sides)
+
+
 def pressure_l1(result: Any, step: int, problem: Problem) -> float:
     """Σ|p - p_exact| / Σ p_exact over all cells [1]."""
-    known = problem.on_surface(problem.ends[step].pressure, *result.grid.coordinates())
-    return norms.relative_l1(result.steps[step].pressure, known)
+    end = result.steps[step]
+    return norms.relative_l1(
+        end.pressure, _exact(result, end, problem.ends[step].pressure, problem)
+    )
 
 
 def pressure_l2(result: Any, step: int, problem: Problem) -> float:
     """Relative L2 error of the pressure over all cells, or over the rings, linear between [1]."""
     end, exact = result.steps[step], problem.ends[step].pressure
     if hasattr(result, "grid"):
-        known = problem.on_surface(exact, *result.grid.coordinates())
-        return norms.relative_l2(end.pressure, known)
+        return norms.relative_l2(end.pressure, _exact(result, end, exact, problem))
     return ring_errors.relative_l2(end, end.pressure, exact, problem.radius)
 
 
@@ -48,7 +60,7 @@ def shear_error(result: Any, step: int, problem: Problem) -> float:
     load [1]."""
     end, exact = result.steps[step], problem.ends[step].shear
     if hasattr(result, "grid"):
-        known = problem.on_surface(exact, *result.grid.coordinates())
+        known = _exact(result, end, exact, problem)
         return norms.shear_error(shear_of(end), known, FRICTION * end.pressure)
     along = end.shear_along_load
     return ring_errors.relative_l1(end, along, exact, problem.radius) / FRICTION

@@ -11,6 +11,7 @@ from contact_scene.scene_text import describe
 from contact_scene.solver_errors import SolverError
 from contact_scene.summary import EffectSummary
 from verification.judging.case import Case, Derived, Finding, Quantity
+from verification.judging.coverage import error_of, stated_errors
 from verification.judging.law_verdicts import judge_laws
 from verification.judging.outcome import (
     CaseOutcome,
@@ -69,9 +70,10 @@ def judge(case: Case, solve: Solve = lambda run: run.solve()) -> CaseOutcome:
 
 def _verdicts(case: Case, results: Results) -> tuple[Verdict, ...]:
     measured = [q for q in case.quantities if _needs(q) <= results.keys()]
+    stated = stated_errors(case, results)
     studied = [study for study in case.orders if set(study.levels) <= results.keys()]
     return (
-        *(judge_quantity(quantity, case, results) for quantity in measured),
+        *(judge_quantity(q, case, results, error_of(q, stated.get(q.run))) for q in measured),
         *(judge_comparison(c, results) for c in case.comparisons if set(c.runs) <= results.keys()),
         *(judge_check(check) for check in case.checks),
         *(judge_order(study, case, results) for study in studied),

@@ -5,8 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-from semi_analytical import SurfaceGrid
-from verification.judging.run import OVER_RINGS, AnyRun, RadiiRun, Run, SectionRun, per_radius
+from semi_analytical import SurfaceGrid, plan
+from verification.judging.run import (
+    BY_DEFAULT,
+    OVER_RINGS,
+    AnyRun,
+    RadiiRun,
+    Run,
+    SectionRun,
+    per_radius,
+)
 from verification.observed.ring_errors import judged_within
 from verification.problems.problem import Problem
 from verification.problems.shifted_grid import ShiftedGrid
@@ -74,7 +82,8 @@ class Ladder:
 
     rungs     coarse to fine
     judged    the one that numbers are judged on
-    followed  those that orders are read off
+    followed  those that orders are read off; on cells without edge correction, as only the errors
+              of the uncorrected method have an order
     """
 
     problem: Problem
@@ -83,9 +92,19 @@ class Ladder:
     followed: tuple[Rung, ...]
 
     @property
+    def uncorrected(self) -> bool:
+        """Whether orders are read off runs of their own, without edge correction."""
+        return isinstance(self.judged.run, Run) and self.followed != self.rungs
+
+    @property
     def runs(self) -> tuple[AnyRun, ...]:
-        """Of all rungs."""
-        return tuple(rung.run for rung in self.rungs)
+        """Runs of all levels, those that orders are read off."""
+        return tuple(rung.run for rung in (self.followed if self.uncorrected else self.rungs))
+
+    @property
+    def refined(self) -> Rung:
+        """The level whose error follows from refinement: on cells the finest uncorrected one."""
+        return self.followed[-1] if self.uncorrected else self.judged
 
     @property
     def levels(self) -> tuple[str, ...]:
@@ -118,14 +137,21 @@ def on_cells(
     sides = window * problem.radius, window * (problem.across or problem.radius)
 
     def rung(n: int, offset: tuple[float, float] | None) -> Rung:
-        name = cells_label(n, of)
-        if offset is None:
-            return Rung(Run(name, problem.scene, SurfaceGrid((n, n), sides), problem=of), n, window)
-        name += f", shifted by ({offset[0]:g}, {offset[1]:g}) cells"
-        grid = ShiftedGrid((n, n), sides, offset)
+        name, grid = cells_label(n, of), SurfaceGrid((n, n), sides)
+        if offset is not None:
+            name += f", shifted by ({offset[0]:g}, {offset[1]:g}) cells"
+            grid = ShiftedGrid((n, n), sides, offset)
         return Rung(Run(name, problem.scene, grid, problem=of), n, window)
 
-    return ladder(problem, [rung(n, offset) for n in cells for offset in offsets or (None,)])
+    rungs = [rung(n, offset) for n in cells for offset in offsets or (None,)]
+    corrected = plan(problem.scene, edge=BY_DEFAULT).edge != "off"
+    followed = map(_uncorrected, rungs) if corrected and len(rungs) > 1 else rungs
+    return ladder(problem, rungs, tuple(followed))
+
+
+def _uncorrected(rung: Rung) -> Rung:
+    assert isinstance(rung.run, Run)
+    return replace(rung, run=replace(rung.run, label=f"{rung.run.label}, edge off", edge="off"))
 
 
 def with_edge_at(

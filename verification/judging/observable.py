@@ -34,6 +34,7 @@ class Observable:
     label    in charts
     source   of this number, where it is not the problem's
     part     the load that it is measured at, over its limit, where that tells numbers apart
+    scalar   registered scalar and component, whose error solvers state; None for other numbers
     """
 
     name: str
@@ -48,6 +49,7 @@ class Observable:
     label: str = ""
     source: str = ""
     part: float | None = None
+    scalar: tuple[str, int] | None = None
 
     def at(self, step: int, part: float, of: str) -> Observable:
         """The same at the end of another step, which the load reaches a part of something in."""
@@ -77,7 +79,8 @@ class Observable:
             return float(np.sqrt(np.mean([error(result) ** 2 for error in each])))
 
         meaning = self.meaning.replace("{when}", f" at {stops}, root mean square")
-        return replace(self, meaning=meaning, unit="", measure=mean, value=None, over="")
+        changed = replace(self, meaning=meaning, unit="", measure=mean, value=None, over="")
+        return replace(changed, scalar=None)
 
     def said(self, words: Mapping[str, str]) -> str:
         """The meaning in the words of a discretisation."""
@@ -148,6 +151,7 @@ def number(
         of=of,
         label="" if of is None else of.value,
         source=source,
+        scalar=(known, part),
     )
 
 

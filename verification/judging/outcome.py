@@ -95,6 +95,9 @@ class Verdict(Description):
     """|value - reference| / scale."""
 
     allowed: float
+    bound: float | None = None
+    """What the case allows, where less is accepted; null where that is what is allowed."""
+
     scale: float
     scale_name: str
     tolerance_kind: str
@@ -112,6 +115,14 @@ class Verdict(Description):
     order: OrderRecord | None = None
     """What an observed order was read off; null for all other verdicts."""
 
+    stated_error: float | None = None
+    """Error that the solver states of the value, in its unit; null where it states none, or where
+    the error has not converged."""
+
+    covered: bool | None = None
+    """Whether |value - reference| is within the stated error and the uncertainty of the reference;
+    null without a stated error."""
+
     refined: RefinedErrors | None = None
     """The same value on coarser and finer runs; null where its case has too few of them."""
 
@@ -125,6 +136,11 @@ class Verdict(Description):
         if problem:
             raise ValueError(f"{self.name} [{self.run}]: {problem}")
         return self
+
+    @property
+    def most_allowed(self) -> float:
+        """The bound of the case, in the unit of the value."""
+        return (self.allowed if self.bound is None else self.bound) * self.scale
 
     @property
     def clearance(self) -> float | None:
@@ -150,6 +166,8 @@ def _contradiction(verdict: Verdict) -> str:
             f"its error is {verdict.error}, but its value is {verdict.value}, its reference "
             f"{verdict.reference} and its scale {verdict.scale}"
         )
+    if verdict.covered is not _covered(verdict):
+        return f"it is covered: {verdict.covered}, but it states {verdict.stated_error}"
     status = _status_of(verdict)
     if verdict.status is not status:
         return (
@@ -164,6 +182,13 @@ def _is_error(verdict: Verdict) -> bool:
         return verdict.value is verdict.error
     error = abs(verdict.value - verdict.reference) / verdict.scale
     return math.isclose(verdict.error, error, rel_tol=SAME_BUT_FOR_ROUNDING)
+
+
+def _covered(verdict: Verdict) -> bool | None:
+    if verdict.stated_error is None or verdict.value is None:
+        return None
+    known = verdict.stated_error + (verdict.reference_uncertainty or 0.0)
+    return abs(verdict.value - verdict.reference) <= known
 
 
 def _status_of(verdict: Verdict) -> Status:

@@ -38,8 +38,14 @@ def refined_errors(
 
 
 def followed_on(quantity: Quantity, case: Case) -> tuple[AnyRun, ...]:
-    """The run that the quantity is judged on, and those that differ from it in fineness alone."""
+    """Runs that differ in fineness alone, of the problem that the quantity is judged on; on cells
+    those without edge correction, if there are any: only their errors have an order."""
     judged = case.run(quantity.run)
+    if isinstance(judged, Run):
+        uncorrected = replace(judged, edge="off")
+        found = tuple(run for run in case.runs if _differ_in_fineness(run, uncorrected))
+        if found:
+            return found
     return tuple(run for run in case.runs if _differ_in_fineness(run, judged))
 
 

@@ -6,7 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, ClassVar
 
-from contact_scene import FiniteElementDiscretisation, Scene
+from contact_scene import FiniteElementDiscretisation, Scene, SurfaceDiscretisation
+from contact_scene.discretisation import EdgeCorrection
 from verification.solver import Method, Solver
 
 if TYPE_CHECKING:
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from semi_analytical import Plan, SurfaceGrid
 
 SOLVER_TOLERANCE = 1e-8
+BY_DEFAULT = SurfaceDiscretisation().edge
 # Fields of cells and elements are judged apart from the solver, with other norms.
 OTHER_NORMS = 10.0
 # Of fields over the radius integrals are sums over the rings: measured on all radial cases, they
@@ -29,6 +31,8 @@ class Run:
     """One solve: a scene on a grid to a tolerance. The label names it within its case.
 
     effects  from the plan of the scene to the one to solve with; None: as planned
+    edge     when the edge correction is applied; as a user's run applies it unless orders of the
+             uncorrected method are judged
     problem  which of the problems of its case, in words; empty where there is one
     """
 
@@ -38,6 +42,7 @@ class Run:
     tolerance: float = SOLVER_TOLERANCE
     effects: Callable[[Plan], Plan] | None = None
     problem: str = ""
+    edge: EdgeCorrection = BY_DEFAULT
 
     solver: ClassVar[Solver] = Solver.CELLS
 
@@ -60,7 +65,7 @@ class Run:
         """The solution; raises what `semi_analytical.solve` raises."""
         from semi_analytical import plan, solve
 
-        decided = plan(self.scene)
+        decided = plan(self.scene, edge=self.edge)
         if self.effects is not None:
             decided = self.effects(decided)
         return solve(self.scene, self.grid, self.tolerance, plan=decided)

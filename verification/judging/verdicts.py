@@ -34,8 +34,13 @@ Results = Mapping[str, Any]
 COVERAGE = 2.0  # standard uncertainties in a tolerance
 
 
-def judge_quantity(quantity: Quantity, case: Case, results: Results) -> Verdict:
-    """The measured value against its reference; a value that is not finite fails."""
+def judge_quantity(
+    quantity: Quantity, case: Case, results: Results, stated: float | None = None
+) -> Verdict:
+    """The measured value against its reference; a value that is not finite fails.
+
+    stated  error that the solver states of the value, in its unit
+    """
     tolerance = quantity.tolerance
     if isinstance(tolerance, Derived):
         u = expanded_uncertainty(quantity, tolerance, case, results) / _scale(quantity)
@@ -43,8 +48,12 @@ def judge_quantity(quantity: Quantity, case: Case, results: Results) -> Verdict:
     else:
         kind, allowed = "required", tolerance.allowed
     value = quantity.measure(results[quantity.run])
+    known = None if stated is None else stated + quantity.reference.uncertainty
+    covered = None if known is None else abs(value - quantity.reference.value) <= known
     return _judged(quantity, quantity.run, value, kind, allowed).model_copy(
         update={
+            "stated_error": stated,
+            "covered": covered,
             "runs": (quantity.run,),
             "quantity": quantity.quantity or quantity.name,
             "at": quantity.at,

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
+from verification.observed.unseen import is_corrected
+
 if TYPE_CHECKING:
     import fem_reference
     import semi_analytical
@@ -29,13 +31,23 @@ def peak_pressure(result: Result) -> float:
 
 
 def central_pressure(result: Any, step: int = -1) -> float:
-    """Pressure on the axis, or the mean of the cells nearest to it; below a stiff thin coating it
-    is not the largest [force/length²]."""
-    pressure = result.steps[step].pressure
+    """Pressure on the axis; below a stiff thin coating it is not the largest [force/length²].
+
+    On cells the mean of those nearest to the axis, or where edges are corrected, as for the peak,
+    the value on the axis of p₀ - c r² through these and the next cells.
+    """
+    end = result.steps[step]
+    pressure = end.pressure
     if not hasattr(result, "grid"):
         return float(pressure[0])
     r = np.hypot(*result.grid.coordinates())
-    return float(np.mean(pressure[r < 1.01 * r.min()]))
+    first = r < 1.01 * r.min()
+    if not is_corrected(end):
+        return float(np.mean(pressure[first]))
+    second = ~first & (r < 1.01 * r[~first].min())
+    near, far = float(np.mean(pressure[first])), float(np.mean(pressure[second]))
+    squares = float(np.mean(r[first] ** 2)), float(np.mean(r[second] ** 2))
+    return near + (near - far) * squares[0] / (squares[1] - squares[0])
 
 
 def contact_radius(result: Result) -> float:

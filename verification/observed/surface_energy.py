@@ -5,6 +5,11 @@ these displacements belong to the tractions is Betti's theorem: only then does t
 ½ Σ t·u Δ, change by what the tractions do, ½ Σ (t₀ + t₁)·(u₁ - u₀) Δ. A history that was lost, a
 motion that is told wrong and a displacement of other tractions all break it.
 
+The energies of an increment with corrected edges are those of its state before the correction,
+which is not returned. They differ from those of the returned tractions by the error of the cells,
+(h/a)²/8 for a point contact. To such increments, and those that follow one, the imbalance is
+relative to `EDGES` (h/a)² over the tolerance.
+
 Slip counts from the touch of two particles, and how far they had moved past each other before is
 not told. In the first increment it follows from the slip and the part of the increment for which
 they touch; where a contact with friction has grown since, stored energy and unresolved work are
@@ -22,9 +27,11 @@ from numpy.typing import NDArray
 from contact_scene.friction import FRICTIONLESS
 from semi_analytical import Coupling, Increment, Result
 from verification.observed.imbalance import Imbalance, largest_of
-from verification.observed.unseen import has_grown
+from verification.observed.unseen import has_grown, is_corrected
 
 Field = NDArray[np.float64]
+
+EDGES = 0.125  # of (h/a)²: the energy error of a point contact; ten times as much is allowed
 
 
 def surface_imbalance(result: Result) -> float | None:
@@ -101,10 +108,14 @@ def _imbalances(result: Result) -> Iterator[Imbalance]:
             return  # the motion is undefined, and with it all that follows
         after = _State.of(now, result, undeformed, before_touch)
         largest = max(largest, *(abs(e) for e in (now.elastic_energy, *_told(now))))
+        scale = largest
+        if is_corrected(now) or (before is not None and is_corrected(before)):
+            side = max(result.grid.spacing) / now.contact_radius if now.contact_radius else 1.0
+            scale *= max(1.0, EDGES * side**2 / result.tolerance)
         elastic = 0.5 * float(np.sum(after.tractions * after.u)) * cell
         told, lost, work = now.elastic_energy, now.dissipated_energy or 0.0, now.input_work or 0.0
         if not grown:
-            yield Imbalance(number, largest, elastic - told, stored=elastic, stated=told)
+            yield Imbalance(number, scale, elastic - told, stored=elastic, stated=told)
         stated = now.energy_imbalance or 0.0
         yield Imbalance(number, 1.0, stated, stated_imbalance=stated)
         yield Imbalance(
@@ -112,7 +123,7 @@ def _imbalances(result: Result) -> Iterator[Imbalance]:
         )
         if now.halvings == 0:  # else there are states in between
             for difference, terms in _missing(state, after, before, now, cell, grown=grown):
-                yield Imbalance(number, largest, difference, **terms)
+                yield Imbalance(number, scale, difference, **terms)
         before, state = now, after
 
 

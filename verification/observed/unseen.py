@@ -25,6 +25,8 @@ class Unseen:
             contact with friction has grown since it was first pressed: on a surface grid, and
             wherever coupled bodies are on radii
     small   on radii: too few rings inside the contact to integrate anything
+    edges   with corrected edges, or after one: compared with energies before the correction
+    shear   with corrected shear, while slip is that before the correction
     """
 
     increments: int = 0
@@ -32,6 +34,8 @@ class Unseen:
     energy: int = 0
     told: int = 0
     small: int = 0
+    edges: int = 0
+    shear: int = 0
 
     def __add__(self, other: Unseen) -> Unseen:
         return Unseen(
@@ -40,6 +44,8 @@ class Unseen:
             self.energy + other.energy,
             self.told + other.told,
             self.small + other.small,
+            self.edges + other.edges,
+            self.shear + other.shear,
         )
 
     @property
@@ -47,6 +53,7 @@ class Unseen:
         """In words; empty if all are seen."""
         return _words(
             (self.slip, "slip is not held against shear"),
+            (self.shear, "slip is that before the edge correction"),
             (self.small, "the contact has too few rings for sums over it"),
             of=self.increments,
         )
@@ -59,6 +66,7 @@ class Unseen:
             (self.told, "a contact with friction has grown, and what is stored and left open is "
              "taken as told"),
             (self.small, "the contact has too few rings for sums over it"),
+            (self.edges, "energies are those before the edge correction"),
             of=self.increments,
         )  # fmt: skip
 
@@ -76,14 +84,25 @@ def unseen(result: Any) -> Unseen:
     on_grid = isinstance(result, semi_analytical.Result)
     grown = list(has_grown(increments)) if on_grid else [False] * len(increments)
     found, undefined = Unseen(), False
-    for now, has in zip(increments, grown, strict=True):
+    edges = [on_grid and is_corrected(now) for now in increments]
+    after_edges = [now or before for now, before in zip(edges, [False, *edges], strict=False)]
+    for now, has, edge, corrected in zip(increments, grown, after_edges, edges, strict=True):
         lost = has_shear(now) and now.dissipated_energy is None
         undefined |= lost
         halved = now.halvings > 0
         skipped = halved or undefined
         slip = has_shear(now) and (halved or lost)
-        found += Unseen(1, slip=int(slip), energy=int(skipped), told=int(has and not skipped))
+        told = has and not skipped and not edge
+        shear = corrected and has_shear(now) and not slip
+        found += Unseen(
+            1, int(slip), int(skipped), told=int(told), edges=int(edge), shear=int(shear)
+        )
     return found
+
+
+def is_corrected(now: semi_analytical.Increment) -> bool:
+    """Whether the edges of contact and stick zone are inside the cells."""
+    return now.edge_report is not None and now.edge_report.cause is None
 
 
 def has_shear(told: Any) -> bool:

@@ -38,6 +38,8 @@ class RecordedQuantity(Description):
     reference: float
     allowed: Annotated[float, Field(ge=0)]
     status: Status
+    covered: bool | None = None
+    """Whether the stated error covered the difference from the reference."""
 
     @model_validator(mode="after")
     def _has_an_error(self) -> RecordedQuantity:
@@ -176,8 +178,9 @@ def _quantity(verdict: Verdict) -> RecordedQuantity:
         unit=verdict.unit,
         value=verdict.value,
         reference=verdict.reference,
-        allowed=verdict.allowed * verdict.scale,
+        allowed=verdict.most_allowed,
         status=verdict.status,
+        covered=verdict.covered,
     )
 
 

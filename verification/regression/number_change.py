@@ -40,7 +40,7 @@ def quantity_change(verdict: Verdict, was: RecordedQuantity | None, origin: Orig
         failed = verdict.status is Status.FAIL
         kind = ChangeKind.OUTSIDE if failed else ChangeKind.NEW
         return Change(kind=kind, recorded=False, since=origin.name)
-    allowed = min(verdict.allowed * verdict.scale, was.allowed)
+    allowed = min(verdict.most_allowed, was.allowed)
     difference = _difference(verdict.value, was.value)
     moved = difference / allowed if allowed > 0 else math.inf
     return Change(
@@ -74,6 +74,8 @@ def _kind(verdict: Verdict, was: RecordedQuantity, difference: float, allowed: f
     # Before what is judged otherwise: derived tolerances grow with the error.
     ends = verdict.name in ENDS_OF_SOLVES
     now = verdict.model_copy(update={"reference": was.reference})
+    if was.covered and not verdict.covered:
+        return ChangeKind.WORSE
     if not ends and grows(was, now, WORSE_BY, NOISE * verdict.scale):
         return ChangeKind.WORSE
     if any(_remarks(verdict, was)):
@@ -118,11 +120,14 @@ def grows(
 
 def _remarks(verdict: Verdict, was: RecordedQuantity) -> Iterator[str]:
     """What else than the value is not as recorded."""
+    if was.covered and not verdict.covered:
+        stated = verdict.stated_error
+        yield f"stated error {'not converged' if stated is None else f'{stated:.2e}'}: not covered"
     if verdict.status is not was.status:
         lost = was.status is Status.PASS and verdict.status is Status.INCONCLUSIVE
         held = ", held to the recorded tolerance" if lost else ""
         yield f"{was.status} -> {verdict.status}{held}"
-    allowed = verdict.allowed * verdict.scale
+    allowed = verdict.most_allowed
     if not math.isclose(allowed, was.allowed, rel_tol=TOLERANCE_KEPT):
         yield f"tolerance {allowed:.2e}, was {was.allowed:.2e}"
     floor = ROUNDING * verdict.scale

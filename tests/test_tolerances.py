@@ -1,0 +1,198 @@
+"""Errors that solvers state are judged, and tolerances follow the errors."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from command import slipstick
+
+from slipstick.cli.compare import exit_code_of
+from verification.cases.hertz import hertz_point
+from verification.judging.change import ChangeKind
+from verification.judging.declared_case import Within, case, judged
+from verification.judging.judgement import judge
+from verification.judging.ladder import Ladder, on_cells, on_elements, on_radii
+from verification.judging.observables import APPROACH, CONTACT_RADIUS, PEAK_PRESSURE
+from verification.judging.outcome import CaseOutcome, Status, Verdict
+from verification.problems.hertz import BALL
+from verification.regression.acceptance import baselines_of
+from verification.regression.comparison import compared
+from verification.regression.refusal import BaselineRefused
+from verification.regression.tolerances import (
+    LEAST,
+    Tolerances,
+    accept_tolerances,
+    held_to,
+    proposed,
+    read_tolerances,
+    text_of,
+)
+from verification.report.counts import counts_text, uncovered_lines
+from verification.running.report_record import Provenance, Report, count
+
+COMMIT = "1a2b3c4d5e6f708192a3b4c5d6e7f8091a2b3c4d"
+LADDERS = {
+    "cells": on_cells(BALL, (32,)),
+    "elements": on_elements(BALL, (12,)),
+    "radii": on_radii(BALL, "ball"),
+}
+
+
+def report_of(*cases: CaseOutcome, kernel: str = "Haswell", level: str = "quick") -> Report:
+    return Report(
+        level=level,
+        counts=count(cases),
+        cases=cases,
+        omissions=(),
+        provenance=Provenance(
+            program_version="0.1.0", commit=COMMIT, changed=False, command="slipstick verify",
+            date="2026-11-21T12:00:00+00:00", machine={"arithmetic": kernel}, libraries={},
+            seconds={},
+        ),
+    )  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def outcome() -> CaseOutcome:
+    return judge(hertz_point(cells=(32, 48, 64))).model_copy(update={"charts": ()})
+
+
+def changed(
+    outcome: CaseOutcome, *, times: float = 1.0, covered: bool | None = None
+) -> CaseOutcome:
+    """The case with errors so many times as large, or with stated errors that (do not) cover."""
+
+    def one(v: Verdict) -> Verdict:
+        if covered is not None:
+            return v if v.covered is None else v.model_copy(update={"covered": covered})
+        if v.error is None or v.value is None or v.tolerance_kind == "order":
+            return v
+        error = times * v.error
+        status = Status.PASS if error <= v.allowed else Status.FAIL
+        value = v.reference + times * (v.value - v.reference)
+        return v.model_copy(update={"error": error, "value": value, "status": status})
+
+    return outcome.model_copy(update={"verdicts": tuple(map(one, outcome.verdicts))})
+
+
+# ---- stated errors -----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("ladder", LADDERS.values(), ids=LADDERS)
+def test_each_solver_states_the_errors_of_judged_scalars(ladder: Ladder) -> None:
+    rows = [Within(what, 1.0, "why") for what in (APPROACH, CONTACT_RADIUS, PEAK_PRESSURE)]
+    planted = case("planted", "title", "problem", judged(ladder, rows))
+    found = judge(planted).verdicts
+    stated = [verdict for verdict in found if verdict.stated_error is not None]
+    assert [verdict.name for verdict in stated] == [row.what.name for row in rows]
+    assert all(verdict.covered for verdict in stated)
+
+
+def test_a_stated_error_that_is_too_small_is_named_and_red(outcome: CaseOutcome) -> None:
+    good, poor = report_of(outcome), report_of(changed(outcome, covered=False))
+    assert uncovered_lines(good) == []
+    lines = uncovered_lines(poor)
+    assert lines[0].startswith("UNCOVERED hertz_point/")
+    assert f"0 of {len(lines)} stated errors cover" in counts_text(poor)
+    report = compared(poor, baselines_of(good, "why"))
+    kinds = [
+        v.regression.kind for v in report.cases[0].verdicts if v.regression and v.covered is False
+    ]
+    assert set(kinds) == {ChangeKind.WORSE}
+    assert exit_code_of(report) == 7
+    assert exit_code_of(compared(good, baselines_of(good, "why"))) == 0
+
+
+@pytest.mark.parametrize(("uncovered", "status"), [(1, Status.PASS), (2, Status.FAIL)])
+def test_a_full_report_needs_95_percent(
+    outcome: CaseOutcome, uncovered: int, status: Status
+) -> None:
+    one = next(verdict for verdict in outcome.verdicts if verdict.covered)
+    verdicts = [
+        one.model_copy(update={"name": f"number {n}", "covered": n >= uncovered}) for n in range(20)
+    ]
+    case = outcome.model_copy(update={"verdicts": tuple(verdicts)})
+    assert report_of(case, level="full").status is status
+    assert report_of(case).status is Status.PASS
+
+
+def test_a_record_of_another_coverage_contradicts_itself(outcome: CaseOutcome) -> None:
+    one = next(verdict for verdict in outcome.verdicts if verdict.covered)
+    with pytest.raises(ValueError, match="it is covered"):
+        Verdict.model_validate(one.model_dump() | {"covered": False})
+
+
+# ---- tolerances --------------------------------------------------------------------------------
+
+
+def test_accepted_tolerances_are_twice_the_largest_error_over_kernels(
+    outcome: CaseOutcome, tmp_path: Path
+) -> None:
+    reports = [report_of(outcome), report_of(changed(outcome, times=1.2), kernel="SkylakeX")]
+    count = accept_tolerances(reports, "as  derived", tmp_path)
+    known = read_tolerances("quick", tmp_path)
+    (acceptance,) = known.accepted
+    assert (acceptance.because, acceptance.kernels) == ("as derived", ("Haswell", "SkylakeX"))
+    (held,) = held_to([outcome], known)
+    assert count == sum(verdict.bound is not None for verdict in held.verdicts) > 1
+    for verdict, was in zip(held.verdicts, outcome.verdicts, strict=True):
+        assert verdict.status is was.status
+        if verdict.bound is None:
+            slack = was.error is not None and was.allowed > 3 * max(1.2 * was.error, LEAST)
+            assert was.tolerance_kind == "order" or not slack
+            continue
+        assert was.error is not None
+        assert verdict.bound == was.allowed
+        assert verdict.allowed == pytest.approx(2.4 * was.error + LEAST, rel=0.05)
+    (worse,) = held_to([changed(outcome, times=3)], known)
+    failed = [v for v in worse.verdicts if v.bound is not None and v.error > 4 * LEAST]
+    assert failed
+    assert all(verdict.status is Status.FAIL for verdict in failed)
+    assert proposed([report_of(held)]) == {}
+
+
+def test_a_tolerance_never_exceeds_the_bound_of_its_case(outcome: CaseOutcome) -> None:
+    reports = [report_of(changed(outcome, times=1e6))]
+    assert proposed(reports) == {}
+    one = outcome.verdicts[0]
+    wide = {"allowed": 2 * one.allowed, "error": one.allowed}
+    known = Tolerances.model_validate(
+        {"level": "quick", "accepted": [{"because": "why", "commit": None, "kernels": [],
+         "tolerances": {outcome.name: {text_of(one): wide}}}]}
+    )  # fmt: skip
+    assert held_to([outcome], known) == (outcome,)
+
+
+def test_a_later_acceptance_replaces_the_numbers_it_names(
+    outcome: CaseOutcome, tmp_path: Path
+) -> None:
+    accept_tolerances([report_of(outcome)], "first", tmp_path)
+    grown = held_to([changed(outcome, times=2.5)], read_tolerances("quick", tmp_path))
+    assert Status.FAIL in {verdict.status for verdict in grown[0].verdicts}
+    accept_tolerances([report_of(*grown)], "grown", tmp_path)
+    known = read_tolerances("quick", tmp_path)
+    assert {acceptance.because for acceptance in known.accepted} <= {"first", "grown"}
+    keys = [key for one in known.accepted for key in one.tolerances.get(outcome.name, {})]
+    assert len(keys) == len(set(keys))
+    assert known.accepted[-1].because == "grown"
+
+
+def test_tolerances_need_a_reason_and_one_level(outcome: CaseOutcome, tmp_path: Path) -> None:
+    with pytest.raises(BaselineRefused, match="reason"):
+        accept_tolerances([report_of(outcome)], " ", tmp_path)
+    with pytest.raises(BaselineRefused, match="name one level"):
+        proposed([report_of(outcome), report_of(outcome, level="full")])
+    (tmp_path / "quick.json").write_text("{")
+    with pytest.raises(BaselineRefused, match="are damaged"):
+        read_tolerances("quick", tmp_path)
+
+
+def test_the_command_lists_proposals(
+    outcome: CaseOutcome, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "report.json"
+    file.write_text(report_of(outcome).model_dump_json())
+    assert slipstick("maintain", "tolerances", file) == 0
+    assert "[64x64] required" in capsys.readouterr().out
+    assert slipstick("maintain", "tolerances", file, "--accept") == 2

@@ -1,0 +1,63 @@
+"""Stated errors of judged numbers: an error is covered by |value - reference| ≤ stated + u_ref."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from contact_scene.stated_error import ErrorStatus, StatedErrors
+from verification.judging.case import Case, Quantity
+from verification.judging.outcome import CaseOutcome, Verdict
+from verification.judging.run import BY_DEFAULT, AnyRun, RadiiRun, Run
+
+# Share of covered numbers in a report of all cases at the full level.
+LEAST_SHARE = 0.95
+
+
+def stated_errors(case: Case, results: Mapping[str, Any]) -> dict[str, StatedErrors]:
+    """State the errors of the runs on which scalars are judged, as a user's run states them."""
+    judged = {q.run for q in case.quantities if q.scalar is not None} & results.keys()
+    return {
+        run.label: _stated(run, results[run.label])
+        for run in case.runs
+        if run.label in judged and (not isinstance(run, Run) or run.edge == BY_DEFAULT)
+    }
+
+
+def _stated(run: AnyRun, result: Any) -> StatedErrors:
+    if isinstance(run, Run):
+        from contact_errors.on_cells import stated_errors as on_cells
+
+        return on_cells(result)
+    if isinstance(run, RadiiRun):
+        from contact_errors.on_radii import stated_errors as on_radii
+
+        return on_radii(result)
+    from contact_errors.on_elements import stated_errors as on_elements
+
+    return on_elements(result)
+
+
+def error_of(quantity: Quantity, errors: StatedErrors | None) -> float | None:
+    """Return the stated error of a judged number; None where none is stated, or has converged."""
+    if quantity.scalar is None or errors is None:
+        return None
+    name, component, step = quantity.scalar
+    found = errors.steps[step].get(name)
+    if found is None or found.error is None or found.status is not ErrorStatus.ESTIMATED:
+        return None
+    return float(np.ravel(found.error)[component])
+
+
+def judged_errors(cases: tuple[CaseOutcome, ...]) -> Iterator[tuple[CaseOutcome, Verdict]]:
+    """Yield the verdicts on numbers with a stated error."""
+    for case in cases:
+        yield from ((case, verdict) for verdict in case.verdicts if verdict.covered is not None)
+
+
+def share_covered(cases: tuple[CaseOutcome, ...]) -> float:
+    """Return the share of the numbers with a stated error that it covers; 1 without any."""
+    found = [verdict.covered for _, verdict in judged_errors(cases)]
+    return sum(map(bool, found)) / len(found) if found else 1.0

@@ -1,0 +1,177 @@
+"""Tolerances that follow the error: one file per level, beside the baselines.
+
+A case states a bound with its theoretical reason. Errors are usually far below their bound, and a
+defect that triples them would pass. Twice the largest error over several BLAS kernels is proposed
+as the tolerance of each number whose error is below a third of what it is held to; a proposal is
+accepted with a reason. A tolerance never exceeds the bound of its case.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from contact_results.directory.atomic_file import atomic_file
+from contact_scene.description import Description
+from verification.judging.outcome import Status, Verdict
+from verification.regression.baseline import key_of
+from verification.regression.refusal import BaselineRefused
+
+if TYPE_CHECKING:
+    from verification.judging.outcome import CaseOutcome
+    from verification.running.report_record import Report
+
+TOLERANCES = Path(__file__).resolve().parents[1] / "tolerances"
+SLACK, TIMES = 3.0, 2.0
+# Over the scale of errors: ten times the tolerance of the solvers. By so much an error depends on
+# the iterate at which a solve ends, and with it on the processor.
+LEAST = 1e-7
+
+
+class Tolerance(Description):
+    """A tolerance, and the largest error when it was accepted; both relative to the scale."""
+
+    allowed: float
+    error: float
+
+
+class Acceptance(Description):
+    """Tolerances that were accepted together, by case and key.
+
+    kernels  processors or BLAS kernels on which the errors were measured
+    """
+
+    because: str
+    commit: str | None
+    kernels: tuple[str, ...]
+    tolerances: dict[str, dict[str, Tolerance]]
+
+
+class Tolerances(Description):
+    """The content of the file of a level."""
+
+    level: str
+    accepted: tuple[Acceptance, ...] = ()
+
+    def of(self, case: str) -> dict[str, tuple[Tolerance, Acceptance]]:
+        """Return the tolerances of a case by key."""
+        return {
+            key: (tolerance, acceptance)
+            for acceptance in self.accepted
+            for key, tolerance in acceptance.tolerances.get(case, {}).items()
+        }
+
+
+def read_tolerances(level: str, directory: Path = TOLERANCES) -> Tolerances:
+    """Read the tolerances of a level, if any. Raises BaselineRefused for a damaged file."""
+    path = directory / f"{level}.json"
+    if not path.exists():
+        return Tolerances(level=level)
+    try:
+        return Tolerances.model_validate_json(path.read_bytes())
+    except ValueError as error:
+        problem = " ".join(str(error).splitlines()[:3])
+        raise BaselineRefused(f"tolerances {path} are damaged: {problem}") from None
+
+
+def held_to(cases: Sequence[CaseOutcome], tolerances: Tolerances) -> tuple[CaseOutcome, ...]:
+    """Judge the numbers of cases by the accepted tolerances, where these are below the bound."""
+    return tuple(
+        case.model_copy(
+            update={"verdicts": tuple(_held(v, known.get(text_of(v))) for v in case.verdicts)}
+        )
+        for case in cases
+        for known in (tolerances.of(case.name),)
+    )
+
+
+def _held(verdict: Verdict, known: tuple[Tolerance, Acceptance] | None) -> Verdict:
+    if known is None or known[0].allowed >= verdict.allowed:
+        return verdict
+    tolerance, acceptance = known
+    passes = verdict.error is not None and verdict.error <= tolerance.allowed
+    return verdict.model_copy(
+        update={
+            "allowed": tolerance.allowed,
+            "bound": verdict.allowed,
+            "status": Status.PASS if passes else Status.FAIL,
+            "because": f"{verdict.because}; of the bound {verdict.allowed:.2g} so much is allowed: "
+            f"{TIMES:g} times the error {tolerance.error:.2g} ({acceptance.because})",
+        }
+    )
+
+
+def proposed(reports: Sequence[Report]) -> dict[str, dict[str, Tolerance]]:
+    """Propose tolerances from reports of one level on several kernels: by case and key, for numbers
+    whose tolerance exceeds three times the largest error, or is exceeded by it."""
+    found: dict[str, dict[str, Tolerance]] = {}
+    for case, key, verdicts in _together(reports):
+        bound, held = (verdicts[0].bound or verdicts[0].allowed), verdicts[0].allowed
+        error = max(verdict.error or 0.0 for verdict in verdicts)
+        allowed = float(f"{TIMES * error + LEAST:.2g}")
+        slack = held > SLACK * max(error, LEAST) or error > held
+        if slack and allowed < bound:
+            found.setdefault(case, {})[key] = Tolerance(allowed=allowed, error=error)
+    return found
+
+
+def _together(reports: Sequence[Report]) -> Iterator[tuple[str, str, list[Verdict]]]:
+    """Yield the verdicts of all reports on one number that every report has."""
+    levels = sorted({report.level for report in reports})
+    if len(levels) != 1:
+        raise BaselineRefused(f"the reports are of the levels {', '.join(levels)}; name one level")
+    maps = [
+        {(case.name, text_of(v)): v for case in report.cases for v in case.verdicts}
+        for report in reports
+    ]
+    for key, verdict in maps[0].items():
+        verdicts = [found[key] for found in maps if key in found]
+        finite = all(v.error is not None for v in verdicts) and len(verdicts) == len(maps)
+        if finite and verdict.tolerance_kind != "order":
+            yield *key, verdicts
+
+
+def accept_tolerances(reports: Sequence[Report], because: str, directory: Path = TOLERANCES) -> int:
+    """Store the proposals of reports with a reason; return their number.
+
+    Raises BaselineRefused without a reason.
+    """
+    because = " ".join(because.split())
+    if not because:
+        raise BaselineRefused("tolerances need a reason: --because 'why these errors are right'")
+    new, level = proposed(reports), reports[0].level
+    earlier = read_tolerances(level, directory)
+    kept = tuple(
+        acceptance.model_copy(update={"tolerances": rest})
+        for acceptance in earlier.accepted
+        if (rest := _without(acceptance.tolerances, new))
+    )
+    made = [report.provenance for report in reports]
+    kernels = dict.fromkeys(str(one.machine.get("arithmetic", "unknown")) for one in made)
+    accepted = Acceptance(
+        because=because, commit=made[0].commit, kernels=tuple(kernels), tolerances=new
+    )
+    content = Tolerances(level=level, accepted=(*kept, *((accepted,) if new else ())))
+    directory.mkdir(parents=True, exist_ok=True)
+    with atomic_file(directory / f"{level}.json") as temporary:
+        text = json.dumps(content.model_dump(mode="json"), indent=1, ensure_ascii=False)
+        temporary.write_text(text + "\n", encoding="utf-8", newline="\n")
+    return sum(map(len, new.values()))
+
+
+def _without(
+    tolerances: Mapping[str, Mapping[str, Tolerance]], new: Mapping[str, Mapping[str, Tolerance]]
+) -> dict[str, dict[str, Tolerance]]:
+    rest = {
+        case: {key: one for key, one in keys.items() if key not in new.get(case, {})}
+        for case, keys in tolerances.items()
+    }
+    return {case: keys for case, keys in rest.items() if keys}
+
+
+def text_of(verdict: Verdict) -> str:
+    """Return the key of a verdict in words."""
+    _, name, run, kind = key_of(verdict)
+    return f"{name} [{run}] {kind}"
