@@ -19,6 +19,7 @@ from verification.report.omissions import OMISSIONS
 from verification.running.provenance_record import Provenance
 from verification.running.record import StudyRecord
 from verification.running.report_record import Report, count
+from verification.running.sources import source_digest
 from verification.running.study import Conclusion, LostCase, Statement
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
@@ -42,7 +43,8 @@ def sketch(scene: Scene = COATED, contact_radius: float = RADIUS) -> SectionSket
 def made_by() -> Provenance:
     """Somebody."""
     return Provenance(
-        program_version="0.0", commit=None, changed=False, sources="these",
+        program_version="0.0", commit=None, changed=False, modules=("verification.norms",),
+        sources=source_digest("verification.norms"),
         command="slipstick verify", date="2000-01-01T00:00:00+00:00",
         machine={}, libraries={}, seconds={},
     )  # fmt: skip

@@ -53,7 +53,7 @@ def without_shell(words: list[str]) -> list[str]:
 
 def test_all_ways_to_the_program_are_looked_at() -> None:
     called = {" ".join(command.split()[:2]).split(" --")[0] for command in commands()}
-    assert called == {"verify", "maintain study", "maintain compare"}
+    assert called == {"verify", "maintain study", "maintain compare", "maintain records"}
 
 
 def test_every_job_ends_by_itself() -> None:

@@ -55,11 +55,14 @@ def compare(
     """  # fmt: skip
     from verification.regression.comparison import compared, refuse_if_not_whole
     from verification.report.changes import without_baseline
+    from verification.running.sources import age_text
 
     measured, recorded = read_report(report), _baselines(baseline)
     if not chosen:
         refuse_if_not_whole(measured, recorded)
     outcome = compared(measured, recorded)
+    if age := age_text(measured.provenance):
+        typer.echo(f"the report is {age}")
     _print_changes(outcome)
     if len(without_baseline(outcome)) == len(outcome.cases) > 0:
         typer.echo(

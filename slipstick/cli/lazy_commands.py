@@ -99,6 +99,8 @@ MAINTENANCE = _commands(
         "study": "Compute a study on a pool of processes and write its page.",
         "compare": "Say what changed since the numbers that were accepted, or since a report.",
         "baseline": "List the accepted numbers, or accept those of a report.",
+        "tolerances": "Propose or accept tolerances that follow the errors.",
+        "records": "List stored records, their age and cost, or make them again.",
         "history": "Draw accuracy and cost over commits, and say what became worse.",
         "report": "Render the report again from recorded results.",
         "bench": "Measure what the method costs, beside other codes in turn.",

@@ -168,7 +168,12 @@ def _studied(
             conclusion=study.conclude(settings, records),
             lost=tuple(end.lost for end in ends if end.lost is not None),
             own_cells=settings.cells is not None,
-            provenance=provenance(command, seconds, timed=study.timed(settings, records)),
+            provenance=provenance(
+                command,
+                seconds,
+                timed=study.timed(settings, records),
+                modules=(study.cases.__module__,),
+            ),
         )
         write_study(record, row_files(records, record.conclusion.rows), directory)
     return record

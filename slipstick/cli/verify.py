@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 
 MOST_WARNINGS = 20
+MODULES = ("verification.cases", "verification.judging.judgement")
 CASES = "cases"  # of the report's directory: the records of finished cases
 
 
@@ -64,10 +65,11 @@ def verify(
 ) -> None:
     """Measure the accuracy against closed forms and write the report.
 
-    Exit code 0 if nothing failed, 1 if a verdict failed, or a study that these same sources have
-    made and the report shows; what is new since the baseline is printed and is no failure
-    ('slipstick maintain compare' has an exit code for it). DIR receives index.html (the report, to
-    be opened in a browser) with sheets.html, report.json, junit.xml and summary.md.
+    Exit code 0 if nothing failed, 1 if a verdict failed, if fewer than 95 % of the stated errors of
+    a full report cover, or if a study failed that these same sources have made. What is new since
+    the baseline is printed and is no failure ('slipstick maintain compare' has an exit code for
+    it). DIR receives index.html (the report, to be opened in a browser) with sheets.html,
+    report.json, junit.xml and summary.md.
 
     Every finished case leaves a record in DIR/cases: the same command goes on where a killed one
     stopped, and computes again what other sources or libraries made; a case that was running is
@@ -139,7 +141,7 @@ def _verified(
             counts=count(outcomes),
             cases=outcomes,
             omissions=OMISSIONS,
-            provenance=provenance(command, seconds, made, loops=loops),
+            provenance=provenance(command, seconds, made, loops=loops, modules=MODULES),
             studies=studies,
             chosen=bool(names),
             pictures=() if names else _pictures(),
@@ -164,10 +166,12 @@ def judged(
     """
     from slipstick.cli.case_progress import case_progress, resume_hint
     from verification.cases.judged_case import CaseToJudge, JudgedCase, lost
+    from verification.regression.tolerances import held_to, read_tolerances
     from verification.report.files import refuse_if_unwritable
     from verification.running.case_pool import run_cases
     from verification.running.case_store import CaseStore
 
+    tolerances = read_tolerances(level.lower())
     asked = [CaseToJudge(case.name, level) for case in cases]
     refuse_if_unwritable(directory / CASES)
     store = CaseStore(directory / CASES, JudgedCase)
@@ -185,7 +189,7 @@ def judged(
             seconds[case.name], loops[case.name] = end.record.seconds, end.record.loops
         else:
             outcomes.append(lost(case, end.lost.reason if end.lost else "it has no record"))
-    return tuple(outcomes), seconds, loops
+    return held_to(outcomes, tolerances), seconds, loops
 
 
 def _verdict(end: CaseEnd) -> str:
@@ -231,12 +235,15 @@ def _print_outcome(report: Report, directory: Path) -> None:
     from verification.judging.change import ChangeKind
     from verification.judging.status_words import SYMBOLS, WORDS
     from verification.report.changes import change_rows, changes_text
-    from verification.report.counts import counts_text
+    from verification.report.counts import counts_text, uncovered_lines
     from verification.report.files import PAGE
     from verification.report.summary_text import failure_lines
 
     for line in failure_lines(report):
         typer.echo(line)
+    if not report.errors_too_small:
+        for line in uncovered_lines(report)[:MOST_WARNINGS]:
+            typer.echo(f"WARN {line}")
     failed = {(case.name, verdict.name, verdict.run) for case, verdict in report.failures}
     rows = [
         row

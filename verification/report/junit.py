@@ -9,6 +9,7 @@ from verification.judging.verdict_text import failure_line
 from verification.report.changes import case_rows
 from verification.running.record import StudyRecord
 from verification.running.report_record import Report
+from verification.running.sources import is_current
 from verification.running.study_text import study_failure_line
 
 
@@ -18,7 +19,7 @@ def render_junit(report: Report) -> str:
 
     What is new since the baseline is text of its suite: it is no failure.
     """
-    own = [study for study in report.studies if study.provenance.has_sources_of(report.provenance)]
+    own = [study for study in report.studies if is_current(study.provenance)]
     root = ElementTree.Element(
         "testsuites", name=f"slipstick verify, {report.level}",
         tests=str(sum(report.counts.values()) + len(own)),

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from verification.running.record import StudyRecord
-from verification.running.report_record import Provenance, Report
+from verification.running.report_record import Report
+from verification.running.sources import is_current
 
 # By the name of its study. A study gets its place on the page in `templates/page.html`.
 TITLES = {
@@ -63,22 +64,20 @@ def stored_records(
     left_out  is told of a record that is broken or of another version; without it that raises
               ValueError, naming the file
     """
-    from verification.running.provenance import provenance
     from verification.running.stored_studies import stored_studies
 
-    now = provenance("", {})
     best: dict[str, StudyRecord] = {}
     for place in places:
         for record in stored_studies(place, left_out):
             if record.own_cells or record.name not in TITLES:
                 continue
-            if _rank(record, now) >= _rank(best.get(record.name), now):
+            if _rank(record) >= _rank(best.get(record.name)):
                 best[record.name] = record
     return tuple(best[name] for name in sorted(best))
 
 
-def _rank(record: StudyRecord | None, now: Provenance) -> tuple[bool, int, str]:
+def _rank(record: StudyRecord | None) -> tuple[bool, int, str]:
     if record is None:
         return False, -2, ""
     level = LEVELS.index(record.level) if record.level in LEVELS else -1
-    return record.provenance.has_sources_of(now), level, record.provenance.date
+    return is_current(record.provenance), level, record.provenance.date

@@ -8,9 +8,10 @@ from verification.judging.outcome import CaseOutcome, Status
 from verification.judging.status_words import SYMBOLS, WORDS
 from verification.judging.verdict_text import clearance_text, failure_line
 from verification.report.changes import change_rows, changes_text, origins
-from verification.report.counts import counts_text
+from verification.report.counts import counts_text, uncovered_lines
 from verification.report.power import power_text
 from verification.running.report_record import Report
+from verification.running.sources import age_text
 from verification.running.study_text import measured_text, study_failure_line
 
 MOST_LINES = 40  # of failures, and of changes: a pull request's comment holds 65 kB
@@ -19,6 +20,7 @@ MOST_LINES = 40  # of failures, and of changes: a pull request's comment holds 6
 def failure_lines(report: Report) -> list[str]:
     """One line for every failed verdict, and for every failed study of the same sources."""
     lines = [failure_line(case.name, verdict, report.level) for case, verdict in report.failures]
+    lines += uncovered_lines(report) if report.errors_too_small else []
     return lines + [study_failure_line(study) for study in report.failed_studies]
 
 
@@ -31,6 +33,8 @@ def _lines(report: Report) -> Iterator[str]:
     yield f"# {SYMBOLS[report.status]} {WORDS[report.status]}: slipstick verify, {report.level}"
     yield ""
     yield f"{counts_text(report)}, in {len(report.cases)} cases."
+    if age := age_text(report.provenance):
+        yield f"The report is {age}."
     if power := power_text(report):
         yield f"{power}."
     if report.status is Status.FAIL:
@@ -39,6 +43,9 @@ def _lines(report: Report) -> Iterator[str]:
         yield from (f"- `{line}`" for line in lines[:MOST_LINES])
         if len(lines) > MOST_LINES:
             yield f"- and {len(lines) - MOST_LINES} more"
+    elif uncovered := uncovered_lines(report):
+        yield ""
+        yield from (f"- {line}" for line in uncovered[:MOST_LINES])
     yield ""
     yield from _changes(report)
     yield ""
@@ -47,7 +54,7 @@ def _lines(report: Report) -> Iterator[str]:
             "Studies: "
             + ", ".join(
                 f"{study.name} {SYMBOLS[study.status]} {WORDS[study.status]} ({study.level}"
-                f"{measured_text(study, report.provenance)})"
+                f"{measured_text(study)})"
                 for study in report.studies
             )
             + "."

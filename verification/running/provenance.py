@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import subprocess
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 
-from contact_results.directory.code_digest import code_digest
 from contact_results.directory.machine import library_versions, machine, program_version
 from verification.running.report_record import Benchmark, Provenance
+from verification.running.sources import source_digest
 from verification.running.study import Conclusion
 
 SOURCE = Path(__file__).resolve().parents[2]
@@ -22,6 +22,7 @@ def provenance(
     benchmarks: Iterable[Benchmark] = (),
     timed: Conclusion | None = None,
     loops: Mapping[str, float] | None = None,
+    modules: Sequence[str] = (),
 ) -> Provenance:
     """Versions, machine, commit and times of this process.
 
@@ -30,6 +31,7 @@ def provenance(
     benchmarks  measured on the way
     timed       what a study finds by its seconds
     loops       CPU time by case, in calibration loops
+    modules     that make the numbers, with all that these import
     """
     # Of what computes: a kept report or record that this very command replaces is no change.
     commit, changes = _git("rev-parse", "HEAD"), _git("status", "--porcelain", ".", ":!reports")
@@ -37,7 +39,8 @@ def provenance(
         program_version=program_version(),
         commit=commit,
         changed=commit is not None and changes != "",  # where git does not say: they may differ
-        sources=code_digest().hex(),
+        modules=tuple(modules),
+        sources=source_digest(*modules) if modules else None,
         command=command,
         date=datetime.now(UTC).isoformat(timespec="seconds"),
         machine=machine(),

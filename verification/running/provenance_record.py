@@ -37,8 +37,11 @@ class Provenance(Description):
     changed: bool
     """Whether the source differed from that commit."""
 
+    modules: tuple[str, ...] = ()
+    """Modules that made the numbers; none in older records."""
+
     sources: str | None = None
-    """Digest of the sources and libraries that computed; null in older records."""
+    """Digest of these modules and of all that they import from the project."""
 
     command: str
     date: str
@@ -57,10 +60,3 @@ class Provenance(Description):
 
     timed: Conclusion | None = None
     """What a study finds by its seconds; null for a report, and for studies that measure none."""
-
-    def has_sources_of(self, other: "Provenance") -> bool:
-        """Whether both were made by the same sources: a commit alone says so if all was in it."""
-        if self.sources is not None and other.sources is not None:
-            return self.sources == other.sources
-        committed = self.commit is not None and not (self.changed or other.changed)
-        return committed and self.commit == other.commit

@@ -10,9 +10,11 @@ from contact_scene.description import Description
 from verification.exhibits.picture import Picture
 from verification.judging.case import Level
 from verification.judging.change import GoneCase, Slowdown
+from verification.judging.coverage import LEAST_SHARE, share_covered
 from verification.judging.outcome import CaseOutcome, Status, Verdict
 from verification.running.provenance_record import Benchmark, Provenance
 from verification.running.record import StudyRecord, json_text
+from verification.running.sources import is_current
 
 __all__ = ["Benchmark", "Provenance", "Report"]
 
@@ -69,9 +71,15 @@ class Report(Description):
     @property
     def status(self) -> Status:
         """Fail if anything failed; inconclusive only if nothing did."""
-        if self.counts[Status.FAIL] or self.failed_studies:
+        if self.counts[Status.FAIL] or self.failed_studies or self.errors_too_small:
             return Status.FAIL
         return Status.INCONCLUSIVE if not self.counts[Status.PASS] else Status.PASS
+
+    @property
+    def errors_too_small(self) -> bool:
+        """Whether a report of all cases at the full level has too many uncovered errors."""
+        whole = self.level == Level.FULL.name.lower() and not self.chosen
+        return whole and share_covered(self.cases) < LEAST_SHARE
 
     @property
     def failures(self) -> tuple[tuple[CaseOutcome, Verdict], ...]:
@@ -85,11 +93,11 @@ class Report(Description):
 
     @property
     def failed_studies(self) -> tuple[StudyRecord, ...]:
-        """Studies that failed and were made by the sources of this report."""
+        """Studies that failed and were made by the sources as they are now."""
         return tuple(
             study
             for study in self.studies
-            if study.status is Status.FAIL and study.provenance.has_sources_of(self.provenance)
+            if study.status is Status.FAIL and is_current(study.provenance)
         )
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from verification.judging.change import commit_text
 from verification.judging.outcome import Status
-from verification.running.provenance_record import Provenance
 from verification.running.record import StudyRecord
+from verification.running.sources import age_text
 
 
 def study_failure_line(study: StudyRecord) -> str:
@@ -17,9 +17,8 @@ def study_failure_line(study: StudyRecord) -> str:
     return f"FAIL study {study.name}: {found[0]}{more}; reproduce: {study.provenance.command}"
 
 
-def measured_text(study: StudyRecord, now: Provenance) -> str:
-    """Where a record of other sources than the report's is from; empty for one of the same."""
+def measured_text(study: StudyRecord) -> str:
+    """Return the origin of a record that is older than the code; empty for a current one."""
     made = study.provenance
-    if made.has_sources_of(now):
-        return ""
-    return f", measured at {commit_text(made.commit, changed=made.changed)}"
+    age = age_text(made)
+    return age and f", {age}: measured at {commit_text(made.commit, changed=made.changed)}"

@@ -1,0 +1,67 @@
+"""`slipstick maintain records`: stored records, their age, and all of them again."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from slipstick.cli.errors import ExitCode
+
+
+def records(
+    directory: Annotated[
+        Path, typer.Argument(metavar="DIR", help="Folder with full/ and studies/.")
+    ] = Path("reports"),
+    check: Annotated[
+        bool, typer.Option("--check", help="End with 7 if a record is older than the code.")
+    ] = False,
+    regenerate: Annotated[
+        bool, typer.Option("--regenerate", help="Make those older than the code again.")
+    ] = False,
+) -> None:
+    """List stored records by cost, with the commit that made them and whether the code has changed
+    since.
+
+    The age of a record is that of the modules that made it and of all that these import. With
+    --regenerate records older than the code are made again, the cheapest first, and their times
+    are printed. Exit code 7 with --check if a record is older than the code, 1 if one cannot be
+    made.
+    """
+    from slipstick.cli.terminal import print_table
+    from verification.judging.change import commit_text
+    from verification.running.records import stored_records
+    from verification.running.sources import age_text
+
+    found = stored_records(directory)
+    stale = [record for record in found if age_text(record.provenance)]
+    print_table(
+        ("record", "made at", "seconds", "age"),
+        [
+            (
+                str(record.path),
+                commit_text(record.provenance.commit, changed=record.provenance.changed),
+                f"{record.seconds:.0f}",
+                age_text(record.provenance) or "current",
+            )
+            for record in found
+        ],
+    )
+    failed = False
+    for record in stale if regenerate else ():
+        started = time.perf_counter()
+        code = subprocess.run(
+            [sys.executable, "-m", "slipstick", *record.arguments], check=False
+        ).returncode
+        if code in (ExitCode.PASS, ExitCode.ACCURACY):
+            record.pack()
+        failed |= code != ExitCode.PASS
+        typer.echo(f"{record.path}: exit code {code}, {time.perf_counter() - started:.0f} s")
+    if failed:
+        raise typer.Exit(ExitCode.ACCURACY)
+    if check and stale and not regenerate:
+        raise typer.Exit(ExitCode.WORSE)

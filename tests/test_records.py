@@ -1,0 +1,85 @@
+"""Stored records know the sources that made them."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+from command import slipstick
+from report_examples import made_by, study
+
+from verification.running import sources
+from verification.running.record import dump_study
+from verification.running.records import stored_records
+from verification.running.sources import age_text, closure, is_current
+from verification.studies.catalogue import STUDIES
+
+ROOT = Path(__file__).resolve().parents[1]
+# Files that a root depends on, and files that it does not.
+DEPENDS = {
+    "verification.norms": (
+        {"verification/norms.py", "verification/__init__.py"},
+        "verification/cases",
+    ),
+    "verification.cases": (
+        {"verification/cases/hertz.py", "contact_errors/on_cells.py"},
+        "slipstick",
+    ),
+    "verification.studies.seeded_defects.study": ({"verification/cases/hertz.py"}, "slipstick"),
+    "verification.studies.stability.study": ({"semi_analytical/solve.py"}, "verification/report"),
+}
+
+
+@pytest.mark.parametrize(("module", "expected"), DEPENDS.items(), ids=DEPENDS)
+def test_a_record_depends_on_what_its_modules_import(
+    module: str, expected: tuple[set[str], str]
+) -> None:
+    found = closure([module])
+    needed, foreign = expected
+    assert needed <= found
+    assert not any(path.startswith(f"{foreign}/") for path in found)
+    assert all((ROOT / path).is_file() for path in found)
+
+
+def test_a_record_is_older_where_a_source_of_its_closure_changes(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    made = made_by()
+    assert is_current(made)
+    real = sources._content
+    for path, current in (("contact_scene/pair.py", True), ("verification/norms.py", False)):
+        sources.source_digest.cache_clear()
+        monkeypatch.setattr(sources, "_content", lambda f, p=path: real(f) + "x" * (f == p))
+        assert is_current(made) is current
+        assert age_text(made) == ("" if current else "older than the code")
+    monkeypatch.undo()
+    sources.source_digest.cache_clear()
+    assert not is_current(made.model_copy(update={"modules": ()}))
+
+
+def test_every_study_names_the_module_that_makes_it() -> None:
+    for name, known in STUDIES.items():
+        assert len(closure([known.cases.__module__])) > 100, name
+
+
+def test_records_are_listed_by_cost_and_old_ones_are_red(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name, seconds in (("stability", 50.0), ("promises", 5.0)):
+        place = tmp_path / "studies" / name
+        place.mkdir(parents=True)
+        made = made_by().model_copy(update={"seconds": {"all": seconds}})
+        record = study(name).model_copy(update={"provenance": made})
+        (place / "study.json").write_text(dump_study(record))
+    assert [r.path.parent.name for r in stored_records(tmp_path)] == ["promises", "stability"]
+    assert slipstick("maintain", "records", tmp_path, "--check") == 0
+    content = json.loads((place / "study.json").read_text())
+    content["provenance"]["sources"] = "those"
+    (place / "study.json").write_text(json.dumps(content))
+    assert slipstick("maintain", "records", tmp_path) == 0
+    assert slipstick("maintain", "records", tmp_path, "--check") == 7
+    assert "older than the code" in capsys.readouterr().out
+    shutil.rmtree(tmp_path / "studies")
+    assert stored_records(tmp_path) == []

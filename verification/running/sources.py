@@ -1,0 +1,90 @@
+"""Digest of the sources that a record depends on: the import closure of its modules."""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import re
+from collections.abc import Iterable, Iterator
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from verification.running.provenance_record import Provenance
+
+ROOT = Path(__file__).resolve().parents[2]
+PACKAGES = (
+    *("contact_scene", "semi_analytical", "fem_reference", "radial", "contact_errors"),
+    *("contact_results", "verification"),
+)
+# It exports the challenges, on which the other modules do not depend.
+EXPORTS = "verification/__init__.py"
+# A catalogue imports the modules of its package by name.
+BY_NAME = re.compile(r'import_module\(f"([\w.]+)\.\{')
+
+
+@cache
+def source_digest(*modules: str) -> str:
+    """Return the digest of the sources of these modules, of all that they import from the project,
+    and of the references, if they read any. A package stands for all its modules."""
+    digest = hashlib.sha256()
+    paths = closure(modules)
+    if "verification/references/__init__.py" in paths:
+        found = (ROOT / "verification/references").glob("*.json")
+        paths |= {path.relative_to(ROOT).as_posix() for path in found}
+    for path in sorted(paths):
+        digest.update(f"{path} {_content(path)}\n".encode())
+    return digest.hexdigest()[:16]
+
+
+def is_current(made: Provenance) -> bool:
+    """Whether a record was made by the sources as they are now; unknown ones are not current."""
+    return bool(made.modules) and made.sources == source_digest(*made.modules)
+
+
+def age_text(made: Provenance) -> str:
+    """Return words for a record that is older than the code; empty for a current one."""
+    return "" if is_current(made) else "older than the code"
+
+
+def closure(modules: Iterable[str]) -> set[str]:
+    """Return the files of modules and of all that they import from the project."""
+    found: set[str] = set()
+    left = [path for module in modules for path in _files(module, whole=True)]
+    while left:
+        path = left.pop()
+        if path not in found:
+            found.add(path)
+            left += () if path == EXPORTS else _imported(path)
+    return found
+
+
+@cache
+def _imported(path: str) -> tuple[str, ...]:
+    text = (ROOT / path).read_text(encoding="utf-8")
+    names = {f for name in BY_NAME.findall(text) for f in _files(name, whole=True)}
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Import):
+            names |= {file for name in node.names for file in _files(name.name)}
+        elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
+            names |= {file for name in node.names for file in _files(f"{node.module}.{name.name}")}
+    return tuple(names)
+
+
+def _files(module: str, *, whole: bool = False) -> Iterator[str]:
+    """Yield the files of a module and of the packages above it; with `whole` all of a package."""
+    parts = module.split(".")
+    if parts[0] not in PACKAGES:
+        return
+    for depth in range(1, len(parts) + 1):
+        base = "/".join(parts[:depth])
+        yield from (f for f in (f"{base}/__init__.py", f"{base}.py") if (ROOT / f).is_file())
+    folder = ROOT / "/".join(parts)
+    if whole and folder.is_dir():
+        yield from (path.relative_to(ROOT).as_posix() for path in folder.rglob("*.py"))
+
+
+@cache
+def _content(path: str) -> str:
+    return hashlib.sha256((ROOT / path).read_bytes()).hexdigest()
