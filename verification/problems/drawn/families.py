@@ -124,10 +124,14 @@ PUSHED, COUPLED = 10.0, 7.0  # cells per radius that finer cells are affordable 
 FAMILIES = {
     "balls": Family((of.ball, of.sphere), (RIGID_ON_BARE, UNLIKE), by_rings, 50, stressed=True),
     "shapes": Family((of.cone, of.punch, of.power_law), (RIGID_ON_BARE, UNLIKE), by_rings, 32),
-    "coated": Family((of.ball,), (RIGID_ON_COATED, UNLIKE_COATED), by_rings, 32, stressed=True),
-    "films": Family((of.ball, of.sphere), (RIGID_ON_FILM,), by_rings, 30, stressed=True),
+    "coated": Family(
+        (of.ball,), (RIGID_ON_COATED, UNLIKE_COATED), by_rings, 32, finest=24.0, stressed=True
+    ),
+    "films": Family(
+        (of.ball, of.sphere), (RIGID_ON_FILM,), by_rings, 30, finest=24.0, stressed=True
+    ),
     "tilted": Family((of.ball,), (RIGID_ON_BARE, UNLIKE_COATED), beside_the_centre, 100),
-    "pushed": Family((of.ball,), (NO_POISSON,), similar, 46, of.pushes),
+    "pushed": Family((of.ball,), (NO_POISSON,), similar, 46, of.pushes, finest=20.0),
     "pushed-shapes": Family(
         (of.cone, of.power_law, of.sphere, of.ellipsoid), (NO_POISSON,), similar, 10, of.pushes
     ),
