@@ -14,6 +14,7 @@ from contact_results.directory.checkpoint import Checkpoint
 from contact_scene import (
     RIGID,
     Body,
+    Cone,
     CoulombFriction,
     Ellipsoid,
     FiniteElementDiscretisation,
@@ -28,10 +29,15 @@ from contact_scene import (
     SurfaceDiscretisation,
 )
 from contact_scene.plausibility import implausible
-from contact_scene.solver_errors import ContactAtWindowEdge, UnsupportedScene
+from contact_scene.solver_errors import (
+    ContactAtWindowEdge,
+    ContactNotResolved,
+    UnsupportedScene,
+)
 from contact_scene.standing import Mark, Standing
 from contact_scene.stated_error import StatedErrors
 from semi_analytical import solve_discretised
+from slipstick.solvers.on_cells import OnCells
 
 R, E, NU = 10e-3, 70e9, 0.3
 E_STAR = E / (1 - NU**2)
@@ -370,3 +376,12 @@ def test_a_map_of_friction_has_a_value_everywhere() -> None:
     values[1, 2] = np.nan
     with pytest.raises(ValidationError, match=r"holds nan at \[1, 2\]"):
         CoulombFriction.model_validate({"coefficient": {"map": values, "spacing": 1e-5}})
+
+
+def test_the_plan_of_an_unresolved_contact_is_refused_as_its_solve() -> None:
+    cone = Cone(material=RIGID, slope_angle=np.pi / 180)
+    asked = scene({"approach": APPROACH}, indenter=cone)
+    fineness = SurfaceDiscretisation(cells=(8, 8), window=(4e-3, 4e-3))
+    for call in (OnCells().work, lambda *given: OnCells().solve(*given)):
+        with pytest.raises(ContactNotResolved, match="take more cells"):
+            list(call(asked, fineness, slipstick.plan(asked)))

@@ -110,6 +110,8 @@ class OnCells:
                 work_on_cells(grid.cells, plan.increments, plan.shear),
             )
         except ContactNotResolved:
+            if share == 1:
+                raise
             return self._time(scene, fineness, grid, plan, 2 * most)
 
     def reasons(self, plan: Plan) -> Sequence[tuple[str, str, str]]:
