@@ -28,12 +28,12 @@ COUPLED_ARRAYS = {
 }
 # Spectra of what tractions do within the cells, and that along the edge, in about as many cells as
 # a side has; more of it where loads turn, whose edges stay inside the cells. Those of shear are of
-# the window, in work space that shear has, too. So are all of bodies that couple, counted as above;
-# some of them remain for later increments.
+# the window, in work space that shear has, too. So are all of bodies that couple, counted as above,
+# beside the arrays between increments.
 EDGE_ARRAYS = 25
 EDGE_RIM = 74_000  # bytes per cell of a side, in the mean
 EDGE_SHEAR, EDGE_SHEAR_ARRAYS = 23 << 20, 100
-EDGE_COUPLED, EDGE_COUPLED_ARRAYS, EDGE_COUPLED_RIM, EDGE_KEPT = 24 << 20, 101, 34_000, 30
+EDGE_COUPLED, EDGE_COUPLED_ARRAYS, EDGE_COUPLED_RIM = 24 << 20, 96, 34_000
 EDGE_SHEAR_RIM = 49_000
 EDGE_TURNED_RIM = 150_000
 # Arrays that every increment leaves behind: pressure and gap; shear, slip, its distance and
@@ -87,7 +87,6 @@ def _coupled(grid: SurfaceGrid, plan: Plan) -> float:
     more = TILT_ARRAYS * plan.tilt + TORSION_ARRAYS * plan.torsion
     if plan.edge == "off":
         return array * (during + more)
-    during += EDGE_KEPT * (len(plan.path) > 1 or plan.edge == "all")
     most = max(during, between + EDGE_COUPLED_ARRAYS)
     return array * (most + more) + EDGE_COUPLED + EDGE_COUPLED_RIM * side
 
