@@ -172,8 +172,8 @@ ENTRIES = (
             ),
         ),
         "A stick zone is there. Gross sliding below µW cannot be: "
-        "{doc}`../../theory/literature` has the reason, `slipstick maintain study gross-sliding` "
-        "the whole way.",
+        "{doc}`../../theory/literature` has the reason, {doc}`../../studies/gross_slip_onset` "
+        "the number.",
     ),
     Entry(
         "hard_coatings",

@@ -167,7 +167,7 @@ def test_help_cuts_no_word_on_a_narrow_terminal(
         ("verify hertz_pont fem_herz", "'hertz_pont', did you mean hertz_point?; "
          "no case is called 'fem_herz', did you mean fem_hertz?"),
         ("verify xyz", "no case is called 'xyz'; 'slipstick verify --list --level quick' names"),
-        ("maintain study gross_sliding", "did you mean gross-sliding?"),
+        ("maintain study coated_tractions", "did you mean coated-tractions?"),
         ("maintain study meshh scene.toml", "did you mean mesh?"),
         ("maintain study mesh scene.toml --cells 8", "got 8, expected at least 16"),
         ("maintain study mesh scene.toml --levels 99", "got 99, expected at most 10"),

@@ -186,11 +186,6 @@ ORDERS = {
         *("left_out", "contacts", "sides", "differences", "stress", "line", "charts", "tables"),
         *("costs", "statements"),
     ),
-    "verification.studies.sliding": (
-        *("contacts", "path", "friction_laws", "runs", "law_run", "full_slip", "estimate"),
-        *("selection", "verdicts", "charts", "traction_charts", "gross_sliding"),
-        "coated_tractions",
-    ),
     "verification.studies.refinement": ("scene_level", "estimate", "study"),
     "verification.studies.seeded_defects": ("runs", "findings", "statements", "tables", "study"),
     "verification.studies.stability": (

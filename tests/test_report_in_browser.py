@@ -22,7 +22,8 @@ def full() -> Report:
     elements = case("fem_hertz", {"approach": (1.2e-6, 1e-6)}, run_record(None, 32))
     laws = case("frf_laws", {"law": (1e-6, 1e-6)}, run_record(8, None))
     return report_of(
-        (cells, elements, laws), (study("gross-sliding", "No."), study("stability", level="full"))
+        (cells, elements, laws),
+        (study("coated-tractions", "No."), study("stability", level="full")),
     )
 
 
@@ -55,7 +56,7 @@ def test_nothing_in_a_record_is_run(tmp_path: Path) -> None:
         for n, payload in enumerate(PAYLOADS)
     )
     assert len(PAYLOADS) >= 30
-    studies = (study("gross-sliding", PAYLOADS[0], text=PAYLOADS[1]),)
+    studies = (study("coated-tractions", PAYLOADS[0], text=PAYLOADS[1]),)
     pictures = tuple(
         Picture(name=f"p{n}", title=payload, caption=payload, svg=svg)
         for n, (payload, svg) in enumerate(zip(PAYLOADS, drawn(PAYLOADS), strict=True))

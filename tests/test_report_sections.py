@@ -30,7 +30,7 @@ from verification.report.counts import counts_text
 from verification.report.extent import extent
 from verification.report.features import features
 from verification.report.page import render_page
-from verification.report.prices import PAPERS_ROUTE, price_table, telling_chart
+from verification.report.prices import price_table, telling_chart
 from verification.report.sections import TITLES, stored_records, study_section
 from verification.report.sketch import sketch_svg, thin_layers
 from verification.report.summary_text import render_summary
@@ -122,7 +122,7 @@ def test_springs_are_left_to_their_own_study() -> None:
 
 
 def test_a_study_answers_its_question_in_its_own_words() -> None:
-    report = report_of((), (study("gross-sliding", "No, for a reason."),))
+    report = report_of((), (study("coated-tractions", "No, for a reason."),))
     (sliding, cost, both) = answers(report)
     assert sliding.sentences == ("No, for a reason.",)
     assert sliding.chart is not None
@@ -175,16 +175,6 @@ def test_what_an_accuracy_costs_is_one_table_of_quantities_and_methods() -> None
     # The chart is of the quantity that most methods get there.
     assert answer.chart is not None
     assert answer.chart.name == "chart of Hertz: approach"
-
-
-def test_the_chart_of_prices_is_one_that_the_papers_own_route_was_tried_on() -> None:
-    record = priced(
-        *prices("shift", cells=1.0, **{PAPERS_ROUTE: None}),
-        *prices("approach", cells=2.0, sampled=3.0),
-    )
-    shown = telling_chart(record.conclusion)
-    assert shown is not None
-    assert shown.name == "chart of shift"
 
 
 def test_a_study_without_prices_has_no_table_of_them() -> None:
@@ -290,7 +280,7 @@ def test_a_promise_is_told_in_a_line_also_by_a_study_without_an_answer() -> None
 @pytest.mark.parametrize("number", [0, 1, 2])
 def test_headline_names_studies_that_are_inconclusive(number: int) -> None:
     claim = Statement(claim="c", outcome=Status.INCONCLUSIVE, measured="m")
-    names = ("stability", "mutants", "gross-sliding")[: number + 1]
+    names = ("stability", "mutants", "coated-tractions")[: number + 1]
     records = [study(name) for name in names]
     open_ = [
         one.model_copy(update={"conclusion": one.conclusion.model_copy(

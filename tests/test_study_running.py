@@ -215,19 +215,20 @@ def test_study_leaves_page_record_figures_and_tables(
     }  # fmt: skip
     with (out / "parts.csv").open(encoding="utf-8") as file:
         places = [line for line in csv.DictReader(file) if line["x_over_aH"]]
-    assert len(places) == 4 * 4 * 16
-    assert {float(line["T_over_muW [1]"]) for line in places} == {0.0, 0.3, 0.6, 0.9}
+    assert len(places) == 4 * 2 * 3 * 4 * 121
+    assert {float(line["T_over_muW"]) for line in places} == {0.0, 0.3, 0.6, 0.9}
 
 
 def test_studies_are_listed_and_mistakes_are_refused(tmp_path: Path) -> None:
     listed = outcome("maintain", "study", "--list", cwd=tmp_path)
     assert listed.returncode == 0
-    assert "gross-sliding" in listed.stdout
-    unknown = outcome("maintain", "study", "gross-slidin", cwd=tmp_path)
+    assert "coated-tractions" in listed.stdout
+    unknown = outcome("maintain", "study", "coated-traction", cwd=tmp_path)
     assert unknown.returncode == 2
-    assert "gross-sliding?" in unknown.stderr
+    assert "coated-tractions?" in unknown.stderr
     assert (
-        outcome("maintain", "study", "gross-sliding", "--cells", "33", cwd=tmp_path).returncode == 2
+        outcome("maintain", "study", "coated-tractions", "--cells", "33", cwd=tmp_path).returncode
+        == 2
     )
     assert list(tmp_path.iterdir()) == []
 

@@ -16,8 +16,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from radial.wavenumbers import _even_transforms, waves
-from semi_analytical.frf.stack import Stack, stack_of
-from semi_analytical.influence.layered import LayeredCoefficients
 from verification.cell_means import round_means
 from verification.judging.case import Level
 from verification.judging.outcome import Status
@@ -34,7 +32,6 @@ from verification.peers.environment import (
 )
 from verification.peers.measure import errors_of, one_run
 from verification.peers.profile import EDGES, ITERATION, PART_OF, SOLVER, part_of, profile_of
-from verification.problems.layered_scene import coated, film
 from verification.report.prices import price_table
 from verification.running.cold_cache import CACHE, cold_cache
 from verification.running.provenance import provenance
@@ -69,7 +66,6 @@ from verification.studies.work_precision.recorded_peers import (
 )
 from verification.studies.work_precision.setting import OPERATIONS, OWN, Method, PrecisionCase
 from verification.studies.work_precision.study import STUDY, cases
-from verification.studies.work_precision.usual_route import SampledCoefficients, Sampling
 
 SETTINGS = Settings(Level.QUICK)
 KEPT = Path(__file__).parents[1] / "reports/studies/work-precision/study.json"
@@ -285,17 +281,6 @@ def test_other_codes_are_in_the_tables_by_the_clock_and_told_where_they_are_chea
     assert told != peer_answer(faster)
 
 
-def test_the_usual_route_is_tried_on_every_tangential_history() -> None:
-    """Its pressing is sampled, its shift prescribed: judged under the forces that come with it."""
-    for contact in (c for c in CONTACTS.values() if c.turns):
-        (case, *_) = [
-            c for c in cases(SETTINGS) if (c.contact, c.method) == (contact.name, Method.FROZEN)
-        ]
-        record = case.compute()
-        assert set(record.measures) == {*contact.errors, OPERATIONS}
-        assert all(0 < abs(value_of(record, name)) < 0.05 for name in contact.errors)
-
-
 def test_extrapolation_leaves_what_is_not_of_order_two() -> None:
     constant = 1e-3
     found = {
@@ -318,7 +303,6 @@ def test_extrapolation_leaves_what_is_not_of_order_two() -> None:
         (Method.SURFACE, {}),
         (Method.EDGES, {}),
         (Method.RADIAL, {}),
-        (Method.SAMPLED, {"sampling": (1, 1)}),
         (Method.ELEMENTS, {}),
         (Method.PENALTY, {"penalty": 10.0}),
     ],
@@ -349,28 +333,6 @@ def test_a_measurement_finds_nothing_in_memory() -> None:
         assert _even_transforms(asked, 2) is first
     with cold_cache():
         assert _even_transforms(asked, 2) is not first
-
-
-def test_sampled_coefficients_tend_to_the_exact_ones() -> None:
-    stack: Stack = stack_of(coated(film(2.0, 1.0)))
-    side, n = 2e-5, 8
-    exact = LayeredCoefficients(stack, (side, side), (n + 1, n + 1))
-
-    def errors(how: Sampling) -> dict[str, float]:
-        sampled = SampledCoefficients(stack, (side, side), (n + 1, n + 1), how)
-        inner = (slice(0, n // 2), slice(0, n // 2))
-        return {
-            name: float(
-                np.max(np.abs(getattr(sampled, name) - getattr(exact, name))[inner])
-                / np.max(np.abs(getattr(exact, name)))
-            )
-            for name in ("zz", "xx", "yy", "xy", "zx", "zy")
-        }
-
-    coarse, fine = errors(Sampling(1, 2)), errors(Sampling(8, 8))
-    for name, error in fine.items():
-        assert error < 8e-3, name  # what sampling leaves: the loaded cell has 7.3e-3
-        assert error < 0.5 * coarse[name], name
 
 
 def answered(contact: str, cells: int) -> dict[str, Any]:

@@ -47,9 +47,7 @@ def answers(report: Report) -> tuple[Answer, ...]:
 
 
 def _gross_sliding(report: Report) -> Answer:
-    return _from_study(
-        report, "Is 0.76 µW gross sliding?", "gross-sliding", ("force_against_shift",)
-    )
+    return _from_study(report, "Is 0.76 µW gross sliding?", "coated-tractions", ("figure_4_shear",))
 
 
 def _cost(report: Report) -> Answer:

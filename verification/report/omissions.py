@@ -5,7 +5,7 @@ OMISSIONS = (
     "coating and without, a punch and a ball pressed beside their axes. No case and no reference "
     "has them together with a tangential push.",
     "Tangential loads on coated bodies with friction have no closed form: they are judged by the "
-    "other solver, by an external code and, towards sliding, by the study gross-sliding.",
+    "other solvers, by an external code and by the study coated-tractions.",
     "Where both solvers are compared they take the same increments: what finite increments cost is "
     "judged apart, by refining them.",
     "The finite elements are axisymmetric: neither tilt nor a load that turns, no height map and "

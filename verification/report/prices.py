@@ -22,7 +22,6 @@ from verification.studies.work_precision.price_rows import (
 
 TARGET = 0.001
 THOUSAND = 1000.0
-PAPERS_ROUTE = "sampled response, frozen directions"
 
 
 def price_table(conclusion: Conclusion, unit: str) -> Table | None:
@@ -49,15 +48,13 @@ def price_table(conclusion: Conclusion, unit: str) -> Table | None:
 
 
 def telling_chart(conclusion: Conclusion) -> Chart | None:
-    """The diagram of the quantity that most methods get to the target, of those that the paper's
-    own route was tried on if there are any; else the first one."""
+    """The diagram of the quantity that most methods get to the target; else the first one."""
     by_name = {chart.name: chart for chart in conclusion.charts}
     ranked = []
     for _, prices in by_quantity(at_target(conclusion.rows, TARGET)):
         reached, chart = sum(map(is_reached, prices)), str(prices[0].parameters["chart"])
-        papers = any(row.parameters["method"] == PAPERS_ROUTE for row in prices)
         if reached and chart in by_name:
-            ranked.append(((papers, reached), by_name[chart]))
+            ranked.append((reached, by_name[chart]))
     best = max(ranked, key=lambda pair: pair[0], default=None)
     return next(iter(conclusion.charts), None) if best is None else best[1]
 

@@ -14,7 +14,6 @@ from verification.running.sources import is_current
 TITLES = {
     "cross-check": "Both solvers on the same contacts",
     "coated-tractions": "Coated contacts: the paper's figures 3 and 4",
-    "gross-sliding": "Gross sliding of a coated contact",
     "work-precision": "What accuracy costs",
     "error-coverage": "Coverage of stated errors",
     "error-budget": "Where the error of the headline cases comes from",

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from verification.running.study import Study
+from verification.studies.coated_tractions import STUDY as COATED_TRACTIONS
 from verification.studies.cross_check import STUDY as CROSS_CHECK
 from verification.studies.error_budget.study import STUDY as ERROR_BUDGET
 from verification.studies.error_coverage.study import STUDY as ERROR_COVERAGE
@@ -17,8 +18,6 @@ from verification.studies.refinement.study import (
 )
 from verification.studies.scoreboard import STUDY as SCOREBOARD
 from verification.studies.seeded_defects.study import STUDY as SEEDED_DEFECTS
-from verification.studies.sliding.coated_tractions import STUDY as COATED_TRACTIONS
-from verification.studies.sliding.gross_sliding import STUDY as GROSS_SLIDING
 from verification.studies.stability.study import STUDY as STABILITY
 from verification.studies.work_precision.study import STUDY as WORK_PRECISION
 
@@ -40,7 +39,6 @@ STUDIES: dict[str, Study] = {
     study.name: study
     for study in (
         COATED_TRACTIONS,
-        GROSS_SLIDING,
         STABILITY,
         CROSS_CHECK,
         SEEDED_DEFECTS,

@@ -15,25 +15,21 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene.residuals import worst
 from semi_analytical import SurfaceGrid
 from verification.cases import coated_paraboloid as coated
 from verification.cases.fretting_loop import WINDOW_PER_RADIUS
 from verification.cases.loop_observables import ENERGY_PER_CYCLE, LARGEST_SHIFT_ERROR
-from verification.cell_means import round_means
 from verification.judging.observable import Observable, error_norm
 from verification.judging.observables import APPROACH, PEAK_PRESSURE, SHIFT
 from verification.judging.pressing_errors import pressure_at, shear_at
-from verification.norms import shear_error
 from verification.problems import paper_scene as paper
 from verification.problems.hertz import BALL
 from verification.problems.indentation import COATED
 from verification.problems.loop_history import ExactLoop, fretting_loop
 from verification.problems.paper_scene import NU_ZERO
 from verification.problems.problem import OVER_PEAK, Problem
-from verification.problems.sheared import OVER_LIMIT, SLIDING_SHIFT, sheared
+from verification.problems.sheared import OVER_LIMIT, sheared
 from verification.studies.work_precision.field_errors import PRESSURE, SHEAR
-from verification.studies.work_precision.frozen_route import FrozenHistory
 
 Field = NDArray[np.float64]
 Errors = Mapping[str, float]
@@ -55,8 +51,6 @@ class PreciseContact:
     posed       by the number of increments, where the path decides
     window      over the contact radius
     increments  of the step that decides, unless the study varies them; None: one will do
-    turns       shifts at which a tangential motion turns, and its end [length]; empty without one
-    frozen      errors of the usual route along them
     """
 
     name: str
@@ -66,8 +60,6 @@ class PreciseContact:
     posed: Callable[[int], Problem]
     window: float = paper.WINDOW_PER_RADIUS
     increments: int | None = None
-    turns: tuple[float, ...] = ()
-    frozen: Callable[[FrozenHistory], Errors] = lambda history: {}
 
     @property
     def problem(self) -> Problem:
@@ -101,28 +93,6 @@ def _pushed(increments: int) -> Problem:
     return replace(problem, scene=problem.scene.model_copy(update={"loading": loading}))
 
 
-def _pushed_frozen(history: FrozenHistory) -> Errors:
-    (end,) = history.turned
-    exact = replace(_pushed(1).ends[-1], tangential_force=end.force)
-    shear = round_means(exact.shear, *history.grid.coordinates(), history.grid.spacing)
-    return {"shear": shear_error(end.shear, shear, history.bound),
-            "shift": (end.shift - exact.shift) / SLIDING_SHIFT}  # fmt: skip
-
-
-def _loop_frozen(history: FrozenHistory) -> Errors:
-    """All under the forces that came with the shift."""
-    state, shifts, exact = LOOPED.virgin, [], []
-    for found in history.states:
-        state = state.loaded_to(found.force)
-        shifts.append(abs(found.shift - state.shift))
-        exact += [state.dissipated_energy] if found.turning else []
-    start, _, end = (found.dissipated_energy for found in history.turned)
-    return {
-        "energy": (end - start) / (exact[-1] - exact[0]) - 1,
-        "shift": worst(*shifts) / LARGEST,
-    }
-
-
 def _largest_error(
     at: Callable[[Any, Field], Field], exact: Callable[[Any], Callable[[Field], Field]], scale: str
 ) -> Observable:
@@ -151,8 +121,6 @@ CATTANEO = PreciseContact(
     {"shear": "shear at 0.9 µW, Σ|q - q_exact| / Σµp", "shift": "shift over the sliding shift"},
     (SHEAR, SHIFT),
     _pushed,
-    turns=(_pushed(1).ends[-1].shift,),
-    frozen=_pushed_frozen,
 )
 COATING = PreciseContact(
     "coated",
@@ -185,7 +153,5 @@ LOOP = PreciseContact(
     lambda quarter: fretting_loop("Fretting loop, ν = 0", NU_ZERO, quarter),
     window=WINDOW_PER_RADIUS,
     increments=QUARTER,
-    turns=(LARGEST, -LARGEST, LARGEST),
-    frozen=_loop_frozen,
 )
 CONTACTS = {c.name: c for c in (HERTZIAN, CATTANEO, COATING, INDENTATION, LOOP)}

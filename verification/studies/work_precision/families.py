@@ -11,7 +11,6 @@ from verification.studies.work_precision.contacts import (
     CONTACTS,
     HERTZIAN,
     INDENTATION,
-    LOOP,
 )
 from verification.studies.work_precision.setting import OWN, Method, PrecisionCase
 
@@ -33,7 +32,6 @@ ELEMENTS = {
 }
 LOOSE = {Level.QUICK: (1e-4,), Level.STANDARD: (1e-2, 1e-4), Level.FULL: (1e-2, 1e-4)}
 PENALTIES = {Level.QUICK: (1.0, 10.0), Level.STANDARD: (1.0, 10.0, 100.0)}
-SAMPLINGS = {Level.QUICK: ((1, 1), (2, 2)), Level.STANDARD: ((1, 1), (2, 1), (2, 2), (4, 4))}
 # Of the closed form below a ball the radial solver makes none; of a coated one it has round-off.
 RINGS = {
     Level.QUICK: (OWN // 2, OWN),
@@ -44,9 +42,6 @@ RINGS = {
 WITH_EDGES = (HERTZIAN.name, CATTANEO.name, COATING.name, INDENTATION.name)
 INCREMENTS = {Level.QUICK: (5,), Level.STANDARD: (5, 10, 40)}  # beside the usual ones
 MOST_SPRINGS = 64  # elements: finer with springs takes longer than all the rest
-FROZEN_STEPS = {CATTANEO.name: 10, LOOP.name: 3}  # to the first turn
-FROZEN_CELLS = (16, 32, 64)  # its error no longer falls, and projected gradients are slow
-MOST_SAMPLES = 2048  # along a side: more do not fit beside one another in memory
 
 
 def all_cases(level: Level) -> tuple[PrecisionCase, ...]:
@@ -60,9 +55,6 @@ def of_contact(contact: str, level: Level) -> Iterator[PrecisionCase]:
     for n in CELLS[level]:
         for tolerance in (1e-8, *LOOSE[level]):
             yield PrecisionCase(contact, Method.SURFACE, n, tolerance)
-        for sampling in SAMPLINGS[upper]:
-            if 2 * n * sampling[0] * sampling[1] <= MOST_SAMPLES:
-                yield PrecisionCase(contact, Method.SAMPLED, n, sampling=sampling)
         if contact in WITH_EDGES:
             yield PrecisionCase(contact, Method.EDGES, n)
     if contact != HERTZIAN.name:
@@ -76,12 +68,6 @@ def of_contact(contact: str, level: Level) -> Iterator[PrecisionCase]:
         yield from _of_increments(contact, level)
     for n in TO_THE_EDGE.get(contact, {}).get(level, ()):
         yield PrecisionCase(contact, Method.SURFACE, n)
-    if contact in FROZEN_STEPS:
-        for n in FROZEN_CELLS:
-            yield PrecisionCase(
-                contact, Method.FROZEN, n, sampling=SAMPLINGS[Level.QUICK][-1],
-                increments=FROZEN_STEPS[contact],
-            )  # fmt: skip
 
 
 def _of_increments(contact: str, level: Level) -> Iterator[PrecisionCase]:

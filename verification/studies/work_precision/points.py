@@ -26,7 +26,7 @@ def points_of(found: Found, contact: str, quantity: str) -> tuple[Point, ...]:
 
 
 def _point(case: PrecisionCase, record: CaseRecord, quantity: str) -> Point:
-    curve = f"{case.tolerance:g} {case.penalty:g} {case.sampling} {case.increments}"
+    curve = f"{case.tolerance:g} {case.penalty:g} {case.increments}"
     return Point(
         case.method.value,
         curve,

@@ -17,8 +17,6 @@ from verification.running.cold_cache import timed
 from verification.running.row import CaseRecord, parameters_of
 from verification.studies.work_precision import counted_work
 from verification.studies.work_precision.contacts import CONTACTS, PreciseContact
-from verification.studies.work_precision.frozen_route import FrozenHistory, frozen_history
-from verification.studies.work_precision.usual_route import Sampling, solve_sampled
 
 NO_INCREMENTS = 1
 # Of the radial solver the fineness is in twelfths of what it chooses; fields are told at so many
@@ -33,8 +31,6 @@ class Method(StrEnum):
     SURFACE = "semi-analytical"
     EDGES = "semi-analytical, edges inside cells"
     EXTRAPOLATED = "semi-analytical, extrapolated"
-    SAMPLED = "sampled response"
-    FROZEN = "sampled response, frozen directions"
     ELEMENTS = "finite elements"
     PENALTY = "finite elements, penalty"
     RADIAL = "radial"
@@ -49,7 +45,6 @@ class PrecisionCase:
                 and orders that the radial solver chooses
     tolerance   of the solver
     penalty     stiffness factor c; 0 without penalty
-    sampling    refinement and extension; zeros: exact coefficients
     increments  0: those of the contact
     window      over the contact radius; 0: the contact's
     box         size of the section in contact radii; 0: chosen
@@ -60,7 +55,6 @@ class PrecisionCase:
     fineness: int
     tolerance: float = SOLVER_TOLERANCE
     penalty: float = 0.0
-    sampling: tuple[int, int] = (0, 0)
     increments: int = 0
     window: float = 0.0
     box: float = 0.0
@@ -71,7 +65,6 @@ class PrecisionCase:
         parts = [self.contact, self.method.name.lower(), f"n{self.fineness}"]
         parts += [f"t{self.tolerance:.0e}"] if self.tolerance != SOLVER_TOLERANCE else []
         parts += [f"c{self.penalty:g}"] if self.penalty else []
-        parts += ["r{}e{}".format(*self.sampling)] if any(self.sampling) else []
         for letter, value in (("k", self.increments), ("w", self.window), ("l", self.box)):
             parts += [f"{letter}{value:g}"] if value else []
         return "-".join(parts).replace(".", "p")
@@ -97,10 +90,6 @@ class PrecisionCase:
             words = ["its own rings" if n == OWN else f"{n / OWN:g} times its own rings"]
         words += [f"tolerance {self.tolerance:g}"] if self.tolerance != SOLVER_TOLERANCE else []
         words += [f"c = {self.penalty:g}"] if self.penalty else []
-        if any(self.sampling):
-            refinement, extension = self.sampling
-            samples = "1 sample" if refinement == 1 else f"{refinement} samples"
-            words += [f"{samples} per cell side", f"period {2 * extension} windows"]
         if self.increments:
             words += ["1 increment" if self.increments == 1 else f"{self.increments} increments"]
         return ", ".join(words)
@@ -131,20 +120,14 @@ class PrecisionCase:
                 "increments": len(rings.increments),
             }
         else:
-            if self.method is Method.FROZEN:
-                history, seconds, repeats = timed(self._frozen)
-                errors, steps = contact.frozen(history), len(history.states)
-                convolutions = history.convolutions
-            else:
-                surface, seconds, repeats = timed(self._surface)
-                errors, steps = contact.errors_of(surface), len(surface.increments)
-                convolutions = counted_work.convolutions(surface)
+            surface, seconds, repeats = timed(self._surface)
+            errors = contact.errors_of(surface)
+            convolutions = counted_work.convolutions(surface)
             operations = counted_work.of_convolutions(self._grid.cells, convolutions)
-            operations += self._sampling_operations
             counters = {
                 "convolutions": convolutions,
                 "unknowns": components * self.fineness**2,
-                "increments": steps,
+                "increments": len(surface.increments),
             }
         return CaseRecord(
             parameters=parameters_of(self),
@@ -163,25 +146,10 @@ class PrecisionCase:
     def _grid(self) -> SurfaceGrid:
         return self.solved.grid(self.fineness, self.window or None)
 
-    @property
-    def _sampling(self) -> Sampling:
-        return Sampling(*self.sampling)
-
-    @property
-    def _sampling_operations(self) -> float:
-        """One transform of all samples for every coefficient: one without friction, six with."""
-        if not any(self.sampling):
-            return 0.0
-        count = 1 if self.solved.problem.scene.friction is None else 6
-        return counted_work.transforms(self._sampling.count(self.fineness + 1) ** 2, count)
-
     def _surface(self) -> Surface:
         scene = self.solved.posed(self._steps).scene
-        if self.method is Method.SAMPLED:
-            return solve_sampled(scene, self._grid, self.tolerance, self._sampling)[1]
-        if self.method is not Method.EDGES:
-            return solve(scene, self._grid, self.tolerance)
-        return solve(scene, self._grid, self.tolerance, plan=plan(scene, edge="last"))
+        decided = plan(scene, edge="last" if self.method is Method.EDGES else "off")
+        return solve(scene, self._grid, self.tolerance, plan=decided)
 
     @property
     def _finer(self) -> float:
@@ -204,15 +172,3 @@ class PrecisionCase:
             discretisation = discretisation.model_copy(update={"penalty": self.penalty})
         by = Enforcement.PENALTY if self.method is Method.PENALTY else Enforcement.COMPLEMENTARITY
         return solve_section(self.solved.posed(self._steps).scene, discretisation, by)
-
-    def _frozen(self) -> FrozenHistory:
-        """Press at once, then shift with the directions of slip held."""
-        pressing = self.solved.problem.scene
-        return frozen_history(
-            pressing.model_copy(update={"loading": pressing.loading[:1]}),
-            self._grid,
-            self.tolerance,
-            self._sampling,
-            self.solved.turns,
-            self._steps,
-        )

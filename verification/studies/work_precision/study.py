@@ -45,10 +45,6 @@ SHARED = (
     "Edges are put inside the cells at the end of every step, or, where bodies couple, in every "
     "increment; energies and shifts stay those of cells, so that no loop was run so. The radial "
     "solver is asked for what it has no closed form of.",
-    "The usual route samples the frequency response at and between the cells, with the period a "
-    "multiple of the window. With frozen directions it is shifted in equal increments, and judged "
-    "under the force that comes with them; without a tangential load there is nothing to freeze, "
-    "and the pressing with friction was not run so.",
     "Extrapolation takes two grids with cells of ratio two and the order two, for peak pressure "
     "and approach.",
     "An error norm of a field means the edge, where pressure is a square root. Every method is "

@@ -1,0 +1,330 @@
+"""The paper's figures 3 and 4: tractions of four coated contacts by two solvers, with errors.
+
+A rigid ball is pressed with friction on a coated half-space and pushed to 0.3, 0.6, 0.9 of µW. Cells
+and the radial solver share no numerics. The error of a curve is estimated by coarse solves as in a
+run, with the order 1 of values at edges: $|f - f_k| / (r_k^{0.6} - 1)$ for fewer cells or rings
+and for half of the increments, added, in the norm ∫|Δp| dx / ∫p dx or ∫|Δq| dx / ∫µp dx on y = 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+import radial
+import semi_analytical
+from contact_errors.error_formula import BELIEVED
+from contact_results.surface import surface_of
+from contact_scene import LoadStep, Scene
+from contact_scene.array_types import Field
+from verification.exhibits.chart import Chart, Curve, Look, Panel, curve, stacked
+from verification.exhibits.numbers import plain
+from verification.exhibits.table import Table, table_of
+from verification.judging.case import Level
+from verification.judging.run import SOLVER_TOLERANCE
+from verification.problems.layered_scene import coated, exact_contact, film, pressed, rigid_ball
+from verification.problems.paper_scene import (
+    FRICTION,
+    FRICTION_LIMIT,
+    HERTZ,
+    pressing,
+    square_grid,
+)
+from verification.quantities import largest_residual
+from verification.running.row import CaseRecord, Row, found, parameters_of, value_of
+from verification.running.rules import RESIDUAL, converged, judged, solved
+from verification.running.study import Conclusion, Records, Settings, Statement, Study
+
+RATIOS = (0.5, 1.0, 2.0, 4.0)
+FORCES = (0.0, 0.3, 0.6, 0.9)  # T / µW
+INCREMENTS = (16, 6, 6, 6)
+CELLS, RINGS = "semi-analytical", "radial"
+# Cells a side, and multiple of the rings, of the fine solves.
+FINEST = {Level.QUICK: (48, 0.5), Level.STANDARD: (96, 1.0), Level.FULL: (128, 1.5)}
+MARGIN = 1.15  # half a window in contact radii
+# Solves of one contact: fraction of the cells or rings, and of the increments.
+SOLVES = {"fine": (1.0, 1.0), "coarse": (2 / 3, 1.0), "half the increments": (1.0, 0.5)}
+SHOWN = np.linspace(-1.2, 1.2, 121)  # x / a_H
+SELF_EQUILIBRIUM = 1e-6  # |∫q| / ∫|q| on y = 0 at T = 0: the curve is odd
+FIELDS = ("pressure", "shear")
+AT = {force: f"at {force:g} µW" for force in FORCES}
+
+
+@dataclass(frozen=True)
+class TractionRun:
+    """Tractions of one contact by one solver.
+
+    ratio     E1 / E2, coating over substrate
+    fineness  cells a side, or multiple of the rings
+    share     of the increments
+    """
+
+    solver: str
+    ratio: float
+    fineness: float
+    share: float
+
+    @property
+    def name(self) -> str:
+        words = f"{self.solver}-{self.ratio:g}-{self.fineness:.4g}-{self.share:g}"
+        return words.replace(".", "p")
+
+    def compute(self) -> CaseRecord:
+        """Solve; raises the errors of the solvers."""
+        pushes = (LoadStep(tangential_force=(t * FRICTION_LIMIT, 0.0)) for t in FORCES[1:])
+        body = coated(film(self.ratio, 1.0))
+        title = f"Rigid ball on a coated half-space, E1/E2 = {self.ratio:g}"
+        scene = pressed(title, rigid_ball(), body, pressing(), *pushes, friction=FRICTION)
+        counts = tuple(max(1, round(self.share * n)) for n in INCREMENTS)
+        result = self._solved(scene, counts, exact_contact(body).contact_radius)
+        ends = zip(FORCES, result.steps, strict=True)
+        return CaseRecord(
+            parameters=parameters_of(self),
+            measures={
+                RESIDUAL: largest_residual(result),
+                "stick_fraction": result.steps[-1].stick_area / result.steps[-1].contact_area,
+            },
+            counters={"increments": sum(counts)},
+            parts=tuple(row for force, end in ends for row in _profile(result, end, force)),
+        )
+
+    def _solved(self, scene: Scene, counts: tuple[int, ...], radius: float) -> Any:
+        if self.solver == RINGS:
+            plan = replace(radial.plan(scene), increments=counts)
+            return radial.solve(scene, plan=plan, fineness=self.fineness)
+        grid = square_grid(round(self.fineness), MARGIN * radius)
+        cut = semi_analytical.plan(scene, edge="last").cut_into(counts)
+        return semi_analytical.solve(scene, grid, SOLVER_TOLERANCE, plan=cut)
+
+
+def _profile(result: Any, end: Any, force: float) -> list[Row]:
+    """Pressure and shear on y = 0, over the Hertz pressure and µ times it."""
+    surface, scale = surface_of(result), HERTZ.peak_pressure
+    x = surface.line.places / HERTZ.contact_radius
+    pressure, shear = surface.scalar(end, "pressure"), surface.vector(end, "shear")
+    assert pressure is not None
+    assert shear is not None
+    lines = (
+        surface.along(pressure) / scale,
+        surface.vector_along(shear)[0] / (FRICTION * scale),
+    )
+    at = (np.interp(SHOWN, x, line, left=0.0, right=0.0).tolist() for line in lines)
+    return [
+        Row(parameters={"T_over_muW": force, "x_over_aH": place}, measures={"p": p, "q": q})
+        for place, p, q in zip(SHOWN.tolist(), *at, strict=True)
+    ]
+
+
+@dataclass(frozen=True)
+class Curves:
+    """Pressure and shear at every force (force, x), and their estimated errors (field, force)."""
+
+    pressure: Field
+    shear: Field
+    errors: Field
+
+    @classmethod
+    def of(cls, solves: Mapping[str, CaseRecord]) -> Curves:
+        """Compare the fine solve of a contact with its coarse ones."""
+        fine, *coarse = (_fields(solves[name]) for name in SOLVES)
+        errors = np.zeros((2, len(FORCES)))
+        for (cells, increments), other in zip(list(SOLVES.values())[1:], coarse, strict=True):
+            factor = (1 / min(cells, increments)) ** BELIEVED - 1
+            errors += _apart(fine, other) / factor
+        return cls(*fine, errors)
+
+
+def _fields(record: CaseRecord) -> tuple[Field, Field]:
+    rows = np.array([[value_of(row, "p"), value_of(row, "q")] for row in record.parts])
+    pressure, shear = rows.T.reshape(2, len(FORCES), len(SHOWN))
+    return pressure, shear
+
+
+def _apart(one: tuple[Field, Field], other: tuple[Field, Field]) -> Field:
+    """Differences of pressure and shear at every force, relative (field, force)."""
+    total = one[0].sum(axis=1)
+    return np.array([np.abs(a - b).sum(axis=1) / total for a, b in zip(one, other, strict=True)])
+
+
+def runs(settings: Settings) -> dict[tuple[float, str, str], TractionRun]:
+    """All solves by ratio, solver and kind."""
+    cells, rings = FINEST[settings.level]
+    finest = {CELLS: float(settings.cells or cells), RINGS: rings}
+    return {
+        (ratio, solver, kind): TractionRun(
+            solver, ratio, 2 * round(part * fine / 2) if solver == CELLS else part * fine, share
+        )
+        for ratio in RATIOS
+        for solver, fine in finest.items()
+        for kind, (part, share) in SOLVES.items()
+    }
+
+
+def cases(settings: Settings) -> tuple[TractionRun, ...]:
+    """Return all solves."""
+    return tuple(runs(settings).values())
+
+
+def conclude(settings: Settings, records: Records) -> Conclusion:
+    """Figures, the errors of their curves, and the statements of the paper."""
+    asked = runs(settings)
+    known = found(asked.values(), records)
+    curves = {
+        (ratio, solver): Curves.of({kind: known[asked[ratio, solver, kind]] for kind in SOLVES})
+        for ratio in RATIOS
+        for solver in (CELLS, RINGS)
+        if all(asked[ratio, solver, kind] in known for kind in SOLVES)
+    }
+    fine = {key: known[asked[*key, "fine"]] for key in curves}
+    both = [ratio for ratio in RATIOS if {(ratio, CELLS), (ratio, RINGS)} <= set(curves)]
+    rows = tuple(_difference(ratio, curves, field) for ratio in both for field in range(2))
+    stick = {f"{solver}, E1/E2 = {ratio:g}": value_of(fine[ratio, solver], "stick_fraction")
+             for ratio, solver in fine}  # fmt: skip
+    return Conclusion(
+        answer=_answer(stick) if 2.0 in both else "",
+        statements=(
+            solved("every contact is solved", len(known), len(asked), "solves"),
+            _agree(rows, complete=len(both) == len(RATIOS)),
+            _shear_without_force(curves),
+            Statement(
+                claim="the paper: gross sliding past 0.76 µW for E1/E2 = 2",
+                outcome=None,
+                measured="stick area over contact area at 0.9 µW: "
+                + ", ".join(f"{name}: {100 * part:.2f} %" for name, part in stick.items()),
+                because="a finding: the last stick zone vanishes later",
+            ),
+            converged(tuple(fine.values()), SOLVER_TOLERANCE, "in the fine solves"),
+        ),
+        tables=(_table(rows),),
+        charts=tuple(_figure(curves, field) for field in range(2)) if curves else (),
+        rows=rows,
+        remarks=(
+            "Assumed, because the paper does not say: substrate E2 = 210 GPa (from its contact "
+            "radius and peak pressure), ν = 0.3 of coating and substrate, a rigid ball, a "
+            "paraboloid for the sphere, 16 normal and 18 tangential increments.",
+            "The paper's curves are not digitised, and no difference from them is claimed.",
+        ),
+    )  # fmt: skip
+
+
+Drawn = Mapping[tuple[float, str], Curves]
+
+
+def _answer(stick: Mapping[str, float]) -> str:
+    cells, rings = (f"{100 * stick[f'{solver}, E1/E2 = 2']:.1f} %" for solver in (CELLS, RINGS))
+    return (
+        f"No: at 0.9 µW the contact with E1/E2 = 2 still sticks on {cells} of its area by cells, "
+        f"on {rings} by the radial solver. The page on the onset of gross slip has the force at "
+        "which the last stick zone vanishes."
+    )
+
+
+def _difference(ratio: float, curves: Drawn, field: int) -> Row:
+    """Difference of the two solvers with the error of each curve."""
+    cells, rings = curves[ratio, CELLS], curves[ratio, RINGS]
+    apart = _apart((cells.pressure, cells.shear), (rings.pressure, rings.shear))[field]
+    measures: dict[str, float | None] = {}
+    for number, force in enumerate(FORCES):
+        measures |= {
+            f"apart {AT[force]}": float(apart[number]),
+            f"{CELLS} {AT[force]}": float(cells.errors[field, number]),
+            f"{RINGS} {AT[force]}": float(rings.errors[field, number]),
+        }
+    return Row(parameters={"E1/E2": ratio, "field": FIELDS[field]}, measures=measures)
+
+
+def _agree(rows: Sequence[Row], *, complete: bool) -> Statement:
+    """Judge every curve: the solvers differ by no more than the sum of their errors."""
+    shares = []
+    for row in rows:
+        for at in AT.values():
+            both = value_of(row, f"{CELLS} {at}") + value_of(row, f"{RINGS} {at}")
+            shares.append(value_of(row, f"apart {at}") / both)
+    return Statement(
+        claim="cells and the radial solver agree within the stated errors of their curves",
+        outcome=judged(all(share <= 1 for share in shares), complete=complete),
+        measured=f"{sum(share <= 1 for share in shares)} of {len(shares)} curves; largest "
+        f"difference {plain(max(shares, default=0.0), 2)} times the sum of both errors",
+        because="they share no numerics",
+    )
+
+
+def _shear_without_force(curves: Drawn) -> Statement:
+    shears = [known.shear[0] for known in curves.values()]
+    worst = max((abs(q.sum()) / np.abs(q).sum() for q in shears), default=0.0)
+    return Statement(
+        claim="the paper: self-equilibrating shear at T = 0",
+        outcome=judged(bool(worst <= SELF_EQUILIBRIUM), complete=len(curves) == 2 * len(RATIOS)),
+        measured=f"|∫q| / ∫|q| ≤ {plain(float(worst), 2)}; largest |q| at least "
+        f"{min((np.abs(q).max() for q in shears), default=0.0):.2f} µp_H",
+        because="bodies of different moduli move past each other under pressure alone",
+    )
+
+
+def _table(rows: Sequence[Row]) -> Table:
+    columns = [(f"{what} {at}", f"{what} {at}") for at in AT.values() for what in
+               ("apart", CELLS, RINGS)]  # fmt: skip
+    return table_of(
+        "Differences of the solvers, and the error of each curve",
+        {
+            "curve": lambda row: f"{row.parameters['field']}, E1/E2 = {row.parameters['E1/E2']}",
+            **{title: _number(name) for title, name in columns},
+        },
+        rows,
+        "Relative to the integral of the pressure, or of µ times it, on y = 0.",
+    )
+
+
+def _number(name: str) -> Any:
+    return lambda row: plain(value_of(row, name), 2)
+
+
+def _figure(curves: Drawn, field: int) -> Chart:
+    """One panel per ratio: cells as lines, the radial solver dashed."""
+    number, what, label = (
+        (3, "pressure", "p / Hertz pressure"), (4, "shear", "qₓ / (µ × Hertz pressure)")
+    )[field]  # fmt: skip
+    panels = [
+        Panel(
+            x_label="x / Hertz radius" if place > 1 else "",
+            y_label="" if place % 2 else label,
+            curves=tuple(_curves(curves, ratio, field, legend=place == 1)),
+            title=f"E1/E2 = {ratio:g}",
+            height=1.7,
+        )
+        for place, ratio in enumerate(RATIOS)
+    ]
+    return stacked(
+        f"figure_{number}_{what}",
+        f"Figure {number} of the paper: {what} in the plane y = 0",
+        f"The {what} of four coated contacts at T = 0, 0.3, 0.6, 0.9 µW by cells (lines) and by "
+        "the radial solver (dashed).",
+        tuple(panels[:2]),
+        tuple(panels[2:]),
+    )
+
+
+def _curves(curves: Drawn, ratio: float, field: int, *, legend: bool) -> list[Curve]:
+    found_ = []
+    for solver, look in ((CELLS, Look.COMPUTED), (RINGS, Look.REFERENCE)):
+        known = curves.get((ratio, solver))
+        lines = () if known is None else (known.pressure, known.shear)[field]
+        for series, (force, line) in enumerate(zip(FORCES, lines)):  # noqa: B905
+            named = legend and solver == CELLS
+            text = (f"T = {force:g} µW" if force else "T = 0") if named else ""
+            found_.append(curve(text, SHOWN, line, look, series))
+    return found_
+
+
+STUDY = Study(
+    name="coated-tractions",
+    title="The paper's figures 3 and 4: tractions of coated contacts",
+    question="A rigid ball is pressed on a coated half-space and pushed sideways, for four ratios "
+    "of coating to substrate modulus. How far are the curves of two solvers apart, and does the "
+    "contact slide grossly past 0.76 µW?",
+    cases=cases,
+    conclude=conclude,
+)
