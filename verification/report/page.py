@@ -40,7 +40,7 @@ from verification.report.front import front_charts
 from verification.report.order_table import not_judged
 from verification.report.orders import observed_orders
 from verification.report.profiles_together import profiles_together
-from verification.report.sections import study_of, study_section
+from verification.report.sections import study_section
 from verification.report.shared_styles import with_shared_styles
 from verification.report.sketch import sketch_svg, thin_layers
 from verification.report.stability_map import legend, stability_map
@@ -87,7 +87,6 @@ def _environment() -> jinja2.Environment:
         sketch=_sketch,
         thin=_thin,
         kinds=_kinds,
-        budget=_budget,
         references=_references,
         answers=answers,
         study_section=study_section,
@@ -174,10 +173,3 @@ def _references(case: CaseOutcome) -> dict[str, list[str]]:
         if v.name not in names:
             names.append(v.name)
     return found
-
-
-def _budget(report: Report, case: CaseOutcome) -> Chart | None:
-    """The error budget of a case, if its study has one of it."""
-    record = study_of(report, "error-budget")
-    charts = () if record is None else record.conclusion.charts
-    return next((chart for chart in charts if chart.name == f"budget_{case.name}"), None)

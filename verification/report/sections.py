@@ -16,7 +16,6 @@ TITLES = {
     "coated-tractions": "Coated contacts: the paper's figures 3 and 4",
     "work-precision": "What accuracy costs",
     "error-coverage": "Coverage of stated errors",
-    "error-budget": "Where the error of the headline cases comes from",
     "stability": "The stability map",
     "seeded-defects": "Seeded defects",
     "mutants": "What the tests of kernels notice",

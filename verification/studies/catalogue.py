@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from verification.running.study import Study
 from verification.studies.coated_tractions import STUDY as COATED_TRACTIONS
 from verification.studies.cross_check import STUDY as CROSS_CHECK
-from verification.studies.error_budget.study import STUDY as ERROR_BUDGET
 from verification.studies.error_coverage.study import STUDY as ERROR_COVERAGE
 from verification.studies.mutants import STUDY as MUTANTS
 from verification.studies.promises.study import STUDY as PROMISES
@@ -44,7 +43,6 @@ STUDIES: dict[str, Study] = {
         SEEDED_DEFECTS,
         MUTANTS,
         WORK_PRECISION,
-        ERROR_BUDGET,
         ERROR_COVERAGE,
         SCOREBOARD,
         PROMISES,

@@ -80,9 +80,9 @@ class PreciseContact:
         named = zip(self.errors, self.observables, strict=True)
         return {name: one.error(self.problem)(result) for name, one in named}
 
-    def grid(self, cells: int, window: float | None = None) -> SurfaceGrid:
+    def grid(self, cells: int) -> SurfaceGrid:
         """A square grid around the contact."""
-        return paper.square_grid(cells, (window or self.window) / 2 * self.problem.radius)
+        return paper.square_grid(cells, self.window / 2 * self.problem.radius)
 
 
 @cache

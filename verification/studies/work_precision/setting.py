@@ -46,8 +46,6 @@ class PrecisionCase:
     tolerance   of the solver
     penalty     stiffness factor c; 0 without penalty
     increments  0: those of the contact
-    window      over the contact radius; 0: the contact's
-    box         size of the section in contact radii; 0: chosen
     """
 
     contact: str
@@ -56,8 +54,6 @@ class PrecisionCase:
     tolerance: float = SOLVER_TOLERANCE
     penalty: float = 0.0
     increments: int = 0
-    window: float = 0.0
-    box: float = 0.0
 
     @property
     def name(self) -> str:
@@ -65,8 +61,7 @@ class PrecisionCase:
         parts = [self.contact, self.method.name.lower(), f"n{self.fineness}"]
         parts += [f"t{self.tolerance:.0e}"] if self.tolerance != SOLVER_TOLERANCE else []
         parts += [f"c{self.penalty:g}"] if self.penalty else []
-        for letter, value in (("k", self.increments), ("w", self.window), ("l", self.box)):
-            parts += [f"{letter}{value:g}"] if value else []
+        parts += [f"k{self.increments}"] if self.increments else []
         return "-".join(parts).replace(".", "p")
 
     @property
@@ -144,7 +139,7 @@ class PrecisionCase:
 
     @property
     def _grid(self) -> SurfaceGrid:
-        return self.solved.grid(self.fineness, self.window or None)
+        return self.solved.grid(self.fineness)
 
     def _surface(self) -> Surface:
         scene = self.solved.posed(self._steps).scene
@@ -166,7 +161,6 @@ class PrecisionCase:
             # The edge of the contact lies in the middle of an element on every mesh.
             contact_radius=self.solved.problem.radius * self.fineness / (self.fineness + 0.5),
             tolerance=self.tolerance,
-            box=self.box or None,
         )
         if self.penalty:
             discretisation = discretisation.model_copy(update={"penalty": self.penalty})
