@@ -215,7 +215,7 @@ def test_study_leaves_page_record_figures_and_tables(
     }  # fmt: skip
     with (out / "parts.csv").open(encoding="utf-8") as file:
         places = [line for line in csv.DictReader(file) if line["x_over_aH"]]
-    assert len(places) == 4 * 2 * 3 * 4 * 121
+    assert len(places) == 4 * 2 * 3 * 4 * 131
     assert {float(line["T_over_muW"]) for line in places} == {0.0, 0.3, 0.6, 0.9}
 
 

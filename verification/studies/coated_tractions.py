@@ -48,7 +48,7 @@ FINEST = {Level.QUICK: (48, 0.5), Level.STANDARD: (96, 1.0), Level.FULL: (128, 1
 MARGIN = 1.15  # half a window in contact radii
 # Solves of one contact: fraction of the cells or rings, and of the increments.
 SOLVES = {"fine": (1.0, 1.0), "coarse": (2 / 3, 1.0), "half the increments": (1.0, 0.5)}
-SHOWN = np.linspace(-1.2, 1.2, 121)  # x / a_H
+SHOWN = np.linspace(-1.3, 1.3, 131)  # x / a_H
 ROUND_OFF = 1e-15
 SELF_EQUILIBRIUM = 1e-6  # |∫q| / ∫|q| on y = 0 at T = 0: the curve is odd
 FIELDS = ("pressure", "shear")
@@ -285,7 +285,7 @@ def _number(name: str) -> Any:
 
 
 def _figure(curves: Drawn, field: int) -> Chart:
-    """One panel per ratio: cells as lines, the radial solver dashed."""
+    """One panel per ratio: cells as lines, on the grey ones of the radial solver."""
     number, what, label = (
         (3, "pressure", "p / Hertz pressure"), (4, "shear", "qₓ / (µ × Hertz pressure)")
     )[field]  # fmt: skip
@@ -303,7 +303,7 @@ def _figure(curves: Drawn, field: int) -> Chart:
         f"figure_{number}_{what}",
         f"Figure {number} of the paper: {what} in the plane y = 0",
         f"The {what} of four coated contacts at T = 0, 0.3, 0.6, 0.9 µW by cells (lines) and by "
-        "the radial solver (dashed).",
+        "the radial solver (wide, grey).",
         tuple(panels[:2]),
         tuple(panels[2:]),
     )
@@ -311,7 +311,7 @@ def _figure(curves: Drawn, field: int) -> Chart:
 
 def _curves(curves: Drawn, ratio: float, field: int, *, legend: bool) -> list[Curve]:
     found_ = []
-    for solver, look in ((CELLS, Look.COMPUTED), (RINGS, Look.REFERENCE)):
+    for solver, look in ((RINGS, Look.REFERENCE), (CELLS, Look.COMPUTED)):
         known = curves.get((ratio, solver))
         lines = () if known is None else (known.pressure, known.shear)[field]
         for series, (force, line) in enumerate(zip(FORCES, lines)):  # noqa: B905
