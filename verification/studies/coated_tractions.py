@@ -95,8 +95,8 @@ class TractionRun:
 
     def _solved(self, scene: Scene, counts: tuple[int, ...], radius: float) -> Any:
         if self.solver == RINGS:
-            plan = replace(radial.plan(scene), increments=counts)
-            return radial.solve(scene, plan=plan, fineness=self.fineness)
+            plan = replace(radial.plan(scene), increments=counts, fineness=self.fineness)
+            return radial.solve(scene, plan=plan)
         grid = square_grid(round(self.fineness), MARGIN * radius)
         cut = semi_analytical.plan(scene, edge="last").cut_into(counts)
         return semi_analytical.solve(scene, grid, SOLVER_TOLERANCE, plan=cut)
