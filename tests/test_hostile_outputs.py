@@ -29,7 +29,6 @@ COMMANDS = {
     "run, radial": ("run", "scene.toml", *QUICK, "--solver", "radial", "-o"),
     "stress": ("stress", "scene.toml", "--figures", "none", "--no-error", "-o"),
     "challenge": ("challenge", "export", "hertz_point", "-o"),
-    "history": ("maintain", "history", "baselines", "baselines", "-o"),
     "judge": ("judge", "answered", "--page"),
     "export": ("export", "run", "-o"),
 }

@@ -4,7 +4,6 @@ import json
 import os
 import re
 import sys
-import time
 from collections.abc import Callable
 from pathlib import Path
 from xml.etree import ElementTree
@@ -44,7 +43,6 @@ from verification.report.files import RECORD, write_report
 from verification.report.junit import render_junit
 from verification.report.page import render_page
 from verification.report.summary_text import MOST_LINES, render_summary
-from verification.running.calibration import in_loops
 from verification.running.report_record import Provenance, Report, count, load_report
 
 FULL_REPORT = Path(__file__).resolve().parents[1] / "reports/full/report.json.xz"
@@ -378,36 +376,6 @@ def test_counts_of_a_case_are_kept_to_a_twentieth(
     assert compare(counted(40, 60), counted(20, 80)).counts == ()
 
 
-@pytest.mark.parametrize(("times", "code"), [(1.0, 0), (1.4, 0), (2.0, 7)])
-def test_a_solver_that_takes_twice_as_long_is_dearer(
-    healthy: CaseOutcome, times: float, code: int
-) -> None:
-    names = ("one", "two", "three", "four")
-    cases = [healthy.model_copy(update={"name": name}) for name in names]
-
-    def timed(*loops: float) -> Report:
-        report = report_of(*cases)
-        made = report.provenance.model_copy(update={"loops": dict(zip(names, loops, strict=True))})
-        return report.model_copy(update={"provenance": made})
-
-    was = timed(50.0, 80.0, 400.0, 1.0)
-    now = timed(50.0 * times, 80.0 * times, 400.0 * times, 30.0)
-    report = compared(now, baselines_of(was, REASON))
-    assert exit_code_of(report) == code
-    assert [slower.ratio for slower in report.slower] == [times] * (code == 7)
-
-
-def test_the_loop_that_times_are_told_in_takes_time(monkeypatch: pytest.MonkeyPatch) -> None:
-    def work() -> float:
-        return float(sum(k * k for k in range(400_000)))
-
-    found, loops = in_loops(work)
-    assert found == work()
-    assert 0.1 < loops < 1000
-    monkeypatch.setattr(time, "process_time", lambda: 7.0)  # a clock of coarse ticks
-    assert in_loops(work)[1] == 0.0
-
-
 def test_what_appears_is_new_and_what_disappears_is_gone(healthy: CaseOutcome) -> None:
     verdicts = [verdict.model_copy(update={"runs": ()}) for verdict in healthy.verdicts[1:]]
     fewer = healthy.model_copy(
@@ -701,25 +669,6 @@ def test_comparison_ends_by_what_changed(
     output = capsys.readouterr().out
     assert said in output
     assert ("reproduce: slipstick verify hertz_point" in output) == (code > 0)
-
-
-def test_a_solver_that_is_slower_is_red_and_says_how_to_see_it(
-    healthy: CaseOutcome, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    cases = [healthy.model_copy(update={"name": f"case_{n}"}) for n in range(3)]
-    for name, loops in (("then", 50.0), ("now", 100.0)):
-        report = report_of(*cases)
-        told = report.provenance.model_copy(
-            update={"loops": dict.fromkeys((case.name for case in cases), loops)}
-        )
-        (tmp_path / name).mkdir()
-        write_report(report.model_copy(update={"provenance": told}), tmp_path / name)
-    then = tmp_path / "then" / "report.json"
-    assert slipstick("maintain", "compare", tmp_path / "now", "--baseline", then) == 7
-    output = capsys.readouterr().out
-    assert "1 dearer" in output
-    assert "reproduce: slipstick verify --level quick" in output
-    assert slipstick("maintain", "compare", tmp_path / "then", "--baseline", then) == 0
 
 
 def test_reports_are_compared_with_each_other(

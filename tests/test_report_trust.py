@@ -310,7 +310,7 @@ def test_report_that_contradicts_itself_is_refused(
 
 def test_record_that_contradicts_itself_is_not_taken(tmp_path: Path) -> None:
     store, asked = CaseStore(tmp_path, JudgedCase), CaseToJudge("one", "QUICK")
-    store.save(asked, JudgedCase(outcome=a_case("one"), seconds=1.0, loops=9.0))
+    store.save(asked, JudgedCase(outcome=a_case("one"), seconds=1.0))
     assert store.load(asked) is not None
 
     def forge(document: dict[str, Any]) -> None:

@@ -43,8 +43,8 @@ def compare(
     Nothing is computed. Exit code 0 if nothing changed; 5 if something did and is within what
     its reference allows (also: new, not recorded yet, suspiciously better, cheaper); 7 if a
     recorded verdict, finding, run or case is missing, or if within the tolerance an error has
-    grown by half, a case takes a twentieth more iterations, convolutions or factorisations, or a
-    solver half as long again; 1 if something fails that did not or has
+    grown by half or a case takes a twentieth more iterations, convolutions or factorisations; 1 if
+    something fails that did not or has
     moved away from its reference by more than is allowed at all; 2 if the report contradicts
     itself, or if only chosen cases ran and others are recorded: such a report never stands for a
     whole one, unless --chosen says that it need not. What other processors and versions leave
@@ -122,7 +122,6 @@ def _print_changes(report: Report) -> None:
         )
         judged = {case.name for case in report.cases}
         names = dict.fromkeys(row.case for row in rows if row.case in judged)
-        # A solver that is slower is so over all its cases.
         command = " ".join(("slipstick verify", *names, f"--level {report.level}"))
         typer.echo(f"reproduce: {command}")
     for origin, cases in origins(report):

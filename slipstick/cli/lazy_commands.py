@@ -101,7 +101,6 @@ MAINTENANCE = _commands(
         "baseline": "List the accepted numbers, or accept those of a report.",
         "tolerances": "Propose or accept tolerances that follow the errors.",
         "records": "List stored records, their age and cost, or make them again.",
-        "history": "Draw accuracy and cost over commits, and say what became worse.",
         "report": "Render the report again from recorded results.",
         "bench": "Measure what the method costs, beside other codes in turn.",
         "schema": "Print the JSON Schema of a scene file, a summary or a report.",

@@ -133,7 +133,7 @@ def _verified(
             typer.echo(f"error: {error}", err=True)
             raise typer.Exit(ExitCode.INVALID) from None
         set_aside_report(directory)
-        outcomes, seconds, loops = judged(cases, level.name, directory, workers, fresh=fresh)
+        outcomes, seconds = judged(cases, level.name, directory, workers, fresh=fresh)
         command = " ".join(["slipstick verify", *names, f"--level {level}"])
         made = () if names else _benchmarks()
         measured = Report(
@@ -141,7 +141,7 @@ def _verified(
             counts=count(outcomes),
             cases=outcomes,
             omissions=OMISSIONS,
-            provenance=provenance(command, seconds, made, loops=loops, modules=MODULES),
+            provenance=provenance(command, seconds, made, modules=MODULES),
             studies=studies,
             chosen=bool(names),
             pictures=() if names else _pictures(),
@@ -153,9 +153,8 @@ def _verified(
 
 def judged(
     cases: tuple[Case, ...], level: str, directory: Path, workers: int | Workers, *, fresh: bool
-) -> tuple[tuple[CaseOutcome, ...], dict[str, float], dict[str, float]]:
-    """The outcomes in the order of the cases, and of those that have a record the wall seconds and
-    the calibration loops.
+) -> tuple[tuple[CaseOutcome, ...], dict[str, float]]:
+    """The outcomes in the order of the cases, and of those that have a record the wall seconds.
 
     level      by name, in capitals
     directory  of the report
@@ -182,14 +181,13 @@ def judged(
         ends = run_cases(asked, store, workers, observe, fresh=fresh)
     outcomes: list[CaseOutcome] = []
     seconds: dict[str, float] = {}
-    loops: dict[str, float] = {}
     for case, end in zip(cases, ends, strict=True):
         if isinstance(end.record, JudgedCase):
             outcomes.append(end.record.outcome)
-            seconds[case.name], loops[case.name] = end.record.seconds, end.record.loops
+            seconds[case.name] = end.record.seconds
         else:
             outcomes.append(lost(case, end.lost.reason if end.lost else "it has no record"))
-    return held_to(outcomes, tolerances), seconds, loops
+    return held_to(outcomes, tolerances), seconds
 
 
 def _verdict(end: CaseEnd) -> str:

@@ -25,11 +25,10 @@ _before: str | None = None
 
 
 class JudgedCase(Description):
-    """What came out of a case, the wall seconds and the calibration loops it took."""
+    """What came out of a case, and the wall seconds it took."""
 
     outcome: CaseOutcome
     seconds: float
-    loops: float
 
 
 @dataclass(frozen=True)
@@ -48,13 +47,12 @@ class CaseToJudge:
         from verification.cases.catalogue import case_of
         from verification.judging.case import Level
         from verification.judging.judgement import judge
-        from verification.running.calibration import in_loops
 
         case, started = case_of(self.name, Level[self.level]), time.perf_counter()
         with _no_cache_on_disk():
-            outcome, loops = in_loops(lambda: judge(case))
+            outcome = judge(case)
         seconds = time.perf_counter() - started
-        return JudgedCase(outcome=outcome, seconds=seconds, loops=loops)
+        return JudgedCase(outcome=outcome, seconds=seconds)
 
 
 def lost(case: Case, reason: str) -> CaseOutcome:

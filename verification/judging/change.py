@@ -25,7 +25,7 @@ class ChangeKind(StrEnum):
     still allowed."""
 
     DEARER = "dearer"
-    """More iterations, convolutions or factorisations for the same, or more seconds."""
+    """More iterations, convolutions or factorisations for the same."""
 
     OUTSIDE = "outside"
     """Fails, and did not when it was recorded; or has moved away from its reference by more than is
@@ -77,16 +77,6 @@ class CounterChange(Description):
     was: int
     now: int
     remark: str = ""
-
-
-class Slowdown(Description):
-    """A solver that takes longer than when its cases were recorded."""
-
-    solver: str
-    ratio: float
-    """Median over its cases."""
-
-    cases: int
 
 
 class Gone(Description):

@@ -109,8 +109,12 @@ class Recording(Description):
     quantities: tuple[RecordedQuantity, ...]
     findings: tuple[RecordedFinding, ...]
     runs: tuple[RecordedRun, ...]
-    loops: Annotated[float, Field(ge=0)] | None = None
-    """CPU time in calibration loops; see `running.calibration`."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _without_time(cls, values: dict[str, object]) -> dict[str, object]:
+        """Drop the CPU time of older recordings."""
+        return {name: value for name, value in values.items() if name != "loops"}
 
 
 class Baseline(Description):
@@ -149,7 +153,6 @@ def recording(case: CaseOutcome, provenance: Provenance, reason: str) -> Recordi
             for f in case.findings
         ),
         runs=tuple(_run(run) for run in case.runs),
-        loops=provenance.loops.get(case.name),
     )
 
 

@@ -16,7 +16,7 @@ from verification.regression.baseline import (
     key_of,
     recorded_by,
 )
-from verification.regression.counters import counter_changes, slowdowns
+from verification.regression.counters import counter_changes
 from verification.regression.number_change import finding_change, quantity_change
 from verification.regression.refusal import BaselineRefused
 
@@ -36,13 +36,10 @@ def compared(report: Report, baselines: Mapping[str, Baseline]) -> Report:
         _compared(case, _recording(baselines.get(case.name), report.level), made_by)
         for case in report.cases
     )
-    levels = {name: _recording(baseline, report.level) for name, baseline in baselines.items()}
-    recordings = {name: one for name, one in levels.items() if one is not None}
     return report.model_copy(
         update={
             "cases": cases,
             "gone": tuple(_gone_cases(report, baselines)),
-            "slower": tuple(slowdowns(report, recordings)),
         }
     )
 

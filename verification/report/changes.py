@@ -86,12 +86,6 @@ def _all_rows(report: Report) -> Iterator[ChangeRow]:
             verdicts = f"{len(case.verdicts)} verdicts"
             yield ChangeRow(case.name, CASE, ALL, ChangeKind.NEW, "–", verdicts, "–", "–", "")
         yield from case_rows(case)
-    for slower in report.slower:
-        yield ChangeRow(
-            f"{slower.cases} cases", "CPU time", f"by {slower.solver}", ChangeKind.DEARER, "1",
-            f"{slower.ratio:.3g}", "–", "–", "median over cases, in calibration loops",
-            slower.ratio - 1,
-        )  # fmt: skip
     for gone in report.gone:
         yield ChangeRow(
             gone.name, CASE, ALL, ChangeKind.GONE, "recorded", "not in the report", "–", gone.since,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import subprocess
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -21,7 +21,6 @@ def provenance(
     seconds: dict[str, float],
     benchmarks: Iterable[Benchmark] = (),
     timed: Conclusion | None = None,
-    loops: Mapping[str, float] | None = None,
     modules: Sequence[str] = (),
 ) -> Provenance:
     """Versions, machine, commit and times of this process.
@@ -30,7 +29,6 @@ def provenance(
     seconds     wall seconds by case
     benchmarks  measured on the way
     timed       what a study finds by its seconds
-    loops       CPU time by case, in calibration loops
     modules     that make the numbers, with all that these import
     """
     # Of what computes: a kept report or record that this very command replaces is no change.
@@ -46,7 +44,6 @@ def provenance(
         machine=machine(),
         libraries=library_versions(),
         seconds={name: round(value, 2) for name, value in seconds.items()},
-        loops={name: float(f"{value:.4g}") for name, value in (loops or {}).items()},
         benchmarks=tuple(benchmarks),
         timed=timed,
     )

@@ -1,7 +1,5 @@
 """Who made numbers, on what and when: the block that every record of ours carries."""
 
-from pydantic import Field
-
 from contact_scene.description import Description
 from verification.running.study import Conclusion
 
@@ -51,9 +49,6 @@ class Provenance(Description):
     libraries: dict[str, str | None]
     seconds: dict[str, float]
     """Wall seconds by case."""
-
-    loops: dict[str, float] = Field(default_factory=dict)
-    """CPU time by case, in calibration loops of the same minute and processor."""
 
     benchmarks: tuple[Benchmark, ...] = ()
     """Costs of this machine at this moment; none if only some cases were run."""

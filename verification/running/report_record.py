@@ -9,7 +9,7 @@ from pydantic import ValidationError, model_validator
 from contact_scene.description import Description
 from verification.exhibits.picture import Picture
 from verification.judging.case import Level
-from verification.judging.change import GoneCase, Slowdown
+from verification.judging.change import GoneCase
 from verification.judging.coverage import LEAST_SHARE, share_covered
 from verification.judging.outcome import CaseOutcome, Status, Verdict
 from verification.running.provenance_record import Benchmark, Provenance
@@ -44,9 +44,6 @@ class Report(Description):
 
     gone: tuple[GoneCase, ...] = ()
     """Recorded cases that a report of all cases does not have any more."""
-
-    slower: tuple[Slowdown, ...] = ()
-    """Solvers that take longer than when their cases were recorded."""
 
     pictures: tuple[Picture, ...] = ()
     """Fields of one contact, for the front."""
