@@ -28,7 +28,7 @@ def surface_violation(result: Result) -> float:
     """The largest violation of a law in any increment, dimensionless; infinite if a number is not
     finite.
 
-    With corrected edges, complementarity and the tangential force hold to the last change of the
+    With corrected edges, complementarity and the forces hold to the last change of the
     correction: these violations are relative to that change over the tolerance. Slip is that before
     the correction, and is not compared.
     """
@@ -74,7 +74,8 @@ def _violations(before: Increment | None, now: Increment, place: _Place) -> Iter
     yield float(np.max(-p) / np.max(p))
     yield float(np.max(-open_gap) / scale)
     yield place.eased(now) * float(np.sum(p * np.abs(open_gap)) / (np.sum(p) * scale))
-    yield float(abs(np.sum(p) * place.cell_area / now.normal_force - 1))
+    missing = abs(np.sum(p) * place.cell_area / now.normal_force - 1)
+    yield float(missing) * place.eased(now, INNER)
     yield from _moments(now, place)
     limit = place.friction.limit(p)
     if now.shear is None:
