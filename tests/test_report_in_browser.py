@@ -3,12 +3,12 @@
 from pathlib import Path
 
 import pytest
+from browser import ACT, PAYLOADS, RAN, chromium, opened
 from report_examples import case, report_of, run_record, study
 
 from verification.exhibits.picture import Picture
 from verification.report.page import render_page, render_sheets
 from verification.running.report_record import Report
-from verification.studies.promises.browser import ACT, PAYLOADS, RAN, chromium, opened
 
 pytestmark = pytest.mark.skipif(
     chromium() is None, reason="no Chromium here; on Debian: apt-get install chromium"

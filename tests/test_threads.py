@@ -4,8 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
-
-from verification.studies.promises.commands import results, run
+from processes import results, run
 
 SCENE = (Path(__file__).resolve().parents[1] / "scenes" / "coated_ball.toml").read_text("utf-8")
 QUICK = ("--figures", "none", "--no-error")

@@ -20,7 +20,6 @@ TITLES = {
     "seeded-defects": "Seeded defects",
     "mutants": "What the tests of kernels notice",
     "scoreboard": "Other codes on the same problems",
-    "promises": "Under attack: what was tried, how often, the outcome",
 }
 LEVELS = ("quick", "standard", "full")
 PLACES = (Path("reports/studies"), Path("out"))  # where records are looked for

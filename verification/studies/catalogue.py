@@ -7,7 +7,6 @@ from verification.studies.coated_tractions import STUDY as COATED_TRACTIONS
 from verification.studies.cross_check import STUDY as CROSS_CHECK
 from verification.studies.error_coverage.study import STUDY as ERROR_COVERAGE
 from verification.studies.mutants import STUDY as MUTANTS
-from verification.studies.promises.study import STUDY as PROMISES
 from verification.studies.refinement.scene_level import CELLS, METHODS
 from verification.studies.refinement.study import (
     SceneStudyOf,
@@ -45,7 +44,6 @@ STUDIES: dict[str, Study] = {
         WORK_PRECISION,
         ERROR_COVERAGE,
         SCOREBOARD,
-        PROMISES,
     )
 }
 SCENE_STUDIES: dict[str, SceneStudy] = {

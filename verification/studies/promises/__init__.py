@@ -1,1 +1,0 @@
-"""What the program promises under attack: each promise tried, counted and judged."""
