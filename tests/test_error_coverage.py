@@ -22,7 +22,7 @@ from verification.studies.error_coverage.coverage import Coverage, Share
 from verification.studies.error_coverage.request import ASKED, TRUE
 from verification.studies.error_coverage.study import ENOUGH, REQUESTS, cases, conclude
 
-SETTINGS = Settings(Level.STANDARD)
+SETTINGS = Settings(Level.FULL)
 
 
 def row(

@@ -100,11 +100,11 @@ class Posed:
         for truth in truths:
             name, step, value = truth.quantity, truth.step, f"{abs(truth.reference.value):.6g}"
             repeated = step > 2 and sizes[step - 1] == sizes[1] and name not in PER_CYCLE
-            quarter = name == ENERGY and step == 2 and closes(self.forces)
+            shared = name == ENERGY and closes(self.forces)
             endless = name == PEAK and infinite
             still = name in LED and not any(sizes[:step])
             given = name in prescribed(path[step - 1])
-            if not (repeated or quarter or endless or still or given or value in seen):
+            if not (repeated or shared or endless or still or given or value in seen):
                 kept.append(truth)
                 seen.add(value)
         return KnownScene(scene, tuple(kept), self.fineness)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import ceil
 
 import numpy as np
 
@@ -49,14 +50,17 @@ REMARKS = (
 
 
 def cases(settings: Settings) -> tuple[CoverageCase | RequestCase, ...]:
-    """Return one scene of each family and one request at the quick level, and all above it."""
-    quick = settings.level is Level.QUICK
-    scenes = (
-        CoverageCase(name, JUDGING, number)
-        for name, family in FAMILIES.items()
-        for number in range(1 if quick else family.count)
+    """Return all scenes and requests, a third at the standard, one each at the quick level."""
+    parts = {Level.QUICK: 0, Level.STANDARD: 3, Level.FULL: 1}
+    part = parts[settings.level]
+
+    def numbers(count: int) -> range:
+        return range(ceil(count / part) if part else 1)
+
+    return (
+        *(CoverageCase(f, JUDGING, n) for f, one in FAMILIES.items() for n in numbers(one.count)),
+        *(RequestCase(JUDGING, n) for n in numbers(REQUESTS)),
     )
-    return (*scenes, *(RequestCase(JUDGING, n) for n in range(1 if quick else REQUESTS)))
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
