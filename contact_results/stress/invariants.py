@@ -1,5 +1,7 @@
 """Invariants of the stress tensor, components (6, …) in the order of CONVENTIONS.md."""
 
+from itertools import combinations
+
 import numpy as np
 
 from contact_scene.array_types import Field
@@ -15,10 +17,28 @@ def von_mises(stress: Field) -> Field:
 def principal_stresses(stress: Field) -> Field:
     """Principal stresses, largest (most tensile) first (3, …) [force/length^2].
 
-    By the eigenvalues of a symmetric matrix, not by the cubic's cosine: that loses half the digits
-    where two of them are nearly equal, as they are on the axis of every axisymmetric contact.
+    The roots of the characteristic cubic by its angle θ, cos 3θ = (27/4)^½ J3/J2^(3/2). The usual
+    arccosine loses half the digits where two roots are nearly equal, as they are on the axis of
+    every axisymmetric contact. The sine of 3θ is therefore taken from the discriminant
+    4 J2³ - 27 J3² as a sum of squares: the Gram determinant of 1, s and s² by the formula of
+    Cauchy and Binet (Parlett 2002), s the deviatoric stress.
     """
     xx, yy, zz, yz, xz, xy = stress
-    tensor = np.moveaxis(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]), (0, 1), (-2, -1))
-    ascending = np.linalg.eigvalsh(tensor)
-    return np.moveaxis(ascending[..., ::-1], -1, 0)
+    mean = (xx + yy + zz) / 3
+    a, b, c = xx - mean, yy - mean, zz - mean
+    second = (a * a + b * b + c * c) / 2 + yz * yz + xz * xz + xy * xy
+    third = a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz)
+    normal, shear = (a, b, c), (yz, xz, xy)
+    normal_2 = (a * a + xy * xy + xz * xz, xy * xy + b * b + yz * yz, xz * xz + yz * yz + c * c)
+    shear_2 = (xy * xz - yz * a, xy * yz - xz * b, xz * yz - xy * c)
+    discriminant = (
+        (b - a) * (normal_2[2] - normal_2[0]) - (c - a) * (normal_2[1] - normal_2[0])
+    ) ** 2
+    for i, j in combinations(range(3), 2):
+        rise, rise_2 = normal[j] - normal[i], normal_2[j] - normal_2[i]
+        for s, s_2 in zip(shear, shear_2, strict=True):
+            discriminant += 2 * (rise * s_2 - rise_2 * s) ** 2
+        discriminant += 12 * (shear[i] * shear_2[j] - shear[j] * shear_2[i]) ** 2
+    angle = np.arctan2(np.sqrt(discriminant), np.sqrt(27) * third) / 3
+    turns = 2 * np.pi / 3 * np.array([0, -1, 1]).reshape(-1, *[1] * angle.ndim)
+    return np.asarray(mean + 2 * np.sqrt(second / 3) * np.cos(angle + turns))
