@@ -8,6 +8,8 @@ HERE = Path(__file__).parent
 NAMED = re.compile(r"^(\w+) {2,}(?=\S)")
 sys.path[:0] = [str(HERE), str(HERE.parent)]
 
+from docutils import nodes  # noqa: E402
+from docutils.utils.math import latex2mathml  # noqa: E402
 from made_pages import write_pages  # noqa: E402
 from made_reference import parameters  # noqa: E402
 from pydantic import BaseModel  # noqa: E402
@@ -20,13 +22,14 @@ copyright = "slipstick contributors, BSD-3-Clause"
 release = program_version()
 
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
-myst_enable_extensions = ["colon_fence", "deflist"]
+myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 exclude_patterns = ["made/*.md", "__pycache__"]
 autodoc_typehints = "description"
 autodoc_member_order = "bysource"
 nitpicky = False
 
+html_math_renderer = "mathml"  # by docutils: the pages need no network either
 html_theme = "alabaster"
 html_theme_options = {
     "description": "Slip, stick and how accurately they are known",
@@ -46,6 +49,7 @@ def setup(app) -> None:
     """The pages that are read off the code are written first."""
     app.connect("builder-inited", lambda app: write_pages(HERE))
     app.connect("autodoc-process-docstring", described)
+    app.add_html_math_renderer("mathml", (formula, None), (formula, None))
 
 
 def described(app, kind, name, thing, options, lines) -> None:
@@ -55,3 +59,10 @@ def described(app, kind, name, thing, options, lines) -> None:
     if isinstance(thing, type) and issubclass(thing, BaseModel):
         app.env.current_document.autodoc_annotations.pop(name, None)
         lines += ["", *(f":param {key}: {text}" for key, text in parameters(thing)), ""]
+
+
+def formula(page, node) -> None:
+    """Write a formula as MathML."""
+    block = node.tagname == "math_block"
+    page.body.append(latex2mathml.tex2mathml(node.astext(), as_block=block))
+    raise nodes.SkipNode
