@@ -33,7 +33,7 @@ COUPLED_ARRAYS = {
 EDGE_ARRAYS = 25
 EDGE_RIM = 74_000  # bytes per cell of a side, in the mean
 EDGE_SHEAR, EDGE_SHEAR_ARRAYS = 23 << 20, 100
-EDGE_COUPLED, EDGE_COUPLED_ARRAYS, EDGE_COUPLED_RIM = 24 << 20, 96, 34_000
+EDGE_COUPLED, EDGE_COUPLED_ARRAYS, EDGE_COUPLED_RIM = 30 << 20, 96, 34_000
 EDGE_SHEAR_RIM = 49_000
 EDGE_TURNED_RIM = 150_000
 # Arrays that every increment leaves behind: pressure and gap; shear, slip, its distance and
