@@ -145,7 +145,6 @@ COMMANDS = (
     ("stress", "scene.toml", "-o", "out"),
     ("challenge", "export", "hertz_point", "-o", "out"),
     ("table", "ball"),
-    ("maintain", "history", "-o", "history.html"),
     ("plan", "scene.toml", "--accuracy", "1%"),
     ("verify", "hertz_point", "-o", "out"),
     ("maintain", "study", "cross-check", "-o", "out", "--workers", "1"),
