@@ -16,11 +16,14 @@ from verification.judging.ladder import Ladder, on_cells, on_elements, on_radii
 from verification.judging.observables import APPROACH, CONTACT_RADIUS, PEAK_PRESSURE
 from verification.judging.outcome import CaseOutcome, Status, Verdict
 from verification.problems.hertz import BALL
+from verification.regression import tolerances
 from verification.regression.acceptance import baselines_of
 from verification.regression.comparison import compared
 from verification.regression.refusal import BaselineRefused
 from verification.regression.tolerances import (
     LEAST,
+    Acceptance,
+    Tolerance,
     Tolerances,
     accept_tolerances,
     held_to,
@@ -29,7 +32,7 @@ from verification.regression.tolerances import (
     text_of,
 )
 from verification.report.counts import counts_text, uncovered_lines
-from verification.running.report_record import Provenance, Report, count
+from verification.running.report_record import Provenance, Report, count, load_report
 
 COMMIT = "1a2b3c4d5e6f708192a3b4c5d6e7f8091a2b3c4d"
 LADDERS = {
@@ -186,6 +189,23 @@ def test_tolerances_need_a_reason_and_one_level(outcome: CaseOutcome, tmp_path: 
     (tmp_path / "quick.json").write_text("{")
     with pytest.raises(BaselineRefused, match="are damaged"):
         read_tolerances("quick", tmp_path)
+
+
+def test_verify_judges_by_the_accepted_tolerances(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Below each error, so that every number fails that passes by the bound of its case."""
+    verify = ("verify", "dissimilar_bodies", "--output", tmp_path)
+    assert slipstick(*verify) == 0
+    measured = load_report(tmp_path / "report.json").cases[0]
+    tight = {text_of(v): Tolerance(allowed=0.9 * v.error, error=0.45 * v.error)
+             for v in measured.verdicts if v.error and v.error > LEAST}  # fmt: skip
+    accepted = Acceptance(because="why", commit=None, kernels=(), tolerances={measured.name: tight})
+    known = Tolerances(level="quick", accepted=(accepted,))
+    monkeypatch.setattr(tolerances, "read_tolerances", lambda level: known)
+    assert slipstick(*verify) == 1
+    failed = capsys.readouterr().out.count("\nFAIL dissimilar_bodies/")
+    assert failed >= len(tight) - 1 > 1
 
 
 def test_the_command_lists_proposals(
