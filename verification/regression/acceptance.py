@@ -64,12 +64,10 @@ def accept(
     recordings = {case.name: recording(case, report.provenance, reason) for case in cases}
     lost = {} if report.chosen else dict.fromkeys(earlier.keys() - recordings.keys())
     changes: dict[str, Recording | None] = recordings | lost
-    removed = [
-        (case, key)
-        for case, recorded in earlier.items()
-        if case in changes
-        for key in sorted(keys_of(recorded) - keys_of(changes[case]))
-    ]
+    gone = {
+        case: keys_of(earlier[case]) - keys_of(changes[case]) for case in earlier.keys() & changes
+    }
+    removed = {case: sorted(keys) for case, keys in sorted(gone.items()) if keys}
     return write_baselines(changes, report.level, directory, removed, reason)
 
 

@@ -134,12 +134,11 @@ def key_of(number: Verdict | FindingRecord | RecordedQuantity | RecordedFinding)
 
 
 def keys_of(recorded: Recording | None) -> set[str]:
-    """Return the keys of the recorded numbers and runs, in words."""
+    """Return the keys of the recorded numbers, in words."""
     if recorded is None:
         return set()
     keys = (*(one.key for one in recorded.quantities), *(one.key for one in recorded.findings))
-    runs = {f"run [{run.label}]" for run in recorded.runs}
-    return runs | {f"{name} [{run}]" for _, name, run, *_ in keys}
+    return {f"{name} [{run}]" for _, name, run, *_ in keys}
 
 
 def recording(case: CaseOutcome, provenance: Provenance, reason: str) -> Recording:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 
 from contact_results.directory.atomic_file import atomic_file
 from verification.judging.case import Level
@@ -40,13 +41,13 @@ def write_baselines(
     recordings: Mapping[str, Recording | None],
     level: str,
     directory: Path,
-    removed: Sequence[tuple[str, str]] = (),
+    removed: Mapping[str, Sequence[str]] = MappingProxyType({}),
     reason: str = "",
 ) -> tuple[Path, ...]:
     """Record cases at a level; their recordings at other levels stay.
 
     recordings  by case; None deletes the recording
-    removed     cases and keys that are no longer recorded, for `REMOVED.md`
+    removed     keys by case that are no longer recorded, for `REMOVED.md`
 
     Everything is read before anything is written. Raises BaselineRefused for a file in the way
     that is no baseline.
@@ -64,7 +65,10 @@ def write_baselines(
         path = directory / REMOVED
         head = path.read_text(encoding="utf-8") if path.exists() else REMOVED_HEAD
         because = reason.replace("|", "/")
-        rows = (f"| {c} | {key.replace('|', '/')} | {level}: {because} |\n" for c, key in removed)
+        rows = (
+            f"| {case} | {', '.join(keys).replace('|', '/')} | {level}: {because} |\n"
+            for case, keys in removed.items()
+        )
         texts[path] = head + "".join(rows)
     for path, text in texts.items():
         if not text:
