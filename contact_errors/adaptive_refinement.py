@@ -149,9 +149,9 @@ class Levels:
             at, stated = self.stress_at - 1, StatedErrors(tuple(errors), companions)
             below = largest_tensile_stress(result, stated, self.stress_at)
             if below is not None:
-                values[at] = {**values[at], LARGEST_TENSION: np.array([below.value])}
-                errors[at] = {**errors[at], LARGEST_TENSION: below.error}
-                orders[LARGEST_TENSION] = below.order
+                value, error, orders[LARGEST_TENSION] = below
+                values[at] = {**values[at], LARGEST_TENSION: np.array([value])}
+                errors[at] = {**errors[at], LARGEST_TENSION: error}
         return RefinementLevel(
             fineness=self.solver.fineness_of(result),
             result=result,

@@ -6,7 +6,7 @@ u unknowns and w repetitions of a solve take t; u₀ and w₀ take t₀, which i
 The exponent is 1 for the transforms of the fields, and 0.1 because iterations double with 1000
 times the cells. Of few unknowns a solve takes as long as of o, the overhead of each operation.
 
-The error estimate of a run adds two solves with a quarter of its unknowns, and solves that judge
+The error estimate of a run adds two solves, with 1/4 and 4/9 of its unknowns, and solves that judge
 the increments. The latter have few cells in the run and in the coarse solve alike, so that they
 take as long as in the error estimate of the coarse solve, in proportion to the repetitions.
 """
@@ -79,10 +79,9 @@ def estimated_run_seconds(solved: float, judged: float, coarse: Work, run: Work)
     solved  CPU seconds of the coarse solve
     judged  CPU seconds of the error estimate of the coarse solve
     """
-    quarter = replace(run, unknowns=run.unknowns / 4)
+    fewer = [replace(run, unknowns=share**2 * run.unknowns) for share in (1 / 2, 2 / 3)]
     return (
-        estimated_seconds(solved, coarse, run)
-        + 2 * estimated_seconds(solved, coarse, quarter)
+        sum(estimated_seconds(solved, coarse, each) for each in (run, *fewer))
         + judged * run.repetitions / coarse.repetitions
     )
 

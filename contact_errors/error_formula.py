@@ -44,8 +44,6 @@ ORDERS: Mapping[str, float] = MappingProxyType(
 PER_TOLERANCE, PER_ITERATION = 10.0, 2.0 / 3.0
 # A larger sum of parts over the number is no error estimate.
 LARGEST_SHARE = 0.5
-# A component below this part of its vector is round-off of a zero.
-ROUND_OFF = 1e-9
 
 # Smallest features in cells. Elements and rings count twice: their shape functions are linear.
 LIMITS: Mapping[str, float] = MappingProxyType(
@@ -251,8 +249,7 @@ def largest_so_far(values: Sequence[Values]) -> tuple[Values, ...]:
     found = []
     for step in values:
         for name, value in step.items():
-            size = np.abs(value)
-            size[size > ROUND_OFF * np.max(size)] = np.max(size)
+            size = np.full_like(value, np.max(np.abs(value)))
             seen[name] = np.maximum(seen.get(name, 0.0), size)
         found.append(dict(seen))
     return tuple(found)

@@ -9,8 +9,7 @@ surface next to the edge of the contact. The error of the largest stress found i
 Inside the stress converges with order 2, next to a fitted edge with order 1, next to another edge
 with order ½. Half a cell inside the edge of tractions that end in a square root, the tensile stress
 lacks m^-½ of its value on m cells per contact radius. On a fitted edge the error is also that of
-another fit, and the scatter of the largest stress along the edge, as the exact stress varies little
-over a cell. An edge that is not fitted and may have the largest stress leaves the stress not
+another fit. An edge that is not fitted and may have the largest stress leaves the stress not
 converged. The von Mises stress is not largest at an edge without shear, and has no such place
 unless it is found there.
 """
@@ -18,7 +17,7 @@ unless it is found there.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import sqrt
 from typing import Any
 
@@ -39,7 +38,7 @@ from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
 from contact_results.stress.on_cells import stress_on_cells
 from contact_results.stress.on_disc import stress_on_disc
 from contact_results.stress.on_section import stress_on_section
-from contact_results.stress.points import StressField, StressPoints
+from contact_results.stress.points import StressField
 from contact_scene import Body
 from contact_scene.accuracy import LARGEST_TENSION
 from contact_scene.stated_error import Part, StatedError, StatedErrors
@@ -56,17 +55,13 @@ COARSE = 2.0  # coarsening factor of the tractions
 PRECISION = 1e-13
 
 
-@dataclass(frozen=True)
-class TensileStress:
-    """Largest principal stress of the body [force/length^2] with its error and order."""
+def largest_tensile_stress(
+    result: object, errors: StatedErrors, step: int
+) -> tuple[float, StatedError, float] | None:
+    """Compute the largest principal stress of the body at the end of a load step, from 1.
 
-    value: float
-    error: StatedError
-    order: float = SMOOTH
-
-
-def largest_tensile_stress(result: object, errors: StatedErrors, step: int) -> TensileStress | None:
-    """Compute it at the end of a load step, from 1; None for a rigid body."""
+    Returns it [force/length^2] with its error and convergence order; None for a rigid body.
+    """
     state = state_of_result(result, step, errors)  # type: ignore[arg-type]
     if not state.body.deforms:
         return None
@@ -76,7 +71,7 @@ def largest_tensile_stress(result: object, errors: StatedErrors, step: int) -> T
     (error,) = stress_errors(state, field, [found])
     smooth = state.pressed is not None or found.depth >= NEAR * _side(state)
     order = SMOOTH if smooth else EDGE if _is_fitted(field) else ROOT
-    return TensileStress(abs(found.value), error, order)
+    return abs(found.value), error, order
 
 
 def _field(state: LoadedBodies, *, indenter: bool = False, depths: Any = None) -> StressField:
@@ -127,8 +122,7 @@ def stress_errors(
             others = [each[at_edge].get((extreme.region, extreme.measure), 0.0) for each in there]
             error = max(abs(value - other) for other in others) / _growth(order)
             if at_edge and field.edge is not None and extreme.region in AT_SURFACE:
-                jump = _jump(field.edge.points, extreme.measure)
-                error = max(error, field.edge.apart / _growth(ROOT), jump)
+                error = max(error, field.edge.apart / _growth(ROOT))
             if at_edge and tension and not fitted:
                 cells = max((state.contact_radius or 0.0) / _side(state), 2.0)
                 error = max(error, value / (sqrt(cells) - 1))
@@ -154,29 +148,14 @@ def _places(field: StressField, body: Body, near: float) -> Mapping[bool, Mappin
     return found
 
 
-def _jump(edge: StressPoints, measure: str) -> float:
-    """Largest difference of the largest stress on an edge from points within `NEAR` along it.
-
-    The exact stress varies little over so few cells, unlike the error of the tractions.
-    """
-    values = edge.measures[measure]
-    around = values[np.argsort(np.arctan2(edge.y - edge.y.mean(), edge.x - edge.x.mean()))]
-    steps = np.arange(-int(NEAR), int(NEAR) + 1)
-    near = np.take(around, np.argmax(around) + steps, mode="wrap")
-    return float(np.max(np.abs(np.max(values) - near)))
-
-
 def _growth(order: float) -> float:
     return float(COARSE ** (BELIEVED * order) - 1)
 
 
 def _side(state: LoadedBodies) -> float:
-    """Side of a cell, or of a ring [length]."""
-    if not state.on_rings:
-        x, y = state.axes["x"], state.axes["y"]
-        return sqrt(float((x[1] - x[0]) * (y[1] - y[0])))
-    radii = state.axes["radii"]
-    return float(radii[1] - radii[0])
+    """Side of a cell along x, or of a ring [length]."""
+    places = next(iter(state.axes.values()))
+    return float(places[-1] - places[0]) / (len(places) - 1)
 
 
 def on_wide_cells(state: LoadedBodies, shift: int = 0) -> LoadedBodies:

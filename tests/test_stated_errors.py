@@ -102,11 +102,10 @@ def test_an_error_that_falls_as_a_power_is_covered_and_not_by_much(order, ratio)
     assert abs(fine - exact) < part[0] < 2.8 * abs(fine - exact)
 
 
-def test_components_of_a_vector_share_one_size_unless_they_are_round_off_of_a_zero() -> None:
+def test_components_of_a_vector_share_one_size() -> None:
     both, one = ({"tangential_shift": np.array([3.0, y])} for y in (-1.0, 1e-12))
-    first, second = largest_so_far([one, both])
-    np.testing.assert_array_equal(first["tangential_shift"], [3.0, 1e-12])
-    np.testing.assert_array_equal(second["tangential_shift"], [3.0, 3.0])
+    for found in largest_so_far([one, both]):
+        np.testing.assert_array_equal(found["tangential_shift"], [3.0, 3.0])
 
 
 def test_constants_are_those_that_are_explained() -> None:
@@ -423,9 +422,8 @@ def test_an_edge_that_may_have_the_largest_stress_leaves_it_open(count: int) -> 
     result = package.solve(posed, "semi-analytical", cells(count))
     found = largest_tensile_stress(result, stated_errors(result), 2)
     assert found is not None
-    assert found.error.status is ErrorStatus.NOT_CONVERGED or (
-        abs(found.value - 2.0e9) <= size(found.error)
-    )
+    value, error, _ = found
+    assert error.status is ErrorStatus.NOT_CONVERGED or abs(value - 2.0e9) <= size(error)
 
 
 @pytest.mark.parametrize(("nu", "count"), [(0.2, 32), (0.49, 32), (0.499, 32), (0.47, 100)])
@@ -435,8 +433,9 @@ def test_a_tension_near_zero_has_the_error_of_the_tractions(nu: float, count: in
     result = package.solve(posed, "semi-analytical", cells(count))
     found = largest_tensile_stress(result, stated_errors(result), 1)
     assert found is not None
+    value, error, _ = found
     exact = (1 - 2 * nu) / 3 * hertz(poisson_ratio=nu).peak_pressure
-    assert abs(found.value - exact) <= size(found.error) <= 0.01 * hertz().peak_pressure
+    assert abs(value - exact) <= size(error) <= 0.01 * hertz().peak_pressure
 
 
 def test_what_the_load_prescribes_is_exact() -> None:
