@@ -9,17 +9,16 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from contact_errors.coarse_solves import (
     DiscretisedSolver,
     Fineness,
-    InContext,
     Refinement,
-    no_context,
     solved_run,
 )
 from contact_errors.cost_estimate import estimated_seconds
@@ -32,6 +31,8 @@ from contact_scene.free_memory import available_bytes
 from contact_scene.solver_errors import AccuracyOutOfReach, ContactNotResolved, SolverError
 from contact_scene.stated_error import ErrorStatus, Part, StatedError, StatedErrors
 
+# Context of the solve of a discretisation: its observer of increments, or its checkpoint store.
+InContext: TypeAlias = Callable[[Any], AbstractContextManager[Any]]
 # Called after each level: its number, the requested and the reached errors.
 Estimated = Callable[[int, Mapping[str, float], Mapping[str, float | None]], None]
 
@@ -51,6 +52,11 @@ ROUND_OFF = 1e-7
 
 ABSENT = "the results of this scene by this solver do not have it"
 INFINITE = "it is infinite in the exact answer"
+
+
+def _no_context(fineness: object) -> AbstractContextManager[None]:
+    """Context of a solve without observer or checkpoint store."""
+    return nullcontext()
 
 
 @dataclass(frozen=True)
@@ -125,8 +131,8 @@ class Levels:
 
     solver: DiscretisedSolver
     stress_at: int | None = None
-    watching: InContext = no_context
-    keeping: InContext = no_context
+    watching: InContext = _no_context
+    keeping: InContext = _no_context
 
     def first(self) -> RefinementLevel:
         """Solve the coarsest level whose cells resolve the contact; raises a SolverError."""
@@ -142,7 +148,8 @@ class Levels:
     def solved(self, fineness: Fineness) -> RefinementLevel:
         """Solve a level with its errors; raises a SolverError."""
         began, began_processor = time.perf_counter(), time.process_time()
-        result = self.solver.solve(fineness, self.watching, self.keeping)
+        with self.keeping(fineness) as keeper, self.watching(fineness) as progress:
+            result = self.solver.solve(fineness, progress, keeper)
         run, companions = solved_run(self.solver, result)
         values, errors, orders = list(run.values), list(run.errors()), {}
         if self.stress_at is not None:

@@ -10,10 +10,9 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field, replace
 from math import ceil, log
-from typing import Any, ClassVar, TypeAlias
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -27,20 +26,12 @@ from contact_scene.solver_errors import SolverError
 from contact_scene.stated_error import Companion, Part, StatedErrors
 from contact_scene.summary import ContactStatus
 
-# Context of the solve of a discretisation: its observer of increments, or its checkpoint store.
-InContext: TypeAlias = Callable[[Any], AbstractContextManager[Any]]
-
 # Coarse solves: description, share of the cells along a side, and further cells.
 PAIR = ("half the {}", 1 / 2, 0), ("two thirds of the {}", 2 / 3, 0)
 TRIPLE = (*PAIR, ("half the {} and two", 1 / 2, 2))
 # A step with fewer increments is compared with many, as halves of few do not converge regularly.
 FEW, MANY = 4, (32, 8)
 LEAST_TOLERANCE = 1e-13
-
-
-def no_context(fineness: object) -> AbstractContextManager[None]:
-    """Context of a solve without observer or checkpoint store."""
-    return nullcontext()
 
 
 @dataclass(frozen=True)
@@ -112,10 +103,11 @@ class DiscretisedSolver(ABC):
         """Effects and increments."""
 
     @abstractmethod
-    def solve(
-        self, fineness: Fineness, watching: InContext = no_context, keeping: InContext = no_context
-    ) -> Any:
-        """Solve the scene; raises a SolverError."""
+    def solve(self, fineness: Fineness, progress: Any = None, keeper: Any = None) -> Any:
+        """Solve the scene; raises a SolverError.
+
+        progress, keeper  observer of increments, and checkpoint store
+        """
 
     @abstractmethod
     def space_of(self, result: Any) -> Any:

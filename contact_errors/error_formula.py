@@ -60,7 +60,6 @@ OF_SLIP = frozenset(
         *("energy_per_cycle", "input_work", *AT_EDGES, *STRESS),
     }
 )
-WORK, ENERGIES = "input_work", ("elastic_energy", "dissipated_energy")
 
 
 @dataclass(frozen=True)
@@ -211,8 +210,6 @@ class SolvedRun:
 
     def _parts(self, step: int, name: str, largest: Numbers) -> dict[Part, Numbers] | None:
         """Parts of the error of a number; None where one is unknown."""
-        if name == WORK:
-            return self._of_work(step)
         features = self.features[step]
         if name == PEAK and features.infinite:
             return None
@@ -230,17 +227,6 @@ class SolvedRun:
         if share := self.neglected.get(name):
             parts["neglected"] = share * largest
         return parts
-
-    def _of_work(self, step: int) -> dict[Part, Numbers] | None:
-        """The work of the loads is the sum of the energies, and so are its errors."""
-        values, total = self.values[step], dict[Part, Numbers]()
-        for name in ENERGIES:
-            if name in values:
-                parts = self._parts(step, name, np.abs(values[name]))
-                if parts is None:
-                    return None
-                total = {part: size + total.get(part, 0.0) for part, size in parts.items()}
-        return total or None
 
 
 def largest_so_far(values: Sequence[Values]) -> tuple[Values, ...]:

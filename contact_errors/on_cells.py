@@ -15,11 +15,9 @@ import semi_analytical
 from contact_errors.coarse_solves import (
     DiscretisedSolver,
     Fineness,
-    InContext,
     Refinement,
     at_ends,
     estimated,
-    no_context,
 )
 from contact_errors.cost_estimate import Work, work_on_cells
 from contact_errors.error_formula import PEAK, Features
@@ -76,17 +74,14 @@ class CellSolver(DiscretisedSolver):
             self.scene, FIRST_PATH_ACCURACY, self.asked.edge
         )
 
-    def solve(
-        self, fineness: Fineness, watching: InContext = no_context, keeping: InContext = no_context
-    ) -> Result:
+    def solve(self, fineness: Fineness, progress: Any = None, keeper: Any = None) -> Result:
         """Solve on a larger window of equal cells where a fitted window is too small."""
         grids, plan = [fineness.space], self.plan.cut_into(fineness.increments)
         fixed = self.asked.window is not None or self.scene.indenter.extent is not None
         for _ in range(0 if fixed else MOST_ENLARGEMENTS):
             cells, (hx, hy) = scaled(grids[-1].cells, ROOM), grids[-1].spacing
             grids.append(SurfaceGrid(cells, (cells[0] * hx, cells[1] * hy)))
-        with keeping(fineness) as keeper, watching(fineness) as progress:
-            return solve_within(self.scene, grids, fineness.tolerance, progress, plan, keeper)
+        return solve_within(self.scene, grids, fineness.tolerance, progress, plan, keeper)
 
     def space_of(self, result: Result) -> SurfaceGrid:
         return result.grid

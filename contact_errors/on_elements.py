@@ -16,11 +16,9 @@ from contact_errors.coarse_solves import (
     CoarseSolve,
     DiscretisedSolver,
     Fineness,
-    InContext,
     Refinement,
     at_ends,
     estimated,
-    no_context,
     slip_zone,
 )
 from contact_errors.cost_estimate import Work, work_on_elements
@@ -66,18 +64,15 @@ class ElementSolver(DiscretisedSolver):
     def plan(self) -> Plan:
         return self.decided or fem_reference.plan(self.scene)
 
-    def solve(
-        self, fineness: Fineness, watching: InContext = no_context, keeping: InContext = no_context
-    ) -> Result:
+    def solve(self, fineness: Fineness, progress: Any = None, keeper: Any = None) -> Result:
         """Solve, with more overlap where coarse elements leave more than the run may."""
         scene = self.scene.with_increments(fineness.increments)
         mesh = _with(fineness.space, tolerance=fineness.tolerance)
-        with keeping(fineness) as keeper, watching(fineness) as progress:
-            try:
-                return fem_reference.solve(scene, mesh, self.method, progress, keeper)
-            except SurfacesOverlap:
-                looser = _with(mesh, overlap=LARGEST_OVERLAP)
-                return fem_reference.solve(scene, looser, self.method, progress)
+        try:
+            return fem_reference.solve(scene, mesh, self.method, progress, keeper)
+        except SurfacesOverlap:
+            looser = _with(mesh, overlap=LARGEST_OVERLAP)
+            return fem_reference.solve(scene, looser, self.method, progress)
 
     def space_of(self, result: Result) -> FiniteElementDiscretisation:
         return result.discretisation

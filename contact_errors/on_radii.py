@@ -12,11 +12,9 @@ import radial
 from contact_errors.coarse_solves import (
     DiscretisedSolver,
     Fineness,
-    InContext,
     Refinement,
     at_ends,
     estimated,
-    no_context,
     slip_zone,
 )
 from contact_errors.cost_estimate import Work, work_on_rings
@@ -54,13 +52,10 @@ class RingSolver(DiscretisedSolver):
         """Whether numbers depend on rings. Without friction they depend on orders and points."""
         return self.plan.coupled or self.plan.circle is not None
 
-    def solve(
-        self, fineness: Fineness, watching: InContext = no_context, keeping: InContext = no_context
-    ) -> Result:
+    def solve(self, fineness: Fineness, progress: Any = None, keeper: Any = None) -> Result:
         plan = self._plan_of(fineness)
         asked = self.asked.model_copy(update={"tolerance": fineness.tolerance})
-        with keeping(fineness) as keeper, watching(fineness) as progress:
-            return radial.solve(self.scene, asked, progress, plan, keeper)
+        return radial.solve(self.scene, asked, progress, plan, keeper)
 
     def space_of(self, result: Result) -> float:
         return result.plan.fineness
