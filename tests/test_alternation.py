@@ -38,9 +38,12 @@ class Held:
 
 
 class DenseContact:
-    """Bodies of a few cells that answer any traction (q_x, q_y, p) by a symmetric matrix."""
+    """Bodies of a few cells that answer any traction (q_x, q_y, p) by a symmetric matrix.
 
-    def __init__(self, seed, friction, coupling=1.0):
+    The friction limit is µp / (1 + p/saturation).
+    """
+
+    def __init__(self, seed, friction, coupling=1.0, saturation=np.inf):
         rng = np.random.default_rng(seed)
         self.matrix = compliance(rng, 3 * CELLS)
         self.matrix[2 * CELLS :, : 2 * CELLS] *= coupling
@@ -48,7 +51,13 @@ class DenseContact:
         self.gap = 3 * rng.random(SHAPE)
         self.gap.flat[0] = 0.0
         self.target = 0.3 * rng.standard_normal((2, *SHAPE))
-        self.friction = friction
+        self.friction, self.saturation = friction, saturation
+
+    def limit(self, p):
+        return self.friction * p / (1 + p / self.saturation)
+
+    def slope(self, p):
+        return self.friction / (1 + p / self.saturation) ** 2
 
     def displacements(self, p, q):
         u = self.matrix @ np.concatenate([q.ravel(), p.ravel()])
@@ -69,8 +78,8 @@ class DenseContact:
             together=as_map(self.matrix),
             precondition_together=Held(np.diag(self.matrix).reshape(3, *SHAPE), self_compliance),
             gap=self.gap,
-            friction_limit=lambda p: self.friction * p,
-            friction_slope=lambda p: np.full_like(p, self.friction),
+            friction_limit=self.limit,
+            friction_slope=self.slope,
             target=self.target,
             normal_load=normal_load,
             tangential_load=tangential_load,
@@ -89,7 +98,7 @@ class DenseContact:
             u_z, u_t = self.displacements(p, q)
             p = np.maximum(p - step * (self.gap + u_z - approach), 0.0)
             slip = shift[:, None, None] + self.target - u_t
-            q = project_on_discs(q + step * slip, self.friction * p)
+            q = project_on_discs(q + step * slip, self.limit(p))
         return p, q
 
 
@@ -99,7 +108,7 @@ def assert_lawful(contact, solution):
     u_z, u_t = contact.displacements(p, q)
     g = contact.gap + u_z - solution.approach
     slip = solution.shift[:, None, None] + contact.target - u_t
-    bound = contact.friction * p
+    bound = contact.limit(p)
     assert np.all(p >= 0)
     assert np.all(g >= -1e-9)
     assert np.max(np.abs(g * p)) <= 1e-8 * np.max(p)
