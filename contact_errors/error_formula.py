@@ -38,10 +38,9 @@ SMOOTH, EDGE, ROOT = 2.0, 1.0, 0.5
 ORDERS: Mapping[str, float] = MappingProxyType(
     {"increments": 1.0, "section": 2.0, "penalty": 1.0, "harmonics": 2.0, "tolerance": 1.0}
 )
-# Residuals of the tolerance leave errors of about ten times as much. The edge correction applies
-# 0.6 of each change (`semi_analytical.edge_correction.pressure.DAMPED`), so that 0.4/0.6 of the
-# last change is left where the next solve would not change.
-PER_TOLERANCE, PER_ITERATION = 10.0, 2.0 / 3.0
+# Residuals of the tolerance leave errors of about ten times as much. The last change of the edge
+# correction leaves at most as much, as its iterations at least halve an error.
+PER_TOLERANCE, PER_ITERATION = 10.0, 1.0
 # A larger sum of parts over the number is no error estimate.
 LARGEST_SHARE = 0.5
 

@@ -22,6 +22,7 @@ import slipstick
 from contact_results.remarks import remarks
 from contact_scene import Cone, Ellipsoid, FlatPunch, HeightMap, Scene, SurfaceDiscretisation
 from semi_analytical import SurfaceGrid, plan, solve
+from semi_analytical.edge_correction.pressure import LEAST_FACTOR, relaxation_factor
 from verification.closed_forms.cone import ConeContact
 from verification.closed_forms.hertz import PointContact
 from verification.closed_forms.moduli import contact_modulus
@@ -284,3 +285,17 @@ def test_the_plan_says_of_what_edges_are_not_known(of, because):
     assert not effect.on
     assert because in effect.why
     assert decided.edge == "off"
+
+
+@pytest.mark.parametrize("eigenvalue", [0.0, -0.5, -0.99, -1.5, -2.0])
+@pytest.mark.parametrize("factor", [0.5, 1.0])
+def test_a_relaxed_change_at_least_halves_the_error_of_a_linear_iteration(eigenvalue, factor, rng):
+    """And ends it, if the factor may be what its eigenvalue asks for."""
+    first = rng.standard_normal((4, 4))
+    error = (1 - (1 - eigenvalue) * factor) * first
+    change = [(eigenvalue - 1) * one for one in (first, error)]
+    next_factor = relaxation_factor(factor, *change)
+    left = 1 - (1 - eigenvalue) * next_factor
+    assert abs(left) <= 0.5 + 1e-12
+    if 1 / (1 - eigenvalue) >= LEAST_FACTOR and np.any(error):
+        assert left == pytest.approx(0.0, abs=1e-12)

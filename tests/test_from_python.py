@@ -15,6 +15,7 @@ from contact_results.result_files import write_result
 from contact_results.stress.loaded_bodies import state_of_result, state_of_run
 from contact_results.surface import surface_of
 from contact_scene import HeightMap, SceneError
+from contact_scene.geometry import SHAPES
 from contact_scene.increment import SCALARS
 from contact_scene.reported import reported
 from contact_scene.stated_error import Part
@@ -50,6 +51,10 @@ def solved(scene: slipstick.Scene) -> Any:
 def test_every_name_is_there_and_says_what_it_is(name: str) -> None:
     assert name in dir(slipstick)
     assert getattr(slipstick, name).__doc__
+
+
+def test_all_shapes_are_among_the_names() -> None:
+    assert {shape.__name__ for shape in SHAPES.values()} <= {*slipstick.__all__}
 
 
 def imported_after(script: str) -> set[str]:

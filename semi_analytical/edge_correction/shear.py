@@ -19,12 +19,12 @@ from semi_analytical.edge.displacement import Within
 from semi_analytical.edge.rim import Rim, rim
 from semi_analytical.edge_correction.operators import EdgeOperators
 from semi_analytical.edge_correction.pressure import (
-    DAMPED,
     INNER_REDUCTION,
     LEAST_SETTLED,
     MAX_ITERATIONS,
     MOST_UNSAFE,
     SETTLED,
+    relaxation_factor,
 )
 from semi_analytical.edge_correction.shear_at_edge import direction_of_slip
 from semi_analytical.linearised_shear import Point
@@ -198,6 +198,7 @@ def edge_shear(
     full = problem.full(problem.bound, missing.slip, problem.before[0])
     missing = replace(missing, full=full)
     q, motion = full - missing.shear, solved.shift
+    step, factor = np.zeros_like(q), 1.0
     for number in range(MAX_ITERATIONS):
         within = problem.within(q, missing)
         u = problem.operators.by_shear(*within)
@@ -206,11 +207,14 @@ def edge_shear(
         except NotConverged:
             return None
         answer, motion = solution.shear, solution.motion
-        change = float(np.sum(magnitude(answer - q)) / np.sum(problem.bound))
+        last, step = step, answer - q
+        change = float(np.sum(magnitude(step)) / np.sum(problem.bound))
         if change <= SETTLED or number == MAX_ITERATIONS - 1:
             break
         edge, stick = missing.edge, (problem.bound > 0) & ~solution.in_slip
-        q = q + (DAMPED if number else 1.0) * (answer - q)
+        if number:
+            factor = relaxation_factor(factor, last, step)
+        q = q + factor * step
         next_missing = problem.missing(
             q, problem.bound, problem.before[0], stick | edge.outer, edge
         )
