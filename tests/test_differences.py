@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from types import SimpleNamespace
 from typing import Any
 
@@ -15,25 +15,18 @@ from contact_scene.increment import SCALARS
 from contact_scene.linear_theory import beyond_linear_theory
 from semi_analytical import Result, solve
 from slipstick.cli.outcome_text import solved_in
-from verification.cases import (
-    eccentric_ball,
-    exchanged_bodies,
-    hertz_unloading,
-    same_surface,
-    turned,
-)
-from verification.cases.apart_everywhere import Apart, apart_everywhere
-from verification.quantities import largest_difference
+from verification.cases import hertz, histories, indenters
+from verification.cases.cross_check import everywhere
 
 READ: dict[Any, tuple[str, ...]] = {
-    largest_difference: ("pressure", "shear", "tangential_shift", "approach"),
-    turned.difference_after_quarter: ("pressure", "shear", "tangential_shift"),
-    turned.difference_of_motion(30.0): ("tangential_shift", "dissipated_energy"),
-    same_surface._mirrored_difference: ("pressure", "shear"),
-    same_surface._difference_of_scalars: ("approach", "tangential_shift", "dissipated_energy"),
-    hertz_unloading._difference: ("pressure", "approach"),
-    exchanged_bodies._on_cells: ("pressure", "shear", "tangential_shift", "approach"),
-    eccentric_ball._shifted_difference: ("pressure", "shear"),
+    histories.as_it_is: ("pressure", "shear", "tangential_shift", "approach"),
+    histories.after_quarter: ("pressure", "shear", "tangential_shift", "approach"),
+    partial(histories.motion_apart, 30.0): ("tangential_shift", "dissipated_energy"),
+    histories.in_mirror: ("pressure", "shear"),
+    histories.scalars_apart: ("approach", "tangential_shift", "dissipated_energy"),
+    hertz._pressure_and_approach: ("pressure", "approach"),
+    histories.after_half: ("pressure", "shear", "tangential_shift", "approach"),
+    indenters._moved_apart: ("pressure", "shear"),
 }
 
 
@@ -65,11 +58,14 @@ class End:
 
 
 def of_places(values: list[float]) -> str:
-    places = np.array([0.0, 1.0])
-    lines = [
-        Apart("1 N", places, np.array([value, 0.0]), {"there": places < 1}) for value in values
-    ]
-    return apart_everywhere(lines, "p", "p₀", "a").note
+    x = np.array([0.0, 1.0])
+    lines: dict[float, Any] = {
+        float(part): SimpleNamespace(
+            x=x, shear_apart=np.array([value, 0.0]), left_out={"there": x < 1}
+        )
+        for part, value in enumerate(values)
+    }
+    return everywhere(lines).note
 
 
 def of_residuals(values: list[float]) -> str:

@@ -182,10 +182,6 @@ ORDERS = {
         *("cases", "defects", "peers", "challenge", "adapters", "studies", "benchmarks"),
         *("showcase", "report", "judged_by_pytest"),
     ),
-    "verification.cases.both_solvers": (
-        *("left_out", "contacts", "sides", "differences", "stress", "line", "charts", "tables"),
-        *("costs", "statements"),
-    ),
     "verification.studies.refinement": ("scene_level", "estimate", "study"),
     "verification.studies.seeded_defects": ("runs", "findings", "statements", "tables", "study"),
     "verification.studies.stability": (

@@ -9,13 +9,9 @@ import pytest
 from contact_scene import Body, normal_form
 from semi_analytical.frf.surface import SurfaceScalars
 from semi_analytical.influence import bodies, layered
-from verification.cases import layered_reference as reference
-from verification.cases.coated_paraboloid import coated_paraboloid_on
-from verification.cases.film_stiffness import film_stiffness
-from verification.cases.frf_laws import frf_laws
-from verification.cases.layered_identities import layered_identities_on
-from verification.cases.sampling_route import sampling_route
-from verification.cases.thin_layer import thin_layer_on
+from verification.cases import coatings
+from verification.cases import responses as reference
+from verification.cases.responses import frf_laws, sampling_route
 from verification.judging.case import Case
 from verification.judging.judgement import judge
 from verification.judging.outcome import CaseOutcome, Status
@@ -44,12 +40,14 @@ def fresh() -> None:
 
 
 def test_coated_paraboloid_converges_to_the_reference() -> None:
-    outcome = judge(coated_paraboloid_on((32, 48, 64, 96, 128), (128,)))
+    outcome = judge(coatings.coated_paraboloid(cells=(32, 48, 64, 96, 128), required=(128,)))
     assert failed(outcome) == set()
     assert len([v for v in outcome.verdicts if v.allowed == 2e-4]) == 10
 
 
-@pytest.mark.parametrize("build", [lambda: layered_identities_on(64), lambda: thin_layer_on(128)])
+@pytest.mark.parametrize(
+    "build", [lambda: coatings.layered_identities(cells=64), lambda: coatings.thin_layer(cells=128)]
+)
 def test_layered_contacts_agree_on_coarse_grids(build: Callable[[], Case]) -> None:
     # Their tolerances are for twice the cells.
     wide = {v.name for v in judge(build()).verdicts if v.error is None or v.error > 6e-4}
@@ -97,10 +95,10 @@ def test_wrong_scalars_fail_the_reference_and_the_laws(
 
 
 def test_wrong_stiffness_of_the_film_fails_the_first_order_theory(monkeypatch: Patch) -> None:
-    from verification.cases import film_stiffness as case
-
-    scalars_by(monkeypatch, case, lambda response: np.power(response.c22, 1.01, out=response.c22))
-    assert failed(judge(film_stiffness())) == {"by_shear_modulus", "by_poisson_ratio"}
+    scalars_by(
+        monkeypatch, coatings, lambda response: np.power(response.c22, 1.01, out=response.c22)
+    )
+    assert failed(judge(coatings.film_stiffness())) == {"by_shear_modulus", "by_poisson_ratio"}
 
 
 def test_wrong_coefficients_fail_the_reference_and_the_contact(monkeypatch: Patch) -> None:
@@ -108,7 +106,9 @@ def test_wrong_coefficients_fail_the_reference_and_the_contact(monkeypatch: Patc
     monkeypatch.setattr(layered, "cell_integrals", lambda *given: 1.0005 * whole(*given))
     monkeypatch.setattr(bodies, "remembered", layered.computed_afresh)
     assert failed(judge(reference.layered_reference())) == {"influence_coefficients"}
-    assert "approach" in failed(judge(coated_paraboloid_on((96, 112, 128), (128,))))
+    assert "approach" in failed(
+        judge(coatings.coated_paraboloid(cells=(96, 112, 128), required=(128,)))
+    )
 
 
 def test_layer_left_out_fails_the_identities(monkeypatch: Patch) -> None:
@@ -119,7 +119,7 @@ def test_layer_left_out_fails_the_identities(monkeypatch: Patch) -> None:
         return type(stack)(stack.layers[:-1], stack.base)
 
     monkeypatch.setattr(bodies, "stack_of", without_the_last)
-    assert {"approach", "central_pressure"} <= failed(judge(layered_identities_on(32)))
+    assert {"approach", "central_pressure"} <= failed(judge(coatings.layered_identities(cells=32)))
 
 
 def test_wrong_merging_of_layers_fails_the_identities(monkeypatch: Patch) -> None:
@@ -131,7 +131,7 @@ def test_wrong_merging_of_layers_fails_the_identities(monkeypatch: Patch) -> Non
         return found.model_copy(update={"layers": body.layers[cut:]})
 
     monkeypatch.setattr(normal_form, "_merged", without_the_last)
-    assert "same_pressure" in failed(judge(layered_identities_on(32)))
+    assert "same_pressure" in failed(judge(coatings.layered_identities(cells=32)))
 
 
 def test_nan_in_a_law_is_a_violation() -> None:

@@ -9,7 +9,7 @@ import pytest
 import semi_analytical
 from contact_scene import Body, CoulombFriction, LoadStep
 from contact_scene.solver_errors import NotConverged
-from verification.cases import coupled_history
+from verification.cases import histories
 from verification.judging.case import Case
 from verification.judging.law_verdicts import judge_laws
 from verification.judging.outcome import Status
@@ -238,7 +238,7 @@ def gives_up(*_given):
 
 
 def test_history_that_cannot_be_led_by_its_motion_fails(monkeypatch):
-    case = coupled_history.coupled_history_on(16, 8, 2)
+    case = histories.coupled_history(sizes=(16, 8, 2))
     run = next(run for run in case.runs if run.label == case.quantities[0].run)
     result = run.solve()
     monkeypatch.setattr(semi_analytical, "solve", gives_up)
@@ -248,9 +248,9 @@ def test_history_that_cannot_be_led_by_its_motion_fails(monkeypatch):
 
 
 def test_history_led_by_its_motion_is_held_to_the_limit_of_every_run(monkeypatch):
-    case = coupled_history.coupled_history_on(16, 8, 2)
+    case = histories.coupled_history(sizes=(16, 8, 2))
     laws = case.quantities[1]
     results = {laws.run: case.run(laws.run).solve()}
     assert judge_quantity(laws, case, results).status is Status.PASS
-    monkeypatch.setattr(coupled_history, "observed", lambda result: (2 * ALLOWED, None))
+    monkeypatch.setattr(histories, "observed", lambda result: (2 * ALLOWED, None))
     assert judge_quantity(laws, case, results).status is Status.FAIL

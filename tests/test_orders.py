@@ -9,11 +9,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from verification.cases import sheared_increments
 from verification.cases.catalogue import choose
-from verification.cases.fem_partial_slip import fem_partial_slip_on
+from verification.cases.fretting import fem_partial_slip
+from verification.cases.frictional_pressing import sheared_increments
 from verification.cases.hertz import fem_hertz
-from verification.cases.sheared_increments import sheared_increments_on
 from verification.convergence.observed_order import observed_order
 from verification.exhibits.chart import Look
 from verification.exhibits.convergence_chart import convergence_chart
@@ -154,19 +153,16 @@ def pressed() -> Case:
 
 
 def pushed() -> Case:
-    return fem_partial_slip_on(8, tuple(product((6, 8, 11, 16), (0.3, 0.7))))
+    return fem_partial_slip(elements=8, studied=tuple(product((6, 8, 11, 16), (0.3, 0.7))))
 
 
 def cut() -> Case:
-    return sheared_increments_on((1, 2, 4, 8, 16))
+    return sheared_increments(increments=(1, 2, 4, 8, 16), cells=16)
 
 
 @pytest.mark.parametrize("case_of", [pressed, pushed, cut])
-def test_lines_of_a_chart_are_those_that_are_judged(
-    case_of: Callable[[], Case], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_lines_of_a_chart_are_those_that_are_judged(case_of: Callable[[], Case]) -> None:
     """Levels, sizes and orders."""
-    monkeypatch.setattr(sheared_increments, "CELLS", 16)
     case = case_of()
     results = {run.label: run.solve() for run in case.runs}
     drawn = [

@@ -147,7 +147,7 @@ COMMANDS = (
     ("table", "ball"),
     ("plan", "scene.toml", "--accuracy", "1%"),
     ("verify", "hertz_point", "-o", "out"),
-    ("maintain", "study", "cross-check", "-o", "out", "--workers", "1"),
+    ("maintain", "study", "coated-tractions", "-o", "out", "--workers", "1"),
     ("check", "scene.toml"),
 )
 

@@ -8,13 +8,11 @@ import pytest
 from report_examples import case, report_of, run_record
 
 from semi_analytical.grid import SurfaceGrid
-from verification.cases.cattaneo_mindlin import cattaneo_mindlin
-from verification.cases.coated_paraboloid import coated_paraboloid
-from verification.cases.fem_coated import fem_coated
-from verification.cases.fem_partial_slip import fem_partial_slip
-from verification.cases.fem_torsion import fem_torsion
+from verification.cases.coatings import coated_paraboloid, fem_coated
+from verification.cases.fretting import fem_partial_slip
 from verification.cases.hertz import hertz_point
-from verification.cases.torsion import torsion
+from verification.cases.partial_slip import cattaneo_mindlin
+from verification.cases.torsion import fem_torsion, torsion
 from verification.judging.case import Case, Level, Quantity, Required
 from verification.judging.outcome import CaseOutcome, RefinedErrors
 from verification.judging.refined_errors import LEAST, followed_on, refined_errors

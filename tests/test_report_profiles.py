@@ -7,18 +7,12 @@ import numpy as np
 import pytest
 from report_examples import case, report_of, run_record
 
-from semi_analytical import solve
-from verification.cases.cattaneo_mindlin import cattaneo_mindlin_on
-from verification.cases.coated_paraboloid import coated_paraboloid_on
-from verification.cases.fem_coated import fem_coated_on
-from verification.cases.fem_partial_slip import fem_partial_slip_on
+from verification.cases.coatings import coated_paraboloid, fem_coated
+from verification.cases.fretting import fem_partial_slip
 from verification.cases.hertz import fem_hertz, hertz_point
-from verification.cases.indentation_charts import indentation_chart
+from verification.cases.partial_slip import cattaneo_mindlin
 from verification.exhibits.chart import Chart, Curve, Look
 from verification.judging.case import Case
-from verification.judging.pressing_errors import edge_error, pressure_error, shear_error
-from verification.problems.indentation import FEW, WEAK
-from verification.problems.paper_scene import square_grid
 from verification.references import load_reference
 from verification.report.profiles_together import NEAR, SAME, profiles_together
 from verification.running.report_record import Report
@@ -41,8 +35,9 @@ def solved() -> Mapping[str, tuple[Chart, ...]]:
     ]  # fmt: skip
     cases = (
         hertz_point(cells=(CELLS,)), fem_hertz(elements=(ELEMENTS,)),
-        coated_paraboloid_on((CELLS,), ()), fem_coated_on(coated, (ELEMENTS,)),
-        cattaneo_mindlin_on((CELLS,)), fem_partial_slip_on(ELEMENTS),
+        coated_paraboloid(cells=(CELLS,), required=()),
+        fem_coated(rows=coated, elements=(ELEMENTS,)),
+        cattaneo_mindlin(cells=(CELLS,)), fem_partial_slip(elements=ELEMENTS, studied=()),
     )  # fmt: skip
     return {one.name: profiles_of(one) for one in cases}
 
@@ -90,14 +85,3 @@ def test_strips_are_the_differences_of_the_cases_and_leave_edges_to_the_first() 
 def test_a_profile_of_one_solver_alone_is_not_shown_together(missing: str) -> None:
     names = [chart.name for chart in profiles_together(report(missing))]
     assert names == ["together_coated", "together_cattaneo_mindlin"]
-
-
-def test_strips_below_an_indentation_stay_within_the_judged_errors() -> None:
-    problem = WEAK.problem(FEW)
-    result = solve(problem.scene, square_grid(CELLS, 1.5 * WEAK.contact_radius), 1e-6)
-    rows = [row[0] for row in indentation_chart(WEAK, result).rows]
-    pressure, shear = (np.abs(rows[n].curves[0].y) for n in (1, 3))
-    largest = pressure_error(result, -1, problem)
-    assert 0.05 * largest < np.max(pressure) <= largest
-    most = max(shear_error(result, -1, problem), edge_error(result, -1, problem))
-    assert 0.05 * most < np.max(shear) <= most

@@ -9,13 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-import fem_reference
-from verification.cases.both_solvers.contacts import CheckedContact
-from verification.cases.both_solvers.left_out import kept_edges, kept_fronts
-from verification.cases.both_solvers.line import Line
+from verification.cases.cross_check import Line, Pressed, kept_edges, kept_fronts
 from verification.problems.paper_scene import HERTZ
 
-RETURNING = CheckedContact(4.0, 0.25, 0.3)
+RETURNING = Pressed(4.0, 0.25, 0.3, 64, 32)
 WIDTH = 1 / 32  # of an element
 PLACES = np.arange(6.0)
 
@@ -87,10 +84,10 @@ def pushed_after_pressing() -> Line:
     on_cells = (np.abs(x) < 2.5 * h, (x > -9.5 * h) & (x < -0.5 * h))
     sam = increments(x, *(stick[:, None] for stick in on_cells))
     return Line(
-        SimpleNamespace(  # type: ignore[arg-type]
+        SimpleNamespace(
             increments=fem, steps=fem, discretisation=SimpleNamespace(elements_per_radius=20)
         ),
-        SimpleNamespace(  # type: ignore[arg-type]
+        SimpleNamespace(
             increments=sam, steps=sam, grid=SimpleNamespace(x=x, cells=(43, 1), spacing=(h, h))
         ),
         1,
@@ -99,12 +96,13 @@ def pushed_after_pressing() -> Line:
 
 def test_the_line_leaves_out_the_kink_that_a_push_has_frozen() -> None:
     line = pushed_after_pressing()
-    kink = np.abs(np.abs(line.x) / line.x[-1] * 21 - 2.5) < 1
-    np.testing.assert_array_equal(line._near_fronts & kink, kink)
-    after = replace(line, step=2)
-    frozen = kink & (line.x < 0)
-    np.testing.assert_array_equal(after._near_fronts & kink, frozen)
-    assert not np.any(after._near_fronts & (np.abs(line.x + 5.5 * line.x[-1] / 21) < 1e-9))
+    places = line.x / line.x[-1] * 21
+    kink = np.abs(np.abs(places) - 2.5) < 1
+    *_, near = line.left_out.values()
+    np.testing.assert_array_equal(near & kink, kink)
+    *_, near = replace(line, step=2).left_out.values()
+    np.testing.assert_array_equal(near & kink, kink & (line.x < 0))
+    assert not np.any(near & (np.abs(places + 5.5) < 1e-9))
 
 
 @pytest.mark.parametrize("increments", [20, 80])
@@ -114,8 +112,9 @@ def test_stick_turns_where_the_coating_says_not_where_increments_do(increments: 
     scene = scene.model_copy(
         update={"loading": (press.model_copy(update={"increments": increments}),)}
     )
-    result = fem_reference.solve(scene, RETURNING.mesh(32))
-    radii = [one.stick_radius / RETURNING.contact_radius for one in result.increments]  # type: ignore[operator]
+    result = replace(RETURNING.on_elements[1], scene=scene).solve()
+    unit = RETURNING.frictionless.contact_radius
+    radii = [one.stick_radius / unit for one in result.increments]
     turned, end = kept_edges(radii, WIDTH / 4)
     assert turned == pytest.approx(0.0857, abs=WIDTH / 2)  # 128 elements, 80 increments
     assert end == pytest.approx(0.5547, abs=WIDTH)

@@ -7,10 +7,10 @@ from typing import Any
 import pytest
 
 from contact_scene.solver_errors import NotConverged
-from verification.cases.fretting_loop import fretting_loop_on
+from verification.cases.fretting import fretting_loop
 from verification.cases.hertz import hertz_point
-from verification.cases.load_paths import load_paths_on
-from verification.cases.near_sliding import near_sliding_on
+from verification.cases.histories import load_paths
+from verification.cases.partial_slip import near_sliding
 from verification.defects.defect import planted
 from verification.defects.registry import DEFECTS
 from verification.judging.case import Case
@@ -20,9 +20,9 @@ from verification.judging.refinement import refinement
 
 CASES: dict[str, Callable[[], Case]] = {
     "hertz_point": lambda: hertz_point(cells=refinement(32, 128)),
-    "fretting_loop": lambda: fretting_loop_on((96,), quarter=2),
-    "near_sliding": lambda: near_sliding_on(64),
-    "load_paths": lambda: load_paths_on(32),
+    "fretting_loop": lambda: fretting_loop(cells=(96,), quarter=2),
+    "near_sliding": lambda: near_sliding(cells=64),
+    "load_paths": lambda: load_paths(cells=32),
 }
 
 

@@ -9,11 +9,12 @@ import fem_reference
 from contact_scene import read_scene_file
 from semi_analytical import plan
 from verification.cases.catalogue import CASES, choose
-from verification.cases.paper_fretting_loop import paper_fretting_loop
+from verification.cases.fretting import paper_fretting_loop
 from verification.judging.case import Case, Derived, Level
 from verification.judging.refinement import refinement
 from verification.judging.run import SectionRun
 from verification.problems import paper_scene as paper
+from verification.problems.reference import ReferenceKind
 
 SCENES = Path(__file__).resolve().parents[1] / "scenes"
 QUICK = {case.name: case for case in choose(Level.QUICK)}
@@ -47,6 +48,22 @@ def test_labels_and_verdicts_of_a_case_are_unambiguous(case: Case) -> None:
         if isinstance(quantity.tolerance, Derived):
             assert set(quantity.tolerance.levels) <= set(labels)
             assert quantity.run == quantity.tolerance.levels[-1]
+
+
+@pytest.mark.parametrize("level", Level)
+def test_every_case_states_its_equations_its_orders_and_the_errors_of_its_references(
+    level: Level,
+) -> None:
+    """An order is judged, or a reason is given; a reference that somebody computed has an error."""
+    computed = (ReferenceKind.CLOSED_FORM, ReferenceKind.SEMI_CLOSED, ReferenceKind.EXTERNAL_CODE)
+    for case in choose(level):
+        assert case.equations, case.name
+        assert bool(case.orders) != bool(case.no_order), case.name
+        known = [(q.name, q.reference.kind, q.reference.uncertainty)
+                 for q in (*case.quantities, *case.checks)]  # fmt: skip
+        known += [(c.name, c.kind, c.uncertainty) for c in case.comparisons]
+        for name, kind, uncertainty in known:
+            assert kind not in computed or uncertainty > 0, (case.name, name)
 
 
 @pytest.mark.parametrize("case", QUICK.values(), ids=QUICK)

@@ -12,8 +12,8 @@ import jsonschema
 import pytest
 from report_examples import case, report_of, run_record, verdict
 
-from verification.cases.cattaneo_mindlin import cattaneo_mindlin_on
 from verification.cases.hertz import hertz_point
+from verification.cases.partial_slip import cattaneo_mindlin
 from verification.exhibits.numbers import plain, value_text
 from verification.judging.change import Change, ChangeKind
 from verification.judging.judgement import judge
@@ -49,7 +49,7 @@ def made_by(*outcomes: CaseOutcome) -> Report:
 @pytest.fixture(scope="module")
 def report() -> Report:
     hertz = judge(hertz_point(cells=(16, 20, 24, 32)))
-    return made_by(hertz, judge(cattaneo_mindlin_on((24, 28, 32))))
+    return made_by(hertz, judge(cattaneo_mindlin(cells=(24, 28, 32))))
 
 
 RENDERED = {PAGE: render_page, SHEETS: render_sheets}
@@ -160,7 +160,7 @@ def test_verdicts_are_told_by_word_and_sign(page: str) -> None:
 
 def test_equal_numbers_give_equal_bytes(report: Report, pages: dict[str, str]) -> None:
     again = made_by(
-        judge(hertz_point(cells=(16, 20, 24, 32))), judge(cattaneo_mindlin_on((24, 28, 32)))
+        judge(hertz_point(cells=(16, 20, 24, 32))), judge(cattaneo_mindlin(cells=(24, 28, 32)))
     )
     same = again.model_copy(update={"provenance": report.provenance})
     assert dump_report(same) == dump_report(report)

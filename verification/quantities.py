@@ -9,10 +9,8 @@ from numpy.typing import NDArray
 
 from contact_scene.increment import SCALARS, State, components, numbers
 from contact_scene.reported import Kind
-from contact_scene.residuals import worst
 
 if TYPE_CHECKING:
-    import semi_analytical
     from contact_results.surface import Result
     from semi_analytical import Increment
 
@@ -91,25 +89,3 @@ def slip_traction_angle(increment: Increment, friction_coefficient: float) -> fl
         return 0.0
     along_x, along_y = np.abs(shear[:, slipping])
     return float(np.degrees(np.max(np.arctan2(along_y, along_x))))
-
-
-def largest_difference(one: semi_analytical.Result, other: semi_analytical.Result) -> float:
-    """At the ends of all steps: Σ|Δp|/Σp, Σ|Δq|/Σp, and approach and shift over the approach;
-    NaN wins."""
-    ends = zip(one.steps, other.steps, strict=True)
-    return worst(*(_difference(a, b) for a, b in ends))
-
-
-def _difference(one: Increment, other: Increment) -> float:
-    total = np.sum(other.pressure)
-    nothing = np.zeros((2, *other.pressure.shape))
-    shears = [nothing if end.shear is None else end.shear for end in (one, other)]
-    shifts = [
-        np.zeros(2) if e.tangential_shift is None else e.tangential_shift for e in (one, other)
-    ]
-    return worst(
-        float(np.sum(np.abs(one.pressure - other.pressure)) / total),
-        float(np.sum(np.abs(shears[0] - shears[1])) / total),
-        abs(one.approach / other.approach - 1),
-        float(np.max(np.abs(shifts[0] - shifts[1])) / other.approach),
-    )

@@ -63,7 +63,6 @@ CASES = (
     "fem_far_field",
     "fem_harmonics",
     "cross_check",
-    "cross_check_tangential",
     "external_codes",
     "fem_penalty_hertz",
     "fem_penalty_indentation",
@@ -83,6 +82,27 @@ MODULES = {
     "indenters": (
         *("cone_contact", "flat_punch", "tilted_punch", "eccentric_ball", "fem_classical"),
     ),
+    "partial_slip": ("cattaneo_mindlin", "sheared_cone", "near_sliding", "fem_harmonics"),
+    "fretting": (
+        *("fretting_loop", "paper_fretting_loop", "fem_partial_slip", "fem_penalty_slip"),
+        "radial_tangential",
+    ),
+    "torsion": ("torsion", "torsion_coated", "fem_torsion", "radial_torsion", "radial_turning"),
+    "coatings": (
+        *("coated_paraboloid", "coated_unlike_ratios", "layered_identities", "thin_layer"),
+        *("film_stiffness", "fem_coated", "radial_pressing"),
+    ),
+    "frictional_pressing": (
+        *("frictional_indentation", "indentation_refinement", "sheared_increments"),
+        *("goodman_indentation", "no_slip_indentation", "spence_example", "fem_indentation"),
+        *("fem_increments", "fem_penalty_indentation", "radial_indentation"),
+    ),
+    "histories": (
+        *("load_paths", "coupled_history", "same_surface", "forced_effects", "exchanged_bodies"),
+        *("led_histories", "fem_far_field"),
+    ),
+    "responses": ("layered_reference", "frf_laws", "sampling_route"),
+    "stress": ("subsurface_stress", "edge_stress", "radial_stress"),
 }
 MODULE_OF = {name: module for module, names in MODULES.items() for name in names}
 

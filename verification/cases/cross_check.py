@@ -1,151 +1,744 @@
-"""Both solvers on some contacts of the study cross-check, pressed with and without friction."""
+"""Three solvers on the same coated contacts, pressed with and without friction, and pushed.
+
+Solvers are not compared near the axis, near the edge, and at kinks of the shear. Cells that stick
+keep the differences of shear that they had when they began to stick. An edge of stick that moves
+outward steadily leaves no more than the ripple of its increments. An edge that comes back and
+turns outward again, or that lay still when the load turned, leaves a kink until slip passes over
+it. Cells and elements round a kink, each in its way.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
+from itertools import product
 from typing import Any
 
-from verification.cases.both_solvers.charts import profile_chart
-from verification.cases.both_solvers.contacts import CONTACTS, CheckedContact
-from verification.cases.both_solvers.differences import COMPARED, Found, differences
-from verification.cases.both_solvers.left_out import radii, radii_of_meshes
-from verification.cases.both_solvers.sides import CELLS, ELEMENTS, Sides
-from verification.cases.both_solvers.stress import stress_difference, stress_of_section
-from verification.cases.both_solvers.tables import reference_table
-from verification.exhibits.chart import Chart
-from verification.exhibits.table import Table
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+from scipy.ndimage import map_coordinates
+
+import fem_reference
+import radial
+from contact_scene import FiniteElementDiscretisation, Scene
+from fem_reference.stress import SurfaceTractions
+from fem_reference.stress import subsurface as section_field
+from semi_analytical.frf.depth import Level as Depth
+from semi_analytical.grid import SurfaceGrid
+from semi_analytical.stress import subsurface
+from verification.cases.points_run import PointsRun
+from verification.closed_forms.coated_indentation import LayeredIndentation
+from verification.exhibits.chart import Chart, Look, Panel, curve
+from verification.exhibits.numbers import plain
+from verification.exhibits.table import APART_EVERYWHERE, NONE, Table
 from verification.judging.case import Case, Comparison, Finding, Level
-from verification.problems.reference import ReferenceKind
-
-QUICK = (
-    CheckedContact(2.0, 1.0, 0.1),
-    CheckedContact(10.0, 0.25, 0.0),
-    CheckedContact(0.25, 2.0, 0.1),
+from verification.judging.ladder import cells_label
+from verification.judging.run import (
+    OVER_ANGLES,
+    SOLVER_TOLERANCE,
+    AnyRun,
+    RadiiRun,
+    Run,
+    SectionRun,
 )
-MORE = (*QUICK, CheckedContact(4.0, 1.0, 0.3))
-CHOSEN = {Level.QUICK: QUICK, Level.STANDARD: MORE, Level.FULL: MORE}
-SIZES = {Level.QUICK: (96, 64), Level.STANDARD: (192, 64), Level.FULL: (256, 96)}
+from verification.observed.radial_profile import outward
+from verification.observed.ring_errors import judged_within
+from verification.observed.ring_tractions import tractions_at
+from verification.problems import paper_scene as paper
+from verification.problems.layered_scene import coated, exact_contact, film, pressed, rigid_ball
+from verification.problems.paper_scene import FRICTION, HERTZ, pressing
+from verification.problems.reference import ReferenceKind
+from verification.quantities import shear_of, shift_along_x
 
-STRESS = 5e-3
+Field = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+Results = Mapping[str, Any]
+
+MARGIN = 1.15  # half a window in contact radii without friction
+JUDGED_WITHIN = 0.9  # contact radii; nearer the edge everything is steep
+# In cells or elements, whichever is larger.
+AXIS = 2.0  # nearer, the outward shear turns round within a cell
+KINK = 2.0
+FRONT = 1.5  # on a line through the contact, where fronts are known to half a place
+EVEN = 1e-9
+# Contacts grow uniformly in radius. While they are a few elements wide the shear is locked as
+# coarsely as these are: an error that goes with the number of elements to the axis, is the same on
+# every mesh, and at a given radius falls.
+FEW = 8  # elements of the coarser mesh
+DIRECTIONS = 16
+# By µ; the same for all solvers, uniform in contact radius. The more of the contact sticks, the
+# longer the shear remembers the edge of every increment: that ripple falls with the increments, and
+# finer cells or elements only show it more sharply.
+INCREMENTS = {0.0: 1, 0.1: 20, 0.3: 80}
+OWN, OTHER = ReferenceKind.OWN_REFINEMENT, ReferenceKind.OTHER_SOLVER
 ASKED = "asked of two solvers that share nothing but the scene"
-OWN = "what is asked of the difference means something only if each side's own error is below it"
 SOURCE = "the other solver, on the same increments"
-HALF = "the same solver on half as many cells or elements"
+HAND = "set by hand: twice what both leave on the coarsest meshes here"
+# What pressed contacts are compared in: allowed, and in words.
+COMPARED = {
+    "pressure": (5e-3, "pressure, r < 0.9 a, over p₀"),
+    "shear": (2e-2, "shear, r < 0.9 a and away from its kinks, over µp₀"),
+    "approach": (1e-3, "approach, relative"),
+}
 
 
-def cross_check(level: Level = Level.QUICK) -> Case:
-    """The case, on more contacts and finer discretisations at higher levels."""
-    return cross_check_on(tuple(Sides(contact, *SIZES[level]) for contact in CHOSEN[level]))
+def kept_edges(stick_radii: Sequence[float], resolution: float) -> tuple[float, ...]:
+    """Radii at which shear has a kink after these increments: where the edge of stick turned
+    outward and never came back, and last where it is now.
 
-
-def cross_check_on(sides: tuple[Sides, ...]) -> Case:
-    """The case on these contacts; the stress below is compared of the first."""
-    first = sides[0]
-    fine = first.on_cells[1].label, first.on_elements[1].label
-    return Case(
-        name="cross_check",
-        title="Both solvers on coated contacts",
-        problem=(
-            "A rigid ball pressed on coated half-spaces by cells with Fourier transforms and by "
-            "axisymmetric finite elements, with the same increments. Each solver is first held "
-            "against itself on half as many cells or elements, then against the other. The study "
-            f"cross-check has all {len(CONTACTS)} contacts."
-        ),
-        runs=tuple(run for one in sides for run in (*one.on_cells, *one.on_elements)),
-        quantities=(),
-        comparisons=(
-            *(comparison for one in sides for comparison in _comparisons(one)),
-            Comparison(
-                "stress_difference",
-                "largest difference of a component of the stress over p₀: on the axis from 0.1 "
-                "to 3 contact radii, above the interface and below it", fine,
-                partial(stress_difference, first.contact), STRESS,
-                "set by hand: five times what the recovery of the elements leaves of Huber's "
-                "stress on as fine a mesh", SOURCE, ReferenceKind.OTHER_SOLVER,
-            ),
-        ),
-        findings=tuple(
-            Finding(
-                f"{name}_{kind}", f"{meaning}", "", run.label,
-                partial(_finding, name), "compare the other solver's",
-            )
-            for one in sides if one.contact.friction
-            for name, meaning in (
-                ("stick_radius", "stick radius over contact radius"),
-                ("dissipated_energy", "energy lost to friction over W δ"),
-            )
-            for kind, run in ((CELLS, one.on_cells[1]), (ELEMENTS, one.on_elements[1]))
-        ),
-        charts=partial(_charts, sides),
-        tables=partial(_tables, sides),
-        limits=(
-            "Both take the same increments: what finite increments cost is not seen here.",
-            "The shear is left out at the edge of stick and where that turned outward after it had "
-            "come back, and all is at the axis: two cells or two elements to each side.",
-        ),
-    )  # fmt: skip
-
-
-def _comparisons(one: Sides) -> tuple[Comparison, ...]:
-    """Own errors first, then the difference."""
-    cells, elements = one.on_cells, one.on_elements
-    own, other = ReferenceKind.OWN_REFINEMENT, ReferenceKind.OTHER_SOLVER
-    pairs = (
-        ("own_error_of_cells", "change from half the cells", cells, OWN, HALF, own),
-        ("own_error_of_elements", "change from half the elements", elements, OWN, HALF, own),
-        ("difference", "between the solvers", (cells[1], elements[1]), ASKED, SOURCE, other),
+    stick_radii  after every increment
+    resolution   coming back by less is none
+    """
+    c = np.asarray(stick_radii)
+    least_later = np.minimum.accumulate(c[::-1])[::-1][1:]
+    passed_for_good = np.flatnonzero(c[:-1] < least_later)
+    since = [0, *(passed_for_good[:-1] + 1)]
+    turned = (
+        float(c[k])
+        for start, k in zip(since, passed_for_good, strict=False)
+        if np.max(c[start : k + 1]) - c[k] > resolution
     )
-    return tuple(
-        Comparison(
-            f"{compared.name}_{name}", f"{compared.meaning}: {which}",
-            (first.label, second.label), partial(_apart, one, compared.name), compared.required,
-            because, source, kind,
+    return (*turned, float(c[-1]))
+
+
+def kept_fronts(x: Field, stuck: Mask, turns: Sequence[int]) -> list[float]:
+    """Places on a line at which shear has a kink after these increments: where stick began or ended
+    when the load turned, if both sides have stuck ever since.
+
+    x      places of the solution on the line [length]
+    stuck  (increments, places)
+    turns  increments after which the load turned; the last is not later than the last of `stuck`,
+           where fronts are as they are now
+    """
+    middles, fronts = 0.5 * (x[1:] + x[:-1]), []
+    for turn in turns:
+        kept = np.all(stuck[turn + 1 :], axis=0)
+        between = (stuck[turn, 1:] != stuck[turn, :-1]) & kept[1:] & kept[:-1]
+        fronts.extend(middles[between].tolist())
+    return fronts
+
+
+@dataclass(frozen=True)
+class Pressed:
+    """The paper's ball, rigid, pressed on a coated half-space, by all solvers, coarse and fine.
+
+    modulus_ratio    E1 / E2, coating over substrate
+    thickness        over the Hertz radius without a coating
+    friction         µ
+    cells, elements  of the finer run, even: along each side of the window, and over the contact
+                     radius
+    refined          cells and elements are also compared with half as many of them
+    """
+
+    modulus_ratio: float
+    thickness: float
+    friction: float
+    cells: int
+    elements: int
+    refined: bool = True
+
+    @property
+    def name(self) -> str:
+        """For people."""
+        return f"E1/E2 = {self.modulus_ratio:g}, h = {self.thickness:g} a_H, µ = {self.friction:g}"
+
+    @property
+    def scene(self) -> Scene:
+        """The scene that all solvers solve."""
+        return pressed(
+            f"Rigid ball on a coated half-space, {self.name}",
+            rigid_ball(),
+            coated(film(self.modulus_ratio, self.thickness)),
+            pressing(INCREMENTS[self.friction]),
+            friction=self.friction,
         )
-        for compared in COMPARED.values()
-        if compared.name != "shear" or one.contact.friction
-        for name, which, (first, second), because, source, kind in pairs
-    )  # fmt: skip
+
+    @property
+    def frictionless(self) -> LayeredIndentation:
+        """Semi-closed solution without friction, whose radius and peak pressure are the scales."""
+        return exact_contact(coated(film(self.modulus_ratio, self.thickness)))
+
+    @property
+    def on_cells(self) -> tuple[Run, Run]:
+        """Coarse and fine."""
+        half = MARGIN * self.frictionless.contact_radius
+        coarse, fine = (
+            Run(f"{self.name}, {n} x {n} cells", self.scene, paper.square_grid(n, half))
+            for n in (self.cells // 2, self.cells)
+        )
+        return coarse, fine
+
+    @property
+    def on_elements(self) -> tuple[SectionRun, SectionRun]:
+        """Coarse and fine; elements are counted over the contact radius without friction, so that
+        the finer mesh keeps the rings of the coarser."""
+        coarse, fine = (
+            SectionRun(
+                f"{self.name}, {n} elements",
+                self.scene,
+                FiniteElementDiscretisation(
+                    elements_per_radius=n,
+                    contact_radius=self.frictionless.contact_radius,
+                    tolerance=SOLVER_TOLERANCE,
+                ),
+            )
+            for n in (self.elements // 2, self.elements)
+        )
+        return coarse, fine
+
+    @property
+    def on_radii(self) -> RadiiRun:
+        """By the radial solver."""
+        return RadiiRun(f"{self.name}, on radii", self.scene)
+
+    @property
+    def runs(self) -> tuple[AnyRun, ...]:
+        """Of all solvers."""
+        fine = self.on_cells[1], self.on_elements[1]
+        own = (*self.on_cells, *self.on_elements) if self.refined else fine
+        return (*own, self.on_radii)
+
+    @property
+    def resolution(self) -> float:
+        """Of the coarser of the fine runs, over the contact radius."""
+        return max(2 * MARGIN / self.cells, 1 / self.elements)
+
+    def radii(self, *results: Any) -> Field:
+        """Rings of the coarser mesh at which results are compared, over the contact radius: off the
+        axis, and within 0.9 a; of two meshes, where the ripple of the coarser at the edge does not
+        reach, and beyond the first rings."""
+        n, within = self.elements // 2, JUDGED_WITHIN
+        meshes = all(isinstance(result, fem_reference.Result) for result in results)
+        if meshes:
+            # Without friction the edge is on a ring, from where its ripple reaches one further.
+            within = judged_within(n) - 1 / n
+        rings = np.arange(AXIS, n + 1) / n
+        kept = (rings >= AXIS * 2 * MARGIN / self.cells) & (rings <= within * (1 + EVEN))
+        return np.asarray(rings[kept & (rings >= FEW / n)] if meshes else rings[kept])
+
+    def kinks(self, result: Any) -> tuple[float, ...]:
+        """Radii of kinks of the shear of a result, over the contact radius."""
+        a = self.frictionless.contact_radius
+        radii = [i.stick_radius / a for i in result.increments if i.stick_radius is not None]
+        return kept_edges(radii, self.resolution) if radii else ()
+
+    def tractions(self, result: Any, radii: Field) -> tuple[Field, Field]:
+        """Pressure over p₀ and outward shear over µp₀: values of the rings, linear between radii,
+        means over the directions by cubic splines between cells."""
+        end, unit = result.steps[-1], float(self.frictionless.pressure(0.0))
+        r, grid = radii * self.frictionless.contact_radius, getattr(result, "grid", None)
+        limit = (self.friction or 1.0) * unit
+        if grid is not None:
+            q = outward(shear_of(end), grid)
+            return _around(end.pressure, grid, r) / unit, _around(q, grid, r) / limit
+        shear = 0 * end.radii if end.shear_radial is None else end.shear_radial
+        if isinstance(result, radial.Result):
+            return np.interp(r, end.radii, end.pressure) / unit, np.interp(
+                r, end.radii, shear
+            ) / limit
+        found = np.rint(r / (end.radii[1] - end.radii[0])).astype(int)
+        if not np.allclose(end.radii[found], r, rtol=EVEN, atol=0.0):
+            raise ValueError("the rings of the result are not at the radii that are asked for")
+        return end.pressure[found] / unit, shear[found] / limit
+
+    def apart(self, name: str, one: Any, other: Any) -> float:
+        """Largest difference of two results in the pressure, in the shear away from its kinks, or
+        relative difference in the approach."""
+        if name == "approach":
+            return abs(float(one.steps[-1].approach / other.steps[-1].approach) - 1)
+        at = self.radii(one, other)
+        (p, q), (p_other, q_other) = (self.tractions(result, at) for result in (one, other))
+        if name == "pressure":
+            return float(np.max(np.abs(p - p_other)))
+        away = np.ones(len(at), dtype=bool)
+        for edge in self.kinks(other):
+            away &= np.abs(at - edge) > KINK * self.resolution
+        return float(np.max(np.abs(q - q_other), where=away, initial=0.0))
+
+    def comparisons(self) -> tuple[Comparison, ...]:
+        """Own errors of cells and elements first, then differences of every two solvers."""
+        cells, elements, rings = self.on_cells, self.on_elements, self.on_radii
+        own = (
+            "what is asked of the difference means something only if each side's own error is "
+            "below it"
+        )
+        half, other = "the same solver on half as many cells or elements", "between the solvers"
+        pairs: tuple[tuple[str, str, tuple[AnyRun, AnyRun]], ...] = (
+            ("own_error_of_cells", "change from half the cells", cells),
+            ("own_error_of_elements", "change from half the elements", elements),
+            ("difference", other, (cells[1], elements[1])),
+            ("difference_of_radial", other, (rings, cells[1])),
+            ("difference_of_radial", other, (rings, elements[1])),
+        )
+        return tuple(
+            Comparison(
+                f"{name}_{which}", f"{meaning}: {words}", (first.label, second.label),
+                partial(self.apart, name), allowed, because, source, kind,
+            )
+            for name, (allowed, meaning) in COMPARED.items()
+            if name != "shear" or self.friction
+            for which, words, (first, second) in (pairs if self.refined else pairs[2:])
+            for because, source, kind in [
+                (ASKED, SOURCE, OTHER) if words == other else (own, half, OWN)
+            ]
+        )  # fmt: skip
+
+    def findings(self) -> tuple[Finding, ...]:
+        """Stick radius and energy lost, by cells and elements."""
+        numbers: dict[str, tuple[str, Callable[[Any], float]]] = {
+            "stick_radius": ("stick radius over contact radius", _stick_ratio),
+            "dissipated_energy": ("energy lost to friction over W δ", _energy_ratio),
+        }
+        return tuple(
+            Finding(
+                f"{name}_{kind}", meaning, "", run.label, read, "compare the other solver's"
+            )
+            for name, (meaning, read) in numbers.items()
+            for kind, run in (("cells", self.on_cells[1]), ("elements", self.on_elements[1]))
+            if self.friction
+        )  # fmt: skip
+
+    def stress_apart(self, one: Any, other: Any) -> float:
+        """Largest difference of a component of the stress, over p₀: on the axis from 0.1 to 3
+        contact radii, and on both sides of the interface up to 1.5 of them. Elements take the
+        tractions of their result on a mesh of its own, cells a window half as wide again."""
+        a, body = self.frictionless.contact_radius, self.scene.body
+        depth, end, grid = body.layers[0].thickness, one.steps[-1], one.grid
+        mesh = FiniteElementDiscretisation(elements_per_radius=32)
+        section = section_field(body, SurfaceTractions.of(other.steps[-1]), mesh)
+        pad = grid.cells[0] // 4
+        counts = (grid.cells[0] + 2 * pad, grid.cells[1] + 2 * pad)
+        wide = SurfaceGrid(counts, (counts[0] * grid.spacing[0], counts[1] * grid.spacing[1]))
+        pressure, shear = (
+            np.pad(end.pressure, pad),
+            np.pad(shear_of(end), [(0, 0), (pad, pad), (pad, pad)]),
+        )
+        components, apart = [0, 1, 2, 4], []  # rr, θθ, zz, rz
+        z = section.points[1, section.axis]
+        on_axis = section.axis[(z >= 0.1 * a) & (z <= 3.0 * a)]
+        levels = tuple(
+            Depth(float(z), int(m))
+            for z, m in zip(section.points[1, on_axis], section.material[on_axis], strict=True)
+        )
+        found = subsurface(body, wide, pressure, shear, levels).below()[1].T[components]
+        apart.append(np.max(np.abs(found - section.stress()[components][:, on_axis])))
+        for side in (0, 1):
+            chosen = section.side(depth, side)
+            chosen = chosen[section.points[0, chosen] <= 1.5 * a]
+            field = subsurface(body, wide, pressure, shear, (Depth(depth, side),)).along_x()
+            spline = CubicSpline(field.x, field.stress[0, :, :, 0], axis=1)
+            found = spline(section.points[0, chosen])[components]
+            apart.append(np.max(np.abs(found - section.stress()[components][:, chosen])))
+        return float(np.max(apart) / float(self.frictionless.pressure(0.0)))
+
+    def panels(self, results: Results) -> tuple[Panel, Panel]:
+        """Tractions over the radius, elements in grey and cells on top of them."""
+        cells, elements = results[self.on_cells[1].label], results[self.on_elements[1].label]
+        at = self.radii(cells, elements)
+        pressure, shear = (
+            Panel(
+                x_label="r / a",
+                y_label=label,
+                curves=(
+                    curve("elements", at, grey, Look.REFERENCE),
+                    curve("cells", at, colour),
+                ),
+                title=title,
+                height=1.4,
+            )
+            for label, title, grey, colour in zip(
+                ("p / p₀", "q / µp₀"), (self.name, ""),
+                self.tractions(elements, at), self.tractions(cells, at), strict=True,
+            )
+        )  # fmt: skip
+        return pressure, shear
 
 
-def _apart(sides: Sides, name: str, one: Any, other: Any) -> float:
-    """At the rings of the coarser mesh."""
-    meshes = not any(hasattr(result, "grid") for result in (one, other))
-    at = (radii_of_meshes if meshes else radii)(sides.elements // 2, sides.cells)
-    return sides.apart(one, other, at, sides.edges(other))[name]
+def _around(field: Field, grid: SurfaceGrid, r: Field) -> Field:
+    """Means of a field over the directions at distances r from the axis."""
+    angle = (np.arange(DIRECTIONS) + 0.5) * 2 * np.pi / DIRECTIONS
+    x, y = np.outer(r, np.cos(angle)), np.outer(r, np.sin(angle))
+    at = [(x - grid.x[0]) / grid.spacing[0], (y - grid.y[0]) / grid.spacing[1]]
+    return np.asarray(map_coordinates(field, at, order=3).mean(axis=1))
 
 
-def _finding(name: str, result: Any) -> float:
+def _stick_ratio(result: Any) -> float:
     end = result.steps[-1]
-    if name == "stick_radius":
-        return float(end.stick_radius / end.contact_radius)
+    return float(end.stick_radius / end.contact_radius)
+
+
+def _energy_ratio(result: Any) -> float:
+    end = result.steps[-1]
     return float(end.dissipated_energy / (end.normal_force * end.approach))
 
 
-def _found(sides: tuple[Sides, ...], results: Mapping[str, Any]) -> Found:
-    """As the study keeps them."""
-    return {
-        one.contact: one.record(
-            {
-                CELLS: [results[run.label] for run in one.on_cells],
-                ELEMENTS: [results[run.label] for run in one.on_elements],
-            },
-            one.elements // 2,
+PARTS = (0.0, 0.3, 0.6, 0.9)  # of µW, one loading step each
+EDGE = 0.82  # contact radius over a_H, about
+
+
+@dataclass(frozen=True)
+class Pushed:
+    """The paper's figure 4: the ball, rigid, on a coating as thick as the Hertz radius, pressed in
+    20 increments and then pushed in 6 per step.
+
+    modulus_ratio  E1 / E2, coating over substrate
+    cells          per side, an odd number so that a row lies on y = 0
+    elements       per contact radius
+    harmonics      of the angle, of the elements
+    """
+
+    modulus_ratio: float
+    cells: int
+    elements: int
+    harmonics: int
+
+    @property
+    def scene(self) -> Scene:
+        """The scene that all solvers solve."""
+        return pressed(
+            "Coated body under a rigid ball, sheared, "
+            f"E1/E2 = {self.modulus_ratio:g} (paper, figure 4)",
+            rigid_ball(),
+            coated(film(self.modulus_ratio, 1.0)),
+            pressing(20),
+            *(paper.tangential_step(part, 6) for part in PARTS[1:]),
+            friction=FRICTION,
         )
-        for one in sides
-    }
+
+    def _label(self, by: str) -> str:
+        return f"E1/E2 = {self.modulus_ratio:g}, pushed, {by}"
+
+    @property
+    def on_elements(self) -> PointsRun:
+        """By finite elements with harmonics of the angle."""
+        mesh = FiniteElementDiscretisation(
+            elements_per_radius=self.elements,
+            contact_radius=EDGE * HERTZ.contact_radius,
+            harmonics=self.harmonics,
+        )
+        by = f"{self.elements} elements per radius, harmonics 0 … {self.harmonics}"
+        return PointsRun(self._label(by), self.scene, mesh)
+
+    @property
+    def on_cells(self) -> Run:
+        """By cells."""
+        grid = paper.square_grid(self.cells, 1.16 * EDGE * HERTZ.contact_radius)
+        return Run(self._label(cells_label(self.cells)), self.scene, grid)
+
+    @property
+    def on_radii(self) -> RadiiRun:
+        """By the radial solver on rings and angles."""
+        return RadiiRun(self._label("on radii"), self.scene, laws=OVER_ANGLES)
+
+    @property
+    def fewer(self) -> PointsRun:
+        """Half as many harmonics."""
+        return replace(self, harmonics=self.harmonics // 2).on_elements
+
+    @property
+    def runs(self) -> tuple[AnyRun, ...]:
+        """Of all solvers."""
+        return (self.on_elements, self.fewer, self.on_cells, self.on_radii)
+
+    def comparisons(self) -> tuple[Comparison, ...]:
+        """At the end of every step; the shear on the line of the load by cells and elements."""
+        direct = self.on_elements.label, self.on_cells.label
+        rings = [(self.on_radii.label, other) for other in direct]
+        on_line: dict[str, tuple[str, Callable[[int, Any, Any], float], float, str]] = {
+            "shear": (
+                "largest difference of q_x on y = 0, over µp_H, away from axis, edge and borders "
+                "of stick,",
+                lambda step, fem, sam: float(np.max(Line(fem, sam, step).shear_judged)),
+                5e-2, ASKED,
+            ),
+            "mean_shear": (
+                "mean difference of q_x on y = 0, over µp_H",
+                lambda step, fem, sam: float(np.mean(Line(fem, sam, step).shear_judged)),
+                5e-3, HAND,
+            ),
+            "pressure": (
+                "largest difference of p on y = 0, over p_H",
+                lambda step, fem, sam: Line(fem, sam, step).pressure_apart, 1e-2, ASKED,
+            ),
+        }  # fmt: skip
+        of_motion: dict[str, tuple[str, Callable[[int, Any, Any], float], float, str]] = {
+            "stick_area": (
+                "difference of the stick areas over the contact area", _stick_apart, 3e-2, ASKED,
+            ),
+            "approach": ("relative difference of the approach", _approach_apart, 2e-4, HAND),
+            "shift": ("relative difference of the shift", shift_apart, 1e-3, HAND),
+        }  # fmt: skip
+        by_radial = of_motion | {"shift": (*of_motion["shift"][:2], 1.5e-3, HAND)}
+        return (
+            *(
+                Comparison(
+                    f"{of}{name}_at_{part:g}", f"{meaning} at {part:g} µW", runs,
+                    partial(difference, step), allowed, because, SOURCE, OTHER,
+                )
+                for of, pairs, measures in (
+                    ("", [direct], on_line | of_motion), ("radial_", rings, by_radial),
+                )
+                for runs in pairs
+                for step, part in enumerate(PARTS, 1)
+                for name, (meaning, difference, allowed, because) in measures.items()
+                if part or name != "shift"
+            ),
+            Comparison(
+                "harmonics", "shift at 0.9 µW by half as many harmonics, relative",
+                (self.fewer.label, self.on_elements.label), partial(shift_apart, len(PARTS)), 6e-3,
+                "set by hand: harmonics 0 … 4 leave 4e-3, more leave less", "the same solver", OWN,
+            ),
+        )  # fmt: skip
+
+    def findings(self) -> tuple[Finding, ...]:
+        """Stick area over contact area, by every solver."""
+        return tuple(
+            Finding(
+                f"stick_part_at_{part:g}", f"stick area over contact area at {part:g} µW", "",
+                run.label, partial(_stick_part, step), "compared above",
+            )
+            for step, part in enumerate(PARTS, 1)
+            for run in (self.on_elements, self.on_cells, self.on_radii)
+        )  # fmt: skip
+
+    def lines(self, results: Results) -> dict[float, Line]:
+        """By part of µW."""
+        fem, sam = results[self.on_elements.label], results[self.on_cells.label]
+        return {part: Line(fem, sam, step) for step, part in enumerate(PARTS, 1)}
 
 
-def _tables(sides: tuple[Sides, ...], results: Mapping[str, Any]) -> tuple[Table, ...]:
-    found = _found(sides, results)
-    return (reference_table({contact: differences(record) for contact, record in found.items()}),)
+def _end(step: int, result: Any) -> Any:
+    return result.steps[step - 1]
 
 
-def _charts(sides: tuple[Sides, ...], results: Mapping[str, Any]) -> tuple[Chart, ...]:
-    """Tractions of every contact, and the stress below the first."""
-    first = sides[0]
-    fine = (results[run.label] for run in (first.on_cells[1], first.on_elements[1]))
-    return (
-        profile_chart(_found(sides, results)),
-        stress_of_section(first.contact, *fine),
+def _stick_part(step: int, result: Any) -> float:
+    end = _end(step, result)
+    return float((end.stick_radius or 0.0) ** 2 / end.contact_radius**2)
+
+
+def _stick_apart(step: int, one: Any, other: Any) -> float:
+    return abs(_stick_part(step, one) - _stick_part(step, other))
+
+
+def _approach_apart(step: int, one: Any, other: Any) -> float:
+    return float(abs(_end(step, one).approach / _end(step, other).approach - 1))
+
+
+def shift_apart(step: int, one: Any, other: Any) -> float:
+    """Relative difference of the shifts of two results at the end of a step."""
+    return float(abs(shift_along_x(_end(step, one)) / shift_along_x(_end(step, other)) - 1))
+
+
+@dataclass(frozen=True)
+class Line:
+    """Elements and cells at the centres of the cells on y = 0, at the end of a step."""
+
+    fem: Any
+    sam: Any
+    step: int
+
+    @property
+    def x(self) -> Field:
+        """Positions [length]."""
+        return np.asarray(self.sam.grid.x)
+
+    @property
+    def shears(self) -> tuple[Field, Field]:
+        """q_x / µp_H by elements and by cells."""
+        q, _ = tractions_at(_end(self.step, self.fem), self.x, 0 * self.x)
+        row, limit = self.sam.grid.cells[1] // 2, FRICTION * HERTZ.peak_pressure
+        return q[0] / limit, _end(self.step, self.sam).shear[0][:, row] / limit
+
+    @property
+    def shear_apart(self) -> Field:
+        """|Δq_x| / µp_H on all of the line."""
+        one, other = self.shears
+        return np.abs(one - other)
+
+    @property
+    def shear_judged(self) -> Field:
+        """The same where it is judged."""
+        return np.asarray(self.shear_apart[~np.any(list(self.left_out.values()), axis=0)])
+
+    @property
+    def pressure_apart(self) -> float:
+        """Largest |Δp| / p_H away from axis and edge."""
+        _, p = tractions_at(_end(self.step, self.fem), self.x, 0 * self.x)
+        found = _end(self.step, self.sam).pressure[:, self.sam.grid.cells[1] // 2]
+        axis, edge, _ = self.left_out.values()
+        return float(np.max(np.abs(p - found)[~(axis | edge)]) / HERTZ.peak_pressure)
+
+    @property
+    def left_out(self) -> dict[str, Mask]:
+        """Where shear is not judged, by the reason."""
+        width = float(max(self.fem.steps[0].radii[1], self.sam.grid.spacing[0]))
+        within = judged_within(self.fem.discretisation.elements_per_radius)
+        reach = within * _end(self.step, self.fem).contact_radius
+        fronts = np.array(self.fronts())
+        return {
+            "near the axis": np.abs(self.x) <= AXIS * width,
+            "near the edge of contact": np.abs(self.x) >= reach,
+            "where stick begins or ends, or did": np.any(
+                np.abs(self.x[:, None] - fronts) <= FRONT * width, axis=1
+            ),
+        }
+
+    def fronts(self) -> list[float]:
+        """Places where stick begins or ends in either solution, or did when the load turned and no
+        slip has passed since [length]."""
+        sam, fem = (
+            [one for one in result.increments if one.step <= self.step]
+            for result in (self.sam, self.fem)
+        )
+        turns = list({one.step: k for k, one in enumerate(sam)}.values())
+        row = self.sam.grid.cells[1] // 2
+        found = kept_fronts(self.x, np.stack([one.in_stick[:, row] for one in sam]), turns)
+        rays = np.stack([one.in_stick.reshape(len(one.radii), -1)[:, [0, -1]] for one in fem])
+        turns = list({one.step: k for k, one in enumerate(fem)}.values())
+        ahead, behind = (kept_fronts(fem[-1].radii, rays[..., k], turns) for k in (0, 1))
+        return [*found, *ahead, *(-front for front in behind)]
+
+
+def everywhere(lines: Mapping[float, Line]) -> Table:
+    """Differences of the shear also where they are not compared, by load."""
+    rows, left = [], []
+    for part, line in lines.items():
+        apart, out = line.shear_apart, line.left_out
+        somewhere = np.any(list(out.values()), axis=0)
+        at = int(np.argmax(np.where(somewhere, apart, -1.0)))
+        why = next(reason for reason, mask in out.items() if mask[at])
+        judged = np.max(apart, where=~somewhere, initial=0.0)
+        load, place = f"{part:g} µW", plain(line.x[at] / HERTZ.contact_radius, 2)
+        rows.append((load, plain(judged, 2), plain(apart[at], 2), place, why))
+        left.append(apart[at])
+    load, _, most, place, why = rows[int(np.argmax(left))]
+    return Table(
+        name=APART_EVERYWHERE,
+        title="Both solvers everywhere, also where they are not compared",
+        columns=(
+            "load", "largest difference of q_x on y = 0 over µp_H, compared", "left out",
+            "at x / a_H", "left out, since it is",
+        ),
+        rows=tuple(rows),
+        note=f"Left out of the comparison of q_x on y = 0 is what lies {', '.join(out)}. There "
+        f"both are apart by up to {most} µp_H: {why}, at x = {place} a_H, at {load}.",
+        units=NONE,
+    )  # fmt: skip
+
+
+def _chart(lines: Mapping[float, Line]) -> Chart:
+    """The shear of a pushed contact on the line of the load."""
+    above, below = [], []
+    for series, (part, line) in enumerate(lines.items()):
+        x, (elements, cells) = line.x / HERTZ.contact_radius, line.shears
+        above.append(curve("" if series else "cells", x, cells, Look.REFERENCE))
+        above.append(curve(f"{part:g} µW", x, elements, series=series))
+        below.append(curve("", x, elements - cells, series=series))
+    return Chart(
+        name="cross_check_tangential_shear",
+        title="Shear on y = 0 by both solvers",
+        caption="Shear along the load on the line y = 0 at four tangential forces, by finite "
+        "elements in colour over that on cells in grey, and their difference: it sits where stick "
+        "begins and at the edge.",
+        rows=(
+            (Panel(x_label="", y_label="q_x / µp_H", curves=tuple(above), height=2.6),),
+            (Panel(x_label="x / a_H", y_label="Δq_x / µp_H", curves=tuple(below)),),
+        ),
     )
+
+
+FEW_CONTACTS = ((2.0, 1.0, 0.1), (10.0, 0.25, 0.0), (0.25, 2.0, 0.1))
+MORE_CONTACTS = (*FEW_CONTACTS, (4.0, 1.0, 0.3))
+# A coating like its body is none, whatever its thickness.
+EVERY_CONTACT = tuple(
+    (ratio, thickness, friction)
+    for ratio, thickness, friction in product(
+        (0.25, 0.5, 1.0, 2.0, 4.0, 10.0), (0.25, 1.0, 2.0), INCREMENTS
+    )
+    if ratio != 1.0 or thickness == 1.0
+)
+
+
+def contacts(level: Level) -> tuple[tuple[Pressed, ...], tuple[Pushed, ...]]:
+    """The contacts that a level compares; the full one every combination of modulus ratio,
+    thickness and friction."""
+    if level is Level.QUICK:
+        return tuple(Pressed(*of, 96, 64) for of in FEW_CONTACTS), (Pushed(2.0, 65, 32, 8),)
+    fine, pushed = (192, 64), Pushed(2.0, 129, 64, 12)
+    if level is Level.STANDARD:
+        return tuple(Pressed(*of, *fine) for of in MORE_CONTACTS), (pushed,)
+    rest = (Pressed(*of, 128, 64, refined=False) for of in EVERY_CONTACT if of not in MORE_CONTACTS)
+    chosen = (Pressed(*of, 256, 96) for of in MORE_CONTACTS)
+    return (*chosen, *rest), (replace(pushed, cells=257, harmonics=16),)
+
+
+def cross_check(
+    level: Level = Level.QUICK,
+    given: tuple[tuple[Pressed, ...], tuple[Pushed, ...]] | None = None,
+) -> Case:
+    """Three solvers on the same contacts; the stress is compared below the first.
+
+    given  contacts, instead of those of the level
+    """
+    of_press, of_push = given or contacts(level)
+    first = of_press[0]
+    return Case(
+        name="cross_check",
+        title="Three solvers on coated contacts",
+        problem=(
+            "A rigid ball pressed on coated half-spaces by cells with Fourier transforms, by "
+            "axisymmetric finite elements and by the radial solver, with the same increments; and "
+            "on a coating twice as stiff as its base, pressed by 1 kN and then pushed to 0.3, 0.6 "
+            "and 0.9 of µW. Cells and elements are first held against themselves on half as many "
+            "cells or elements, then every two solvers against each other. Cells and the radial "
+            "solver share how layers answer one wavenumber; else the three share the scene alone."
+        ),
+        runs=(
+            *(run for one in of_press for run in one.runs),
+            *(run for one in of_push for run in one.runs),
+        ),
+        quantities=(),
+        comparisons=(
+            *(comparison for one in of_press for comparison in one.comparisons()),
+            Comparison(
+                "stress_difference",
+                "largest difference of a component of the stress over p₀: on the axis from 0.1 "
+                "to 3 contact radii, above the interface and below it",
+                (first.on_cells[1].label, first.on_elements[1].label), first.stress_apart, 5e-3,
+                "set by hand: five times what the recovery of the elements leaves of Huber's "
+                "stress on as fine a mesh", SOURCE, OTHER,
+            ),
+            *(comparison for one in of_push for comparison in one.comparisons()),
+        ),
+        findings=(
+            *(finding for one in of_press for finding in one.findings()),
+            *(finding for one in of_push for finding in one.findings()),
+        ),
+        charts=lambda results: (
+            Chart(
+                name="cross_check_profiles",
+                title="Tractions by both solvers",
+                caption="Pressure (left) and outward shear (right) over the radius: finite "
+                "elements in grey, cells on top of them, for the first contacts of the case.",
+                rows=tuple(one.panels(results) for one in of_press[:4]),
+            ),
+            *(_chart(one.lines(results)) for one in of_push),
+        ),
+        tables=lambda results: tuple(everywhere(one.lines(results)) for one in of_push),
+        limits=(
+            "All take the same increments: what finite increments cost is not seen here.",
+            "The shear is left out at the edge of stick and where that turned outward after it had "
+            "come back, and all is at the axis: two cells or two elements to each side.",
+            "On the line of the push both solvers round a cusp where stick begins or ends, each in "
+            "its way. The push makes all behind the disc of stick that pressing left stick at "
+            "once, so that its cusp is kept: it is left out, too, until slip passes over it.",
+        ),
+        equations=(
+            r"\mathbf{u} = \mathbf{C} * (\mathbf{q}, p),\quad p \ge 0,\ g \ge 0,\ p g = 0,\quad "
+            r"|\mathbf{q}| \le \mu p,\ \mu p \, \dot{\mathbf{s}} = -|\dot{\mathbf{s}}| \mathbf{q}",
+        ),
+        no_order="own errors are changes from half as many cells or elements; orders are judged "
+        "where the answer is known",
+    )  # fmt: skip

@@ -4,31 +4,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene import LoadStep, Scene
+from contact_scene import LoadStep
 from verification.external_codes.recorded import Recorded, recorded
-from verification.judging.case import Case, Level, Quantity, Required
-from verification.judging.ladder import cells_label
-from verification.judging.run import Run, SectionRun, per_radius
-from verification.observed.end_state import normal_force
-from verification.observed.radial_profile import along_radii, outward
-from verification.observed.ring_errors import at_radii
+from verification.judging.case import Case, Level
+from verification.judging.declared_case import Judged, Within, case, judged
+from verification.judging.ladder import on_cells, on_elements
+from verification.judging.observable import error_norm
+from verification.judging.observables import NORMAL_FORCE
+from verification.judging.pressing_errors import pressure_at, shear_at
 from verification.problems import paper_scene as paper
 from verification.problems.layered_scene import coated, film, pressed, rigid_ball
 from verification.problems.paper_scene import HERTZ
-from verification.problems.reference import Reference, ReferenceKind
-from verification.quantities import shear_of
+from verification.problems.problem import Problem
+from verification.problems.reference import ReferenceKind
 
-Field = NDArray[np.float64]
-Reader = Callable[[Any, str, Field], Field]
-
-SOURCE = "references/external_code_calculix.json: CalculiX 2.20"
 FIRST = 0.1  # Hertz radii; nearer to the axis are its bore and, with friction, a cusp
 EDGE = 3 / 16  # Hertz radii, three elements of the coarser mesh; its edge ripples that far
 FORCE, TRACTION = 2e-4, 1e-3
@@ -36,142 +31,92 @@ OURS = (
     f"twice the recorded uncertainty and ours in squares: {FORCE:g} of the force, {TRACTION:g} of "
     "p_H and µp_H, as the semi-closed references leave them"
 )
-
-
 NAMES = {
     "coated_frictionless": "coated, no friction",
     "coated_frictional": "coated, µ = 0.1",
 }
+Reader = Callable[[Any, NDArray[np.float64]], NDArray[np.float64]]
 
 
 @dataclass(frozen=True)
-class Sizes:
-    """Cells per side of three Hertz radii, and elements per radius."""
+class Load:
+    """The end of the recorded step [force]."""
 
-    cells: int
-    elements: int
-
-
-SIZES = {Level.QUICK: Sizes(128, 32), Level.STANDARD: Sizes(256, 64), Level.FULL: Sizes(512, 64)}
+    load: float
 
 
-def on_rings(result: Any, traction: str, r: Field) -> Field:
-    """Pressure or outward shear (radii, 1) of finite elements."""
-    end = result.steps[-1]
-    values = end.pressure if traction == "pressure" else end.shear_radial
-    return at_radii(end, values, r)[:, None]
-
-
-def on_cells(result: Any, traction: str, r: Field) -> Field:
-    """Pressure or outward shear (radii, directions) of the semi-analytical solver."""
-    end = result.steps[-1]
-    values = end.pressure if traction == "pressure" else outward(shear_of(end), result.grid)
-    return along_radii(values, result.grid, r)
-
-
-@dataclass(frozen=True, eq=False)
-class Beside:
-    """A recorded scene, solved by both of our solvers."""
-
-    name: str
-    of: Recorded
-    sizes: Sizes
-
-    @property
-    def friction(self) -> float:
-        """µ, 0 without friction."""
-        return float(self.of.record["friction"])
-
-    @cached_property
-    def scene(self) -> Scene:
-        """The paper's ball, moved as far over the Hertz approach, in as many increments."""
-        row, step = self.of.record, {}
-        if self.friction:
-            step["increments"] = row["increments"]
-        return pressed(
-            f"Rigid ball moved towards a body: {self.name}",
-            rigid_ball(),
-            coated(film(row["modulus_ratio"], row["thickness"])),
-            LoadStep(approach=row["approach"] * HERTZ.approach, **step),
-            friction=self.friction,
+def _parts(name: str, of: Recorded, cells: int, elements: int) -> tuple[Judged, ...]:
+    """The paper's ball, moved as far over the Hertz approach, in as many increments, by elements
+    and by cells: the force and the tractions."""
+    row, friction = of.record, float(of.record["friction"])
+    step = {"increments": row["increments"]} if friction else {}
+    scene = pressed(
+        f"Rigid ball moved towards a body: {name}",
+        rigid_ball(),
+        coated(film(row["modulus_ratio"], row["thickness"])),
+        LoadStep(approach=row["approach"] * HERTZ.approach, **step),
+        friction=friction,
+    )
+    value, uncertainty = of.normal_force
+    problem = Problem(
+        scene,
+        (Load(value * paper.NORMAL_FORCE),),
+        HERTZ.contact_radius,
+        "references/external_code_calculix.json: CalculiX 2.20",
+        ReferenceKind.EXTERNAL_CODE,
+        uncertainty / value,
+    )
+    force = replace(NORMAL_FORCE, meaning="force at this approach")
+    rows = [
+        (problem, Within(force, 2 * math.hypot(problem.uncertainty, FORCE), OURS)),
+        _traction(problem, of, "pressure", 1.0, "p_H", pressure_at),
+    ]
+    if friction:
+        rows.append(_traction(problem, of, "shear", friction, "µp_H", shear_at))
+    return tuple(
+        judged(replace(ladder, problem=answer), (within,))
+        for ladder in (
+            on_elements(problem, (elements,), of=name), on_cells(problem, (cells,), of=name)
         )
+        for answer, within in rows
+    )  # fmt: skip
 
-    @cached_property
-    def section(self) -> SectionRun:
-        """By finite elements."""
-        label = f"{self.name}, {self.sizes.elements} elements per radius"
-        return SectionRun(label, self.scene, per_radius(self.sizes.elements), problem=self.name)
 
-    @cached_property
-    def surface(self) -> Run:
-        """On cells."""
-        grid = paper.hertz_grid(self.sizes.cells)
-        label = f"{self.name}, {cells_label(self.sizes.cells)}"
-        return Run(label, self.scene, grid, problem=self.name)
+def _traction(
+    problem: Problem, of: Recorded, name: str, part: float, unit: str, read: Reader
+) -> tuple[Problem, Within]:
+    """Away from axis and edge; the problem is as uncertain as the traction is recorded.
 
-    def quantities(self) -> tuple[Quantity, ...]:
-        """The force and the tractions by both solvers."""
-        section, surface = self.section.label, self.surface.label
-        return (
-            self._force(section), *self._tractions(section, on_rings),
-            self._force(surface), *self._tractions(surface, on_cells),
-        )  # fmt: skip
+    part  of p_H that errors are relative to; unit names it
+    """
+    last = of.edge - EDGE
+    known = of.profile(name, FIRST, last)
+    uncertainty = known.uncertainty / part
 
-    def _force(self, run: str) -> Quantity:
-        value, uncertainty = self.of.normal_force
-        reference = Reference(
-            value * paper.NORMAL_FORCE, ReferenceKind.EXTERNAL_CODE, SOURCE,
-            uncertainty * paper.NORMAL_FORCE,
-        )  # fmt: skip
-        return Quantity(
-            "normal_force", "force at this approach", "N", run, normal_force, reference,
-            Required(2 * math.hypot(uncertainty / value, FORCE), OURS),
-        )  # fmt: skip
+    def largest_difference(result: Any, *_: Any) -> float:
+        found = read(result, known.radii * HERTZ.contact_radius) / HERTZ.peak_pressure
+        return float(np.max(np.abs(found - known.values[:, None]))) / part
 
-    def _tractions(self, run: str, read: Reader) -> tuple[Quantity, ...]:
-        pressure = self._traction(run, "pressure", 1.0, "p_H", read)
-        if not self.friction:
-            return (pressure,)
-        return pressure, self._traction(run, "shear", self.friction, "µp_H", read)
-
-    def _traction(self, run: str, name: str, part: float, unit: str, read: Reader) -> Quantity:
-        """part  of p_H that errors are relative to; unit names it"""
-        last = self.of.edge - EDGE
-        known = self.of.profile(name, FIRST, last)
-        radii = known.radii * HERTZ.contact_radius
-        uncertainty = known.uncertainty / part
-
-        def largest_difference(result: Any) -> float:
-            found = read(result, name, radii) / HERTZ.peak_pressure
-            return float(np.max(np.abs(found - known.values[:, None]))) / part
-
-        return Quantity(
-            name, f"largest difference of the {name} from {FIRST:g} to {last:.2g} a_H, over {unit}",
-            "", run, largest_difference,
-            Reference(0.0, ReferenceKind.EXTERNAL_CODE, SOURCE, uncertainty),
-            Required(2 * math.hypot(uncertainty, TRACTION), OURS), 1.0, unit,
-        )  # fmt: skip
+    what = error_norm(
+        name, f"largest difference of the {name} from {FIRST:g} to {last:.2g} a_H, over {unit}",
+        largest_difference, unit,
+    )  # fmt: skip
+    within = Within(what, 2 * math.hypot(uncertainty, TRACTION), OURS)
+    return replace(problem, uncertainty=uncertainty), within
 
 
 def external_codes(level: Level = Level.QUICK) -> Case:
-    """The case, on finer discretisations at higher levels."""
-    return external_codes_on(SIZES[level])
-
-
-def external_codes_on(sizes: Sizes) -> Case:
-    """The case at one fineness of both solvers."""
-    beside = tuple(Beside(name, recorded(key), sizes) for key, name in NAMES.items())
-    return Case(
-        name="external_codes",
-        title="CalculiX on the same scenes",
-        problem=(
-            "The paper's ball, rigid, moved by a given approach: towards a coating twice as stiff "
-            "as its base and as thick as the Hertz radius, without friction and with µ = 0.1. "
-            "CalculiX was run on the same scenes before, with its own elements and contact; what "
-            "writes its input is in verification/external_codes."
-        ),
-        runs=tuple(run for one in beside for run in (one.section, one.surface)),
-        quantities=tuple(quantity for one in beside for quantity in one.quantities()),
+    """Coated bodies pressed with and without friction, against CalculiX; on finer discretisations
+    at higher levels."""
+    sizes = {Level.QUICK: (128, 32), Level.STANDARD: (256, 64), Level.FULL: (512, 64)}[level]
+    return case(
+        "external_codes",
+        "CalculiX on the same scenes",
+        "The paper's ball, rigid, moved by a given approach: towards a coating twice as stiff "
+        "as its base and as thick as the Hertz radius, without friction and with µ = 0.1. "
+        "CalculiX was run on the same scenes before, with its own elements and contact; what "
+        "writes its input is in verification/external_codes.",
+        *(part for key, name in NAMES.items() for part in _parts(name, recorded(key), *sizes)),
         limits=(
             "CalculiX ran on a ball a hundred times as flat under a hundredth of the force, as it "
             "measures the gap where the surface has moved to, which linear theory does not.",
@@ -180,4 +125,9 @@ def external_codes_on(sizes: Sizes) -> Case:
             "Where shear is judged the whole contact has slipped, so that it is µp; what a stick "
             "disc does to it is judged in frictional_indentation.",
         ),
+        equations=(
+            r"\nabla \cdot \boldsymbol{\sigma} = 0,\quad p = k \max(-g, 0),\quad "
+            r"|\mathbf{q}| \le \mu p",
+        ),
+        no_order="the code's own records are of two meshes; ours are judged on one",
     )

@@ -320,7 +320,6 @@ def hertz_unloading(level: Level = Level.QUICK) -> Case:
 
 def dissimilar_bodies(level: Level = Level.QUICK) -> Case:
     """Unlike bodies without friction, of which E* alone matters; the same at every level."""
-    del level
     cells = 128
     hard = IsotropicMaterial(young_modulus=300e9, poisson_ratio=0.25)
     # 1/E* = (1 - 0.25²)/300 GPa + the rest, so that E* is the paper's

@@ -22,7 +22,7 @@ from verification.judging.case import Case, Check, Derived, Level, Quantity, Req
 from verification.judging.outcome import Verdict
 from verification.judging.verdict_text import failure_text, uncertainty_text
 from verification.judging.verdicts import judge_quantity
-from verification.problems.reference import Reference, ReferenceKind
+from verification.problems.reference import Reference, ReferenceKind, closed_form
 
 LEVELS = (1.0, 2.0, 4.0)
 BESIDE = (1.0, -6.0, 8.0)
@@ -60,10 +60,15 @@ def worked_examples(level: Level = Level.QUICK) -> Case:
         checks=tuple(
             Check(
                 name, meaning, "", "by hand", measure,
-                Reference(value, ReferenceKind.CLOSED_FORM, HAND), tolerance,
+                closed_form(value, HAND), tolerance,
             )
             for name, meaning, measure, value, tolerance in _EXAMPLES
         ),
+        equations=(
+            r"U = 2 \sqrt{c^2 + s^2 + u_\mathrm{ref}^2},\quad "
+            r"s^2 = \frac{\sum_i w_i \varepsilon_i^2}{n - 2}",
+        ),
+        no_order="arithmetic by hand",
     )  # fmt: skip
 
 

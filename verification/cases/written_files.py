@@ -114,6 +114,11 @@ def written_files(level: Level = Level.QUICK) -> Case:
                 sides_of_an_interface, 1e-12, "a part has no larger maximum than the whole",
             ),
         ),
+        equations=(
+            r"W = \int p \, dA,\quad \mathbf{T} = \int \mathbf{q} \, dA,\quad "
+            r"M_z = \int (x q_y - y q_x) \, dA",
+        ),
+        no_order="numbers of one run, written twice",
     )  # fmt: skip
 
 

@@ -10,7 +10,11 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from contact_scene import RIGID, FlatPunch
-from verification.cases.no_slip_indentation import BALL, BALL_SOURCE, FRICTION, RATIOS, SOURCE
+from verification.cases.frictional_pressing import NO_SLIP_BALL as BALL
+from verification.cases.frictional_pressing import NO_SLIP_BALL_SOURCE as BALL_SOURCE
+from verification.cases.frictional_pressing import NO_SLIP_FRICTION as FRICTION
+from verification.cases.frictional_pressing import NO_SLIP_RATIOS as RATIOS
+from verification.cases.frictional_pressing import NO_SLIP_SOURCE as SOURCE
 from verification.challenge.asked import AskedField, AskedPoints, AskedValue, Challenge, Grade
 from verification.challenge.often_asked import SMALL, approach, contact_radius, stick_radius
 from verification.challenge.round_table import RoundTable, tabulated

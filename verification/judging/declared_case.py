@@ -19,7 +19,11 @@ from verification.judging.case import (
 )
 from verification.judging.ladder import Ladder, Rung
 from verification.judging.observable import Observable
-from verification.judging.order_of_convergence import NotYetAsymptotic, OrderOfConvergence
+from verification.judging.order_of_convergence import (
+    NotYetAsymptotic,
+    OrderOfChange,
+    OrderOfConvergence,
+)
 from verification.judging.run import AnyRun
 
 Allowed = float | Mapping[int, float] | Callable[[Rung], float]
@@ -118,6 +122,7 @@ def case(
     runs: tuple[AnyRun, ...] = (),
     quantities: tuple[Quantity, ...] = (),
     findings: tuple[Finding, ...] = (),
+    orders: tuple[OrderOfChange, ...] = (),
     comparisons: tuple[Comparison, ...] = (),
     checks: tuple[Check, ...] = (),
     charts: Sequence[Drawing] = (),
@@ -133,7 +138,7 @@ def case(
         problem=problem,
         runs=tuple(dict.fromkeys((*(run for part in parts for run in part.runs), *runs))),
         quantities=(*(q for part in parts for q in part.quantities), *quantities),
-        orders=tuple(order for part in parts for order in part.orders),
+        orders=(*(order for part in parts for order in part.orders), *orders),
         findings=(*(f for part in parts for f in part.findings), *findings),
         comparisons=comparisons,
         checks=checks,

@@ -8,6 +8,7 @@ from verification.judging import field_errors
 from verification.judging.observable import Observable, error_norm, number
 from verification.judging.order_of_convergence import Followed
 from verification.observed.end_state import central_pressure
+from verification.problems.loop_history import OVER_LARGEST_SHIFT, loop_energy
 from verification.problems.problem import OVER_PEAK, OVER_RADIUS
 from verification.problems.sheared import OVER_LIMIT, OVER_SLIDING_SHIFT, OVER_SLIDING_WORK
 
@@ -64,4 +65,33 @@ SHEAR_AROUND = error_norm(
     "apart, over µp_H",
     field_errors.shear_around_error,
     OVER_LIMIT,
+)
+# Of a fretting loop as a whole; the answer to it is an `ExactLoop`.
+LARGEST_SHIFT_ERROR = error_norm(
+    "largest_shift_error",
+    "largest difference of the shift in any increment",
+    lambda result, _, problem: problem.ends[-1].largest_shift_error(result),
+    unit="m",
+    over=OVER_LARGEST_SHIFT,
+)
+LARGEST_STICK_RADIUS_ERROR = error_norm(
+    "largest_stick_radius_error",
+    "largest difference of the stick radius in any increment",
+    lambda result, _, problem: problem.ends[-1].largest_stick_radius_error(result),
+    unit="m",
+    over=OVER_RADIUS,
+)
+LARGEST_SHEAR_ERROR = error_norm(
+    "largest_shear_error",
+    "largest Σ|q - q_exact| / Σµp of any increment",
+    lambda result, _, problem: problem.ends[-1].largest_shear_error(result),
+    "Σµp",
+)
+ENERGY_PER_CYCLE = Observable(
+    "energy_per_cycle",
+    "energy dissipated from 0.9 µW to -0.9 µW and back",
+    "J",
+    lambda result, *_: loop_energy(result),
+    lambda loop: float(loop.energy_per_cycle),
+    scalar=("energy_per_cycle", 0),
 )

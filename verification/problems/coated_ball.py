@@ -9,6 +9,7 @@ from typing import Any
 from verification.problems.hertz import hertzian
 from verification.problems.layered_scene import (
     FREDHOLM,
+    FREDHOLM_EQUATION,
     SEMI_CLOSED_ERROR,
     coated,
     exact_contact,
@@ -40,6 +41,7 @@ def coated_ball(row: Mapping[str, Any]) -> Problem:
         ReferenceKind.SEMI_CLOSED,
         row["est_rel_error"],
         {OVER_PEAK: HERTZ.peak_pressure},
+        equations=(FREDHOLM_EQUATION,),
     )
 
 

@@ -54,6 +54,11 @@ class Indentation(TabulatedContact):
                 OVER_HERTZ_RADIUS: HERTZ.contact_radius,
                 OVER_LIMIT: self.friction * HERTZ.peak_pressure,
             },
+            equations=(
+                r"q = \mu p\ (c < r < a),\quad \frac{\partial}{\partial a} u_r(r; a) = 0\ (r < c),"
+                r"\quad "
+                r"u_z = \delta - \frac{r^2}{2R}",
+            ),
         )
 
 

@@ -31,6 +31,10 @@ from verification.problems.reference import Reference, ReferenceKind
 
 SUBSTRATE = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 FREDHOLM = "Fredholm equation for the Abel transform of the pressure, to 1e-13"
+FREDHOLM_EQUATION = (
+    r"\tfrac{\pi}{E^*} g(s) + \tfrac{2}{E^*} \int_0^a K(s, t) g(t) \, dt = \delta - s^2/R,\quad "
+    r"K = \int_0^\infty \left(\tfrac{1}{2} k E^* F(k) - 1\right) \cos ks \cos kt \, dk"
+)
 # Of the semi-closed solution: measured against the shipped reference rows.
 SEMI_CLOSED_ERROR = 1e-12
 

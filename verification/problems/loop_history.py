@@ -31,6 +31,7 @@ OVER_LARGEST_WAY = "the largest way"
 AMPLITUDE = 0.9  # of µW
 LOADED, UNLOADED, RELOADED = 2, 3, 4  # loading steps that end at T*, -T*, T*
 PRESSED = 1
+WINDOW_PER_RADIUS = 2.2  # the contact fills 1/1.1 of the window: cells beside it carry nothing
 
 
 def loop_steps(quarter: int) -> tuple[LoadStep, ...]:
@@ -135,6 +136,10 @@ def fretting_loop(title: str, material: IsotropicMaterial, quarter: int) -> Prob
             OVER_LARGEST_WAY: 5 * slip,
             OVER_LIMIT: FRICTION * HERTZ.peak_pressure,
         },
+        equations=(
+            r"\Delta(T) = \Delta^* - 2 \Delta_1\left(\tfrac{T^* - T}{2}\right),\quad "
+            r"\Delta_1(T) = \frac{3 \mu W}{4 a G^*} \left[1 - (1 - T/\mu W)^{2/3}\right]",
+        ),
     )
 
 

@@ -34,4 +34,9 @@ def sheared(
             OVER_SLIDING_WORK: FRICTION_LIMIT * sliding,
             OVER_LIMIT: FRICTION * HERTZ.peak_pressure,
         },
+        equations=(
+            r"c = a (1 - T/\mu W)^{1/3},\quad q = \mu p_0 \left[\sqrt{1 - r^2/a^2} - "
+            r"\tfrac{c}{a} \sqrt{1 - r^2/c^2}\right],\quad "
+            r"\Delta = \frac{3 \mu W}{4 a G^*} \left[1 - (1 - T/\mu W)^{2/3}\right]",
+        ),
     )

@@ -51,3 +51,7 @@ class TabulatedContact:
         """Outward, at the radii of the row, and linear between [force/length²]."""
         limit = self.friction * HERTZ.peak_pressure
         return np.interp(r, self.radii, np.array(self.row["q_over_mu_pH"]) * limit)
+
+    def size_of_shear(self, r: Field) -> Field:
+        """Of either sign [force/length²]."""
+        return np.abs(self.shear(r))

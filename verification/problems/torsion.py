@@ -54,6 +54,11 @@ def _problem(title: str, ends: tuple[object, ...], *steps: LoadStep) -> Problem:
         HERTZ.contact_radius,
         SOURCE,
         scales={OVER_LIMIT: FRICTION * HERTZ.peak_pressure, OVER_TWIST: LARGEST.twist},
+        equations=(
+            r"\varphi = \frac{\mu p_0}{2 G^*} \left[\mathbf{K}(k') - \mathbf{E}(k')\right],\quad "
+            r"k'^2 = 1 - c^2/a^2,\quad M = \tfrac{8}{3} \mu p_0 \int_c^a s^2 "
+            r"\mathbf{E}\left(\sqrt{1 - s^2/a^2}\right) ds",
+        ),
     )
 
 
@@ -104,4 +109,8 @@ STUCK = Problem(
     (None, StuckTorsion(PUNCH_RADIUS, MODULUS, STUCK_TORQUE)),
     PUNCH_RADIUS,
     "Reissner and Sagoci 1944",
+    equations=(
+        r"\varphi = \frac{3 M}{16 a^3 G^*},\quad "
+        r"q = \frac{3 M r}{4 \pi a^3 \sqrt{a^2 - r^2}}",
+    ),
 )

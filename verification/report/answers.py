@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from verification.cases.apart_everywhere import NAME as EVERYWHERE
 from verification.exhibits.chart import Chart
 from verification.exhibits.numbers import percent, plain
-from verification.exhibits.table import Table
+from verification.exhibits.table import APART_EVERYWHERE, Table
 from verification.judging.outcome import CaseOutcome, Verdict
 from verification.judging.verdict_text import clearance_text
 from verification.problems.reference import ReferenceKind
@@ -72,24 +71,16 @@ def _cost(report: Report) -> Answer:
 
 
 def _disagreement(report: Report) -> Answer:
-    """From the references that both solvers were judged by, and from the study of both."""
+    """From the references that both solvers were judged by, and from their comparisons."""
     shared = shared_references(report)
     cast = votes(shared)
-    study = study_section(report, "cross-check")
-    answered = study.record is not None and study.record.conclusion.answer
-    said = (f"{study.record.title}: {answered}",) if study.record and answered else ()
-    sentences = (*_nearer(shared), *_direct(report), *said)
-    links = [("solvers", "all of them")] if shared else []
-    if study.record is not None:
-        links.append((f"study-{study.name}", study.title))
     return Answer(
         "Where do finite elements and the semi-analytical method disagree, and which is nearer to "
         "the reference?",
-        sentences,
-        None if shared else _chart(study.record, ()),
-        tuple(links),
-        study if study.record is None else None,
-        nearer_table(cast, shared) if cast else None,
+        (*_nearer(shared), *_direct(report)),
+        None,
+        (("solvers", "all of them"),) if shared else (),
+        table=nearer_table(cast, shared) if cast else None,
     )
 
 
@@ -154,5 +145,5 @@ def _left_out(report: Report) -> list[str]:
         f"{table.note} (Case {case.name}.)"
         for case in report.cases
         for table in case.tables
-        if table.name == EVERYWHERE
+        if table.name == APART_EVERYWHERE
     ]

@@ -12,7 +12,6 @@ from verification.running.sources import is_current
 
 # By the name of its study. A study gets its place on the page in `templates/page.html`.
 TITLES = {
-    "cross-check": "Both solvers on the same contacts",
     "coated-tractions": "Coated contacts: the paper's figures 3 and 4",
     "work-precision": "What accuracy costs",
     "error-coverage": "Coverage of stated errors",

@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 from verification.running.study import Study
 from verification.studies.coated_tractions import STUDY as COATED_TRACTIONS
-from verification.studies.cross_check import STUDY as CROSS_CHECK
 from verification.studies.error_coverage.study import STUDY as ERROR_COVERAGE
 from verification.studies.mutants import STUDY as MUTANTS
 from verification.studies.refinement.scene_level import CELLS, METHODS
@@ -38,7 +37,6 @@ STUDIES: dict[str, Study] = {
     for study in (
         COATED_TRACTIONS,
         STABILITY,
-        CROSS_CHECK,
         SEEDED_DEFECTS,
         MUTANTS,
         WORK_PRECISION,

@@ -16,16 +16,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semi_analytical import SurfaceGrid
-from verification.cases import coated_paraboloid as coated
-from verification.cases.fretting_loop import WINDOW_PER_RADIUS
-from verification.cases.loop_observables import ENERGY_PER_CYCLE, LARGEST_SHIFT_ERROR
+from verification.cases import coatings as coated
 from verification.judging.observable import Observable, error_norm
-from verification.judging.observables import APPROACH, PEAK_PRESSURE, SHIFT
+from verification.judging.observables import (
+    APPROACH,
+    ENERGY_PER_CYCLE,
+    LARGEST_SHIFT_ERROR,
+    PEAK_PRESSURE,
+    SHIFT,
+)
 from verification.judging.pressing_errors import pressure_at, shear_at
 from verification.problems import paper_scene as paper
 from verification.problems.hertz import BALL
 from verification.problems.indentation import COATED
-from verification.problems.loop_history import ExactLoop, fretting_loop
+from verification.problems.loop_history import WINDOW_PER_RADIUS, ExactLoop, fretting_loop
 from verification.problems.paper_scene import NU_ZERO
 from verification.problems.problem import OVER_PEAK, Problem
 from verification.problems.sheared import OVER_LIMIT, sheared

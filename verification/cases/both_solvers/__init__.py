@@ -1,1 +1,0 @@
-"""Both solvers on the same coated contacts: what is solved, compared, left out and shown."""

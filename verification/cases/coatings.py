@@ -1,0 +1,590 @@
+"""Coated bodies without friction: the paper's coatings, identities, thin layers, all solvers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+from math import log, pi
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene import RIGID, Body, IsotropicMaterial, Layer, LoadStep, Paraboloid
+from radial.bodies import Bodies
+from radial.disc import disc
+from radial.surface import pressure
+from semi_analytical.frf.stack import Film, HalfSpace, Stack
+from semi_analytical.frf.surface import scalars
+from verification.cases.levels import (
+    ASKED,
+    EDGE,
+    ELEMENT_RADIUS,
+    IDENTITY,
+    JUDGED_BY,
+    because,
+    finest,
+    levels,
+)
+from verification.closed_forms.coated_indentation import (
+    LayeredIndentation,
+    LayeredSurface,
+    flat_punch,
+    paraboloid,
+    paraboloid_under,
+)
+from verification.closed_forms.gao_chiu_lee import modulus_weight, ratio_weight
+from verification.judging.case import Case, Check, Comparison, Level, Required
+from verification.judging.declared_case import Falls, Refined, Reported, Row, Within, case, judged
+from verification.judging.drawings import PRESSURE, convergence, profile
+from verification.judging.ladder import (
+    Rung,
+    asked,
+    cells_label,
+    ladder,
+    named,
+    on_cells,
+    on_elements,
+    on_radii,
+    part_of_side,
+)
+from verification.judging.observable import Observable, error_norm
+from verification.judging.observables import (
+    APPROACH,
+    CENTRAL_PRESSURE,
+    CONTACT_RADIUS,
+    NORMAL_FORCE,
+    PEAK_PRESSURE,
+    PRESSURE_L2,
+    PRESSURE_WITHIN,
+)
+from verification.judging.refinement import refinement
+from verification.judging.run import Run
+from verification.observed.end_state import normal_force
+from verification.problems import paper_scene as paper
+from verification.problems.classical import CONE, PUNCH, mean_pressure
+from verification.problems.coated_ball import BARE, ROWS, coated_ball, solved_here
+from verification.problems.hertz import hertzian
+from verification.problems.layered_scene import (
+    FREDHOLM,
+    FREDHOLM_EQUATION,
+    SEMI_CLOSED_ERROR,
+    SUBSTRATE,
+    coated,
+    exact_contact,
+    film,
+    pressed,
+    rigid_ball,
+    surface_of,
+)
+from verification.problems.paper_scene import HERTZ
+from verification.problems.problem import OVER_PEAK, Problem
+from verification.problems.reference import Reference, ReferenceKind, closed_form
+from verification.problems.shifted_grid import UNLIKE
+
+Field = NDArray[np.float64]
+
+STUDIED = 2.0  # E1/E2 of the row whose convergence is studied
+COATINGS = {row["E1_over_E2"]: coated_ball(row) for row in ROWS}
+EXACT = solved_here(COATINGS[STUDIED])
+NAMES = [f"E1/E2 = {row['E1_over_E2']:g}, h = {row['h_over_aH']:g} a_H" for row in ROWS]
+ON_128 = "asked of coated bodies on 128 x 128 cells, as in coated_paraboloid"
+ON_MESHES = (
+    Within(APPROACH, asked(1e-4, 2), because(2)),
+    Within(CENTRAL_PRESSURE, asked(1e-4, 2), because(2)),
+    Within(CONTACT_RADIUS, 2e-3, ELEMENT_RADIUS),
+)
+
+
+def _error_ratio(what: Observable, result: Any, other: Any) -> float:
+    """Error of a coated contact over that of the uncoated one, less 1."""
+    return abs(abs(what.error(EXACT)(result) / what.error(BARE)(other)) - 1)
+
+
+def coated_paraboloid(
+    level: Level = Level.QUICK, cells: Sequence[int] = (), required: Sequence[int] = (128, 256)
+) -> Case:
+    """The paper's coatings under a rigid paraboloid, without friction.
+
+    cells     per side, of the studied coating, instead of those of the level; without shifted grids
+    required  for all coatings, where figures are asked
+    """
+    most = {Level.QUICK: 256, Level.STANDARD: 512, Level.FULL: 1024}[level]
+    # On coarser grids no figure is asked: for errors by fineness.
+    coarser = () if cells else (32, 46, 64, 90)
+    shifted = () if cells else refinement(32, most // 2)
+    cells = cells or refinement(32, most)
+    bare = on_cells(BARE, cells, of="uncoated")
+    grids = dict.fromkeys(COATINGS, (*coarser, *required)) | {STUDIED: tuple(cells)}
+    ladders = {
+        ratio: on_cells(COATINGS[ratio], some, of=f"E1/E2 = {ratio:g}")
+        for ratio, some in grids.items()
+        if some
+    }
+    study, name = ladders[STUDIED], f"E1/E2 = {STUDIED:g}"
+    followed = replace(study, problem=EXACT)
+    allowed = {n: figure for n, figure in {128: 2e-4, 256: 5e-5}.items() if n in required}
+    rows = (
+        Within(APPROACH, allowed, ASKED, name="required_approach"),
+        Within(CENTRAL_PRESSURE, allowed, ASKED),
+    )
+    of_study = (
+        Refined(
+            APPROACH, 2.0, 5e-5,
+            "order 2 as for the homogeneous body; the cap is the figure required at 256 x 256",
+        ),
+        Refined(CONTACT_RADIUS, 1.0, part_of_side(0.1), EDGE),
+    )  # fmt: skip
+    orders = (
+        Falls(PRESSURE_L2, 1.0, "as for the homogeneous body: the square-root edge"),
+        Falls(
+            CENTRAL_PRESSURE, 2.0,
+            "as for the homogeneous body: the cells lie h/√2 from the axis",
+        ),
+    )  # fmt: skip
+    mean = Falls(APPROACH, 2.0, "as for the homogeneous body: the errors at the edge cancel")
+    return case(
+        "coated_paraboloid",
+        "Rigid ball on coated half-spaces",
+        "A rigid paraboloid of the paper's radius under 1 kN on a coated half-space (210 GPa, "
+        "ν = 0.3), coatings from a quarter to ten times as stiff, without friction, on windows "
+        "of three contact radii. The references come from an axisymmetric integral equation "
+        "that shares nothing with the surface grid. Under the stiffest coating the largest "
+        "pressure is not at the centre; the centre's is compared.",
+        *(judged(one, rows) for one in ladders.values()),
+        judged(study, of_study),
+        judged(followed, orders),
+        *(
+            judged(on_cells(EXACT, some, of=name, offsets=UNLIKE), (mean,))
+            for some in (shifted,)
+            if some
+        ),
+        runs=bare.runs,
+        comparisons=tuple(
+            Comparison(
+                f"constant_of_{row.what.name}",
+                f"{row.what.label}: error over that of the uncoated body, less 1",
+                (study.levels[-1], bare.levels[-1]), partial(_error_ratio, row.what), 0.3,
+                "the same scheme must have the same constant, up to what the shape of the "
+                "pressure does to it", "errors on equal grids per contact radius",
+            )
+            for row in (*orders, mean)
+        ),
+        charts=(
+            profile(
+                followed, "coated_profile",
+                "Pressure next to y = 0 under a coating of E1/E2 = 2",
+                f"Computed pressure on {cells_label(cells[-1])} cells over the semi-closed one, "
+                "and their difference, in units of the peak pressure without coating.",
+                "p / p_H", HERTZ.peak_pressure, replace(PRESSURE, profile="coated"),
+            ),
+            convergence(
+                followed, orders, "coated_convergence",
+                "Convergence of the coated contact beside the uncoated one",
+                "Relative errors against cell side, for the coating of E1/E2 = 2 and for the "
+                "homogeneous body: the same orders and nearly the same constants, because the "
+                "coefficients of the coated body are as exact as the closed form.",
+                also=(APPROACH,), beside={"uncoated": bare},
+            ),
+        ),
+    )  # fmt: skip
+
+
+def unlike_ratios(film: float, substrate: float) -> Problem:
+    """The ball on a layer of one Poisson's ratio on a body of another: one Young's modulus
+    throughout, so that only the ratios tell them apart.
+
+    The answer is of constants that are written down here once more: a stack that were made of the
+    scene would share its mistakes.
+    """
+    modulus, thickness = 210e9, 0.5 * HERTZ.contact_radius
+    material, film_material = (
+        IsotropicMaterial(young_modulus=modulus, poisson_ratio=ratio) for ratio in (substrate, film)
+    )
+    body = Body(material=material, layers=(Layer(thickness=thickness, material=film_material),))
+    of_film, of_substrate = (modulus / (2 * (1 + ratio)) for ratio in (film, substrate))
+    stack = Stack([Film(of_film, film, thickness)], HalfSpace(of_substrate, substrate))
+    surface = LayeredSurface(partial(_normal, stack), 2 * of_film / (1 - film), thickness)
+    exact = paraboloid_under(paper.NORMAL_FORCE, surface, paper.RADIUS)
+    scene = pressed(
+        f"Rigid ball on a coating, ν = {film:g} on ν = {substrate:g}", rigid_ball(), body
+    )
+    return _semi_closed(scene, exact)
+
+
+def _normal(stack: Stack, k: Field) -> Field:
+    """Normal displacement of the surface per unit pressure of a wavenumber."""
+    return np.asarray(scalars(stack, k).c22)
+
+
+def _semi_closed(scene: Any, exact: LayeredIndentation) -> Problem:
+    return Problem(
+        scene, (exact,), exact.contact_radius, FREDHOLM, ReferenceKind.SEMI_CLOSED,
+        SEMI_CLOSED_ERROR, equations=(FREDHOLM_EQUATION,),
+    )  # fmt: skip
+
+
+def coated_unlike_ratios(level: Level = Level.QUICK) -> Case:
+    """A coating whose Poisson's ratio is not its substrate's, by cells and elements."""
+    n = finest(level)
+    on_grid = (
+        Within(APPROACH, 2e-4, ON_128),
+        Within(CONTACT_RADIUS, part_of_side(0.1), "a tenth of a cell"),
+        Within(CENTRAL_PRESSURE, 2e-4, ON_128),
+    )
+    pairs = {
+        f"ν = {film:g} on ν = {substrate:g}": unlike_ratios(film, substrate)
+        for film, substrate in ((0.1, 0.45), (0.45, 0.1))
+    }
+    return case(
+        "coated_unlike_ratios",
+        "Coatings of another Poisson's ratio",
+        "The paper's ball, rigid, under 1 kN on a layer of half a Hertz radius that has the "
+        "Young's modulus of its substrate and another Poisson's ratio. The other coated cases "
+        "have one ratio throughout, and would not see the two exchanged.",
+        *(judged(on_cells(pair, (128,), of=name), on_grid) for name, pair in pairs.items()),
+        *(
+            judged(named(f"{name}, {n} elements", on_elements(pair, (n,), of=name)), ON_MESHES)
+            for name, pair in pairs.items()
+        ),
+        no_order=JUDGED_BY.format("coated_paraboloid"),
+    )
+
+
+def pressure_difference(one: Any, other: Any) -> float:
+    """Largest difference of the pressures over the largest pressure."""
+    p, q = one.steps[-1].pressure, other.steps[-1].pressure
+    return float(np.max(np.abs(p - q)) / np.max(q))
+
+
+def layered_identities(level: Level = Level.QUICK, cells: int = 128) -> Case:
+    """One coated contact said in several ways, and coated bodies that are homogeneous ones."""
+    coating = film(2.0, 1.0)
+    hard = IsotropicMaterial(young_modulus=300e9, poisson_ratio=0.25)
+
+    def part(share: float) -> Layer:
+        return Layer(thickness=share * coating.thickness, material=coating.material)
+
+    def ball(*layers: Layer, material: IsotropicMaterial) -> Paraboloid:
+        return Paraboloid(radius=paper.RADIUS, material=material, layers=layers)
+
+    same = {
+        "coated body": (rigid_ball(), coated(coating)),
+        "coated ball on a rigid body": (ball(coating, material=SUBSTRATE), Body(material=RIGID)),
+        "coating cut in three": (rigid_ball(), coated(part(0.2), part(0.5), part(0.3))),
+        "substrate as a further layer": (rigid_ball(), coated(coating, film(1.0, 0.7))),
+    }
+    homogeneous = {
+        "layer of the substrate's material": (rigid_ball(), coated(film(1.0, 0.5))),
+        "three such layers": (rigid_ball(), coated(film(1.0, 0.1), film(1.0, 0.2), film(1.0, 3.0))),
+    }
+    pairs = {
+        "elastic ball on the coating": (ball(material=hard), coated(coating)),
+        "coated ball on another coating": (
+            ball(film(0.5, 0.3), material=hard), coated(film(4.0, 0.5), film(0.25, 0.2)),
+        ),
+        "soft film on a hard one": (rigid_ball(), coated(film(0.5, 0.2), film(4.0, 0.3))),
+    }  # fmt: skip
+    problems = {
+        name: hertzian(pressed(name, *bodies)) for name, bodies in (same | homogeneous).items()
+    } | {
+        name: _semi_closed(
+            pressed(name, one, body),
+            exact_contact(body, Body(material=one.material, layers=one.layers)),
+        )
+        for name, (one, body) in pairs.items()
+    }
+    # All on one window, so that fields of equal contacts can be compared.
+    grid = paper.hertz_grid(cells)
+    grids = {
+        name: ladder(problem, [Rung(Run(name, problem.scene, grid, problem=name), cells)])
+        for name, problem in problems.items()
+    }
+    of_hertz = (Within(APPROACH, 5e-5, ASKED), Within(PEAK_PRESSURE, 1.5e-4, ASKED))
+    of_pairs = (
+        Within(APPROACH, 2e-4, f"{ASKED}, for coated bodies"),
+        Within(CENTRAL_PRESSURE, 2e-4, f"{ASKED}, for coated bodies"),
+    )
+    first, *others = same
+    return case(
+        "layered_identities",
+        "Coatings on either body, cut or made of the substrate",
+        "A contact does not know which body carries the coating, whether it is one layer or "
+        "three of the same material, or whether the substrate begins as a layer; and a layer "
+        "of the substrate's material is none. Pairs of elastic, both coated bodies are "
+        "compared with the semi-closed solution for the sum of their responses.",
+        *(
+            judged(one, of_pairs if name in pairs else of_hertz if name in homogeneous else ())
+            for name, one in grids.items()
+        ),
+        comparisons=tuple(
+            Comparison(
+                "same_pressure", "largest difference of the pressure over the largest pressure",
+                (other, first), pressure_difference, 1e-7, "the solver's tolerance, times ten",
+                "the same bodies in other words",
+            )
+            for other in others
+        ),
+        no_order=IDENTITY,
+    )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class ThinLayer:
+    """A layer of a/h contact radii per thickness, under the ball; with its exact load ratio.
+
+    load_ratio  load over the leading term for a >> h, from outside
+    """
+
+    poisson_ratio: float
+    a_over_h: float
+    load_ratio: float
+    radius: float = 2e-3  # of the contact [m]
+    modulus: float = 10e6  # rubber
+
+    @property
+    def name(self) -> str:
+        """For labels."""
+        return f"ν = {self.poisson_ratio:g}, a/h = {self.a_over_h:g}"
+
+    @property
+    def body(self) -> Body:
+        """The layer bonded to a rigid base."""
+        material = IsotropicMaterial(young_modulus=self.modulus, poisson_ratio=self.poisson_ratio)
+        layer = Layer(thickness=self.radius / self.a_over_h, material=material)
+        return Body(material=RIGID, layers=(layer,))
+
+    @cached_property
+    def exact(self) -> LayeredIndentation:
+        """The semi-closed solution at this contact radius."""
+        return paraboloid(surface_of(self.body), paper.RADIUS, self.radius)
+
+    @property
+    def problem(self) -> Problem:
+        """Led to the approach of that solution."""
+        step = LoadStep(approach=self.exact.approach)
+        title = f"Rigid ball on a thin layer on a rigid base, {self.name}"
+        return _semi_closed(pressed(title, rigid_ball(), self.body, step), self.exact)
+
+    @property
+    def leading_load(self) -> float:
+        """Leading term of the load for a >> h (Johnson 1985, section 5.8)."""
+        E, nu, a, R = self.modulus, self.poisson_ratio, self.radius, paper.RADIUS
+        h = a / self.a_over_h
+        if nu == 0.5:
+            return pi * E / 3 * a**6 / (32 * R * h**3)
+        uniaxial = E * (1 - nu) / ((1 + nu) * (1 - 2 * nu))
+        return pi * uniaxial * a**4 / (4 * R * h)
+
+    @property
+    def rows(self) -> tuple[Row, ...]:
+        """What is judged of it."""
+        why = (
+            "twice what is required of coatings at 128 x 128: layer and contact have scales of "
+            "their own"
+        )
+        over_leading_term = error_norm(
+            "load_over_leading_term", "load over the leading term for a >> h",
+            lambda result, *_: normal_force(result) / self.leading_load,
+        )  # fmt: skip
+        return (
+            Within(NORMAL_FORCE, 4e-4, why),
+            Within(CENTRAL_PRESSURE, 4e-4, why),
+            Within(CONTACT_RADIUS, part_of_side(0.5), "half a cell"),
+            Reported(over_leading_term, "the limit itself is 1"),
+        )
+
+    @property
+    def check(self) -> Check:
+        """The semi-closed load against a printed one."""
+        digits = 1e-6
+        return Check(
+            "semi_closed_load", "load over the leading term, from the semi-closed solution", "",
+            self.name, lambda: self.exact.load / self.leading_load,
+            Reference(
+                self.load_ratio, ReferenceKind.SEMI_CLOSED,
+                "computed apart from this program: two settings agree to the digits given",
+                0.5 * digits,
+            ),
+            Required(digits, "the digits that are given"),
+        )  # fmt: skip
+
+
+def thin_layer(level: Level = Level.QUICK, cells: int = 0) -> Case:
+    """Thin layers on a rigid base: a foundation of springs, and an incompressible film.
+
+    cells  per side, instead of those of the level
+    """
+    cells = cells or (256 if level is Level.QUICK else 512)
+    layers = (
+        ThinLayer(0.3, 5.0, 1.104343),
+        ThinLayer(0.3, 20.0, 1.024688),
+        ThinLayer(0.5, 10.0, 2.233304),
+    )  # fmt: skip
+    return case(
+        "thin_layer",
+        "Thin layers on a rigid base",
+        "A rigid ball on a layer much thinner than the contact, on a rigid base, pressed by "
+        "the approach that belongs to a given contact radius. A compressible layer becomes a "
+        "foundation of springs, an incompressible one lets nothing but flow along the base "
+        "give way: its response vanishes as the square of the wavenumber, and ν = ½ is exact. "
+        "Both limits are approached slowly, so the loads of the full solution are compared.",
+        *(
+            judged(named(one.name, on_cells(one.problem, (cells,), 2.2)), one.rows)
+            for one in layers
+        ),
+        checks=tuple(one.check for one in layers),
+        equations=(
+            r"W \to \frac{\pi a^4}{4 R h} \frac{E (1 - \nu)}{(1 + \nu)(1 - 2\nu)},\quad "
+            r"W \to \frac{\pi E a^6}{96 R h^3} \ (\nu = \tfrac{1}{2})",
+        ),
+        no_order=f"on {cells_label(cells)} cells only; the orders are those of coated_paraboloid",
+    )
+
+
+def stiffness(depth: float, shear_modulus: float, poisson_ratio: float) -> float:
+    """Load per approach of a punch of unit radius on a film on a substrate of G = 1."""
+    stack = Stack([Film(shear_modulus, poisson_ratio, depth)], HalfSpace(1.0, 0.3))
+    contact_modulus = 2 * shear_modulus / (1 - poisson_ratio)
+    return flat_punch(LayeredSurface(partial(_normal, stack), contact_modulus, depth), 1.0).load
+
+
+def film_stiffness(level: Level = Level.QUICK) -> Case:
+    """What a film adds to the stiffness of a flat punch, to first order."""
+    nu, step = 0.3, 1e-4
+    leaves = Required(
+        2e-8,
+        "three times what differences of 1e-4 leave; the project's accuracy targets require 1e-5",
+    )
+
+    def by_modulus(depth: float) -> float:
+        stiff, soft = (log(stiffness(depth, 1 + d, nu)) for d in (step, -step))
+        return (stiff - soft) / (log(1 + step) - log(1 - step))
+
+    def by_ratio(depth: float) -> float:
+        high, low = (log(stiffness(depth, 1.0, nu + d)) for d in (step, -step))
+        return (1 - nu) * (high - low) / (2 * step)
+
+    derivatives: dict[str, tuple[str, Callable[[float], float], Callable[[float], float]]] = {
+        "by_shear_modulus": ("∂ ln S / ∂ ln G₁", by_modulus, lambda h: modulus_weight(h, nu)),
+        "by_poisson_ratio": ("(1 - ν) ∂ ln S / ∂ ν₁ at fixed G₁", by_ratio, ratio_weight),
+    }
+    return case(
+        "film_stiffness",
+        "Flat punch on a film: first-order stiffness",
+        "The contact stiffness of a flat punch on a film that differs little from its "
+        "substrate, differentiated by the film's shear modulus and Poisson's ratio. Gao, Chiu "
+        "and Lee give the derivatives in closed form from the homogeneous stress field alone. "
+        "Here they are central differences of the stiffness from our layered response, by the "
+        "semi-closed integral equation.",
+        checks=tuple(
+            Check(
+                name, meaning, "", f"h/a = {depth:g}", partial(measure, depth),
+                closed_form(
+                    exact(depth),
+                    "Gao, Chiu and Lee 1992, first order in the difference of film and substrate",
+                ),
+                leaves, 1.0, "1",
+            )
+            for depth in (0.1, 0.5, 1.0, 3.0)
+            for name, (meaning, measure, exact) in derivatives.items()
+        ),
+        equations=(
+            r"I_0(\xi) = \tfrac{2}{\pi} \arctan\xi + \tfrac{1}{2\pi(1 - \nu)} \left[(1 - 2\nu) \xi "
+            r"\ln\frac{1 + \xi^2}{\xi^2} - \frac{\xi}{1 + \xi^2}\right],\quad "
+            r"I_1(\xi) = \tfrac{2}{\pi} \arctan\xi + \tfrac{\xi}{\pi} \ln\frac{1 + \xi^2}{\xi^2}",
+        ),
+        no_order="derivatives of a semi-closed solution: no grid is refined",
+    )  # fmt: skip
+
+
+def fem_coated(
+    level: Level = Level.QUICK,
+    rows: Sequence[Any] | None = None,
+    elements: Sequence[int] = (),
+) -> Case:
+    """The paper's coatings by finite elements: soft and stiff ones, all above the quick level. On
+    coarser meshes errors are followed, not judged; meshes are fitted to the contact by the solver.
+
+    rows      of the reference, and elements per radius, instead of those of the level
+    """
+    if rows is None:
+        rows = ROWS
+        if level is Level.QUICK:
+            rows = [row for row in ROWS if row["h_over_aH"] == 1 and row["E1_over_E2"] in (0.5, 2)]
+    # At the full level every second mesh: all of them for every coating would say no more.
+    elements = elements or levels(level)[:: 2 if level is Level.FULL else 1]
+    names = [NAMES[ROWS.index(row)] for row in rows]
+    ladders = [
+        named(name, on_elements(coated_ball(row), elements, of=name))
+        for name, row in zip(names, rows, strict=True)
+    ]
+    approach, centre, radius = ON_MESHES
+    judged_rows = (approach, centre, radius, Within(PRESSURE_WITHIN, asked(2e-3, 2), because(2)))
+    return case(
+        "fem_coated",
+        "Finite elements: coated bodies without friction",
+        "The paper's ball, rigid, on coated half-spaces under 1 kN, as in coated_paraboloid, "
+        "by finite elements. The interface is a line of the mesh; beyond the section the "
+        "substrate alone answers, which costs the approach up to 1e-4 below stiff coatings.",
+        *(judged(one, judged_rows) for one in ladders),
+        charts=tuple(
+            profile(
+                one, f"fem_coated_{number}", f"Pressure over the radius, {name}",
+                "Pressure by finite elements over the semi-closed solution, and their difference.",
+                "p / p_H", HERTZ.peak_pressure,
+                replace(PRESSURE, profile="coated" if row["E1_over_E2"] == STUDIED else ""),
+            )
+            for number, (row, name, one) in enumerate(zip(rows, names, ladders, strict=True), 1)
+        ),
+        no_order="the solver fits its meshes to the contact, which ends anywhere in an element; "
+        "fem_hertz judges orders with the edge at given places",
+    )  # fmt: skip
+
+
+WITHIN = 0.995  # radii up to which pressures are compared: at the edge they have no finite slope
+
+
+def _pressure_error(result: Any, _: int, problem: Problem) -> float:
+    """At the rings, or at the radii of a table."""
+    end, exact = result.steps[-1], problem.ends[0]
+    scale = problem.scales.get(OVER_PEAK) or mean_pressure(problem)
+    r, found = end.radii, end.pressure
+    if hasattr(exact, "radii"):
+        r = exact.radii
+        contact = disc(Bodies.of(problem.scene), problem.scene.indenter, end.contact_radius)
+        found = pressure(contact, r / contact.radius)
+    else:
+        inside = r < WITHIN * problem.radius
+        r, found = r[inside], found[inside]
+    return float(np.max(np.abs(found - exact.pressure(r))) / scale)
+
+
+def radial_pressing(level: Level = Level.QUICK) -> Case:
+    """The radial solver against closed forms, and against integral equations where there are
+    layers; above the quick level also with twice the orders and points."""
+    why = "both are right to rounding, of which forty times are allowed; 1e-10 was asked"
+    of_pressure = error_norm(
+        "pressure",
+        f"largest error of the pressure up to {WITHIN:g} a, or at the radii of a table",
+        _pressure_error,
+        "p_H, or the mean pressure of cone and punch",
+    )
+    rows = [Within(what, 1e-12, why, each=True) for what in (APPROACH, CONTACT_RADIUS, of_pressure)]
+    problems = {"ball": BARE, "cone": CONE, "punch": PUNCH} | dict(
+        zip(NAMES, map(coated_ball, ROWS), strict=True)
+    )
+    return case(
+        "radial_pressing",
+        "Pressing in one dimension",
+        "The paper's ball, a cone and a flat punch on half-spaces, and the ball, rigid, on "
+        f"{len(ROWS)} coatings, under 1 kN without friction, by the radial solver. It has the "
+        "response of layers to a wavenumber in common with the semi-analytical solver; the "
+        "references have neither that nor its polynomials.",
+        *(
+            judged(on_radii(problem, name, (1,) if level is Level.QUICK else (2, 1)), rows)
+            for name, problem in problems.items()
+        ),
+        no_order="polynomials converge faster than any power: all counts are exact to rounding",
+    )

@@ -1,0 +1,953 @@
+"""Pressing with friction: stick, slip and their memory, by all solvers, cells and increments."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from math import log, sqrt
+from typing import Any
+
+import numpy as np
+
+from contact_scene import (
+    RIGID,
+    Body,
+    CoulombFriction,
+    FlatPunch,
+    IsotropicMaterial,
+    LoadStep,
+    Paraboloid,
+    Scene,
+)
+from semi_analytical import one_way
+from semi_analytical.grid import SurfaceGrid
+from verification.cases.consistent_tangent import consistent_tangent
+from verification.cases.levels import ELEMENT_RADIUS, JUDGED_BY, PENALTY, because, finest
+from verification.closed_forms.goodman import stick_ratio
+from verification.convergence.cell_centres import at_centres
+from verification.exhibits.chart import Chart
+from verification.exhibits.convergence_chart import convergence_chart
+from verification.judging.case import Case, Comparison, Level, Quantity, Required
+from verification.judging.declared_case import Drawing, Reported, Row, Within, case, judged
+from verification.judging.drawings import PRESSURE as DRAWN_PRESSURE
+from verification.judging.drawings import Drawn, profile
+from verification.judging.ladder import (
+    Ladder,
+    Rung,
+    asked,
+    cells_label,
+    ladder,
+    named,
+    on_cells,
+    on_elements,
+    on_radii,
+    on_springs,
+    part_of_side,
+)
+from verification.judging.observable import Observable, error_norm
+from verification.judging.observables import APPROACH, CONTACT_RADIUS, PEAK_PRESSURE
+from verification.judging.order_of_convergence import (
+    Followed,
+    NotYetAsymptotic,
+    OrderOfChange,
+    Refinement,
+)
+from verification.judging.pressing_errors import PRESSURE, SHEAR, SHEAR_AT_EDGE
+from verification.judging.run import AnyRun, Run, SectionRun, per_radius
+from verification.observed.end_state import approach, contact_radius, peak_pressure, stick_radius
+from verification.observed.ring_errors import at_radii
+from verification.problems import paper_scene as paper
+from verification.problems.indentation import (
+    COATED,
+    FEW,
+    MANY,
+    NU_ZERO,
+    OVER_HERTZ_RADIUS,
+    STRONG,
+    WEAK,
+    Indentation,
+)
+from verification.problems.layered_scene import half_space, pressed, rigid_ball
+from verification.problems.paper_scene import HERTZ, pressing
+from verification.problems.problem import OVER_PEAK, Problem
+from verification.problems.reference import ROUNDING, Reference, ReferenceKind
+from verification.problems.sheared import OVER_LIMIT
+from verification.quantities import shear_of, shift_along_x
+
+ONE = "1"
+STICK_PART = Observable(
+    "stick_radius", "stick radius over contact radius", "",
+    lambda result, *_: stick_radius(result) / contact_radius(result),
+    lambda exact: float(exact.stick_part),
+)  # fmt: skip
+
+
+def _profiles(of: Ladder, one: Indentation, name: str, by: str, *drawn: str) -> list[Drawing]:
+    """Pressure or shear over the radius, beside the reference."""
+    fields = {
+        "pressure": ("p / p_H", of.problem.scale(OVER_PEAK), DRAWN_PRESSURE),
+        "shear": (
+            "|q| / µp_H", of.problem.scale(OVER_LIMIT),
+            Drawn(lambda end: np.hypot(*shear_of(end)), lambda exact: exact.size_of_shear),
+        ),
+        "outward shear": (
+            "q / µp_H", of.problem.scale(OVER_LIMIT),
+            Drawn(lambda end: end.shear_radial, lambda exact: exact.shear),
+        ),
+    }  # fmt: skip
+    count = of.problem.scene.loading[0].increments
+    return [
+        profile(
+            of, f"{name}_{one.file_name}" + ("_pressure" if field == "pressure" else ""),
+            f"{field.capitalize()} over the radius, {one.name}",
+            f"{field.capitalize()} by {by} after {count} increments over the reference, and their "
+            "difference: shear remembers the whole way.",
+            *fields[field],
+        )
+        for field in drawn
+    ]  # fmt: skip
+
+
+def frictional_indentation(level: Level = Level.QUICK) -> Case:
+    """A rigid ball pressed on bodies that slip away below it: a coarse grid at the quick level, the
+    one that figures are asked on above, where the stick radius is judged, too."""
+    why = "asked of the coupled solver on 256 x 256 cells"
+    cells, contacts = 256, [WEAK, STRONG, NU_ZERO, COATED]
+    if level is Level.QUICK:
+        cells, contacts = 96, [WEAK, STRONG, COATED]
+    rows = (
+        Within(APPROACH, 2e-4, why),
+        Within(CONTACT_RADIUS, 3e-3, why),
+        Within(PRESSURE, 5e-3, why),
+        Within(SHEAR, 1e-2, why),
+        Within(SHEAR_AT_EDGE, 3e-2, why),
+    )
+    stuck = Within(STICK_PART, 1e-2, why)
+    grids = {
+        one: named(
+            f"{one.name}, {cells_label(cells)}, {one.increments} increments",
+            on_cells(one.problem(one.increments), (cells,), of=one.name),
+        )
+        for one in contacts
+    }
+    return case(
+        "frictional_indentation",
+        "Pressing with friction",
+        "The paper's ball, rigid, pressed by 1 kN on bodies of the paper's E* and on its "
+        "coated one. Their surfaces move towards the axis below the ball; friction resists, "
+        "and all but a central disc slips. Pressure and shear act on each other, and the shear "
+        "of the disc remembers the whole way. The references come from integral equations over "
+        "the radius.",
+        *(
+            judged(
+                grid,
+                (*rows, stuck) if level is not Level.QUICK and one in (WEAK, STRONG) else rows,
+            )
+            for one, grid in grids.items()
+        ),
+        charts=tuple(
+            draw
+            for one, grid in grids.items()
+            for draw in _profiles(grid, one, "frictional_indentation", "cells", "pressure", "shear")
+        ),
+        limits=(
+            f"{STRONG.name} takes {MANY} increments to come within 1e-2 of the shear; with {FEW} "
+            "the steps of the stick edge leave ripples of up to 2e-2 in the stick zone.",
+            "The stick disc of the coated body is a few cells wide; its radius is not judged.",
+        ),
+        no_order=JUDGED_BY.format("indentation_refinement, in cells and in increments"),
+    )
+
+
+@dataclass(frozen=True)
+class Change:
+    """A change between refined levels, and the order that it is expected to fall with.
+
+    coarsest  levels that are left out of the order
+    name      of the verdict, after `order_of_`; empty: `of`
+    """
+
+    of: Followed
+    meaning: str
+    change: Callable[[Any, Any], float]
+    expected: float
+    because: str
+    not_yet: NotYetAsymptotic | None = None
+    coarsest: int = 0
+    name: str = ""
+
+
+@dataclass(frozen=True)
+class Refined:
+    """Runs of which one thing is refined, coarse to fine, and changes from one to another.
+
+    size   what is refined, h of a level; x_label names it
+    apart  levels from the first of a change to the second
+    """
+
+    runs: tuple[AnyRun, ...]
+    refined: Refinement
+    size: Callable[[Any], float]
+    x_label: str
+    changes: tuple[Change, ...]
+    apart: int
+
+    @property
+    def orders(self) -> tuple[OrderOfChange, ...]:
+        """Of the changes that fall with one order."""
+        labels = tuple(run.label for run in self.runs)
+        return tuple(
+            OrderOfChange(
+                f"order_of_{one.name or one.of.value.replace(' ', '_')}", one.of, self.refined,
+                one.meaning, labels[one.coarsest :], one.change, self.size, one.expected,
+                one.because, one.not_yet, self.apart,
+            )
+            for one in self.changes
+        )  # fmt: skip
+
+    def chart(self, name: str, title: str, caption: str) -> Drawing:
+        """Changes against size."""
+
+        def draw(results: Mapping[str, Any]) -> Chart:
+            levels = [results[run.label] for run in self.runs]
+            pairs = list(zip(levels, levels[self.apart :], strict=False))
+            return convergence_chart(
+                name, title, caption,
+                [self.size(coarse) for coarse, _ in pairs],
+                {one.of.value: [one.change(*pair) for pair in pairs] for one in self.changes},
+                {one.of.value: one.expected for one in self.changes},
+                self.x_label,
+                {
+                    one.of.value: len(pairs) - one.coarsest for one in self.changes if one.coarsest
+                },
+            )  # fmt: skip
+
+        return draw
+
+
+def _approach_change(coarse: Any, fine: Any) -> float:
+    """Change of the approach relative to the finer."""
+    return abs(approach(coarse) / approach(fine) - 1)
+
+
+def _radius_change(coarse: Any, fine: Any) -> float:
+    return abs(contact_radius(coarse) / contact_radius(fine) - 1)
+
+
+def _shift_change(coarse: Any, fine: Any) -> float:
+    """Change of the tangential shift relative to the finer path."""
+    return abs(shift_along_x(coarse.steps[-1]) / shift_along_x(fine.steps[-1]) - 1)
+
+
+def _shear_change(coarse: Any, fine: Any) -> float:
+    """Σ|q_coarse - q_fine| / Σµp at the centres of the coarse cells."""
+    found, other = shear_of(coarse.steps[-1]), shear_of(fine.steps[-1])
+    size = np.hypot(*(found - at_centres(coarse.grid.cells, other)))
+    return float(size.mean() / (HALF.friction * fine.steps[-1].pressure.mean()))
+
+
+def _shear_change_on_rings(coarse: Any, fine: Any) -> float:
+    """∫|q_coarse - q_fine| r dr / ∫µp r dr."""
+    one, other = coarse.steps[-1], fine.steps[-1]
+    r = one.radii
+    difference = np.abs(one.shear_radial - at_radii(other, other.shear_radial, r))
+    limit = HALF.friction * at_radii(other, other.pressure, r)
+    return float(np.trapezoid(difference * r, r) / np.trapezoid(limit * r, r))
+
+
+def _increment_size(result: Any) -> float:
+    """Part of a step that an increment takes."""
+    return len(result.steps) / len(result.increments)
+
+
+# Half of the radius sticks: the edges of stick zone and contact are as far apart as can be, and
+# both far from the axis. Stick radius, contact radius and approach by superposing Spence's punches,
+# δ R = 1.04015 a².
+HALF = Indentation(
+    {
+        "mu": 0.2986, "c_over_a": 0.49972, "a_over_aH": 0.97037,
+        "delta_over_deltaH": 1.04015 * 0.97037**2,
+    },
+    "ν = 0, µ = 0.2986",
+    "half",
+    Body(
+        material=IsotropicMaterial(young_modulus=paper.CONTACT_MODULUS, poisson_ratio=0.0)
+    ),
+    "self-similar (Spence 1975), to five digits",
+)  # fmt: skip
+FIVE_DIGITS = 0.5e-5 / 0.49972
+KEPT_SLIP = (
+    "slip keeps its direction while the contact grows; what increments miss of the stick zone "
+    "alternates and cancels in a mean"
+)
+FIXED_SHEAR = (
+    "the shear of a ring is fixed where the stick edge passes; next to it the shear leaves the "
+    "friction limit as a square root: O(√h) on bands of width h"
+)
+
+
+def _half_on_cells(cells: int, increments: int) -> Run:
+    """Half of the radius sticks, in other increments than the scene names."""
+    return Run(
+        f"{cells}x{cells}, {increments} increments",
+        HALF.problem(20).scene,
+        paper.square_grid(cells, paper.WINDOW_PER_RADIUS / 2 * HALF.contact_radius),
+        effects=lambda plan: plan.cut_into((increments,)),
+    )
+
+
+def _approach_error(few: Any, many: Any) -> float:
+    extrapolated = approach(many) + (approach(many) - approach(few)) / 3
+    return abs(extrapolated / HALF.approach - 1)
+
+
+def _stick_error(few: Any, many: Any) -> float:
+    """Relative error of the stick radius, extrapolated in the increments."""
+    radius = 2 * stick_radius(many) - stick_radius(few)
+    return abs(radius / (HALF.stick_part * HALF.contact_radius) - 1)
+
+
+def indentation_refinement(level: Level = Level.QUICK) -> Case:
+    """Pressing with friction under refinement of cells and of increments: two runs at the quick
+    level, orders above it."""
+    few, many = _half_on_cells(64, 8), _half_on_cells(64, 16)
+    # Changes are taken over two levels: by the root of two, and between some increments and twice
+    # as many. Grids cut the contact differently, so that many of them tell more. More increments
+    # move the stick edge by less than a cell each, and say nothing of smaller ones.
+    cells = (32, 38, 46, 54, 64, 76, 90, 108, 128, 152, 182, 214, 256)
+    increments = (2, 3, 4, 6, 8, 12, 16, 24, 32)
+    edges = (
+        "square-root edges of stick zone and contact: an error of O(√h) on rings one cell wide "
+        "leaves O(h^3/2) in L1"
+    )
+    meshes = Refined(
+        tuple(_half_on_cells(count, 20) for count in cells), Refinement.MESH,
+        lambda result: result.grid.spacing[0] / HALF.contact_radius, "cell side / contact radius",
+        (
+            Change(
+                Followed.SHEAR, "shear (L1) with 20 increments", _shear_change, 1.5, edges,
+                name="shear_in_cells",
+            ),
+        ),
+        apart=2,
+    )  # fmt: skip
+    paths = Refined(
+        tuple(_half_on_cells(128, count) for count in increments), Refinement.INCREMENTS,
+        _increment_size, "1 / increments",
+        (
+            Change(
+                Followed.APPROACH, "approach on 128 x 128 cells", _approach_change, 2.0, KEPT_SLIP,
+                name="approach_in_increments",
+            ),
+            Change(
+                Followed.SHEAR, "shear (L1) on 128 x 128 cells", _shear_change, 1.5, FIXED_SHEAR,
+                name="shear_in_increments",
+            ),
+        ),
+        apart=2,
+    )  # fmt: skip
+    series = () if level is Level.QUICK else (meshes, paths)
+    return case(
+        "indentation_refinement",
+        "Pressing with friction under refinement",
+        "The rigid ball on a body of ν = 0, with friction that lets half of the radius stick. "
+        "The pressing is cut into more and more increments on one grid, and the grid into more "
+        "and more cells with the same increments. Each leaves the error of the other, so "
+        "orders are taken from the changes between neighbouring levels.",
+        runs=(few, many, *(run for one in series for run in one.runs)),
+        orders=tuple(order for one in series for order in one.orders),
+        comparisons=(
+            Comparison(
+                "approach", "relative error of the approach, extrapolated from 8 and 16 "
+                "increments with second order", (few.label, many.label), _approach_error, 2e-4,
+                "asked of frictional_indentation, there on 256 x 256 cells", HALF.source,
+                ReferenceKind.SEMI_CLOSED, FIVE_DIGITS,
+            ),
+            Comparison(
+                "stick_radius", "relative error of the stick radius, extrapolated from 8 and 16 "
+                "increments", (few.label, many.label), _stick_error,
+                # On the quick grid, over the stick radius.
+                0.5 * paper.WINDOW_PER_RADIUS / 64 / HALF.stick_part,
+                "half a cell: the stick edge moves by cells from increment to increment",
+                HALF.source, ReferenceKind.SEMI_CLOSED, FIVE_DIGITS,
+            ),
+        ),
+        charts=(
+            meshes.chart(
+                "indentation_cells", "Smaller cells",
+                "Change on grids finer by about √2 with 20 increments, against cell side.",
+            ),
+            paths.chart(
+                "indentation_increments", "Smaller increments",
+                "Change by twice the increments on 128 x 128 cells.",
+            ),
+        )
+        if series
+        else (),
+        limits=(
+            "The stick radius scatters by a part of a cell from grid to grid: it has no order that "
+            "could be judged; frictional_indentation judges its extrapolated value.",
+        ),
+        equations=HALF.problem(1).equations,
+        no_order="" if series else "orders are judged above the quick level",
+    )  # fmt: skip
+
+
+def sheared_increments(
+    level: Level = Level.QUICK, increments: Sequence[int] = (), cells: int = 48
+) -> Case:
+    """Pressing and shearing a contact that is coupled, cut into more and more increments.
+
+    increments  per step, instead of those of the level; orders where there are five or more
+    cells       per side
+    """
+    counts = (
+        increments
+        or {
+            Level.QUICK: (4, 8),
+            Level.STANDARD: (4, 8, 16, 32, 64),
+            Level.FULL: (4, 8, 16, 32, 64, 128, 256),
+        }[level]
+    )
+    part = 0.5  # of µW
+    push = (part * HALF.friction * paper.NORMAL_FORCE, 0.0)
+    grid = paper.square_grid(cells, paper.WINDOW_PER_RADIUS / 2 * HALF.contact_radius)
+    scene = HALF.problem(1).scene
+    runs = tuple(
+        Run(
+            f"{count} increments",
+            scene.model_copy(
+                update={
+                    "loading": (
+                        pressing(count), LoadStep(tangential_force=push, increments=count),
+                    )
+                }
+            ),
+            grid,
+        )
+        for count in counts
+    )  # fmt: skip
+    backward = (
+        "slip turns and the friction limit moves while an increment takes both as they are at its "
+        "end: Euler's backward rule"
+    )
+    paths = Refined(
+        runs, Refinement.INCREMENTS, _increment_size, "1 / increments of a step",
+        (
+            Change(Followed.SHIFT, "tangential shift", _shift_change, 1.0, backward, name="shift"),
+            Change(Followed.SHEAR, "shear (L1)", _shear_change, 1.0, backward),
+            Change(Followed.APPROACH, "approach", _approach_change, 1.0, backward, coarsest=1),
+        ),
+        apart=1,
+    )  # fmt: skip
+    several = len(counts) >= 5
+    return case(
+        "sheared_increments",
+        "Shearing a coupled contact in smaller increments",
+        "The rigid ball of indentation_refinement pressed on the body of ν = 0, with friction "
+        f"of {HALF.friction:.2f}, and sheared by {part:g} µW. Shear and pressure act on each "
+        "other, slip turns from outward to along the load: the path decides, and nobody knows "
+        "the exact answer. Each doubling of the increments changes it less.",
+        runs=runs,
+        orders=paths.orders if several else (),
+        comparisons=(
+            Comparison(
+                "shift", f"change of the shift from {counts[-2]} to {counts[-1]} increments",
+                (runs[-2].label, runs[-1].label), _shift_change, 2e-2 * 4 / counts[-2],
+                "2 % from 4 to 8 increments, and half by each further doubling: first order",
+                "the same solver with half as many increments", ReferenceKind.OWN_REFINEMENT,
+            ),
+        ),
+        charts=(
+            paths.chart(
+                "sheared_increments", "Smaller increments under a tangential force",
+                f"Change by twice the increments on {cells} x {cells} cells. Lines go through the "
+                "levels that are judged; others are points alone.",
+            ),
+        )
+        if several
+        else (),
+        limits=(
+            "Contact and stick radius move by parts of a cell from path to path: no order.",
+            "The energy lost has no one order: neighbouring changes give 1.58, 1.61, 2.17, 1.67 "
+            "and 2.03 on 4 to 256 increments.",
+            "Changes of the approach give 0.82 on the three coarsest levels and rise to 0.99: the "
+            "coarsest is left out of its order.",
+        ),
+        equations=(
+            r"|\mathbf{q}| \le \mu p,\quad \mu p \, \dot{\mathbf{s}} = "
+            r"-|\dot{\mathbf{s}}| \, \mathbf{q}",
+        ),
+        no_order="" if several else "orders are judged above the quick level",
+    )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Goodman:
+    """The end of pressing where shear does not act on the pressure: Hertz's, and a stick disc."""
+
+    stick_part: float
+    approach: float = HERTZ.approach
+    peak_pressure: float = HERTZ.peak_pressure
+
+
+def _goodman(
+    title: str, nu: float, friction: float, increments: int, uncertainty: Callable[[float], float]
+) -> Problem:
+    """The rigid ball pressed with this friction.
+
+    uncertainty  of the closed form, by Dundurs' constant
+    """
+    beta = (1 - 2 * nu) / (2 * (1 - nu))
+    return Problem(
+        pressed(title, rigid_ball(), half_space(nu), pressing(increments), friction=friction),
+        (Goodman(stick_ratio(friction, beta)),),
+        HERTZ.contact_radius,
+        "Goodman 1962; Spence 1975: (a/2c) ln((a+c)/(a-c)) = (µ/β) K'(c/a)",
+        uncertainty=uncertainty(beta),
+        scales={ONE: 1.0},
+        equations=(
+            r"\frac{a}{2c} \ln\frac{a + c}{a - c} = \frac{\mu}{\beta} K'(c/a),\quad "
+            r"\beta = \frac{1 - 2\nu}{2 (1 - \nu)}",
+        ),
+    )
+
+
+def _excess(result: Any, *_: Any) -> float:
+    end = result.steps[-1]
+    bound = result.scene.friction.limit(end.pressure)
+    return float(np.max(np.hypot(*shear_of(end)) - bound) / np.max(bound))
+
+
+def goodman_indentation(
+    level: Level = Level.QUICK, cells: int = 0, frictions: Sequence[float] = ()
+) -> Case:
+    """Pressing with friction where shear does not act on the pressure.
+
+    cells, frictions  per side, and coefficients, instead of those of the level
+    """
+    # On 64 cells the disc of µ = 0.1 is six cells wide, and so is the slip ring of µ = 0.3.
+    resolved = (64, (0.2,)) if level is Level.QUICK else (256, (0.1, 0.2, 0.3))
+    cells, frictions = (cells, frictions) if cells else resolved
+    hertz, why = "Hertz: the pressure is that without friction", "asked of frictional indentation"
+    rows = (
+        Within(replace(APPROACH, source=hertz), 2e-4, why),
+        Within(
+            replace(PEAK_PRESSURE, source=hertz), 2e-3,
+            "a cell is up to a thirtieth of the radius wide",
+        ),
+        Within(
+            error_norm(
+                "slip_limit", "largest excess of the shear over µp, over µp₀", _excess, "µp₀",
+                source="Coulomb",
+            ),
+            1e-8, "the solver's tolerance",
+        ),
+        Within(replace(STICK_PART, name="stick_ratio"), 1e-2, why),
+    )  # fmt: skip
+    grid = paper.square_grid(cells, 1.15 * HERTZ.contact_radius)
+
+    def one(mu: float) -> Ladder:
+        title = f"Rigid ball pressed with friction, µ = {mu:g}, coupled one way"
+        problem = _goodman(title, 0.3, mu, 40, lambda beta: ROUNDING)
+        name = f"µ = {mu:g}"
+        label = f"{name}, {cells} cells, 40 increments"
+        run = Run(label, problem.scene, grid, effects=one_way, problem=name)
+        return ladder(problem, [Rung(run, cells)])
+
+    return case(
+        "goodman_indentation",
+        "Pressing with friction, coupled one way",
+        "The paper's ball, rigid, pressed on bodies of the paper's E* and ν = 0.3. Pressure "
+        "draws the surface towards the axis and friction resists; that shear in turn lifts "
+        "or lowers the surface is left out. Then the pressure is Hertz's, and the stick disc "
+        "has a closed form: a test of the history of stick and slip apart from the "
+        "alternation between pressure and shear.",
+        *(judged(one(mu), rows) for mu in frictions),
+        limits=(
+            "One-way coupling is an approximation, here computed on purpose; the full coupling is "
+            "judged by the case frictional_indentation.",
+            "With the full coupling c/a is smaller: 0.1998 for µ = 0.1, 0.8959 for µ = 0.3.",
+        ),
+        no_order="the stick radius scatters by a part of a cell from grid to grid",
+    )
+
+
+NO_SLIP_SOURCE = "Mossakovskii 1963; Spence 1968: (1 - ν) ln(3 - 4ν) / (1 - 2ν)"
+NO_SLIP_BALL_SOURCE = "Spence 1968, superposition of bonded flat punches"
+NO_SLIP_RATIOS = (0.0, 0.3)  # Poisson's
+NO_SLIP_FRICTION = 2.0  # at the edge of full stick |q|/p stays below; µ|beta| = 1 for ν = 0
+# Approach over a²/R, and load over Hertz's at equal contact radius.
+NO_SLIP_BALL = {0.0: (1.0887337, 1.1960963), 0.3: (1.0245802, 1.0539106)}
+
+
+def _factor_error(nu: float, bonded: Any, smooth: Any) -> float:
+    factor = (1 - nu) * log(3 - 4 * nu) / (1 - 2 * nu)
+    return abs(approach(smooth) / approach(bonded) / factor - 1)
+
+
+def _bonded_ball_error(nu: float, few: Any, many: Any) -> float:
+    approach_factor, load_factor = NO_SLIP_BALL[nu]
+    exact = HERTZ.approach * approach_factor / load_factor ** (2 / 3)
+    return abs((2 * approach(many) - approach(few)) / exact - 1)
+
+
+def no_slip_indentation(level: Level = Level.QUICK) -> Case:
+    """Friction so large that nothing slips: the stiffening factor of bonded indentation, of a punch
+    at every level, of a ball above the quick one."""
+    few, many = 20, 40
+    grid = paper.square_grid(96, 1.2 * HERTZ.contact_radius)
+    punch = FlatPunch(radius=HERTZ.contact_radius, material=RIGID)
+
+    def run(label: str, title: str, indenter: Any, nu: float, friction: Any, count: int) -> Run:
+        scene = pressed(title, indenter, half_space(nu), pressing(count), friction=friction)
+        return Run(label, scene, grid)
+
+    # The radius is fixed and nothing slips: the state does not depend on the way.
+    bonded, smooth = (
+        {
+            nu: run(f"{kind} punch, ν = {nu:g}", title, punch, nu, friction, 1)
+            for nu in NO_SLIP_RATIOS
+        }
+        for kind, title, friction in (
+            ("bonded", "Flat punch that does not slip", NO_SLIP_FRICTION),
+            ("smooth", "Flat punch", None),
+        )
+    )
+    balls = {
+        nu: [
+            run(
+                f"ball, ν = {nu:g}, {count} increments", "Rigid ball that does not slip",
+                rigid_ball(), nu, NO_SLIP_FRICTION, count,
+            )
+            for count in (few, many)
+        ]
+        for nu in (() if level is Level.QUICK else NO_SLIP_RATIOS)
+    }  # fmt: skip
+
+    def text(nu: float) -> str:
+        return f"{nu:g}".replace(".", "_")
+
+    return case(
+        "no_slip_indentation",
+        "Indentation without slip",
+        "A rigid flat punch, and a ball, pressed on homogeneous bodies with so much friction "
+        "that no cell slips. Bonding stiffens the contact by a factor that Mossakovskii found. "
+        "It is strong coupling: plain alternation between pressure and shear hardly converges.",
+        runs=(
+            *bonded.values(), *smooth.values(), *(pair[0] for pair in balls.values()),
+            *(pair[1] for pair in balls.values()),
+        ),
+        comparisons=(
+            *(
+                Comparison(
+                    f"punch_nu_{text(nu)}", f"ν = {nu:g}: load factor of the bonded over the "
+                    "smooth punch, relative error",
+                    (bonded[nu].label, smooth[nu].label), partial(_factor_error, nu), 1e-3,
+                    "the singular edge leaves errors of the order of a cell in either stiffness",
+                    NO_SLIP_SOURCE, ReferenceKind.CLOSED_FORM, ROUNDING,
+                )
+                for nu in NO_SLIP_RATIOS
+            ),
+            *(
+                Comparison(
+                    f"ball_nu_{text(nu)}", f"ν = {nu:g}: approach of the ball, extrapolated from "
+                    f"{few} and {many} increments, relative error",
+                    (pair[0].label, pair[1].label), partial(_bonded_ball_error, nu), 2e-4,
+                    "asked of the coupled solver; first order in the increment",
+                    # Eight digits of both factors.
+                    NO_SLIP_BALL_SOURCE, ReferenceKind.SEMI_CLOSED, 1e-7,
+                )
+                for nu, pair in balls.items()
+            ),
+        ),
+        equations=(
+            r"\frac{W_\mathrm{bonded}}{W_\mathrm{smooth}} = "
+            r"\frac{(1 - \nu) \ln(3 - 4\nu)}{1 - 2\nu}",
+        ),
+        no_order="errors of both stiffnesses cancel in their ratio, and scatter from grid to grid",
+    )  # fmt: skip
+
+
+def spence_example(level: Level = Level.QUICK) -> Case:
+    """The example of Kalker's program CONTACT that Spence's theory is behind, as that publishes it,
+    on the grid of the example at every level."""
+    # The program's units are N and mm: gap 0.004116 r², G = 0.5, ν = 0, cells of 0.2.
+    mm, megapascal = 1e-3, 1e6
+    cells, side, increments = 45, 0.2 * mm, 35
+    contact_cells, stick_cells = 921, 225
+    radius = sqrt(contact_cells / np.pi) * side
+    material = IsotropicMaterial(young_modulus=1 * megapascal, poisson_ratio=0.0)
+    scene = Scene(
+        title="CONTACT's example of Spence's problem",
+        indenter=Paraboloid(radius=mm / (2 * 0.004116), material=RIGID),
+        body=Body(material=material),
+        friction=CoulombFriction(coefficient=0.2986),
+        loading=(LoadStep(normal_force=(increments / 45) ** 3, increments=increments),),
+    )
+    # The published numbers are those of tractions that are constant on these cells.
+    grid = SurfaceGrid((cells, cells), (cells * side, cells * side))
+    run = Run("45 x 45, edge off", scene, grid, edge="off")
+
+    def counted(result: Any) -> float:
+        end = result.steps[-1]
+        return sqrt(np.count_nonzero(end.in_stick) / np.count_nonzero(end.in_contact))
+
+    def published(value: float, uncertainty: float) -> Reference:
+        source = "CONTACT, example of Spence's problem: published output"
+        return Reference(value, ReferenceKind.EXTERNAL_CODE, source, uncertainty)
+
+    return case(
+        "spence_example",
+        "CONTACT's Spence example",
+        "A rigid paraboloid pressed with µ = 0.2986 on a half-space with ν = 0 in 35 equal "
+        "steps of the contact radius: half of the radius sticks. The same cells and steps as "
+        "in the published example, so that the two programs can be compared cell by cell.",
+        runs=(run,),
+        quantities=(
+            Quantity(
+                "approach", "approach of the bodies since first touch", "m", run.label, approach,
+                published(0.09874 * mm, 0.5e-5 * mm),
+                Required(2e-4, "four times half a digit of what is printed"),
+            ),
+            Quantity(
+                "peak_pressure", "largest pressure of any cell", "Pa", run.label, peak_pressure,
+                published(0.02392 * megapascal, 0.5e-5 * megapascal),
+                Required(1e-3, "both codes take the mean over the same cell"),
+            ),
+            Quantity(
+                "stick_ratio", "√(cells that stick / cells in contact)", "", run.label, counted,
+                published(sqrt(stick_cells / contact_cells), 1 / stick_cells),
+                Required(
+                    0.1 * side / radius, "both codes count cells: a tenth of one, one was asked for"
+                ), 1.0, "the contact radius",
+            ),
+        ),
+        limits=("The published output has four to five digits.",),
+        equations=HALF.problem(1).equations,
+        no_order="the published example has one grid",
+    )  # fmt: skip
+
+
+def _on_mesh(one: Indentation, elements: int, increments: int) -> Ladder:
+    """The scene of frictional_indentation, but for its increments, on one mesh."""
+    meshes = on_elements(one.problem(increments), (elements,), over=0.97, of=one.name)
+    return named(f"{one.name}, {increments} increments", meshes)
+
+
+def fem_indentation(level: Level = Level.QUICK) -> Case:
+    """A rigid ball pressed on bodies that slip away below it, by finite elements."""
+    n, many, why = finest(level), 60, "asked of the finite elements"
+    meshes = {
+        one: _on_mesh(one, n, increments)
+        for one, increments in {WEAK: FEW, STRONG: many, COATED: FEW}.items()
+    }
+
+    def rows(one: Indentation) -> tuple[Row, ...]:
+        return (
+            Within(APPROACH, 2e-4, why),
+            Within(CONTACT_RADIUS, 2e-3, ELEMENT_RADIUS),
+            Within(PRESSURE, asked(2e-3, 1), because(1)),
+            Within(SHEAR, 1e-2, why),
+            Reported(
+                STICK_PART, f"the reference has {one.stick_part:.4f}; one element is {1 / n:.4f}"
+            ),
+        )
+
+    return case(
+        "fem_indentation",
+        "Finite elements: pressing with friction",
+        "The scenes of frictional_indentation by finite elements: pressure as a linear "
+        "complementarity problem and radial shear as a quadratic program within the friction "
+        "limit, one after the other until they agree. No penalty: contact and stick are exact "
+        "over the hat functions of the tractions.",
+        *(judged(mesh, rows(one)) for one, mesh in meshes.items()),
+        charts=tuple(
+            draw
+            for one, mesh in meshes.items()
+            for draw in _profiles(mesh, one, "fem_indentation", "finite elements", "outward shear")
+        ),
+        limits=(
+            f"The shear is judged where the increments allow: {FEW} for µ = 0.1, {many} for "
+            "µ = 0.3.",
+        ),
+        no_order=JUDGED_BY.format("fem_increments"),
+    )
+
+
+def fem_increments(level: Level = Level.QUICK) -> Case:
+    """Finite elements: pressing with friction, cut into more and more increments; the same at every
+    level."""
+    # The stick edge moves from node to node: that shows beyond 12 increments on 256 elements per
+    # radius and beyond 24 on 512, and an order read off more is too low.
+    elements = 256
+    slowly = NotYetAsymptotic(
+        0.12,
+        "the next term is of second order and of the other sign: by 1/h = 2 … 12 increments the "
+        "change is h^3/2 (0.0761 - 0.0209 √h) within 0.5 % on 512 elements per radius, whose order "
+        "rises from 1.40 to 1.45 and to 1.5 as √h falls",
+    )
+    mesh = per_radius(elements, 0.97 * HALF.contact_radius)
+    paths = Refined(
+        tuple(
+            SectionRun(f"{count} increments", HALF.problem(count).scene, mesh)
+            for count in (2, 3, 4, 6, 8, 12)
+        ),
+        Refinement.INCREMENTS, _increment_size, "1 / increments",
+        (
+            Change(Followed.APPROACH, "approach", _approach_change, 2.0, KEPT_SLIP),
+            Change(Followed.CONTACT_RADIUS, "contact radius", _radius_change, 2.0, KEPT_SLIP),
+            Change(
+                Followed.SHEAR, "shear (L1)", _shear_change_on_rings, 1.5, FIXED_SHEAR, slowly
+            ),
+        ),
+        apart=2,
+    )  # fmt: skip
+    return case(
+        "fem_increments",
+        "Finite elements: pressing with friction in smaller increments",
+        "The rigid ball on a body of ν = 0, with friction that lets half of the radius stick, "
+        "on one mesh. Each doubling of the increments changes the answer less; how much less "
+        "is the order of the path's error.",
+        runs=paths.runs,
+        orders=paths.orders,
+        charts=(
+            paths.chart(
+                "fem_increments",
+                "Smaller increments, finite elements",
+                f"Change by twice the increments on {elements:g} elements per contact radius.",
+            ),
+        ),
+        limits=(
+            "Where an increment moves the stick edge by less than an element, smaller increments "
+            "say nothing more: the mesh has to become finer with them.",
+        ),
+        equations=HALF.problem(1).equations,
+    )
+
+
+def fem_penalty_indentation(level: Level = Level.QUICK) -> Case:
+    """A rigid ball pressed with friction, by finite elements with a penalty and return mapping."""
+    rows = (
+        Within(APPROACH, 1e-3, PENALTY),
+        Within(
+            CONTACT_RADIUS, part_of_side(0.12), "an eighth of an element: the last points ripple"
+        ),
+        Within(PRESSURE, 5e-3, PENALTY),
+        Within(SHEAR, 3e-2, PENALTY),
+        Reported(
+            error_norm(
+                "by_newton", "increments that took Newton's method",
+                lambda result, *_: float(sum(i.path != "alternation" for i in result.increments)),
+            ),
+            "none: pressure and shear in turn, with Anderson mixing, converge in all",
+        ),
+        Reported(
+            error_norm(
+                "systems", "linear systems per increment",
+                lambda result, *_: (
+                    sum(i.iterations for i in result.increments) / len(result.increments)
+                ),
+            ),
+            "two passes each: springs, and springs beside the forces of the first pass",
+        ),
+    )  # fmt: skip
+    meshes = {
+        one: on_springs(_on_mesh(one, finest(level), FEW), f"{one.name}, {FEW} increments, penalty")
+        for one in (WEAK, STRONG, COATED)
+    }
+    return case(
+        "fem_penalty_indentation",
+        "Finite elements with a penalty: pressing with friction",
+        "The scenes of fem_indentation with springs at Gauss points instead of exact contact, "
+        "and Coulomb's law by return mapping: a trial shear from what each point remembers, "
+        "scaled back to µp where it is beyond. Pressure and shear are found in turn; where that "
+        "does not converge, together by Newton's method with the consistent tangent.",
+        *(judged(mesh, rows) for mesh in meshes.values()),
+        checks=(consistent_tangent(),),
+        charts=tuple(
+            draw
+            for one, mesh in meshes.items()
+            for draw in _profiles(mesh, one, "fem_penalty_indentation", "springs", "outward shear")
+        ),
+        limits=(
+            f"The shear is that of {FEW} increments, whose error is part of what is judged: each "
+            "place that the edge of stick has passed keeps a ripple, of 0.02 µp_H for µ = 0.3.",
+        ),
+        no_order=JUDGED_BY.format("fem_increments"),
+    )
+
+
+INNERMOST, BESIDE = 0.05, 0.05  # radii where shear is not compared: at the axis, beside the front
+
+
+def _mean_shear(result: Any, _: int, problem: Problem) -> float:
+    """At the radii of the row, by the shear over √(1-x²), which has no root, between rings."""
+    end, one = result.steps[-1], problem.ends[-1]
+    r = end.radii[end.pressure > 0] / end.contact_radius
+    smooth = end.shear_radial[: len(r)] / np.sqrt(1 - r**2)
+    x = one.radii / one.contact_radius
+    told = (x >= INNERMOST) & (np.abs(x / one.stick_part - 1) > BESIDE)
+    off = np.interp(x, r, smooth) * np.sqrt(1 - x**2) - one.shear(one.radii)
+    return float(np.mean(np.abs(off[told]))) / problem.scale(OVER_LIMIT)
+
+
+def radial_indentation(level: Level = Level.QUICK) -> Case:
+    """Pressing with friction by the radial solver, against integral equations and Goodman's limit;
+    the same at every level."""
+    increments, rings = 64, 512  # twice as many increments where the cells take twice as many
+    why = "asked of the radial solver at these increments"
+    of_contacts = (
+        Within(APPROACH, 1e-6, why),
+        Within(CONTACT_RADIUS, 1e-6, why),
+        Within(
+            Observable(
+                "stick_radius", "stick radius", "m", lambda result, *_: stick_radius(result),
+                lambda one: one.stick_part * one.contact_radius, OVER_HERTZ_RADIUS,
+            ),
+            1e-3, why,
+        ),
+        Within(
+            error_norm(
+                "mean_shear",
+                f"mean error of the shear from {INNERMOST:g} a on, beside the front",
+                _mean_shear, OVER_LIMIT,
+            ),
+            1e-4, why,
+        ),
+    )  # fmt: skip
+    # Nearly without coupling, by which Goodman's answer is off by about β².
+    nu = 0.49
+    beta = (1 - 2 * nu) / (2 * (1 - nu))
+    of_goodman = Within(
+        replace(STICK_PART, name="stick_part", over=ONE), 1e-3,
+        f"asked of the stick radius; {beta**2:.0e} of it is Goodman's",
+    )  # fmt: skip
+    return case(
+        "radial_indentation",
+        "Pressing with friction in one dimension",
+        "The paper's ball, rigid, pressed by 1 kN on half-spaces and on a coating that "
+        f"move towards the axis below it, in {increments} increments, or twice as many where "
+        "nearly all sticks, by the radial solver. The references come from integral equations "
+        "over the radius. Where bodies hardly couple, the stick radius is Goodman's.",
+        *(
+            judged(
+                on_radii(one.problem(increments * one.increments // FEW), one.name, rings=rings),
+                of_contacts,
+            )
+            for one in (WEAK, STRONG, NU_ZERO, COATED)
+        ),
+        *(
+            judged(
+                on_radii(
+                    _goodman(title, nu, ratio * beta, increments, lambda beta: beta**2), title,
+                    rings=rings,
+                ),
+                (of_goodman,),
+            )
+            for ratio in (0.5, 1.0)
+            for title in [f"ν = {nu:g}, µ = {ratio:g} β"]
+        ),
+        no_order="judged at the increments that the case names, not on several counts of them",
+    )  # fmt: skip

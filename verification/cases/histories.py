@@ -1,0 +1,927 @@
+"""Histories and identities: one contact seen in several ways must give one answer."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+from math import cos, radians, sin
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import radial
+import semi_analytical
+from contact_scene import (
+    RIGID,
+    Body,
+    CoulombFriction,
+    FiniteElementDiscretisation,
+    FlatPunch,
+    FrictionMap,
+    HeightMap,
+    LoadStep,
+    Paraboloid,
+    RadialDiscretisation,
+    Scene,
+)
+from contact_scene.loading import CONTROLS
+from contact_scene.residuals import worst
+from semi_analytical import SurfaceGrid, all_effects
+from verification.cases.levels import IDENTITY
+from verification.closed_forms.hertz import PointContact
+from verification.exhibits.table import NONE, Table
+from verification.judging.case import Case, Check, Comparison, Finding, Level, Quantity, Required
+from verification.judging.declared_case import case
+from verification.judging.run import OTHER_NORMS, SOLVER_TOLERANCE, Run, SectionRun, per_radius
+from verification.observed.laws import observed
+from verification.problems import paper_scene as paper
+from verification.problems.layered_scene import SUBSTRATE, coated, film, pressed, rigid_ball
+from verification.problems.paper_scene import (
+    FRICTION,
+    HERTZ,
+    NORMAL_FORCE,
+    NU_ZERO,
+    STEEL,
+    pressing,
+)
+from verification.problems.reference import (
+    ROUNDING,
+    Reference,
+    ReferenceKind,
+    closed_form,
+    identity,
+)
+from verification.problems.sheared import SLIDING_SHIFT
+from verification.problems.torsion import LARGEST, PUNCH_RADIUS, SLIDING_TORQUE, STUCK
+from verification.quantities import shear_of, shift_along_x
+
+Field = NDArray[np.float64]
+Difference = Callable[[Any, Any], float]
+
+ANSWERED = "residuals of two solves, which tractions answer a few times over"
+ISOTROPIC = "isotropic bodies and friction"
+TURNS_INTO_ITSELF = "square cells turn into themselves; "
+ROTATION = r"\mathbf{q}(\mathbf{R}\mathbf{x}) = \mathbf{R}\,\mathbf{q}(\mathbf{x})"
+EXACT = 10 * SOLVER_TOLERANCE
+FILMED = coated(film(2.0, 1.0))
+
+
+def turned(loading: tuple[LoadStep, ...], degrees: float) -> tuple[LoadStep, ...]:
+    """The steps with their tangential forces turned from x to y."""
+    c, s = cos(radians(degrees)), sin(radians(degrees))
+
+    def one(step: LoadStep) -> LoadStep:
+        if step.tangential_force is None:
+            return step
+        x, y = step.tangential_force
+        return step.model_copy(update={"tangential_force": (c * x - s * y, s * x + c * y)})
+
+    return tuple(one(step) for step in loading)
+
+
+def _shift(end: Any) -> Field:
+    """Tangential shift; none before friction acts."""
+    shift = end.tangential_shift
+    return np.zeros(2) if shift is None else np.asarray(shift)
+
+
+def same_fields(
+    field: Callable[[Field], Field],
+    vector: Callable[[Field], Field],
+    turn: Callable[[Field], Field],
+    one: Any,
+    other: Any,
+) -> float:
+    """Largest difference in any increment of Σ|Δp|/Σp, Σ|Δq|/Σp, relative approach, and shift over
+    approach, once the second result is carried over into the frame of the first.
+
+    field   carries a scalar over, vector the shear, turn the shift
+    """
+
+    def apart(a: Any, b: Any) -> float:
+        total = np.sum(b.pressure)
+        return worst(
+            float(np.sum(np.abs(a.pressure - field(b.pressure))) / total),
+            float(np.sum(np.abs(shear_of(a) - vector(shear_of(b)))) / total),
+            abs(a.approach / b.approach - 1),
+            float(np.max(np.abs(_shift(a) - turn(_shift(b))))) / b.approach,
+        )
+
+    return worst(*map(apart, one.increments, other.increments))
+
+
+def _by_quarter(field: Field) -> Field:
+    """Turned by a right angle from x to y."""
+    return np.asarray(field.T[::-1])
+
+
+def _quarter_of_shear(q: Field) -> Field:
+    return np.stack([-_by_quarter(q[1]), _by_quarter(q[0])])
+
+
+def _quarter_of_shift(shift: Field) -> Field:
+    return np.array([-shift[1], shift[0]])
+
+
+as_it_is = partial(same_fields, np.asarray, np.asarray, np.asarray)
+after_quarter = partial(same_fields, _by_quarter, _quarter_of_shear, _quarter_of_shift)
+
+
+def motion_apart(degrees: float, one: Any, other: Any) -> float:
+    """Largest difference, in any increment, of the shift and of the energy lost, once the second
+    result is turned; relative to the largest of either in the second."""
+    c, s = cos(radians(degrees)), sin(radians(degrees))
+    turn = np.array([[c, -s], [s, c]])
+    found, expected = (np.array([_shift(i) for i in r.increments]) for r in (one, other))
+    shift = np.max(np.hypot(*(found.T - turn @ expected.T))) / np.max(np.hypot(*expected.T))
+    lost, energy = (
+        np.array([i.dissipated_energy for i in result.increments], dtype=float)
+        for result in (one, other)
+    )
+    return worst(shift, np.max(np.abs(lost - energy)) / np.max(energy))
+
+
+def _isotropic(one: Run, other: Run, degrees: float, allowed: float, cells: int) -> Comparison:
+    """A history turned by an angle that the grid does not share.
+
+    allowed  on `cells` cells per side: about four times what square cells leave
+    """
+    return Comparison(
+        f"turned_by_{degrees:g}", f"difference of shift and energy lost after {degrees:g}°",
+        (one.label, other.label), partial(motion_apart, degrees),
+        allowed * cells / other.grid.cells[0],
+        f"set by hand: about four times what square cells leave at the edges of contact and stick "
+        f"on {cells} of them, in proportion to the cell on others", ISOTROPIC,
+    )  # fmt: skip
+
+
+def load_paths(level: Level = Level.QUICK, cells: int = 0) -> Case:
+    """Histories without a closed form: only the equations themselves can judge them.
+
+    cells  per side, instead of those of the level
+    """
+    grid = paper.hertz_grid(cells or (64 if level is Level.QUICK else 128))
+    half = 0.5 * paper.FRICTION_LIMIT
+    along = LoadStep(tangential_force=(half, 0.0), increments=2)
+    turning = (
+        along,
+        LoadStep(tangential_force=(half, half), increments=3),
+        LoadStep(tangential_force=(-half, half), increments=4),
+    )
+
+    def run(label: str, title: str, *loading: LoadStep) -> Run:
+        scene = paper.frictional(title, paper.paraboloid(STEEL), STEEL, *loading)
+        return Run(label, scene, grid)
+
+    changes = (
+        run(
+            f"{way} at constant T", f"Normal force {word} at constant tangential force", along,
+            LoadStep(normal_force=part * NORMAL_FORCE, increments=4),
+        )
+        for way, word, part in (("unloading", "reduced", 0.6), ("loading", "raised", 1.4))
+    )  # fmt: skip
+    straight = run("turning", "Tangential force turning by a right angle", *turning)
+    quarter, oblique = (
+        run(
+            f"turning, turned by {degrees:g}°",
+            f"Tangential force turning, as a whole turned by {degrees:g}°",
+            *turned(turning, degrees),
+        )
+        for degrees in (90.0, 30.0)
+    )
+    return case(
+        "load_paths",
+        "Load histories without a closed form",
+        "Histories in which normal and tangential load change together or in two directions, "
+        "for ν = 0.3. Nobody has a formula for them; the laws of contact and friction at every "
+        "increment are judged, and that no direction is better than another.",
+        runs=(*changes, straight, quarter, oblique),
+        comparisons=(
+            Comparison(
+                "turned_by_90", "difference of pressure, shear and shift after a right angle",
+                (quarter.label, straight.label), after_quarter, EXACT,
+                TURNS_INTO_ITSELF + ANSWERED, ISOTROPIC,
+            ),
+            _isotropic(oblique, straight, 30.0, 3e-4, 64),
+        ),
+        limits=("Small residuals say that the equations are solved, not that they are right.",),
+        equations=(ROTATION,),
+        no_order=IDENTITY,
+    )  # fmt: skip
+
+
+PRESSED, PUSHED, BACK = 1, 2, 3  # loading steps
+
+
+@dataclass(frozen=True)
+class CoupledContact:
+    """A rigid ball on a body that couples pressure and shear, pushed to and fro by two thirds of
+    µW, then aside, and unloaded under that force."""
+
+    name: str
+    body: Body
+    friction: float
+
+    @property
+    def history(self) -> tuple[LoadStep, ...]:
+        """The first three steps are a loop along x."""
+        push = 2 / 3 * self.friction * NORMAL_FORCE
+        return (
+            pressing(6),
+            LoadStep(tangential_force=(push, 0.0), increments=2),
+            LoadStep(tangential_force=(-push, 0.0), increments=3),
+            LoadStep(tangential_force=(-0.3 * push, 0.7 * push), increments=2),
+            LoadStep(normal_force=0.7 * NORMAL_FORCE, increments=2),
+        )
+
+    def scene(self, loading: tuple[LoadStep, ...], way: str) -> Scene:
+        """Under a history."""
+        title = f"Rigid ball on a body: {self.name}{way}"
+        return pressed(title, rigid_ball(), self.body, *loading, friction=self.friction)
+
+    def run(self, cells: int, degrees: float = 0.0) -> Run:
+        """The history, turned."""
+        way = "" if degrees == 0 else f", turned by {degrees:g}°"
+        grid = paper.square_grid(cells, 1.2 * HERTZ.contact_radius)
+        scene = self.scene(turned(self.history, degrees), way)
+        # The history follows the states before the edge correction: so do the identities.
+        return Run(f"{self.name}{way}", scene, grid, edge="off")
+
+    def section(self, elements: int, harmonics: int) -> SectionRun:
+        """The loop by finite elements: loads along a line."""
+        mesh = FiniteElementDiscretisation(
+            elements_per_radius=elements,
+            contact_radius=HERTZ.contact_radius,
+            harmonics=harmonics,
+            tolerance=SOLVER_TOLERANCE,
+        )
+        label = f"{self.name}, {elements} elements per radius"
+        return SectionRun(label, self.scene(self.history[:BACK], ", to and fro"), mesh)
+
+
+class LedByMotion:
+    """A result's history once more, led by its own approach and shift increment by increment.
+
+    The motions are not known before the result, so this is no run of the case. It is solved once
+    for all that is measured on it; a history that the solver gives up is infinitely far off.
+    """
+
+    def __init__(self) -> None:
+        self._solved: tuple[semi_analytical.Result, semi_analytical.Result | None] | None = None
+
+    def difference(self, result: semi_analytical.Result) -> float:
+        """Σ|Δp|/Σp or Σ|Δq|/Σp, the larger in any increment."""
+        led = self._led(result)
+        if led is None:
+            return math.inf
+        return worst(
+            *(
+                float(np.sum(np.abs(one - other)) / np.sum(b.pressure))
+                for a, b in zip(led.increments, result.increments, strict=True)
+                for one, other in ((a.pressure, b.pressure), (shear_of(a), shear_of(b)))
+            )
+        )
+
+    def violation(self, result: semi_analytical.Result) -> float:
+        """Largest violation of a law in it, dimensionless."""
+        led = self._led(result)
+        if led is None:
+            return math.inf
+        violation, imbalance = observed(led)
+        return worst(violation, imbalance or 0.0)
+
+    def iterations(self, result: semi_analytical.Result) -> float:
+        """Of all its increments."""
+        led = self._led(result)
+        return math.inf if led is None else float(sum(i.iterations for i in led.increments))
+
+    def _led(self, result: semi_analytical.Result) -> semi_analytical.Result | None:
+        if self._solved is None or self._solved[0] is not result:
+            self._solved = result, solved_by_motion(result)
+        return self._solved[1]
+
+
+def _pair(vector: Field) -> tuple[float, float]:
+    return float(vector[0]), float(vector[1])
+
+
+def solved_by_motion(result: semi_analytical.Result) -> semi_analytical.Result | None:
+    """The history of a result with its approach and shift prescribed; None if that is given up."""
+    steps = tuple(
+        LoadStep(
+            approach=i.approach,
+            tangential_shift=None if i.step == PRESSED else _pair(_shift(i)),
+            increments=1,
+        )
+        for i in result.increments
+    )
+    scene = result.scene.model_copy(update={"loading": steps})
+    try:
+        return semi_analytical.solve(scene, result.grid, result.tolerance)
+    except semi_analytical.SolverError:
+        return None
+
+
+def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | None = None) -> Case:
+    """Histories of bodies that couple: to and fro, aside, and unloaded, seen in several ways.
+
+    sizes  cells per side, elements per radius and harmonics, instead of those of the level
+    """
+    cells, elements, harmonics = sizes or {
+        Level.QUICK: (32, 16, 4), Level.STANDARD: (64, 32, 8), Level.FULL: (128, 64, 12),
+    }[level]  # fmt: skip
+    bare = CoupledContact("homogeneous, µ = 0.3", Body(material=SUBSTRATE), 0.3)
+    filmed = CoupledContact("coated, µ = 0.1", FILMED, 0.1)
+    runs = [bare.run(cells), bare.run(cells, 30.0), bare.run(cells, 90.0)]
+    films = [filmed.run(cells), filmed.run(cells, 90.0)]
+    section = bare.section(elements, harmonics)
+    led = {run.label: LedByMotion() for run in (runs[0], films[0])}
+    carried = "residuals of two solves, answered by tractions and carried through the history"
+    read: dict[str, tuple[str, float, Callable[[Any], float]]] = {
+        "shift": ("shift", 5e-3, shift_along_x),
+        "energy": ("energy lost", 1.5e-2, lambda end: float(end.dissipated_energy)),
+        "approach": ("approach", 1e-3, lambda end: float(end.approach)),
+    }
+
+    def apart(step: int, number: Callable[[Any], float], one: Any, other: Any) -> float:
+        return abs(number(one.steps[step - 1]) / number(other.steps[step - 1]) - 1)
+
+    return case(
+        "coupled_history",
+        "To and fro, aside and unloaded, with coupling",
+        "A rigid ball pressed on bodies whose pressure and shear act on each other, pushed by "
+        "two thirds of µW, pulled back as far, pushed aside and unloaded under that force. "
+        "What a surface remembers of a reversal, of another direction and of unloading has no "
+        "closed form here. The same history is therefore seen turned, led by the motion that "
+        "it took instead of by its forces, and solved by finite elements.",
+        runs=(*runs, *films, section),
+        quantities=tuple(
+            Quantity(
+                name, meaning, "", label, measure, identity(0.0, source),
+                Required(allowed, because), 1.0, scale,
+            )
+            for label, again in led.items()
+            for name, meaning, measure, source, allowed, because, scale in (
+                (
+                    "led_by_motion", "difference from the same history led by its approach and "
+                    "shift, in any increment: pressure, shear; infinite if the solver gives that "
+                    "history up", again.difference,
+                    "force and motion are conjugate: what leads does not matter",
+                    100 * SOLVER_TOLERANCE, carried, "the pressure",
+                ),
+                (
+                    "laws_led_by_motion", "largest violation of a law of contact and friction, or "
+                    "part of the energy unaccounted for, in the history led by its motion; "
+                    "infinite if the solver gives it up", again.violation,
+                    "the laws do not ask what leads", OTHER_NORMS * SOLVER_TOLERANCE,
+                    "as of every run", "dimensionless",
+                ),
+            )
+        ),
+        findings=tuple(
+            Finding(
+                "led_by_motion_iterations", "iterations of the history led by its motion", "",
+                label, again.iterations,
+                "work of the solve behind led_by_motion, beside the runs of this case; its motions "
+                "are known only after the run",
+            )
+            for label, again in led.items()
+        ),
+        comparisons=(
+            *(
+                Comparison(
+                    "turned_by_90", f"{contact.name}: difference of pressure, shear and shift "
+                    "after a right angle", (one.label, other.label), after_quarter,
+                    100 * SOLVER_TOLERANCE, TURNS_INTO_ITSELF + carried, ISOTROPIC,
+                )
+                for contact, one, other in (
+                    (bare, runs[2], runs[0]), (filmed, films[1], films[0]),
+                )
+            ),
+            _isotropic(runs[1], runs[0], 30.0, 5e-3, 32),
+            *(
+                Comparison(
+                    f"{name}_{'pushed' if step == PUSHED else 'back'}",
+                    f"difference of the {words} after the "
+                    f"{'push' if step == PUSHED else 'reversal'}, relative",
+                    (section.label, runs[0].label), partial(apart, step, number),
+                    allowed * 32 / cells,
+                    "set by hand: about three times what both leave on the quick discretisations, "
+                    "in proportion to the cell on others; a loop that forgets its first half is "
+                    "off by 0.2", "the other solver, on the same increments",
+                    ReferenceKind.OTHER_SOLVER,
+                )
+                for step in (PUSHED, BACK)
+                for name, (words, allowed, number) in read.items()
+            ),
+        ),
+        limits=("The increments are the same for all, so that their error is not seen.",),
+        equations=(ROTATION,),
+        no_order=IDENTITY,
+    )  # fmt: skip
+
+
+MU, PART = 0.2, 0.6  # friction of the ball on a film, and part of µW that pushes it
+PUSH = LoadStep(tangential_force=(PART * MU * NORMAL_FORCE, 0.0), increments=2)
+
+
+def _patchy(grid: SurfaceGrid) -> Field:
+    """Friction that differs along x, along y and across the diagonal, with patches of none."""
+    x, y = (c / HERTZ.contact_radius for c in grid.coordinates())
+    waves = np.sin(3 * x + 0.4) + 0.6 * np.sin(5 * y - 1.1 * x)
+    return np.asarray(np.maximum(MU * (1.2 + 0.9 * waves), 0.0))
+
+
+def _in_mirror(q: Field) -> Field:
+    """Mirrored at x = 0."""
+    return np.stack([-q[0][::-1], q[1][::-1]])
+
+
+def in_mirror(one: Any, other: Any) -> float:
+    """The second result mirrored at x = 0, but for its shift."""
+
+    def apart(a: Any, b: Any) -> float:
+        total = np.sum(b.pressure)
+        return worst(
+            float(np.sum(np.abs(a.pressure - b.pressure[::-1])) / total),
+            float(np.sum(np.abs(shear_of(a) - _in_mirror(shear_of(b)))) / total),
+        )
+
+    return worst(*map(apart, one.increments, other.increments))
+
+
+def scalars_apart(one: Any, other: Any) -> float:
+    """Largest relative difference of approach, shift and energy."""
+    (a, b) = (
+        (end.approach, float(end.tangential_shift[0]), end.dissipated_energy)
+        for end in (one.steps[-1], other.steps[-1])
+    )
+    return worst(*(abs(x / y - 1) for x, y in zip(a, b, strict=True)))
+
+
+def same_surface(level: Level = Level.QUICK) -> Case:
+    """Surfaces given in another way: by maps, on oblong cells, as one material twice."""
+    # An odd count of cells has one in the middle, where the lowest height of the ball is zero.
+    cells = {Level.QUICK: 33, Level.STANDARD: 65, Level.FULL: 129}[level]
+    width, longer = 2 * 1.2 * HERTZ.contact_radius, 4 / 3
+    square = SurfaceGrid((cells, cells), (width, width))
+    hard = FILMED.layers[0].material
+    patches = _patchy(square)
+    heights: Any = np.asarray(rigid_ball().initial_gap(*square.coordinates()))
+
+    def run(label: str, what: str, grid: SurfaceGrid = square, **other: Any) -> Run:
+        """Of the ball on the film, but for what is given."""
+        told: dict[str, Any] = {
+            "indenter": rigid_ball(), "body": FILMED, "friction": MU, "degrees": 0.0,
+        } | other  # fmt: skip
+        scene = Scene(
+            title=f"Rigid ball on a coated body, pressed and pushed: {what}",
+            indenter=told["indenter"],
+            body=told["body"],
+            friction=CoulombFriction(coefficient=told["friction"]),
+            loading=turned((pressing(3), PUSH), told["degrees"]),
+        )
+        return Run(label, scene, grid)
+
+    def mapped(coefficients: Field) -> FrictionMap:
+        return FrictionMap.model_validate({"map": coefficients, "spacing": square.spacing})
+
+    told = run("told by numbers", "numbers")
+    by_heights = run(
+        "ball as a map of heights", "heights",
+        indenter=HeightMap(file=heights, spacing=square.spacing, material=RIGID),
+    )  # fmt: skip
+    everywhere = run(
+        "the same friction in every cell", "friction",
+        friction=mapped(np.full(square.cells, MU)),
+    )  # fmt: skip
+    patchy = run("patchy friction", "patches", friction=mapped(patches))
+    mirrored = run(
+        "patchy friction mirrored", "mirrored patches", friction=mapped(patches[::-1]),
+        degrees=180.0,
+    )  # fmt: skip
+    narrow = run(
+        "cells longer along y", "long cells", SurfaceGrid((cells, cells), (width, longer * width))
+    )
+    wide = run(
+        "cells longer along x", "wide cells",
+        SurfaceGrid((cells, cells), (longer * width, width)), degrees=90.0,
+    )  # fmt: skip
+    whole = run("homogeneous body", "homogeneous body", body=Body(material=hard))
+    through = run(
+        "coating on its own material", "coating on its own material",
+        body=Body(material=hard, layers=FILMED.layers),
+    )  # fmt: skip
+    same, all_fields = "the same surface", "difference of all fields"
+    pairs: tuple[tuple[str, str, Run, Run, Difference, float, str, str], ...] = (
+        ("heights", f"ball as a map of heights: {all_fields}", by_heights, told,
+         as_it_is, ROUNDING,
+         "heights at the centres of cells are the gap there, bit for bit", same),
+        ("friction", f"constant map of friction: {all_fields}", everywhere, told,
+         as_it_is, EXACT, ANSWERED, same),
+        ("mirror", "patchy friction in a mirror: difference of pressure and shear", mirrored,
+         patchy, in_mirror, EXACT, ANSWERED, "a mirror at x = 0 turns one into the other"),
+        ("turned_by_90", "cells that are not square, turned with the load: difference of "
+         "pressure, shear and shift", wide, narrow, after_quarter, EXACT, ANSWERED, ISOTROPIC),
+        ("one_material", f"coating on its own material: {all_fields} from those of a homogeneous "
+         "body", through, whole, as_it_is, EXACT, ANSWERED, "the same body"),
+    )  # fmt: skip
+    return case(
+        "same_surface",
+        "The same surface told in another way",
+        "The rigid ball on a coated body, pressed with friction and pushed by 0.6 of µW: with "
+        "the ball as a map of heights, with friction as a map that is the same everywhere, "
+        "with patches of friction and their mirror image, and on cells that are longer than "
+        "wide; and on the coating's own material under the same coating. Each says the same as "
+        "another run, or the same seen in a mirror or turned.",
+        runs=(told, by_heights, everywhere, patchy, mirrored, narrow, wide, whole, through),
+        comparisons=(
+            *(
+                Comparison(
+                    name, meaning, (one.label, other.label), difference, allowed, because, source
+                )
+                for name, meaning, one, other, difference, allowed, because, source in pairs
+            ),
+            Comparison(
+                "square_cells", "cells that are not square: difference of approach, shift and "
+                "energy from those of square ones, relative", (narrow.label, told.label),
+                scalars_apart, 1.5e-3 * 33 / cells,
+                "set by hand: about three times what cells longer by a third leave on 33 x 33 of "
+                "them, in proportion to the cell on others",
+                "the same contact", ReferenceKind.OWN_REFINEMENT,
+            ),
+        ),
+        equations=(ROTATION,),
+        no_order=IDENTITY,
+    )  # fmt: skip
+
+
+def forced_effects(level: Level = Level.QUICK) -> Case:
+    """Effects that a scene does not call for, forced on: they change nothing and cost much."""
+    cells = 48 if level is Level.QUICK else 96
+    grid = paper.square_grid(cells, 1.3 * HERTZ.contact_radius)
+    one_film = film(2.0, 1.0)
+    coated_ball = Paraboloid(radius=paper.RADIUS, material=SUBSTRATE, layers=(one_film,))
+    way = (pressing(), *(paper.tangential_step(part, increments=2) for part in (0.9, -0.9)))
+    scenes = {
+        "frictionless": pressed(
+            "The paper's ball without friction", rigid_ball(), Body(material=SUBSTRATE)
+        ),
+        "frictionless coated": pressed(
+            "The paper's ball on a coating, without friction", rigid_ball(), FILMED
+        ),
+        **{
+            f"{name} sheared": pressed(title, ball, body, *way, friction=FRICTION)
+            for name, title, ball, body in (
+                ("alike bodies", "Two alike bodies", paper.paraboloid(STEEL), Body(material=STEEL)),
+                ("alike coated bodies", "Two alike coated bodies", coated_ball, FILMED),
+                ("rigid ball on coating", "The paper's ball on a coating", rigid_ball(), FILMED),
+            )
+        },
+    }
+    pairs = {
+        name: (
+            Run(f"{name}, as planned", scene, grid),
+            Run(f"{name}, all effects on", scene, grid, effects=all_effects),
+        )
+        for name, scene in scenes.items()
+    }
+
+    def savings(results: Any) -> tuple[Table, ...]:
+        rows = []
+        for name, runs in pairs.items():
+            few, many = (sum(i.convolutions for i in results[r.label].increments) for r in runs)
+            rows.append((name, str(few), str(many), f"{many / few:.1f}"))
+        return (
+            Table(
+                title="What the plan saves",
+                columns=("scene", "convolutions, as planned", "all effects on", "ratio"),
+                rows=tuple(rows),
+                note="Increments are the same on both sides; that plans also need fewer of them "
+                "where nothing depends on the path comes on top.",
+                units=NONE,
+            ),
+        )
+
+    return case(
+        "forced_effects",
+        "Only the effects that a scene calls for",
+        "Scenes whose plan leaves effects out, because they vanish: shear without friction, "
+        "tilt and torsion where nothing turns the indenter, the coupling of pressure and shear "
+        "where the bodies are alike, and the mirror images of tractions. Each is "
+        "solved again with every effect forced on. The answer must be the same; what the plan "
+        "saves is the ratio of the convolutions.",
+        runs=tuple(run for pair in pairs.values() for run in pair),
+        comparisons=tuple(
+            Comparison(
+                name.replace(" ", "_"),
+                f"{name}: largest difference of pressure, shear, approach and shift",
+                (planned.label, forced.label), as_it_is, EXACT,
+                "both solves leave residuals up to the solver's tolerance, and tractions answer "
+                "these a few times over", "effects that vanish change nothing",
+            )
+            for name, (planned, forced) in pairs.items()
+        ),
+        tables=savings,
+        equations=(r"\mathbf{C}_{xz} = 0 \Rightarrow p\ \text{and}\ \mathbf{q}\ \text{uncoupled}",),
+        no_order=IDENTITY,
+    )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class BodyPair:
+    """Two bodies by what they are made of; the upper one is a ball."""
+
+    name: str
+    lower: Body
+    upper: Body
+
+    @property
+    def exchanged(self) -> BodyPair:
+        """The bodies exchanged."""
+        return replace(self, name=f"{self.name}, exchanged", lower=self.upper, upper=self.lower)
+
+    def scene(self, *loading: LoadStep) -> Scene:
+        """The ball on the lower body."""
+        ball = Paraboloid(
+            radius=paper.RADIUS, material=self.upper.material, layers=self.upper.layers
+        )
+        return pressed(self.name, ball, self.lower, *loading, friction=MU)
+
+
+def _turned_half(q: Field) -> Field:
+    return np.asarray(q[:, ::-1, ::-1])
+
+
+after_half = partial(same_fields, lambda p: p[::-1, ::-1], _turned_half, np.asarray)
+
+
+def on_rings_apart(one: Any, other: Any) -> float:
+    """Largest difference of pressure, approach and shear along the radius, which points outward on
+    one of the two and inward on the other."""
+
+    def outward(increment: Any) -> Any:
+        shear = increment.shear_radial
+        return np.zeros_like(increment.radii) if shear is None else shear
+
+    def apart(a: Any, b: Any) -> float:
+        r = b.radii
+        total = np.trapezoid(b.pressure * r, r)
+        return worst(
+            float(np.trapezoid(np.abs(a.pressure - b.pressure) * r, r) / total),
+            float(np.trapezoid(np.abs(outward(a) + outward(b)) * r, r) / total),
+            abs(a.approach / b.approach - 1),
+        )
+
+    return worst(*map(apart, one.increments, other.increments))
+
+
+def exchanged_bodies(level: Level = Level.QUICK) -> Case:
+    """The bodies exchanged: what lay below is the indenter, and the other way round."""
+    source = (
+        "a mirror in the contact plane exchanges the bodies and turns the tangential force, half a "
+        "turn about z turns it back; the gap does not know which of the bodies is curved"
+    )
+    same = "largest difference of pressure, shear, approach and shift, after the half turn"
+    cells = {Level.QUICK: 32, Level.STANDARD: 64, Level.FULL: 128}[level]
+    grid = paper.square_grid(cells, 1.3 * HERTZ.contact_radius)
+    elements = per_radius(
+        {Level.QUICK: 12, Level.STANDARD: 24, Level.FULL: 48}[level], 1.3 * HERTZ.contact_radius
+    )
+    pairs = (
+        BodyPair("rigid ball on a body", Body(material=SUBSTRATE), Body(material=RIGID)),
+        BodyPair(
+            "ball on its own material, coated", coated(film(2.0, 0.5)), Body(material=SUBSTRATE)
+        ),
+    )
+    compared: list[tuple[str, Run | SectionRun, Run | SectionRun, Difference]] = []
+    for pair in pairs:
+        both = (pair.exchanged, pair)
+        one, other = (Run(p.name, p.scene(pressing(3), PUSH), grid) for p in both)
+        compared.append((pair.name, one, other, after_half))
+        ring, beside = (
+            SectionRun(f"{p.name}, elements", p.scene(pressing(3)), elements) for p in both
+        )
+        compared.append((pair.name, ring, beside, on_rings_apart))
+
+    def by_radial_solver() -> float:
+        asked = RadialDiscretisation(rings=128)
+        one, other = (
+            radial.solve(p.scene(pressing(3)), asked) for p in (pairs[0].exchanged, pairs[0])
+        )
+        return on_rings_apart(one, other)
+
+    return case(
+        "exchanged_bodies",
+        "Bodies exchanged",
+        "A rigid ball is pressed with friction on an elastic body and pushed, and an "
+        "elastic ball on a rigid body; a ball on its own material under a coating, and a coated "
+        "ball on the bare material. Finite elements and rings press alone. A mirror makes one of "
+        "the other.",
+        runs=tuple(run for _, one, other, _ in compared for run in (one, other)),
+        comparisons=tuple(
+            Comparison(
+                "exchanged", f"{name}: {same}", (one.label, other.label), difference, EXACT,
+                ANSWERED, source,
+            )
+            for name, one, other, difference in compared
+        ),
+        checks=(
+            Check(
+                "exchanged", f"{pairs[0].name}, by the radial solver: {same}", "",
+                f"{pairs[0].name}, rings", by_radial_solver, identity(0.0, source),
+                Required(EXACT, ANSWERED), 1.0, "the other's",
+            ),
+        ),
+        limits=("Both of a pair could be wrong alike: frictional_indentation judges one of them.",),
+        equations=(r"p(\mathbf{x}) \to p(-\mathbf{x}),\quad \mathbf{q}(\mathbf{x}) \to "
+                   r"\mathbf{q}(-\mathbf{x})",),
+        no_order=IDENTITY,
+    )  # fmt: skip
+
+
+def _vector(increment: Any, name: str) -> Field:
+    value = getattr(increment, name)
+    return np.atleast_1d(np.asarray(0.0 if value is None else value, dtype=float))
+
+
+def off_the_way(scene: Scene, result: Any) -> float:
+    """Largest distance of the prescribed load or motion from the straight way of its step. The
+    first step goes from nothing, uniformly in the contact radius: a force on a ball with its third
+    power."""
+    off = 0.0
+    for number, step in enumerate(scene.loading, start=1):
+        (name,) = (n for pair in CONTROLS for n in pair if getattr(step, n) is not None)
+        inside = [increment for increment in result.increments if increment.step == number]
+        if not inside:
+            return float("nan")
+        values = np.array([_vector(increment, name) for increment in inside])
+        named = np.atleast_1d(np.asarray(getattr(step, name), dtype=float))
+        way = np.arange(1, len(inside) + 1) / len(inside)
+        before = [increment for increment in result.increments if increment.step < number]
+        start = _vector(before[-1], name) if before else 0.0 * named
+        straight = start + (way if before else way**3)[:, None] * (named - start)
+        scale = np.max(np.abs([start, named]))
+        off = worst(off, float(np.max(np.abs(values - straight)) / scale))
+    return off
+
+
+def _off_hertz(result: Any) -> float:
+    def off(increment: Any) -> float:
+        at = PointContact.at_approach(increment.approach, HERTZ.radius, HERTZ.contact_modulus)
+        return abs(increment.normal_force / at.load - 1)
+
+    return worst(*map(off, result.increments))
+
+
+def led_histories(level: Level = Level.QUICK) -> Case:
+    """Histories led by forces and by motions in turn: where every increment ends, and how many."""
+    ball, limit = paper.paraboloid(NU_ZERO), FRICTION * NORMAL_FORCE
+    punch = FlatPunch(radius=HERTZ.contact_radius, material=NU_ZERO)
+    arm = 0.1 * HERTZ.contact_radius  # the punch touches all over up to a third of its radius
+    slope = 0.1 * HERTZ.approach / HERTZ.contact_radius
+    held = LoadStep(normal_force=NORMAL_FORCE, increments=1)
+
+    def scene(title: str, indenter: Paraboloid | FlatPunch, *loading: LoadStep) -> Scene:
+        return paper.frictional(title, indenter, NU_ZERO).model_copy(update={"loading": loading})
+
+    scenes = {
+        "pressed": scene(
+            "Ball led by force, approach and force", ball,
+            LoadStep(normal_force=0.5 * NORMAL_FORCE, increments=2),
+            LoadStep(approach=HERTZ.approach, increments=4),
+            LoadStep(normal_force=0.7 * NORMAL_FORCE, increments=3),
+        ),
+        "pushed": scene(
+            "Ball led by push, shift and push", ball, held,
+            LoadStep(tangential_force=(0.4 * limit, 0.0), increments=2),
+            LoadStep(tangential_shift=(0.5 * SLIDING_SHIFT, 0.0), increments=4),
+            LoadStep(tangential_force=(0.1 * limit, 0.0), increments=3),
+        ),
+        "twisted": scene(
+            "Ball led by torque, twist and torque", ball, held,
+            LoadStep(torque=0.4 * SLIDING_TORQUE, increments=2),
+            LoadStep(twist=0.5 * LARGEST.twist, increments=4),
+            LoadStep(torque=0.1 * SLIDING_TORQUE, increments=3),
+        ),
+        "tilted": scene(
+            "Punch led by moment, tilt and moment", punch, held,
+            LoadStep(moment=(0.5 * arm * NORMAL_FORCE, arm * NORMAL_FORCE), increments=2),
+            LoadStep(tilt=(slope, 0.5 * slope), increments=4),
+            LoadStep(moment=(-arm * NORMAL_FORCE, 0.0), increments=3),
+        ),
+    }  # fmt: skip
+    grid = paper.square_grid(48 * 2**level, 1.3 * HERTZ.contact_radius)
+    mesh = per_radius(16 * 2**level, HERTZ.contact_radius)
+    upright = ("pressed", "pushed", "twisted")  # finite elements keep the indenter upright
+    runs: tuple[Run | SectionRun, ...] = (
+        # A step begins at the state before the edge correction of the step before it.
+        *(Run(name, one, grid, edge="off") for name, one in scenes.items()),
+        *(SectionRun(f"{name}, elements", scenes[name], mesh) for name in upright),
+    )
+    linear = identity(0.0, "a step ramps linearly from where the step before it ended")
+
+    def named(run: Run | SectionRun) -> float:
+        return float(sum(step.increments or 0 for step in run.scene.loading))
+
+    return case(
+        "led_histories",
+        "Forces and motions in turn",
+        "A ball led by a force, an approach and a force again, by pushes and a shift, by "
+        "torques and a twist, and a flat punch by moments and a tilt. A step that takes over from "
+        "the other control begins where that ended, and goes straight, in as many increments as it "
+        "names. While the ball is pressed, force and approach are Hertz's in each of them.",
+        runs=runs,
+        quantities=(
+            *(
+                Quantity(
+                    "off_the_way", "largest distance of what leads from the straight way of its "
+                    "step, over the larger of its ends", "", run.label,
+                    partial(off_the_way, run.scene), linear,
+                    Required(
+                        1e-6, "forces are met to the tolerance of the solver; motions exactly"
+                    ),
+                    1.0, "1",
+                )
+                for run in runs
+            ),
+            *(
+                Quantity(
+                    "increments", "increments of all steps", "", run.label,
+                    lambda result: float(len(result.increments)),
+                    Reference(named(run), linear.kind, "the scene names them"),
+                    Required(1e-9, "a count is met or not"),
+                )
+                for run in runs
+            ),
+            *(
+                Quantity(
+                    "force_at_approach", "largest relative difference of the force from Hertz's at "
+                    "the approach of any increment", "", run.label, _off_hertz,
+                    closed_form(0.0, "Hertz 1882; Johnson 1985, ch. 4", 1.0),
+                    Required(
+                        # Of the smallest contact at the quick level, of 7 cells or elements.
+                        3e-3 / 4**level,
+                        "set by hand on the quick grid and mesh, of order 2 on others",
+                    ),
+                    1.0, "1",
+                )
+                for run in runs
+                if run.scene == scenes["pressed"]
+            ),
+        ),
+        equations=(r"W = \tfrac{4}{3} E^* \sqrt{R} \, \delta^{3/2}",),
+        no_order="judged on one grid: hertz_point judges the order of the force at an approach",
+    )  # fmt: skip
+
+
+def fem_far_field(level: Level = Level.QUICK) -> Case:
+    """What finite elements know of the half-space beyond their box: force, push and torque far
+    away."""
+    near, far = 5.0, 100.0  # box over radius
+    push = LoadStep(tangential_force=(100.0, 0.0), increments=1)  # with µ = 1 nothing slips
+    pushed = STUCK.scene.model_copy(
+        update={"title": "Flat punch pushed without slip", "loading": (pressing(1), push)}
+    )
+    mesh = per_radius({Level.QUICK: 16, Level.STANDARD: 32, Level.FULL: 64}[level], PUNCH_RADIUS)
+    runs = {
+        (way, box): SectionRun(
+            f"{way}, box of {box:g} radii", scene, mesh.model_copy(update={"box": box})
+        )
+        for way, scene in (("pushed", pushed), ("twisted", STUCK.scene))
+        for box in (near, far)
+    }
+    # Power of radius over box that is left once the resultant is known at the edge of the box.
+    numbers: dict[str, tuple[str, int, Callable[[Any], float]]] = {
+        "approach": ("pushed", 3, lambda end: float(end.approach)),
+        "shift": ("pushed", 3, shift_along_x),
+        "twist": ("twisted", 5, lambda end: float(end.twist)),
+    }
+
+    def apart(number: Callable[[Any], float], one: Any, other: Any) -> float:
+        return abs(number(one.steps[-1]) / number(other.steps[-1]) - 1)
+
+    return case(
+        "fem_far_field",
+        "Finite elements: the half-space beyond the box",
+        f"A flat punch that sticks, pressed and pushed, and pressed and twisted, in a box "
+        f"of {near:g} of its radii and in one of {far:g}. On the outline of a box bodies move as a "
+        "half-space does under the resultant; if they did not, the punch would move less.",
+        runs=tuple(runs.values()),
+        comparisons=tuple(
+            Comparison(
+                name, f"{name} of the punch, {way}: relative difference",
+                (runs[way, near].label, runs[way, far].label), partial(apart, number),
+                near**-power,
+                f"the resultant is known on the box; what follows it falls with the power {power} "
+                "of the radius over the box", "the same contact in a box that is farther away",
+                ReferenceKind.OWN_REFINEMENT,
+            )
+            for name, (way, power, number) in numbers.items()
+        ),
+        equations=(r"\mathbf{u} = \mathbf{u}_\mathrm{Boussinesq-Cerruti}(W, T, M) + O(a^n/R^n)",),
+        no_order="the allowed difference is itself the power law of the box",
+    )  # fmt: skip

@@ -1,0 +1,485 @@
+"""Tangential loading into partial slip and gross slip: ball and cone, by cells and by harmonics."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from contact_scene import (
+    RIGID,
+    Body,
+    Cone,
+    CoulombFriction,
+    FlatPunch,
+    IsotropicMaterial,
+    LoadStep,
+    Scene,
+)
+from verification.cases.levels import SQUARE_ROOTS, STICK_BORDER, because, finest
+from verification.cases.points_run import PointsRun
+from verification.closed_forms.ciavarella_jaeger import superpose
+from verification.closed_forms.cone import ConeContact
+from verification.exhibits.chart import Chart, Look, Panel, curve
+from verification.judging.case import Case, Level
+from verification.judging.declared_case import (
+    Falls,
+    Refined,
+    Reported,
+    Row,
+    Within,
+    case,
+    judged,
+)
+from verification.judging.drawings import Drawn, convergence, profile
+from verification.judging.ladder import (
+    Ladder,
+    Rung,
+    asked,
+    ladder,
+    mesh_label,
+    named,
+    on_cells,
+    part_of_side,
+)
+from verification.judging.observable import Observable, error_norm
+from verification.judging.observables import ENERGY, SHEAR, SHIFT, STICK_RADIUS, WORK
+from verification.judging.refinement import refinement
+from verification.judging.run import per_radius
+from verification.observed.ring_tractions import tractions_at
+from verification.problems import paper_scene as paper
+from verification.problems.classical import CONE, SLOPE, UNDER_CONE, mean_pressure
+from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, NU_ZERO, STEEL
+from verification.problems.problem import Problem
+from verification.problems.reference import ReferenceKind
+from verification.problems.sheared import OVER_LIMIT, OVER_SLIDING_SHIFT, sheared
+from verification.problems.shifted_grid import OFFSETS, UNLIKE
+from verification.quantities import force_along_x, shear_of, shift_along_x
+
+PARTS = (0.3, 0.6, 0.9, 0.99)  # of µW, one loading step each
+STOPS = dict(enumerate(PARTS, 1))  # by step
+LOOPED = 3  # the step to 0.9 µW, the amplitude of the fretting loop
+CATTANEO = sheared("Cattaneo-Mindlin, ν = 0", PARTS)
+SHEARS = {part: SHEAR.at(step, part, "µW") for step, part in STOPS.items()}
+
+
+def _slip_error(result: Any, step: int, problem: Problem) -> float:
+    end = result.steps[step]
+    exact = problem.on_surface(problem.ends[step].slip, *result.grid.coordinates())
+    missed = np.hypot(end.slip[0] - exact, end.slip[1])
+    return float(np.mean(missed[end.in_contact]))
+
+
+SLIP = error_norm(
+    "slip", "mean difference of the slip in the contact{when}", _slip_error, unit="m",
+    over=OVER_SLIDING_SHIFT,
+)  # fmt: skip
+
+
+def _of_stop(step: int, part: float) -> tuple[Row, ...]:
+    """What is judged of the ball at a stop."""
+    return (
+        Within(
+            SHEARS[part], 2e-3,
+            "required of the fretting loop at 128 x 128, which passes through here",
+        ),
+        Refined(STICK_RADIUS.at(step, part, "µW"), 1.0, part_of_side(0.2), STICK_BORDER),
+        Within(
+            SHIFT.at(step, part, "µW"), 3e-5,
+            "four times what 128 cells leave; 1e-4 is required of the fretting loop",
+        ),
+        Refined(
+            SLIP.at(step, part, "µW"), 1.5, 1e-4,
+            "order 3/2 of the shear's L1 error; the cap is what is required of the shift, of which "
+            "slip is a part",
+        ),
+    )  # fmt: skip
+
+
+def cattaneo_mindlin(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> Case:
+    """Constant normal force, tangential force raised step by step, ν = 0. Orders of means are
+    judged above the quick level, where coarse grids tell that of the shear only together with
+    shifted ones.
+
+    cells  per side, instead of those of the level; without shifted grids
+    """
+    most = {Level.QUICK: 128, Level.STANDARD: 256, Level.FULL: 512}[level]
+    grids = on_cells(CATTANEO, cells or refinement(32, most))
+    quick = level is Level.QUICK and not cells
+    at_once = sheared("Cattaneo-Mindlin at once, ν = 0", (STOPS[LOOPED],))
+    followed = (
+        on_cells(at_once, refinement(32, most), offsets=UNLIKE, of="at once") if quick else grids
+    )
+    edges = f"{SQUARE_ROOTS}: an error of O(√h) on rings one cell wide leaves O(h^3/2) in L1"
+    order = Falls(SHEAR.at(1 if quick else LOOPED, STOPS[LOOPED], "µW"), 1.5, edges)
+    energy = Within(
+        ENERGY.at(LOOPED, STOPS[LOOPED], "µW"), 1e-4,
+        "four times what 128 cells leave; 5e-4 is required of the fretting loop's cycle",
+    )  # fmt: skip
+    stopped = "0.3, 0.6, 0.9 and 0.99 µW"
+    means = (
+        Falls(
+            SHIFT.over_stops(stopped), 2.5,
+            "the shift is the difference of two approaches, of the contact and of the stick zone "
+            "(Cattaneo), and both are wrong by the same 0.04 h²/R; what is left depends on how "
+            "circles cut the cells, O(h^5/2)",
+        ),
+    )  # fmt: skip
+    shifted = [] if quick or cells else [on_cells(CATTANEO, refinement(32, 256), offsets=OFFSETS)]
+    return case(
+        "cattaneo_mindlin",
+        "Cattaneo-Mindlin partial slip",
+        "The paper's contact with ν = 0 and the same E*, under 1 kN, sheared by 0.3, 0.6, 0.9 "
+        "and 0.99 of µW. Only for ν = 0 does the slip of the closed form oppose its traction "
+        "everywhere, so only there is it the exact answer to Coulomb's vector law.",
+        judged(grids, (*(row for stop in STOPS.items() for row in _of_stop(*stop)), energy)),
+        judged(followed, (order,)),
+        *(judged(one, means) for one in shifted),
+        charts=(
+            profile(
+                grids, "cattaneo_profiles", "Shear next to y = 0",
+                f"Computed shear on {grids.judged.run.label} cells at four tangential forces over "
+                "the closed form, and their difference: it sits at the border of the stick zone "
+                "and at the edge of the contact.",
+                "qₓ / µp₀", FRICTION * HERTZ.peak_pressure,
+                *shears_along_x(STOPS, {LOOPED: "cattaneo_mindlin"}),
+            ),
+            convergence(
+                grids, (replace(order, what=SHEARS[STOPS[LOOPED]]),), "cattaneo_convergence",
+                "Convergence of the shear",
+                "Σ|q - q_exact| / Σµp against cell side for four tangential forces, with a line of "
+                "the expected slope 3/2.",
+                also=[shear for part, shear in SHEARS.items() if part != STOPS[LOOPED]],
+            ),
+            *(
+                convergence(
+                    one, means, "cattaneo_convergence_of_means",
+                    "Convergence of shift and dissipated energy",
+                    "Errors at all four tangential forces on grids that fall on the contact in "
+                    "several ways, root mean square: single ones change their sign.",
+                    also=(WORK.over_stops(stopped),),
+                )
+                for one in shifted
+            ),
+        ),
+    )  # fmt: skip
+
+
+def shears_along_x(stops: dict[int, float], profiles: dict[int, str]) -> list[Drawn]:
+    """The shear at the end of every step, beside the exact one.
+
+    profiles  by step: name by which a page finds the shear drawn by both solvers
+    """
+    return [
+        Drawn(
+            lambda end: shear_of(end)[0], lambda exact: exact.shear, f"{part:g} µW", step,
+            profiles.get(step, ""),
+        )
+        for step, part in stops.items()
+    ]  # fmt: skip
+
+
+def _under_cone(*parts: float) -> Problem:
+    """The cone of cone_contact with ν = 0, sheared to these parts of µW."""
+
+    def pressed(load: float) -> ConeContact:
+        return ConeContact.under_load(load, SLOPE, paper.CONTACT_MODULUS)
+
+    ratio = 1.0  # E*/G* of two identical bodies with ν = 0
+    ends = (
+        superpose(pressed, paper.NORMAL_FORCE, part * FRICTION_LIMIT, FRICTION, ratio)
+        for part in parts
+    )
+    scene = paper.frictional(
+        "Cone on a half-space, sheared, ν = 0",
+        Cone(slope_angle=SLOPE, material=NU_ZERO),
+        NU_ZERO,
+        *(paper.tangential_step(part, increments=1) for part in parts),
+    )
+    return Problem(
+        scene,
+        (UNDER_CONE, *ends),
+        CONE.radius,
+        "Ciavarella 1998; Jäger 1998, with Love's cone",
+        scales={OVER_SLIDING_SHIFT: FRICTION * ratio * UNDER_CONE.approach},
+        equations=(
+            r"\mathbf{q} = \mu \left[p(r; W) - p(r; W - T/\mu)\right],\quad "
+            r"c = a \sqrt{1 - T / \mu W}",
+        ),
+    )
+
+
+def sheared_cone(level: Level = Level.QUICK) -> Case:
+    """Partial slip under a cone; at the quick level coarse grids tell the order only together with
+    shifted ones."""
+    cells, stops = refinement(32, 128 if level is Level.QUICK else 256), {1: 0.4, 2: 0.8}
+    followed = grids = on_cells(_under_cone(*stops.values()), cells)
+    if level is Level.QUICK:
+        followed = on_cells(_under_cone(stops[1]), cells, offsets=UNLIKE, of="sheared less")
+    stick = replace(STICK_RADIUS, value=lambda exact: exact.stick.contact_radius)
+    rows = tuple(
+        row
+        for step, part in stops.items()
+        for row in (
+            Within(
+                SHEAR.at(step, part, "µW"), 4e-3,
+                "twice what is required of the ball at 128 x 128: the apex is an infinite peak "
+                "that cells average",
+            ),
+            Refined(stick.at(step, part, "µW"), 1.0, part_of_side(0.2), STICK_BORDER),
+            Refined(
+                SHIFT.at(step, part, "µW"), 2.0, 1e-4,
+                "order 2 and cap as the approach of the frictionless cone, of which the shift is a "
+                "copy",
+            ),
+        )
+    )  # fmt: skip
+    return case(
+        "sheared_cone",
+        "Partial slip under a cone",
+        "The cone of cone_contact with ν = 0 and friction, sheared by 0.4 and 0.8 of µW. For any "
+        "profile the shear is the difference of two pressures times µ; the stick radius is "
+        "a √(1 - T/µW), not the cube root of a ball.",
+        judged(grids, rows),
+        judged(followed, (Falls(SHEAR.at(1, stops[1], "µW"), 1.5, SQUARE_ROOTS),)),
+        charts=(
+            profile(
+                grids, "sheared_cone_profiles", "Shear next to y = 0",
+                "Computed shear under the cone over the superposition of two pressures, in units "
+                "of µ times the mean pressure, and their difference. The infinite peaks at the "
+                "apex cancel.",
+                "qₓ / (µ mean p)", FRICTION * mean_pressure(CONE), *shears_along_x(stops, {}),
+            ),
+        ),
+    )  # fmt: skip
+
+
+def near_sliding(level: Level = Level.QUICK, cells: int = 0) -> Case:
+    """One step to just below gross sliding, and beyond it under a prescribed shift. For ν > 0 the
+    closed form of the shift is no answer.
+
+    cells  per side, instead of those of the level
+    """
+    cells = cells or (64 if level is Level.QUICK else 128)
+    materials = {"ν = 0": NU_ZERO, "ν = 0.3": STEEL}
+    of_step = (
+        Within(
+            SHIFT, 4e-4,
+            "the stick zone is a few cells wide or less: its force is known to a part of a "
+            "cell's, the shift with it; four times what the narrowest leaves",
+        ),
+    )  # fmt: skip
+    of_sliding = (
+        Within(
+            Observable(
+                "sliding_force", "tangential force while sliding", "N",
+                lambda result, step, _: force_along_x(result.steps[step]),
+                lambda limit: float(limit),
+            ),
+            1e-7, "ten times the solver's tolerance, for sums over all cells",
+        ),
+    )  # fmt: skip
+    return case(
+        "near_sliding",
+        "Up to gross sliding and beyond",
+        "The paper's contact sheared in a single step to 0.99, 0.999 and 0.9999 of µW, with "
+        "ν = 0 and ν = 0.3, and dragged to five times the shift at gross sliding. What is "
+        "judged is that every solve ends within its tolerance, and that sliding takes µW: "
+        "every particle then slips along x, whatever ν is.",
+        *(
+            judged(
+                named(
+                    f"{name}, {part:g} µW",
+                    on_cells(
+                        sheared(f"One step to {part:g} µW, {name}", (part,), material), (cells,)
+                    ),
+                ),
+                of_step if material is NU_ZERO else (),
+            )
+            for name, material in materials.items()
+            for part in (0.99, 0.999, 0.9999)
+        ),
+        *(
+            judged(named(f"{name}, sliding", on_cells(_sliding(material), (cells,))), of_sliding)
+            for name, material in materials.items()
+        ),
+        limits=("Under force control at µW itself the shift is undefined; it is not a case.",),
+        no_order="the stick zone is a few cells wide or less: its radius scatters with the grid",
+    )
+
+
+def _sliding(material: IsotropicMaterial) -> Problem:
+    """Dragged by a given shift."""
+    beyond, at_sliding = 5.0, paper.partial_slip(material, 0.0).sliding_shift
+    scene = paper.frictional(
+        f"Dragged to {beyond:g} sliding shifts, ν = {material.poisson_ratio:g}",
+        paper.paraboloid(material),
+        material,
+        LoadStep(tangential_shift=(0.8 * at_sliding, 0.0), increments=2),
+        LoadStep(tangential_shift=(beyond * at_sliding, 0.0), increments=6),
+    )
+    return Problem(
+        scene,
+        (FRICTION_LIMIT,),
+        HERTZ.contact_radius,
+        "at full slip along x the shear is µp everywhere: T = µW",
+        ReferenceKind.IDENTITY,
+        uncertainty=0.0,
+        equations=(r"T = \int \mu p \, dA = \mu W",),
+    )
+
+
+# Incompressible, so that pressing leaves no shear; it sticks all over.
+RUBBER = IsotropicMaterial(young_modulus=3e6, poisson_ratio=0.5)
+PUNCH, PUNCH_FORCE = 5e-3, 10.0
+
+
+@dataclass(frozen=True)
+class StuckDisc:
+    """The end of the shearing [length]."""
+
+    shift: float = (2 - 0.5) * PUNCH_FORCE / (8 * RUBBER.shear_modulus * PUNCH)
+
+
+def shear_at_points(end: Any) -> tuple[Any, Any]:
+    """q_x and q_y (rings, angles) of an increment sheared along x."""
+    r, theta = np.meshgrid(end.radii, end.angles, indexing="ij")
+    q, _ = tractions_at(end, r * np.cos(theta), r * np.sin(theta))
+    return q[0], q[1]
+
+
+def _shear_error(result: Any, step: int, problem: Problem) -> float:
+    """∫|q - q_exact| dA / µW by trapezia in r and θ; mirror symmetric."""
+    end = result.steps[step]
+    q_x, q_y = shear_at_points(end)
+    off = np.hypot(q_x - problem.ends[step].shear(end.radii)[:, None], q_y)
+    around = 2 * np.trapezoid(off, end.angles, axis=1)
+    return float(np.trapezoid(end.radii * around, end.radii)) / FRICTION_LIMIT
+
+
+def _shear_across(result: Any, step: int, problem: Problem) -> float:
+    _, q_y = shear_at_points(result.steps[step])
+    return float(np.max(np.abs(q_y)) / problem.scale(OVER_LIMIT))
+
+
+def _at_points(of: str, problem: Problem, elements: int, over: float) -> Ladder:
+    mesh = per_radius(elements, over * problem.radius).model_copy(update={"harmonics": 8})
+    run = PointsRun(mesh_label(elements, of=of), problem.scene, mesh)
+    return ladder(problem, [Rung(run, elements)])
+
+
+def fem_harmonics(level: Level = Level.QUICK) -> Case:
+    """Tangential loading by many harmonics with Coulomb's law at points."""
+    cusp, rim = 1.5, 1.0  # orders with which errors fall
+    shear = error_norm("shear", "∫|q - q_exact| dA / µW{when}", _shear_error, "µW")
+    across = error_norm("shear_across", "largest |q_y| / µp_H{when}", _shear_across, OVER_LIMIT)
+    beyond = error_norm(
+        "shift_over_mindlin", "shift{when} over Mindlin's, less one, ν = 0.3",
+        lambda result, step, problem: (
+            shift_along_x(result.steps[step]) / problem.ends[step].shift - 1
+        ),
+    )  # fmt: skip
+    rows = tuple(
+        row
+        for stop in STOPS.items()
+        for row in (
+            Within(SHIFT.at(*stop, "µW"), asked(3e-4, cusp), because(cusp)),
+            Within(shear.at(*stop, "µW"), asked(6e-3, cusp), because(cusp)),
+            Within(across.at(*stop, "µW"), asked(3e-3, 1.0), because(1.0)),
+            Within(
+                STICK_RADIUS.at(*stop, "µW"), part_of_side(1.0),
+                "an element: stick or slip is known ring by ring",
+            ),
+        )
+    )  # fmt: skip
+    beside_mindlin = tuple(
+        row
+        for stop in STOPS.items()
+        for row in (
+            Reported(
+                across.at(*stop, "µW, ν = 0.3"),
+                "zero in the closed form, which neglects slip across the load",
+            ),
+            Reported(
+                beyond.at(*stop, "µW"),
+                "the vector law makes the contact stiffer by parts of a per mille",
+            ),
+        )
+    )
+    bonded = Problem(
+        Scene(
+            title="Disc that sticks to an incompressible body, sheared",
+            indenter=FlatPunch(radius=PUNCH, material=RIGID),
+            body=Body(material=RUBBER),
+            friction=CoulombFriction(coefficient=100.0),
+            loading=(
+                LoadStep(normal_force=PUNCH_FORCE, increments=1),
+                LoadStep(tangential_force=(PUNCH_FORCE, 0.0), increments=1),
+            ),
+        ),
+        (None, StuckDisc()),
+        PUNCH,
+        "Mindlin 1949: (2 - ν) T / 8 G a",
+        equations=(r"\Delta = \frac{(2 - \nu) T}{8 G a}",),
+    )
+    elements = min(finest(level), 64)
+    alike = sheared("Two alike bodies of steel, sheared", PARTS, STEEL)
+    exact, steel, disc = (
+        _at_points(of, problem, elements, over)
+        for of, problem, over in (
+            ("ν = 0", CATTANEO, 0.99), ("ν = 0.3", alike, 0.99), ("disc", bonded, 1.0),
+        )
+    )  # fmt: skip
+    of_disc = Within(replace(SHIFT, over=""), asked(5e-4, rim), because(rim), name="shift_of_disc")
+    return case(
+        "fem_harmonics",
+        "Finite elements: many harmonics",
+        "Cattaneo and Mindlin's contact by harmonics 0 … 8 of the section, with Coulomb's law "
+        "as a vector law at points of (r, θ): for ν = 0, where the closed form is exact, and "
+        "for ν = 0.3, where it neglects slip across the load. Nothing couples here, so that "
+        "one increment leads to each force. And a disc that sticks all over.",
+        judged(exact, rows),
+        judged(steel, beside_mindlin),
+        judged(disc, (of_disc,)),
+        charts=(lambda results: _chart(results[exact.levels[0]], results[steel.levels[0]]),),
+        limits=(
+            "The stick zone is known to an element in radius and, between the angles of the "
+            "points, to sectors of 22.5°.",
+        ),
+        no_order="on one mesh: fem_partial_slip judges the orders of meshes of the same elements",
+    )
+
+
+def _chart(exact: Any, steel: Any) -> Chart:
+    """q_x on the line of the load for both Poisson's ratios, and q_y on rays for the second."""
+    step, a, limit = PARTS.index(0.6) + 1, HERTZ.contact_radius, FRICTION * HERTZ.peak_pressure
+
+    def on_ray(result: Any, r: Any, degrees: float) -> Any:
+        theta = np.radians(degrees)
+        q, _ = tractions_at(result.steps[step], a * r * np.cos(theta), a * r * np.sin(theta))
+        return q / limit
+
+    x, r = np.linspace(-1.1, 1.1, 221), np.linspace(0, 1.1, 111)
+    known = CATTANEO.ends[step].shear(np.abs(x) * a) / limit
+    along = [
+        curve(name, x, on_ray(result, x, 0.0)[0], series=series)
+        for series, (name, result) in enumerate((("ν = 0", exact), ("ν = 0.3", steel)))
+    ]
+    across = [
+        curve(f"θ = {angle:g}°", r, on_ray(steel, r, angle)[1], series=series)
+        for series, angle in enumerate((22.5, 45.0, 67.5))
+    ]
+    return Chart(
+        name="fem_harmonics_shear",
+        title="Shear at 0.6 µW by harmonics 0 … 8",
+        caption="Above, shear along the load on the line y = 0 for ν = 0 and ν = 0.3 over the "
+        "closed form in grey. Below, shear across the load along three rays for ν = 0.3: the "
+        "closed form has none.",
+        rows=(
+            (Panel(x_label="x / a", y_label="q_x / µp_H",
+                   curves=(curve("closed form", x, known, Look.REFERENCE), *along), height=2.0),),
+            (Panel(x_label="r / a", y_label="q_y / µp_H", curves=tuple(across), height=1.4),),
+        ),
+    )  # fmt: skip
