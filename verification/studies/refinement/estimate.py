@@ -47,6 +47,7 @@ class Estimate:
     order        theoretical order; observed: measured order, None where no power explains the
                  values
     remaining    error on the finest level, at 95 %
+    likely       the most likely error there, without a safety factor
     open         why the levels are not asymptotic, with a remedy; empty where they are
     resolved     whether the finest level resolves the features on which the number depends
     """
@@ -62,6 +63,7 @@ class Estimate:
     limit: float
     uncertainty: float
     remaining: float
+    likely: float
     open: str
     resolved: bool
 
@@ -117,18 +119,18 @@ def _estimate(part: Row, levels: Sequence[CaseRecord], order: float | None) -> E
     p = order or measures[ORDER]
     floor = measures[FLOOR] * measures[LARGEST]
     near = [(h / sizes[-1], v) for h, v in zip(sizes, values, strict=True) if h < NEAR * sizes[-1]]
-    changes = [
-        abs(values[-1] - value) / (ratio ** (BELIEVED * p) - 1)
-        for ratio, value in near
-        if ratio > 1
-    ]
+    bound, likely = (
+        max(abs(values[-1] - value) / (ratio**power - 1) for ratio, value in near if ratio > 1)
+        for power in (BELIEVED * p, p)
+    )
     fit = refined_value(sizes, values, p)
-    limit, bound, why = values[-1], max(changes), ""
+    limit, why = values[-1], ""
     if bound > floor:
         why = _not_asymptotic(fit.observed, fit.triplets)
         if fit.observed is not None and not why:
             followed = refined_value(sizes, values, fit.observed.order)
             limit, bound = followed.limit, COVERAGE * followed.uncertainty
+            likely = abs(values[-1] - limit)
     small = part.words["small"]
     if small:
         why = f"{small}: {FINER}, or a smaller window"
@@ -136,7 +138,7 @@ def _estimate(part: Row, levels: Sequence[CaseRecord], order: float | None) -> E
     return Estimate(
         name, str(part.parameters["of"]), levels[-1].units[name], tuple(sizes), tuple(values),
         measures[LARGEST], p, fit.observed, limit, uncertainty,
-        abs(values[-1] - limit) + uncertainty, why, not small,
+        abs(values[-1] - limit) + uncertainty, likely, why, not small,
     )  # fmt: skip
 
 

@@ -14,6 +14,7 @@ import numpy as np
 import fem_reference
 import semi_analytical
 from contact_errors import on_cells, on_elements
+from contact_errors.adaptive_refinement import Levels, refine
 from contact_errors.coarse_solves import DiscretisedSolver
 from contact_errors.error_formula import LIMITS, PEAK, PER_ITERATION, PER_TOLERANCE, Features
 from contact_errors.values import OF_CYCLES, Values, scale, values_of
@@ -89,10 +90,6 @@ class StudiedScene:
     def asked(self, contents: SceneFile) -> Any:
         """Return the table of the discretisation."""
         return contents.semi_analytical if self.on_cells else contents.fem_reference
-
-    def increments(self) -> tuple[int, ...]:
-        """Increments of every load step of a run."""
-        return _plan(self.read().scene, self.asked(self.read())).increments
 
 
 def _plan(scene: Scene, asked: Any) -> Any:
@@ -203,6 +200,32 @@ def unresolved(features: Features, name: str) -> str:
         for text, size, least in sizes
         if size is not None and size < least
     )
+
+
+@cache
+def of_run(
+    scene: StudiedScene, requested: bool
+) -> tuple[tuple[tuple[str, Any], ...], tuple[int, ...]]:
+    """Entries of the table that a run would choose, and its increments in every load step.
+
+    requested  whether a requested accuracy is met by refinement first
+
+    Raises the errors of a solve.
+    """
+    contents = scene.read()
+    problem, asked = contents.scene, scene.asked(contents)
+    if contents.accuracy is None or not requested:
+        return (), _plan(problem, asked).increments
+    method = METHODS.get(scene.solver, Method.COMPLEMENTARITY)
+    solver: DiscretisedSolver = (
+        on_cells.CellSolver(problem, asked)
+        if scene.on_cells
+        else on_elements.ElementSolver(problem, asked, method=method)
+    )
+    found = refine(Levels(solver), contents.accuracy).level.fineness
+    entries = ("cells", "window") if scene.on_cells else ("elements_per_radius", "harmonics")
+    chosen = tuple((name, getattr(found.space, name)) for name in entries)
+    return (*chosen, ("tolerance", found.tolerance)), found.increments
 
 
 @cache
