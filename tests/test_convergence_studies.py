@@ -224,11 +224,17 @@ def test_an_infinite_pressure_has_no_limit(name: str, tmp_path: Path) -> None:
     assert any("the exact value is infinite" in one.measured for one in found.statements)
 
 
-@pytest.mark.parametrize(("share", "exit_code"), [(1e-4, 0), (1e-7, 1)])
-def test_a_request_decides(share: float, exit_code: int, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("share", "cells", "exit_code"), [(1e-4, (48,), 0), (1e-7, (48,), 1), (1e-3, (), 0)]
+)
+def test_a_request_decides(
+    share: float, cells: tuple[int, ...], exit_code: int, tmp_path: Path
+) -> None:
+    """Without --cells the levels end at those that meet the request."""
     path = tmp_path / "scene.toml"
     path.write_text(f"{PRESSED}\n[accuracy]\napproach = {share}")
-    command = ["maintain", "study", "mesh", path, "--cells", 48, "--workers", 1, "-o", "out"]
+    options = ("--cells", *cells) if cells else ()
+    command = ["maintain", "study", "mesh", path, *options, "--workers", 1, "-o", "out"]
     assert outcome(*command, cwd=tmp_path).returncode == exit_code
 
 
