@@ -31,7 +31,11 @@ def tolerances(
     bounds in the cases remain the largest tolerances. Exit code 2 without a reason.
     """
     from slipstick.cli.terminal import print_table
-    from verification.regression.tolerances import accept_tolerances, proposed
+    from verification.regression.tolerances import (
+        accept_tolerances,
+        proposed,
+        read_tolerances,
+    )
 
     read = [read_report(path) for path in reports]
     if accept:
@@ -40,7 +44,7 @@ def tolerances(
         return
     rows = [
         (case, key, f"{tolerance.error:.2g}", f"{tolerance.allowed:.2g}")
-        for case, keys in proposed(read).items()
+        for case, keys in proposed(read, read_tolerances(read[0].level)).items()
         for key, tolerance in keys.items()
     ]
     print_table(("case", "number", "largest error", "proposed"), rows)

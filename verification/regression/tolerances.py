@@ -103,10 +103,19 @@ def _held(verdict: Verdict, known: tuple[Tolerance, Acceptance] | None) -> Verdi
     )
 
 
-def proposed(reports: Sequence[Report]) -> dict[str, dict[str, Tolerance]]:
+def proposed(
+    reports: Sequence[Report], known: Tolerances | None = None
+) -> dict[str, dict[str, Tolerance]]:
     """Propose tolerances from reports of one level on several kernels: by case and key, for numbers
-    whose tolerance exceeds three times the largest error, or is exceeded by it."""
+    whose tolerance exceeds three times the largest error, or is exceeded by it.
+
+    known  accepted tolerances, which hold from now on
+    """
     found: dict[str, dict[str, Tolerance]] = {}
+    if known is not None:
+        reports = [
+            report.model_copy(update={"cases": held_to(report.cases, known)}) for report in reports
+        ]
     for case, key, verdicts in _together(reports):
         bound, held = (verdicts[0].bound or verdicts[0].allowed), verdicts[0].allowed
         error = max(verdict.error or 0.0 for verdict in verdicts)
@@ -141,8 +150,9 @@ def accept_tolerances(reports: Sequence[Report], because: str, directory: Path =
     because = " ".join(because.split())
     if not because:
         raise BaselineRefused("tolerances need a reason: --because 'why these errors are right'")
-    new, level = proposed(reports), reports[0].level
+    level = reports[0].level
     earlier = read_tolerances(level, directory)
+    new = proposed(reports, earlier)
     kept = tuple(
         acceptance.model_copy(update={"tolerances": rest})
         for acceptance in earlier.accepted
