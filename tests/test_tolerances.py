@@ -9,6 +9,7 @@ from command import slipstick
 
 from slipstick.cli.compare import exit_code_of
 from verification.cases.hertz import hertz_point
+from verification.judging.case import Level
 from verification.judging.change import ChangeKind
 from verification.judging.declared_case import Within, case, judged
 from verification.judging.judgement import judge
@@ -18,6 +19,7 @@ from verification.judging.outcome import CaseOutcome, Status, Verdict
 from verification.problems.hertz import BALL
 from verification.regression import tolerances
 from verification.regression.acceptance import baselines_of
+from verification.regression.baseline_files import read_baselines
 from verification.regression.comparison import compared
 from verification.regression.refusal import BaselineRefused
 from verification.regression.tolerances import (
@@ -189,6 +191,21 @@ def test_tolerances_need_a_reason_and_one_level(outcome: CaseOutcome, tmp_path: 
     (tmp_path / "quick.json").write_text("{")
     with pytest.raises(BaselineRefused, match="are damaged"):
         read_tolerances("quick", tmp_path)
+
+
+@pytest.mark.parametrize("level", [level.name.lower() for level in Level])
+def test_every_accepted_tolerance_belongs_to_a_recorded_number(level: str) -> None:
+    """A number that gets another name loses its tolerance, unless that is accepted anew."""
+    recorded = {
+        (case, f"{quantity.name} [{quantity.key[2]}] {quantity.tolerance_kind}")
+        for case, baseline in read_baselines().items()
+        if level in baseline.levels
+        for quantity in baseline.levels[level].quantities
+    }
+    for acceptance in read_tolerances(level).accepted:
+        assert acceptance.because
+        accepted = {(case, key) for case, keys in acceptance.tolerances.items() for key in keys}
+        assert accepted <= recorded
 
 
 def test_verify_judges_by_the_accepted_tolerances(
