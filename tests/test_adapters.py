@@ -62,6 +62,20 @@ def test_each_solver_reaches_its_class(
     assert not found.omitted
 
 
+def test_paths_of_changing_loads_are_judged() -> None:
+    """Finer cells and increments pass; exchanged axes fail."""
+    name = "changing_loads/nu=0.3"
+
+    def exchanged(asked: Posed, level: int) -> Answer:
+        found = surface.answer(asked, level)
+        swapped = {"shift_x": "shift_y", "shift_y": "shift_x"}
+        scalars = {(swapped.get(q, q), step): value for (q, step), value in found.scalars.items()}
+        return Answer(found.h, {k: scalars.get(k, v) for k, v in found.scalars.items()})
+
+    assert not failed(judge(name, surface.answer, levels=2))
+    assert failed(judge(name, exchanged, levels=1)) >= {"shift_x", "shift_y"}
+
+
 @pytest.mark.parametrize(
     ("answer", "name", "said"),
     [

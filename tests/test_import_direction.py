@@ -158,8 +158,8 @@ ORDERS = {
     ),
     "verification.challenge": (
         *("halves", "round_table", "asked", "often_asked", "frictional_cases", "cases_at_places"),
-        *("paper_figure", "tilted_cases", "cases", "toml_text", "export", "answer"),
-        *("answer_files", "field_tables", "reading"),
+        *("paper_figure", "tilted_cases", "changing_loads", "cases", "toml_text", "export"),
+        *("answer", "answer_files", "field_tables", "reading"),
         *("coverage", "verdicts", "judgement", "door", "named_solver"),
     ),
     "slipstick": (*("solvers", "solving", "stored_run", "tables", "cli", "__main__"),),

@@ -45,8 +45,9 @@ def number(posed: Posed, key: Key, steps: Sequence[State]) -> float | None:
     """By the name that a result has for it; None where it has none."""
     quantity, step = key
     end = steps[step - 1]
-    if quantity == "shift_x":
-        return None if end.tangential_shift is None else float(end.tangential_shift[0])
+    if quantity in ("shift_x", "shift_y"):
+        shift = end.tangential_shift
+        return None if shift is None else float(shift["xy".index(quantity[-1])])
     if quantity in ("moment_x", "moment_y"):
         return None if end.moment is None else float(end.moment["xy".index(quantity[-1])])
     if quantity == "energy_per_cycle":

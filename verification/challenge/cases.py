@@ -9,6 +9,7 @@ from typing import Any
 
 from verification.challenge.asked import AskedField, AskedValue, Challenge
 from verification.challenge.cases_at_places import at_places
+from verification.challenge.changing_loads import changing_loads
 from verification.challenge.frictional_cases import frictional
 from verification.challenge.halves import Half, Halves, fitted, round_halves
 from verification.challenge.often_asked import LARGE, SMALL, approach, contact_radius, stick_radius
@@ -37,7 +38,10 @@ def challenges() -> dict[str, Challenge]:
     classical = (hertz_point(), hertz_elliptical(), cone(), punch(), cattaneo_mindlin(), loop())
     return {
         one.name: one
-        for one in (*classical, *tilted(), *coated(), *frictional(), paper_figure(), *at_places())
+        for one in (
+            *(*classical, *tilted(), *coated(), *frictional()),
+            *(paper_figure(), *at_places(), *changing_loads()),
+        )
     }
 
 
