@@ -147,18 +147,6 @@ def test_under_prescribed_motions_all_laws_hold(solver, seed, friction, size, an
     assert_lawful(contact, solution)
 
 
-@BOTH_WAYS
-@pytest.mark.parametrize("seed", range(4))
-def test_relaxing_cell_by_cell_ends_in_the_same_state(seed, solver):
-    contact, shift = DenseContact(seed, 0.3), np.array([0.2, -0.1])
-    solution = contact.solved(FixedApproach(1.5), FixedShift(shift), solver=solver)
-    p, q = contact.by_small_steps(1.5, shift)
-    assert np.any(p == 0)
-    assert 0 < np.count_nonzero(solution.in_slip) < np.count_nonzero(p)
-    np.testing.assert_allclose(solution.pressure, p, atol=1e-8)
-    np.testing.assert_allclose(solution.shear, q, atol=1e-8)
-
-
 def test_strong_coupling_converges():
     """Where the alternation without Anderson mixing does not."""
     contact = DenseContact(0, 10.0, coupling=1.5)
@@ -166,15 +154,6 @@ def test_strong_coupling_converges():
 
 
 LOADS = PressureSum(7.0), ShearSum(np.array([0.5, 0.3]))
-
-
-def test_a_start_that_solves_the_problem_takes_one_round():
-    contact = DenseContact(9, 0.3)
-    first = contact.solved(*LOADS)
-    again = solve_coupled(
-        contact.problem(*LOADS), first.pressure, first.shear, first.shift, 10 * TOLERANCE
-    )
-    assert (again.rounds, again.iterations) == (1, 0)
 
 
 def test_a_start_in_equilibrium_with_the_wrong_shear_is_not_taken_for_the_answer():

@@ -5,7 +5,7 @@ import os
 import pickle
 from collections.abc import Callable, Iterator
 from contextlib import nullcontext
-from dataclasses import dataclass, field, fields, is_dataclass
+from dataclasses import dataclass, field, fields, is_dataclass, replace
 from itertools import pairwise
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -13,11 +13,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from synthetic_result import synthetic_result
 
 import fem_reference
+import radial
 import semi_analytical
 from contact_results.directory.checkpoint import Checkpoint, checkpointed
 from contact_results.directory.checkpoint_file import FORMAT, Unusable, pack, unpacked
+from contact_results.result_files import write_result
 from contact_scene import (
     Body,
     CoulombFriction,
@@ -28,11 +31,13 @@ from contact_scene import (
     Scene,
     Sphere,
     SurfaceDiscretisation,
+    stored_fields,
 )
 from contact_scene.discretisation import EdgeCorrection
 from contact_scene.solver_errors import GrossSliding
 from contact_scene.standing import Keeper, Standing
-from contact_scene.stored_fields import StoredArray
+from contact_scene.stored_fields import FieldStore, StoredArray, WithFields
+from semi_analytical.fields import Increment, Result
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 SOFT = IsotropicMaterial(young_modulus=70e9, poisson_ratio=0.33)
@@ -47,7 +52,6 @@ LOOP = (
 )
 LED = (*LOOP, LoadStep(tangential_shift=(1e-8, 0.0), increments=3))
 SOFTER = Body(material=SOFT)
-EDGES_INSIDE: tuple[EdgeCorrection, ...] = ("last", "all")
 LIFTED = (*LOOP, LoadStep(normal_force=0.0, tangential_force=(0.0, 0.0), increments=2), *LOOP[:2])
 TURNED = (PRESSED, LoadStep(torque=1e-4, increments=2), LoadStep(torque=-1e-4, increments=2))
 TILTED = (
@@ -89,22 +93,20 @@ def on_section(body: Body, loading: tuple[LoadStep, ...], method: fem_reference.
     return lambda keeper: fem_reference.solve(scene(body, loading), SECTION, method, keeper=keeper)
 
 
+def on_rings(loading: tuple[LoadStep, ...]) -> Solve:
+    posed = scene(SOFTER, loading)
+    rough = replace(radial.plan(posed), fineness=0.5)
+    return lambda keeper: radial.solve(posed, plan=rough, keeper=keeper)
+
+
 SOLVES = {
     "similar": on_surface(PLAIN, LED),
-    **{
-        f"edges inside the cells, {name}": with_edges(body, edge)
-        for name, body, edge in (
-            ("last", PLAIN, "last"),
-            ("all", PLAIN, "all"),
-            ("of a film", COATED, "last"),
-        )
-    },
+    "edges inside the cells": with_edges(PLAIN, "all"),
     "coupled": on_surface(COATED, LOOP),
     "separated": on_surface(PLAIN, LIFTED),
-    **{
-        f"coupled, edges inside the cells, {edge}": with_edges(SOFTER, edge, BALL)
-        for edge in EDGES_INSIDE
-    },
+    "coupled, edges inside the cells": with_edges(SOFTER, "last", BALL),
+    "pressed on rings": on_rings((PRESSED, LoadStep(normal_force=60.0, increments=2))),
+    "pushed on rings": on_rings(LOOP[:2]),
     "torsion": on_surface(PLAIN, TURNED),
     "tilt": on_surface(PLAIN, TILTED),
     **{
@@ -191,24 +193,6 @@ def test_going_on_after_any_increment_gives_the_same_bits(name: str, tmp_path: P
     resumed = All(every.kept[0])
     assert [*differences(whole.increments, solve(resumed).increments)] == []
     assert len(resumed.kept) == len(whole.increments) - 1
-
-
-def test_solve_that_dies_again_and_again_ends_as_if_it_never_had(tmp_path: Path) -> None:
-    solve = SOLVES["coupled"]
-    whole, said = solve(None), []
-    for death in range(len(whole.increments)):
-        keeper = checkpoint(tmp_path, said)
-        with pytest.raises(Killed):
-            solve(Ending(keeper, 1))
-        keeper.close()
-        assert len(said) == (death > 0)
-        said.clear()
-    keeper = checkpoint(tmp_path, said)
-    again = solve(keeper)
-    assert f"after increment {len(whole.increments)}" in said[0]
-    assert [*differences(whole.increments, again.increments)] == []
-    keeper.remove()
-    assert [*tmp_path.iterdir()] == []
 
 
 def changed(content: bytes) -> bytes:
@@ -322,17 +306,6 @@ def test_arrays_of_other_types_and_fields_of_other_files_are_not_read(tmp_path: 
             unpacked(forged(content, tmp_path), "this solve")
 
 
-def test_part_of_another_user_is_not_believed(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    pack(3.0, "this solve", tmp_path / "part")
-    assert unpacked(tmp_path / "part", "this solve") == 3.0
-    monkeypatch.setattr(os, "geteuid", lambda: 4242)
-    os.chown(tmp_path / "part", 4243, -1) if os.getuid() == 0 else None
-    with pytest.raises(Unusable, match="it belongs to another user"):
-        unpacked(tmp_path / "part", "this solve")
-
-
 def test_full_disk_costs_the_checkpoint_alone(tmp_path: Path) -> None:
     said: list[str] = []
     (tmp_path / "file").touch()
@@ -356,3 +329,73 @@ def test_checkpoint_stays_only_where_it_is_of_use(
         if error is not None:
             raise error
     assert (tmp_path / ".out.checkpoint").is_dir() is stays
+
+
+# ---- Fields of a long history lie in a file: no result shows it, and little is in memory.
+
+
+@pytest.fixture
+def stored(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whatever can be is in a file."""
+    monkeypatch.setattr(stored_fields, "MOST_HELD", 0)
+    monkeypatch.setattr(stored_fields, "LEAST_STORED", 1)
+
+
+def in_file(value: WithFields) -> list[str]:
+    kept = vars(value).items()
+    return [name for name, array in kept if isinstance(array, stored_fields.StoredArray)]
+
+
+def long_result(count: int, cells: int = 64) -> Result:
+    """One increment so often that only its numbers could be held, each time with arrays of its
+    own, and a cycle in it."""
+    short = synthetic_result((cells, cells))
+    *before, last = short.increments
+    fields = FieldStore()
+    increments = [*before, *(fields.kept(anew(last, number)) for number in range(count))]
+    return replace(short, increments=tuple(increments))
+
+
+def anew(increment: Increment, number: int) -> Increment:
+    scaled: dict[str, Any] = {
+        name: array * (1 + 1e-6 * number)
+        for name, array in vars(increment).items()
+        if isinstance(array, np.ndarray) and array.dtype == float
+    }
+    return replace(increment, **scaled)
+
+
+@pytest.mark.parametrize("name", ["similar", "torsion", "similar by penalty"])
+def test_files_are_the_same_to_the_byte(
+    name: str, tmp_path: Path, request: pytest.FixtureRequest
+) -> None:
+    results = [SOLVES[name](None)]
+    request.getfixturevalue("stored")
+    results.append(SOLVES[name](None))
+    assert not in_file(results[0].increments[-1])
+    assert {"pressure", "gap", "in_stick"} <= {*in_file(results[1].increments[-1])}
+    assert [*differences(results[0].increments, results[1].increments)] == []
+    written = []
+    for number, result in enumerate(results):
+        directory = tmp_path / str(number)
+        directory.mkdir()
+        write_result(result, directory, figures="none", all_fields=True)
+        written.append({path.name: path.read_bytes() for path in directory.iterdir()})
+    assert written[0] == written[1]
+
+
+@pytest.mark.usefixtures("stored")
+def test_a_field_that_was_read_cannot_be_written_to() -> None:
+    increment = long_result(1).increments[-1]
+    with pytest.raises(ValueError, match="read-only"):
+        increment.pressure[0, 0] = 1.0
+    assert increment.pressure is not increment.pressure
+
+
+def test_full_disk_is_told_with_the_place(monkeypatch: pytest.MonkeyPatch, stored: None) -> None:
+    def full(**_: Any) -> Any:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("tempfile.TemporaryFile", full)
+    with pytest.raises(OSError, match=r"No space left on device.*TMPDIR"):
+        long_result(1)

@@ -3,7 +3,6 @@
 import json
 import os
 import resource
-import shutil
 import signal
 import subprocess
 import sys
@@ -85,18 +84,6 @@ def test_run_writes_every_file_and_the_same_bytes_in_another_process(
     assert set(os.listdir(scene.parent / "out")) == FILES - figures - {"index.html"}
     for name in FILES - figures - {"index.html", "timing.json"}:
         assert (scene.parent / "out" / name).read_bytes() == (whole / name).read_bytes()
-
-
-@pytest.mark.usefixtures("undrawn")
-def test_rerun_without_friction_removes_what_it_does_not_call_for(whole: Path, scene: Path) -> None:
-    shutil.copytree(whole, scene.parent / "out")
-    frictionless = SCENE.replace("[friction]\ncoefficient = 0.1\n", "")
-    kept = [part for part in frictionless.split("[[loading]]") if "tangential" not in part]
-    grid = "[semi_analytical]" + SCENE.partition("[semi_analytical]")[2]
-    scene.write_text("[[loading]]".join(kept) + grid, encoding="utf-8")
-    assert run(scene, "--no-error").returncode == 0
-    pictures = {name for name in FILES if name.endswith(".png")}
-    assert set(os.listdir(scene.parent / "out")) == FILES - pictures | {"overview.png"}
 
 
 @pytest.mark.parametrize(

@@ -6,14 +6,9 @@ import os
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
-import numpy as np
 import pytest
 from command import outcome
-
-from contact_scene import kept_arrays
-from contact_scene.kept_arrays import SUFFIX, remembered
 
 PUSHED = """[[loading]]
 tangential_force = ["60 N", 0]
@@ -105,35 +100,3 @@ def test_what_a_run_finds_may_be_of_any_time(
     for path in (tmp_path, *tmp_path.rglob("*")):
         os.utime(path, (AGES[age], AGES[age]))
     assert run(tmp_path, "--figures", "none") == expected
-
-
-def all_of(age: float, directory: Path) -> None:
-    for path in (directory, *directory.rglob("*")):
-        os.utime(path, (age, age))
-
-
-@pytest.mark.parametrize("age", AGES)
-def test_entries_of_any_time_are_believed_and_do_not_stay_for_ever(
-    age: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("SLIPSTICK_CACHE_DIR", str(tmp_path))
-    monkeypatch.setattr(kept_arrays, "LARGEST_CACHE", 4000)
-
-    def computed(identity: str) -> bool:
-        called = []
-
-        def compute() -> Any:
-            called.append(identity)
-            return np.full(60, float(len(identity)))
-
-        assert np.all(remembered(identity, (60,), compute) == len(identity))
-        return bool(called)
-
-    assert [computed(name) for name in ("strange", "other")] == [True, True]
-    all_of(AGES[age], tmp_path)
-    assert [computed(name) for name in ("strange", "other")] == [False, False]
-    all_of(AGES[age], tmp_path)
-    fresh = [f"fresh {'x' * number}" for number in range(8)]
-    assert all(computed(name) for name in fresh)
-    assert sum(path.stat().st_size for path in tmp_path.glob("*" + SUFFIX)) <= 4000
-    assert [computed(name) for name in ("strange", "other")] == [True, True]

@@ -13,6 +13,7 @@ from verification.closed_forms.coated_indentation import (
 )
 from verification.closed_forms.flat_punch import FlatPunchContact
 from verification.closed_forms.gao_chiu_lee import modulus_weight, ratio_weight
+from verification.closed_forms.goodman import stick_ratio
 from verification.closed_forms.hertz import PointContact
 from verification.references import load_reference
 
@@ -93,11 +94,19 @@ def test_first_order_stiffness_has_its_limits_and_printed_values() -> None:
         assert weight(1e9) == pytest.approx(1, abs=1e-6)
 
 
-@pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf])
-def test_arguments_out_of_range_are_named(bad: float) -> None:
-    with pytest.raises(ValueError, match="thickness"):
-        homogeneous(bad)
-    with pytest.raises(ValueError, match="contact_radius"):
-        paraboloid(homogeneous(1.0), RADIUS, bad)
-    with pytest.raises(ValueError, match="load"):
-        paraboloid_under(bad, homogeneous(1.0), RADIUS)
+# ---- One-way coupled indentation: the stick radius by another route, its limits and printed
+
+
+BETA = 0.4 / 1.4  # ν = 0.3 under a rigid indenter
+
+
+@pytest.mark.parametrize(("friction", "ratio"), [(0.1, 0.2240), (0.2, 0.7334), (0.3, 0.9186)])
+def test_printed_values(friction, ratio):
+    assert stick_ratio(friction, BETA) == pytest.approx(ratio, abs=5e-5)
+
+
+def test_limits():
+    assert stick_ratio(1e-6, BETA) == 0
+    assert stick_ratio(100, BETA) == 1
+    with pytest.raises(ValueError, match="dundurs_beta"):
+        stick_ratio(0.1, 0.0)

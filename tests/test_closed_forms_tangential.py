@@ -130,20 +130,6 @@ def test_energy_of_a_cycle_has_its_published_values(ratio, expected):
 # --- histories of the force
 
 
-@given(amplitude=st.floats(0.01, 1), position=ratios)
-def test_branch_after_a_reversal_is_the_first_loading_doubled(amplitude, position):
-    turned = led(amplitude * LIMIT)
-    force = amplitude * LIMIT * position
-    half = replace(VIRGIN, tangential_force=(turned.tangential_force - force) / 2)
-    unloading, r = turned.loaded_to(force), A * np.linspace(0, 1, 50)
-    assert unloading.shift == pytest.approx(
-        turned.shift - 2 * half.shift, abs=1e-13 * VIRGIN.sliding_shift
-    )
-    np.testing.assert_allclose(unloading.shear(r), turned.shear(r) - 2 * half.shear(r), atol=1e-14)
-    reloading = led(amplitude * LIMIT, -amplitude * LIMIT, -force)
-    assert reloading.shift == pytest.approx(-unloading.shift, abs=1e-13 * VIRGIN.sliding_shift)
-
-
 @given(forces=st.lists(ratios, min_size=1, max_size=5))
 def test_history_balances_energy_and_obeys_coulomb(forces):
     state, work = TangentialHistory(VIRGIN), 0.0
@@ -176,15 +162,6 @@ def test_history_balances_energy_and_obeys_coulomb(forces):
     assert work == pytest.approx(elastic + state.dissipated_energy, abs=1e-6 * scale)
 
 
-def test_history_forgets_a_closed_loop():
-    direct = led(0.8 * LIMIT)
-    detour = led(0.6 * LIMIT, -0.1 * LIMIT, 0.8 * LIMIT)
-    assert detour.turning_points == ()
-    assert detour.shift == direct.shift
-    inner_loop = 4 * replace(VIRGIN, tangential_force=0.35 * LIMIT).dissipated_energy
-    assert detour.dissipated_energy - direct.dissipated_energy == pytest.approx(inner_loop)
-
-
 # --- superposition for other profiles
 
 CONTACTS = {
@@ -213,15 +190,6 @@ def test_superposition_of_paraboloids_is_cattaneo(ratio):
     assert state.shift == pytest.approx(exact.shift, abs=1e-14)
     np.testing.assert_allclose(state.shear(r), exact.shear(r), atol=1e-9)
     np.testing.assert_allclose(state.slip(r), exact.slip(r), atol=1e-9)
-
-
-def test_superposed_stick_zone_of_a_sphere_moves_rigidly():
-    state = superpose(CONTACTS["sphere"], LOAD, 0.6 * LIMIT, MU, E_STAR / G_STAR)
-    a, c = state.full.contact_radius, state.stick.contact_radius
-    along, _ = tangential_displacement(
-        lambda x, y: state.shear(np.hypot(x, y)), (0.6 * c, 0.0), [(c, c), (a, a)], 1.05, 0.0
-    )
-    assert along == pytest.approx(state.shift, rel=1e-9)
 
 
 # --- dimension and range

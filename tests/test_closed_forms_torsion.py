@@ -84,15 +84,3 @@ def test_stuck_torsion():
     assert moment == pytest.approx(0.3, rel=1e-12)
     assert state.shear(1.1 * A) == 0
     assert state.twist == pytest.approx(3 * 0.3 / (16 * A**3 * MODULUS))
-
-
-def test_torsion_outside_the_range_is_refused():
-    limit = twisted(0.5).sliding_moment
-    with pytest.raises(ValueError, match="gross sliding"):
-        TorsionalPartialSlip.under_moment(limit, A, PEAK, MU, MODULUS)
-    with pytest.raises(ValueError, match="exceeds the contact radius"):
-        twisted(1.01)
-    with pytest.raises(ValueError, match="stick_radius is 0"):
-        twisted(0.0)
-    with pytest.raises(ValueError, match="contact_radius is -1"):
-        StuckTorsion(-1.0, MODULUS, 0.1)

@@ -12,20 +12,16 @@ from contact_scenes import (
     A,
     hertz,
     paraboloid,
-    push,
     scene,
-    slide,
     steel,
 )  # fmt: skip
 
 import slipstick
 from contact_results.remarks import remarks
-from contact_scene import Cone, Ellipsoid, FlatPunch, HeightMap, Scene, SurfaceDiscretisation
+from contact_scene import FlatPunch, HeightMap, Scene, SurfaceDiscretisation
 from semi_analytical import SurfaceGrid, plan, solve
 from semi_analytical.edge_correction.pressure import LEAST_FACTOR, relaxation_factor
-from verification.closed_forms.cone import ConeContact
 from verification.closed_forms.hertz import PointContact
-from verification.closed_forms.moduli import contact_modulus
 from verification.problems.shifted_grid import ShiftedGrid
 
 CELLS = 48
@@ -56,13 +52,6 @@ def test_the_pressure_of_hertz_is_right_to_a_ten_thousandth_wherever_the_cells_l
     assert end.contact_radius == pytest.approx(A, rel=5e-5)
     assert end.approach == pytest.approx(APPROACH, rel=1e-5)
     assert end.peak_pressure == pytest.approx(hertz().peak_pressure, rel=1e-5)
-
-
-@pytest.mark.parametrize("seed", [1, 4])
-def test_three_cells_per_radius_give_it_to_a_thousandth(seed):
-    offset = tuple(np.random.default_rng(seed).uniform(-0.5, 0.5, 2))
-    end = solved(frictionless(PRESS), grid=ShiftedGrid((11, 11), (3.6 * A, 3.6 * A), offset))
-    assert end.steps[-1].contact_radius == pytest.approx(A, rel=1e-3)
 
 
 @pytest.mark.parametrize("led_by", ["tilt", "moment"])
@@ -107,22 +96,6 @@ def test_every_patch_has_its_edge_inside_the_cells():
     ends = [solved(of, "last", grid) for of, grid in (bumps(n, *PATCHES) for n in (60, 96))]
     few, many = (end.steps[-1].contact_radius for end in ends)
     assert few == pytest.approx(many, rel=1e-4)
-
-
-@pytest.mark.parametrize(("cells", "left"), [(48, 0.3), (96, 0.2)])
-def test_below_a_cone_the_edge_is_found_although_the_apex_is_not_smooth(cells, left):
-    """Also on few cells, where fits from farther inside would lead far outside."""
-    slope = np.radians(1.0)
-    modulus = contact_modulus((420e9, 0.3), (420e9, 0.3))
-    exact = ConeContact.under_load(LOAD, slope, modulus)
-    side = 2.6 * exact.contact_radius
-    grid = SurfaceGrid((cells, cells), (side, side))
-    cone = frictionless(PRESS, indenter=Cone(slope_angle=slope, material=steel()))
-    error = {
-        edge: abs(solved(cone, edge, grid).steps[-1].contact_radius / exact.contact_radius - 1)
-        for edge in ("off", "last")
-    }
-    assert error["last"] < left * error["off"]
 
 
 STEPS = (PRESS, {"normal_force": 0.5 * LOAD}, {"normal_force": 0.8 * LOAD})
@@ -186,43 +159,6 @@ def test_the_shear_of_cattaneo_is_right_to_a_few_ten_thousandths(forces, parts):
     assert np.linalg.norm(end.shear - [exact, 0 * exact]) < 4e-4 * np.linalg.norm(exact)
     assert end.stick_radius == pytest.approx(parts[-1][1] * EXACT.contact_radius, rel=1e-4)
     assert end.tangential_force[0] == forces[-1] * LIMIT
-
-
-@pytest.mark.parametrize("led", [push(0.6), slide(0.5)], ids=["force", "shift"])
-def test_force_and_shift_stay_those_of_cells(led):
-    """As does the work that they do along the history; the shear carries the force."""
-    plain, edged = (solved(scene(PRESS, led), edge) for edge in ("off", "last"))
-    for one, other in zip(plain.steps, edged.steps, strict=True):
-        assert other.edge_change is not None
-        np.testing.assert_array_equal(one.tangential_shift, other.tangential_shift)
-        np.testing.assert_array_equal(one.tangential_force, other.tangential_force)
-        carried = np.sum(other.shear, axis=(1, 2)) * edged.grid.cell_area
-        np.testing.assert_allclose(carried, other.tangential_force, atol=1e-8 * LIMIT)
-
-
-@pytest.mark.parametrize("back", [-0.5, 0.6])
-def test_after_sliding_the_edges_are_inside_the_cells_too(back):
-    """Moved far, and back by Masing's rule: the stick radius is that of half the change."""
-    far = {"tangential_shift": (2e-3, 0.0)}
-    of = scene(PRESS, far, push(back), indenter=paraboloid(ALIKE), body=ALIKE)
-    slid, end = solved(of).steps[-2:]
-    assert end.edge_change is not None
-    assert slid.stick_area == 0
-    np.testing.assert_array_equal(slid.shear[0], MU * slid.pressure)
-    assert np.sum(slid.shear[0]) * (WINDOW / CELLS) ** 2 == pytest.approx(LIMIT, rel=1e-9)
-    stick = ((1 + back) / 2) ** (1 / 3) * EXACT.contact_radius
-    assert end.stick_radius == pytest.approx(stick, rel=1e-4)
-
-
-def test_a_mirrored_contact_has_a_mirrored_edge():
-    """Cells on the mirror have two neighbours alike, of which none may be preferred."""
-    ellipsoid = Ellipsoid(radii=(RADIUS, 2 * RADIUS), material=steel())
-    of, grid = scene(PRESS, push(0.7), indenter=ellipsoid), (32, 28)
-    end = solved(of, grid=SurfaceGrid(grid, (3.3 * A, 4.0 * A))).steps[-1]
-    assert end.edge_change is not None
-    for field in (end.pressure, end.shear[0]):
-        for image in (field[::-1], field[:, ::-1]):
-            np.testing.assert_allclose(field, image, atol=1e-8 * np.max(field))
 
 
 def test_where_the_stick_border_cannot_follow_the_pressure_is_corrected_alone():

@@ -7,7 +7,7 @@ from scipy.integrate import quad
 from scipy.ndimage import binary_erosion
 
 from semi_analytical.edge.fit import NARROW, WIDE, Stencil, fit_about
-from semi_analytical.edge.means import centre_value, mean_power
+from semi_analytical.edge.means import mean_power
 from semi_analytical.edge.shape import EdgeShape, edge_shape
 from tests.cell_means import ellipse_means, elliptic_radius
 
@@ -46,15 +46,6 @@ def test_mean_of_a_power_is_its_integral(
     expected = quad(along, -0.5, 0.5, points=kinks)[0] if b else max(f, 0.0) ** exponent
     found = mean_power(*(np.array(v) for v in place), exponent)
     assert found == pytest.approx(expected, rel=1e-7, abs=1e-12)
-
-
-@pytest.mark.parametrize("exponent", EXPONENTS[1:-1])
-@pytest.mark.parametrize("size", [1.0, 1e18])
-def test_centre_value_undoes_the_mean(exponent: float, size: float) -> None:
-    f, slope_x, slope_y = size * np.array(PLACES[:-1]).T
-    mean = mean_power(f, slope_x, slope_y, exponent)
-    found = centre_value(mean, slope_x, slope_y, exponent)
-    np.testing.assert_allclose(found, f, rtol=1e-9)
 
 
 @pytest.mark.parametrize("stencil", [NARROW, WIDE])
@@ -100,29 +91,6 @@ def test_edge_points_are_on_the_edge_that_exact_means_have(
     assert np.max(np.abs(points.f)) < 1e-12 * np.max(points.slope)
     error = elliptic_radius(points.x, points.y, radii, centre, angle) - 1
     assert np.max(np.abs(error)) < (3.0 if exponent > 1 else 1.0) * BOUNDS[stencil]
-
-
-def test_covered_parts_of_cells_add_up_to_the_area() -> None:
-    radii, angle = ELLIPSE
-    means = ellipse_means(CELLS, radii, (19.37, 19.81), angle)
-    shape = edge_shape(means, means > 0, WIDE, rings=2)
-    i, j = np.argwhere((means == 0) | (means > 0)).T
-    near = np.abs(elliptic_radius(i, j, radii, (19.37, 19.81), angle) - 1) < 0.2
-    here, _ = shape.about(i[near].astype(float), j[near].astype(float))
-    inside = np.sum(elliptic_radius(i[~near], j[~near], radii, (19.37, 19.81), angle) < 1)
-    area = inside + np.sum(here.cell_mean(0.0))
-    assert area == pytest.approx(np.pi * radii[0] * radii[1], rel=1e-4)
-
-
-def test_untrusted_cells_are_no_data() -> None:
-    """Half of the region: about the other half there is nothing to believe."""
-    means = ellipse_means(CELLS, (13.3, 13.3), (19.37, 19.81))
-    trusted = np.broadcast_to(np.arange(CELLS)[:, None] < 20, means.shape)
-    shape = edge_shape(means, means > 0, NARROW, trusted=trusted)
-    i, j = border(shape)
-    _, safe = shape.edge_points(i, j)
-    assert np.all(safe[i < 16])
-    assert not np.any(safe[i > 24])
 
 
 def test_a_region_without_data_is_refused() -> None:

@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[1]
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 
 
-def run_script(script: Path, folder: Path) -> None:
+def assert_runs(script: Path, folder: Path) -> None:
     outcome = subprocess.run(
         [sys.executable, script], cwd=folder, capture_output=True, text=True, check=False
     )
@@ -26,7 +26,7 @@ def test_there_are_examples() -> None:
 
 @pytest.mark.parametrize("script", EXAMPLES, ids=lambda path: path.stem)
 def test_example_keeps_its_promise(script: Path, tmp_path: Path) -> None:
-    run_script(script, tmp_path)
+    assert_runs(script, tmp_path)
 
 
 def test_python_in_the_readme_runs(tmp_path: Path) -> None:
@@ -36,4 +36,4 @@ def test_python_in_the_readme_runs(tmp_path: Path) -> None:
     assert fine in block
     script = tmp_path / "readme.py"
     script.write_text(block.replace(fine, "cells=(24, 24)"), encoding="utf-8")
-    run_script(script, tmp_path)
+    assert_runs(script, tmp_path)

@@ -139,16 +139,3 @@ def test_tables_that_cannot_be_read_are_refused(place: Path) -> None:
     ):
         with pytest.raises(ValueError, match=re.escape(complaint)):
             slipstick.load(source).tables["profiles"]
-
-
-def test_a_run_and_a_stress_are_told_apart(place: Path) -> None:
-    with pytest.raises(FileNotFoundError, match="it is a stress, which load_stress reads"):
-        slipstick.load(place / "stress")
-    with pytest.raises(FileNotFoundError, match="it is a run, which load reads"):
-        slipstick.load_stress(place / "cells")
-    other = place / "other"
-    other.mkdir()
-    for content, complaint in ((b"[1]", "it is of an earlier version"), (b"\xff", "is not the")):
-        (other / "stress.json").write_bytes(content)
-        with pytest.raises(ValueError, match=complaint):
-            slipstick.load_stress(other)

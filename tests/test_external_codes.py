@@ -85,6 +85,7 @@ def test_elements_of_the_body_do_not_straddle_the_interface():
     found = blocks(calculix_deck(FRICTIONLESS, COARSE))
     coating = {int(n) for row in found["*ELSET, ELSET=COATING"] for n in row}
     interface = -FRICTIONLESS.thickness * HERTZ.contact_radius
+    assert elements
     for number, element in enumerate(elements, 1):
         depths = [nodes[n][1] for n in element]
         above = min(depths) >= interface * (1 + 1e-9)
@@ -95,6 +96,7 @@ def test_elements_of_the_body_do_not_straddle_the_interface():
 
 def test_ball_is_the_paraboloid():
     nodes, elements = nodes_and_elements(FRICTIONLESS, "BALL")
+    assert elements
     for element in elements:
         for n in (element[0], element[1], element[4]):
             r, z = nodes[n]

@@ -16,10 +16,8 @@ from contact_scene import (
     Paraboloid,
     Scene,
 )
-from contact_scene.solver_errors import ResourceRefused, SurfacesOverlap
+from contact_scene.solver_errors import SurfacesOverlap
 from fem_reference import Method, solve
-from fem_reference.contact.angular_grid import end_grid
-from fem_reference.contact.point_contact import point_contact
 from fem_reference.contact.ring_compliance import ring_compliance
 from fem_reference.model import ContactModel
 from fem_reference.plan import Path
@@ -122,16 +120,6 @@ def test_load_in_any_direction_is_the_same_load(result):
         np.testing.assert_allclose(q_turned, expected, rtol=1e-7, atol=1e-6 * np.max(np.abs(q)))
 
 
-def test_result_knows_no_units(result):
-    scale, stiffness = 1e-6, 1e3
-    other = solved(sheared((0.5, 0.0), (-0.2, 0.0), scale=scale, stiffness=stiffness), 8, **FEW)
-    for a, b in zip(other.steps, result.steps, strict=True):
-        np.testing.assert_allclose(a.pressure, stiffness * b.pressure, rtol=1e-6)
-        shear = stiffness * b.shear_radial
-        np.testing.assert_allclose(a.shear_radial, shear, atol=1e-7 * np.max(np.abs(shear)))
-        assert a.approach == pytest.approx(scale * b.approach, rel=1e-9)
-
-
 def test_no_point_exceeds_the_friction_limit_and_energy_is_lost(result):
     for increment in result.steps[1:]:
         size = np.hypot(increment.shear_radial, increment.shear_circumferential)
@@ -170,12 +158,3 @@ def test_penalty_does_not_decide_the_answer():
         assert shift_along_x(end) == pytest.approx(shift_along_x(exact), rel=1e-3)
     with pytest.raises(SurfacesOverlap, match="after 1 augmentation, allowed"):
         solve(scene, elements(8, augmentations=1, **FEW), Method.PENALTY)
-
-
-def test_too_many_points_are_refused_before_anything_is_condensed(monkeypatch):
-    monkeypatch.setattr("fem_reference.memory.available_bytes", lambda: 1e6)
-    scene = along_x()
-    model = ContactModel.of(scene, elements(8), 0.32e-3)
-    with pytest.raises(ResourceRefused, match="GB"):
-        point_contact(model, Path.HARMONICS, end_grid(8))
-    assert model.factorizations == 0

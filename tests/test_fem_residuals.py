@@ -10,6 +10,7 @@ from fem_scenes import elements
 from contact_scene.solver_errors import NotConverged
 from fem_reference import Method, residuals, solve
 from fem_reference.contact import increment
+from semi_analytical.residuals import complementarity, friction_cone, penetration, slip_direction
 
 WEIGHTS = np.array([0.1, 0.4, 0.5])
 PRESSURE = np.array([2.0, 1.0, 0.0])
@@ -47,3 +48,42 @@ def test_wrong_answer_of_a_solver_is_not_accepted(what: str, method: Method, mon
     monkeypatch.setattr(increment, "solve_coupled", wrong)
     with pytest.raises(NotConverged, match="residual"):
         solve(scene(PRESS, push(0.5)), elements(), method)
+
+
+# ---- Every residual sees its own defect, in the same measure on every mesh, and nothing els
+
+
+BOUND = np.array([[2.0, 1.0], [0.0, 1.0]])
+
+
+def along(angle, length=BOUND):
+    return np.stack([length * np.cos(angle), length * np.sin(angle)])
+
+
+def test_complementarity_is_the_gap_under_pressure():
+    p, g = np.array([[1.0, 3.0], [0.0, 0.0]]), np.array([[0.2, -0.1], [5.0, np.inf]])
+    assert complementarity(p, g, 0.5) == pytest.approx((0.2 + 0.3) / (0.5 * 4))
+
+
+def test_penetration_is_the_deepest_overlap():
+    assert penetration(np.array([0.3, -0.02, np.inf]), 0.5) == pytest.approx(0.04)
+    assert penetration(np.array([0.3, 0.0]), 0.5) == 0
+
+
+def test_friction_cone_is_the_largest_excess():
+    assert friction_cone(along(0.3), BOUND) == pytest.approx(0, abs=1e-15)
+    excess = np.array([[0, 0.1], [0, 0]])
+    assert friction_cone(along(0.3, BOUND + excess), BOUND) == pytest.approx(0.05)
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.1, np.pi / 2, np.pi])
+def test_slip_at_an_angle_to_the_shear_is_seen(angle):
+    """1 - cos of the angle: the dissipation that is missing."""
+    u = np.ones((2, 2, 2))
+    found = slip_direction(along(0.3), BOUND, along(0.3 + angle, np.ones((2, 2))), u)
+    assert found == pytest.approx(1 - np.cos(angle), abs=1e-12)
+
+
+def test_slip_that_nearly_vanishes_is_judged_by_the_displacement():
+    noise = along(2.0, np.full((2, 2), 1e-15))
+    assert slip_direction(along(0.3), BOUND, noise, np.ones((2, 2, 2))) < 1e-11

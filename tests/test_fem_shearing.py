@@ -22,7 +22,6 @@ from contact_scene.summary import ContactStatus
 from fem_reference import Method
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.moduli import tangential_modulus
-from verification.closed_forms.tangential_history import TangentialHistory
 from verification.closed_forms.torsion import TorsionalPartialSlip
 from verification.quantities import shift_along_x
 
@@ -33,37 +32,6 @@ VIRGIN = PartialSlip(
 )  # fmt: skip
 UNTWISTED = TorsionalPartialSlip(A, HERTZ.peak_pressure, MU, G / 2, A)
 EXACT, PENALTY = Method.COMPLEMENTARITY, Method.PENALTY
-
-
-def loaded(*parts: float) -> TangentialHistory:
-    """Mindlin and Deresiewicz after these parts of the friction limit in turn."""
-    history = TangentialHistory(VIRGIN)
-    for part in parts:
-        history = history.loaded_to(part * LIMIT)
-    return history
-
-
-# Elements per radius; shift over the largest; loss over that of a loop; edge of stick in elements,
-# and within five elements of an older edge, across which no fit at Gauss points finds it.
-OF_HISTORY = {EXACT: (16, 4e-3, 6e-3, 0.2, 0.2), PENALTY: (32, 2e-4, 2e-3, 0.2, 0.6)}
-
-
-@both_laws
-@pytest.mark.parametrize("parts", [(0.9, -0.9, 0.9), (0.8, 0.2, 0.6, -0.3), (0.5, -0.5, 0.9)])
-def test_history_is_remembered_through_reversals(parts: tuple[float, ...], law: Method) -> None:
-    """Shift and loss follow the closed form of any history, as exactly as the first loading."""
-    per_radius, of_shift, of_loss, clear, near = OF_HISTORY[law]
-    result = solved(scene(PRESS, *map(push, parts)), per_radius, law)
-    largest, loop = loaded(0.9).shift, loaded(0.9, -0.9).dissipated_energy
-    edges: list[float] = []
-    for number, step in enumerate(result.steps[1:], start=1):
-        exact = loaded(*parts[:number])
-        assert shift_along_x(step) == pytest.approx(exact.shift, abs=of_shift * largest)
-        assert step.dissipated_energy == pytest.approx(exact.dissipated_energy, abs=of_loss * loop)
-        apart = all(abs(edge - exact.stick_radius) > 5 / per_radius * A for edge in edges)
-        allowed = (clear if apart else near) / per_radius * A
-        assert step.stick_radius == pytest.approx(exact.stick_radius, abs=allowed)
-        edges.append(exact.stick_radius)
 
 
 def test_mirrored_load_has_the_mirrored_answer() -> None:
@@ -124,24 +92,6 @@ def test_less_pressure_under_constant_shear_slips_inwards(law: Method) -> None:
     shifts = [shift_along_x(step) for step in result.increments[1:]]
     assert np.all(np.diff(shifts) > 0)
     assert max(i.residuals.worst for i in result.increments) < 1e-11
-
-
-# Relative error of the twist, the edge of stick in contact radii, and the shear over µp₀.
-OF_TWISTED = {EXACT: (6e-3, 3e-3, 0.02), PENALTY: (2e-3, 0.3 / 32, 0.01)}
-
-
-@both_laws
-@pytest.mark.parametrize("part", [0.4, 0.6, 0.9])
-def test_twisted_ball_slips_from_its_edge(part: float, law: Method) -> None:
-    torque = part * UNTWISTED.sliding_moment
-    twist, stick, shear = OF_TWISTED[law]
-    exact = TorsionalPartialSlip.under_moment(torque, A, HERTZ.peak_pressure, MU, G / 2)
-    found = end(scene(PRESS, {"torque": torque}), 32, law)
-    assert found.twist == pytest.approx(exact.twist, rel=twist)
-    assert found.stick_radius == pytest.approx(exact.stick_radius, abs=stick * A)
-    apart = (np.abs(found.radii - exact.stick_radius) > 0.1 * A) & (found.radii < 0.85 * A)
-    error = np.abs(found.shear_circumferential - exact.shear(found.radii))
-    assert np.max(error[apart]) < shear * MU * HERTZ.peak_pressure
 
 
 def test_torque_and_twist_lead_to_the_same_state() -> None:

@@ -41,6 +41,7 @@ def test_stress_below_hertz_is_hubers(bare: SectionField) -> None:
     judged = (r < 2 * A) & (z < 3 * A) & (z > 0) & (np.hypot(r - A, z) > 0.2 * A)
     exact = huber_stress(r[judged], z[judged], A, P0, STEEL.poisson_ratio)
     (pressed, _) = bare.parts
+    assert np.any(judged)
     components = {RR: exact.radial, TT: exact.hoop, ZZ: exact.axial, RZ: exact.shear}
     for component, expected in components.items():
         assert np.max(np.abs(pressed.stress[component, judged] - expected)) < 4e-3 * P0
@@ -74,30 +75,6 @@ def test_stress_at_the_surface_is_the_traction(
         (across[TZ], along - around),
     ):
         assert np.max(np.abs(found - expected)) < 0.02 * P0
-
-
-def test_loads_pass_through_an_interface(coated: tuple[SurfaceTractions, SectionField]) -> None:
-    """Normal force, tangential force and torque of the stress are those of the tractions."""
-    tractions, field = coated
-    for material in (0, 1):
-        side = field.side(0.5 * A, material)
-        r = field.points[0, side]
-        ahead, across = field.stress(0.0)[:, side], field.stress(np.pi / 2)[:, side]
-        behind = field.stress(np.pi)[:, side]
-        normal = integral(r, -0.5 * (ahead[ZZ] + behind[ZZ]))
-        assert normal == pytest.approx(2 / 3 * np.pi * A**2 * P0, rel=0.01)
-        if tractions.shear_along_load is not None:
-            outward = 0.5 * (ahead[RZ] - behind[RZ])
-            force = integral(r, -0.5 * (outward - across[TZ]))
-            assert force == pytest.approx(2 / 3 * np.pi * A**2 * MU * P0, rel=0.01)
-        if tractions.shear_circumferential is not None:
-            # ∫ √(1-x²) x³ dx from 0 to 1 is 2/15.
-            torque = 2 * np.pi * MU * P0 * A**3 * 2 / 15
-            assert integral(r, -ahead[TZ] * r) == pytest.approx(torque, rel=0.01)
-
-
-def integral(r: np.ndarray, values: np.ndarray) -> float:
-    return float(2 * np.pi * np.trapezoid(values * r, r))
 
 
 def test_tractions_are_continuous_across_an_interface_and_the_rest_jumps(
@@ -135,17 +112,6 @@ def test_shear_on_points_of_rings_is_the_shear_along_the_load(bare: SectionField
     for theta in (0.0, 0.7):
         np.testing.assert_allclose(field.stress(theta), bare.stress(theta), atol=1e-9 * P0)
         np.testing.assert_allclose(field.displacement(theta), bare.displacement(theta), atol=1e-16)
-
-
-def test_units_change_no_bit() -> None:
-    length, stress = 2.0**-20, 2.0**10
-    small = Body(
-        material=IsotropicMaterial(young_modulus=stress * 210e9, poisson_ratio=0.3),
-    )
-    one = subsurface(Body(material=STEEL), PRESSED, elements(8))
-    other = subsurface(small, SurfaceTractions(length * RINGS, stress * PRESSURE), elements(8))
-    np.testing.assert_array_equal(other.stress(), stress * one.stress())
-    np.testing.assert_array_equal(other.displacement(), length * one.displacement())
 
 
 def test_the_indenter_carries_the_shear_reversed() -> None:

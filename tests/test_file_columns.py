@@ -43,6 +43,7 @@ def header(path: Path) -> list[str]:
 
 
 def test_every_column_but_the_names_of_rows_has_its_unit(written: dict[str, Path]) -> None:
+    assert set(written) == set(RESULTS)
     for place in written.values():
         for path in set(place.glob("*.csv")) - {place / COLUMNS}:
             without = {name for name in header(path) if not name.endswith("]")}
@@ -50,6 +51,7 @@ def test_every_column_but_the_names_of_rows_has_its_unit(written: dict[str, Path
 
 
 def test_every_column_has_one_row_that_says_what_it_means(written: dict[str, Path]) -> None:
+    assert set(written) == set(RESULTS)
     for place in written.values():
         (first, *told) = rows(place / COLUMNS)
         assert first == {"file": "all", "column": "", "unit": "SI", "meaning": CONVENTION}
@@ -70,8 +72,8 @@ def test_all_solvers_have_the_same_columns(written: dict[str, Path]) -> None:
 
 
 def test_files_say_axes_and_signs_themselves(written: dict[str, Path]) -> None:
-    for place in written.values():
-        assert json.loads((place / SUMMARY).read_text(encoding="utf-8"))["convention"] == CONVENTION
+    texts = [(place / SUMMARY).read_text(encoding="utf-8") for place in written.values()]
+    assert {json.loads(text)["convention"] for text in texts} == {CONVENTION}
 
 
 @pytest.mark.parametrize(("other", "age"), [(-1, "an earlier"), (1, "a newer")])

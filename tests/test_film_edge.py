@@ -80,20 +80,6 @@ def test_the_law_goes_from_the_root_of_the_film_to_that_of_its_base(ratio: float
     assert far == pytest.approx(ratio**-0.5, rel=1e-3)
 
 
-@pytest.mark.parametrize("ratio", [0.25, 2.0, 10.0])
-def test_it_is_the_pressure_at_the_edge_of_a_ball_on_a_film(ratio: float) -> None:
-    """With the curvatures of Hertz: c = ¾ (b - κ) = -9/8a."""
-    thickness = 0.01
-    _, exact = ball_on(ratio, thickness)
-    s = np.geomspace(1e-3, 8.0, 25) * thickness
-    law = law_of(ratio, thickness, spacing=A)
-    root = law.over_root(s / thickness, np.full(s.shape, -9 / 8 * thickness))
-    p = pressure(exact, 1 - s)
-    left = p / (np.sqrt(s * (1 - s / 2)) * root)
-    np.testing.assert_allclose(left / left[0], 1.0, atol=1e-3)
-    assert np.ptp(p / np.sqrt(s)) > 0.25 * np.max(p / np.sqrt(s))
-
-
 @pytest.mark.parametrize("place", [(-0.3, 0.8, 0.4), (0.1, 0.7, 0.0), (1.2, 0.5, -0.5), (9, 1, 0)])
 def test_means_of_the_law_are_its_integrals(place: tuple[float, float, float]) -> None:
     """Over a square in which the distance is linear; the derivative by differences."""
@@ -117,10 +103,7 @@ def test_means_of_the_law_are_its_integrals(place: tuple[float, float, float]) -
 @pytest.mark.parametrize(
     ("case", "pressure_error"),
     [
-        ((4.0, 0.1), 2e-4),
         ((4.0, 0.02), 6e-4),
-        ((10.0, 0.05), 2e-4),
-        ((2.0, 0.02), 2e-4),
         ((0.25, 0.02), 2e-4),
     ],
 )
@@ -154,15 +137,3 @@ def test_no_film_calls_for_a_law_where_an_edge_sees_none() -> None:
     assert other is not None
     s, c = np.array([0.3, 3.0]), np.zeros(2)
     np.testing.assert_allclose(one.over_root(s, c), other.over_root(s, c), rtol=1e-12)
-
-
-@pytest.mark.parametrize("case", [(3.0, 0.6), (3.0, 1.0), (20.0, 1.0)])
-def test_a_narrow_contact_does_not_ask_the_law_of_its_film(case: tuple[float, float]) -> None:
-    """On 16 cells per radius, film of 10 and 16 of them: its edge is not plane over the thickness,
-    and the law misses the radius by 9e-4 to 5e-3."""
-    of, _ = ball_on(*case)
-    grid = SurfaceGrid((48, 48), (3 * A, 3 * A))
-    assert film_law(of.body, NO_BODY, grid.spacing) is not None
-    end = solve(of, grid, 1e-8, plan=plan(of, edge="last")).steps[-1]
-    assert end.edge_change is not None
-    assert end.contact_radius == pytest.approx(A, rel=5e-4)

@@ -155,14 +155,6 @@ def test_what_is_no_run_is_refused_by_name(tmp_path: Path) -> None:
         stored(tmp_path)["shaer"]
 
 
-def test_a_summary_is_not_paired_with_the_fields_of_another_run(tmp_path: Path) -> None:
-    for name, scene in (("one", SCENE.model_copy(update={"title": "another"})), ("other", SCENE)):
-        slipstick.save(solved(scene), tmp_path / name, figures="none")
-    (tmp_path / "other" / "result.h5").replace(tmp_path / "one" / "result.h5")
-    with pytest.raises(ValueError, match="or is of another run: its digest"):
-        slipstick.load(tmp_path / "one")
-
-
 @pytest.mark.parametrize("mark", ["unit", "description"])
 def test_values_without_unit_or_meaning_are_refused_by_name(mark: str, tmp_path: Path) -> None:
     run = stored(tmp_path)

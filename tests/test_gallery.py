@@ -18,7 +18,9 @@ from made_notebooks import notebook  # noqa: E402
 
 @pytest.mark.parametrize("entry", ENTRIES, ids=lambda entry: entry.scene)
 def test_verdicts_are_those_expected(entry) -> None:
-    refuse_unexpected(entry, [found(entry, claim) for claim in entry.claims])
+    judged = [found(entry, claim) for claim in entry.claims]
+    assert judged
+    refuse_unexpected(entry, judged)
 
 
 def test_every_scene_of_the_gallery_has_its_page() -> None:

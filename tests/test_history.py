@@ -59,32 +59,25 @@ def test_an_approach_is_held_as_an_approach():
     assert ends[1].residuals.normal_equilibrium is None
 
 
-def test_a_force_takes_over_from_the_force_that_an_approach_has_led_to():
-    pressed, _, end = increments(
-        {"approach": APPROACH}, {"normal_force": 0.5 * LOAD, "increments": 2}, friction=None
-    )
-    middle = increments(
-        {"approach": APPROACH}, {"normal_force": 0.5 * LOAD, "increments": 2}, friction=None
-    )[1]
-    assert middle.normal_force == pytest.approx(0.5 * (pressed.normal_force + end.normal_force))
-
-
-def test_a_shift_takes_over_from_the_shift_that_a_force_has_led_to():
-    _, pushed, middle, end = increments(PRESS, push(0.5), slide(0.2, increments=2))
-    expected = 0.5 * (pushed.tangential_shift + end.tangential_shift)
-    np.testing.assert_allclose(middle.tangential_shift, expected, rtol=1e-12)
-
-
-def test_a_force_takes_over_from_the_force_that_a_shift_has_led_to():
-    _, slid, middle, end = increments(PRESS, slide(0.5), push(-0.2, increments=2))
-    expected = 0.5 * (slid.tangential_force + end.tangential_force)
-    np.testing.assert_allclose(middle.tangential_force, expected, atol=1e-9 * LIMIT)
+@pytest.mark.parametrize(
+    ("loading", "name"),
+    [
+        (({"approach": APPROACH}, {"normal_force": 0.5 * LOAD, "increments": 2}), "normal_force"),
+        ((PRESS, push(0.5), slide(0.2, increments=2)), "tangential_shift"),
+        ((PRESS, slide(0.5), push(-0.2, increments=2)), "tangential_force"),
+    ],
+)
+def test_a_control_takes_over_from_where_another_has_led(loading, name):
+    *_, start, middle, end = (getattr(i, name) for i in increments(*loading))
+    scale = np.max(np.abs(start))
+    np.testing.assert_allclose(middle, 0.5 * np.add(start, end), atol=1e-9 * scale)
 
 
 def test_force_and_shift_control_reach_the_same_states():
     forced = increments(PRESS, push(0.7), push(-0.5))
     shifts = [{"tangential_shift": tuple(i.tangential_shift)} for i in forced[1:]]
     moved = increments(PRESS, *shifts)
+    assert len(moved) == 3
     for one, other in zip(forced, moved, strict=True):
         np.testing.assert_allclose(other.tangential_force, one.tangential_force, atol=1e-6 * LIMIT)
         assert other.dissipated_energy == pytest.approx(one.dissipated_energy, rel=1e-6)
@@ -93,6 +86,7 @@ def test_force_and_shift_control_reach_the_same_states():
 def test_load_and_approach_control_reach_the_same_states():
     forced = increments(PRESS, {"normal_force": 0.3 * LOAD}, friction=None)
     moved = increments(*({"approach": i.approach} for i in forced), friction=None)
+    assert len(moved) == 2
     for one, other in zip(forced, moved, strict=True):
         assert other.normal_force == pytest.approx(one.normal_force, rel=1e-7)
 

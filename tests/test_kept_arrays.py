@@ -1,8 +1,11 @@
 """Arrays that are kept on disk: believed if they are whole, ours and what was asked for."""
 
 import os
+import re
+import shutil
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,6 +13,8 @@ from numpy.typing import NDArray
 
 from contact_scene import kept_arrays
 from contact_scene.kept_arrays import SUFFIX, cache_directory, remembered
+from fem_reference.elasticity import compliance
+from semi_analytical.influence import layered
 
 SHAPE = (4, 3)
 
@@ -156,3 +161,22 @@ def test_cache_directory_follows_the_environment(
     for name, value in variables.items():
         monkeypatch.setenv(name, value)
     assert str(cache_directory()) == expected
+
+
+@pytest.mark.parametrize("cached", [compliance, layered], ids=["compliance", "coefficients"])
+def test_all_sources_of_an_array_are_in_its_key(cached: Any, tmp_path: Path) -> None:
+    """Of the project's modules only values, refusals and the folders of the digest are imported."""
+    own = cached.PACKAGE.name
+    inside = tuple(f"{own}.{folder}" for folder in cached.FOLDERS)
+    for folder in cached.FOLDERS:
+        shutil.copytree(cached.PACKAGE / folder, tmp_path / folder)
+    sources = [*tmp_path.rglob("*.py")]
+    texts = [source.read_text(encoding="utf-8") for source in sources]
+    imported = {name for text in texts for name in re.findall(r"(?m)^from (\S+) import", text)}
+    ours = {name for name in imported if name.startswith(own) and not name.startswith(inside)}
+    assert ours <= {"fem_reference.memory"}
+    assert any(name.startswith(inside) for name in imported)
+    assert cached.sources_digest(tmp_path) == cached.sources_digest()
+    sources[-1].write_text(texts[-1] + "# another line\n", encoding="utf-8")
+    cached.sources_digest.cache_clear()
+    assert cached.sources_digest(tmp_path) != cached.sources_digest()

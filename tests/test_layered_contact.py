@@ -2,10 +2,31 @@
 
 import numpy as np
 import pytest
+from contact_scenes import INDENTERS, MU, PRESS, A, bump, push, scene, steel
 
-from contact_scene import RIGID, Body, IsotropicMaterial, Layer, LoadStep, Paraboloid, Scene
+from contact_scene import (
+    RIGID,
+    Body,
+    Ellipsoid,
+    FlatPunch,
+    HeightMap,
+    IsotropicMaterial,
+    Layer,
+    LoadStep,
+    Paraboloid,
+    Scene,
+    Sphere,
+    SurfaceDiscretisation,
+)
 from contact_scene.solver_errors import ResourceRefused, UnsupportedScene
-from semi_analytical import SurfaceGrid, plan, solve
+from semi_analytical import (
+    ContactAtWindowEdge,
+    SurfaceGrid,
+    discretise,
+    plan,
+    solve,
+    solve_discretised,
+)
 from semi_analytical.influence import layered
 from verification.closed_forms.coated_indentation import paraboloid
 from verification.problems.layered_scene import surface_of
@@ -43,14 +64,6 @@ def test_stiff_coating_bends_over_its_base(contrast: float, thickness: float) ->
     assert end.contact_radius == pytest.approx(1, rel=4e-2)
 
 
-@pytest.mark.parametrize("thickness", [1e-12, 1e3])
-def test_layer_far_thinner_or_thicker_than_the_contact_is_none_or_all(thickness: float) -> None:
-    layered = pressed(body(material(1.0), (thickness, material(2.0))), normal_force=0.01)
-    alone = pressed(body(material(1.0 if thickness < 1 else 2.0)), normal_force=0.01)
-    p, q = (solve(scene, GRID, 1e-9).steps[-1].pressure for scene in (layered, alone))
-    assert np.abs(p - q).max() < 1e-6 * q.max()
-
-
 @pytest.mark.parametrize(
     "lower",
     [
@@ -68,3 +81,112 @@ def test_layered_window_beyond_memory_is_refused(monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr(layered, "available_bytes", lambda: 1 << 20)
     with pytest.raises(ResourceRefused, match="influence coefficients for"):
         solve(pressed(COATED, normal_force=0.01), GRID, 1e-8)
+
+
+# ---- A window that is left open holds the contact, and hardly more.
+
+
+COARSE = SurfaceDiscretisation(cells=(48, 48), tolerance=1e-6)
+LOADS = [1e-12, 1e-3, 1.0, 1e9]
+
+
+def extents(increment, grid):
+    """Sides of the contact, from the outermost cells that carry pressure."""
+    x, y = grid.coordinates()
+    inside = increment.in_contact
+    return (
+        2 * np.max(np.abs(x[inside])) + grid.spacing[0],
+        2 * np.max(np.abs(y[inside])) + grid.spacing[1],
+    )
+
+
+def assert_window_fits(asked):
+    result = solve_discretised(asked, COARSE)
+    size = extents(result.steps[-1], result.grid)
+    for side, length in zip(result.grid.window, size, strict=True):
+        assert length < side < 1.6 * length
+
+
+@pytest.mark.parametrize("load", LOADS)
+@pytest.mark.parametrize("name", sorted(INDENTERS.keys() - {"sphere"}))
+def test_window_fits_any_shape_under_any_load(name, load):
+    assert_window_fits(scene({"normal_force": load}, indenter=INDENTERS[name], friction=None))
+
+
+def test_ball_that_would_sink_in_beyond_its_equator_is_reported():
+    with pytest.raises(UnsupportedScene, match="presses the sphere to its equator"):
+        solve_discretised(scene({"normal_force": 1e12}, indenter=INDENTERS["sphere"]), COARSE)
+
+
+@pytest.mark.parametrize("radius", [1e-9, 1e-6, 1.0, 1e3])
+def test_window_fits_from_nanometres_to_kilometres(radius):
+    for shape in (
+        Sphere(radius=radius, material=steel()),
+        Paraboloid(radius=radius, material=steel()),
+        FlatPunch(radius=radius, material=RIGID),
+        Ellipsoid(radii=(radius, 3 * radius), material=RIGID),
+    ):
+        assert_window_fits(scene({"approach": 1e-3 * radius}, indenter=shape, friction=None))
+
+
+def test_window_holds_the_largest_contact_of_the_history():
+    small, large = {"normal_force": 1.0}, {"normal_force": 1e3}
+    windows = [
+        discretise(scene(*loading, friction=None), COARSE).window
+        for loading in [(large,), (small, large, small), (large, {"approach": 1e-9})]
+    ]
+    assert windows[0] == windows[1] == windows[2]
+
+
+def test_window_of_a_height_map_is_the_map():
+    heights = HeightMap(file=bump(24, 3 * A / 24), spacing=3 * A / 24, material=steel())
+    grid = discretise(scene(PRESS, indenter=heights), COARSE)
+    np.testing.assert_allclose(grid.window, (3 * A, 3 * A))
+
+
+def test_what_is_asked_for_is_not_changed():
+    asked = SurfaceDiscretisation(cells=(20, 30), window=(1e-3, 2e-3))
+    assert discretise(scene(PRESS), asked) == SurfaceGrid((20, 30), (1e-3, 2e-3))
+
+
+def map_of(shape, length, values=MU):
+    return {"map": np.full(shape, values), "spacing": tuple(length / np.array(shape))}
+
+
+@pytest.mark.parametrize("shape", [(40, 24), (300, 24), (512, 300)])
+@pytest.mark.parametrize("window", [2.2 * A, 3 * A])
+def test_chosen_cells_divide_the_spacing_of_a_map_by_the_same_number(shape, window):
+    values = np.add.outer(np.arange(shape[0]), np.arange(shape[1])) * 1e-9
+    rough = HeightMap(file=values, spacing=tuple(4 * A / np.array(shape)), material=steel())
+    asked = SurfaceDiscretisation(window=(window, window))
+    for described in (
+        scene(PRESS, push(0.2), friction=map_of(shape, 4 * A, values)),
+        scene(PRESS, friction=None, indenter=rough),
+    ):
+        cells = np.array(discretise(described, asked).cells)
+        points = np.ceil(window / (4 * A / np.array(shape)) - 1e-9)
+        factor = cells[0] // points[0]
+        assert list(cells) == list(factor * points)
+        assert min(cells) >= 128 > min((factor - 1) * points)
+
+
+@pytest.mark.parametrize("shape", [(128, 128), (129, 200), (301, 512)])
+def test_chosen_cells_of_a_map_that_is_fine_enough_are_its_own(shape):
+    rough = HeightMap(file=np.zeros(shape), spacing=(3e-7, 7e-7), material=steel())
+    grid = discretise(scene(PRESS, friction=None, indenter=rough), SurfaceDiscretisation())
+    assert (grid.cells, grid.window) == (shape, rough.extent)
+
+
+def test_a_chosen_window_ends_where_the_friction_map_does():
+    small = scene(PRESS, push(0.2), friction=map_of((20, 20), 2.1 * A))
+    assert discretise(small, COARSE).window == pytest.approx((2.1 * A, 2.1 * A))
+    assert solve_discretised(small, COARSE).steps[0].contact_radius == pytest.approx(A, rel=0.05)
+    smaller = scene(PRESS, push(0.2), friction=map_of((20, 20), 1.9 * A))
+    with pytest.raises(ContactAtWindowEdge, match="friction map"):
+        solve_discretised(smaller, COARSE)
+
+
+def test_explicit_window_that_cuts_the_contact_is_refused():
+    asked = SurfaceDiscretisation(cells=(32, 32), window=(1.5 * A, 1.5 * A))
+    with pytest.raises(ContactAtWindowEdge, match="larger window"):
+        solve_discretised(scene(PRESS), asked)

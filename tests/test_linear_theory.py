@@ -1,11 +1,15 @@
 """A result of large strains is told as such, whatever is pressed on what; others are not."""
 
+import json
 from math import atan
+from pathlib import Path
 from typing import Any
 
 import pytest
+from command import slipstick
 from hypothesis import given
 from hypothesis import strategies as st
+from scene_texts import STEEL_ON_STEEL
 
 import semi_analytical
 from contact_results.files.summary_file import summary_of
@@ -18,16 +22,15 @@ from contact_scene import (
     LoadStep,
     Paraboloid,
     Scene,
-    Sphere,
     SurfaceDiscretisation,
+    read_scene_file,
 )
 from contact_scene.linear_theory import SMALL_STRAIN, beyond_linear_theory
-from contact_scene.material import Material
+from contact_scene.plausibility import implausible
 from semi_analytical import Result
 from verification.problems import paper_scene as paper
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
-RUBBER = IsotropicMaterial(young_modulus=2e6, poisson_ratio=0.5)
 FOAM = IsotropicMaterial(young_modulus=2e6, poisson_ratio=0.1)
 MILLIMETRE = 1e-3
 
@@ -59,26 +62,6 @@ def test_ball_is_told_by_its_contact_radius(radii: float, large: bool) -> None:
     assert tuple(told for told in said if told.startswith("strains of")) == remarks(result)
 
 
-@pytest.mark.parametrize("base", [RIGID, STEEL])
-@pytest.mark.parametrize(
-    ("film", "part", "large"),
-    [
-        (FOAM, 0.05, False),
-        (FOAM, 0.5, True),
-        (RUBBER, 1e-4, False),
-        (RUBBER, 0.05, True),  # squeezed out sideways, sheared by 3 a/h times as much
-        (RUBBER, 0.5, True),
-    ],
-)
-def test_film_is_told_by_how_far_it_is_pressed(
-    base: Material, film: IsotropicMaterial, part: float, large: bool
-) -> None:
-    body = Body(material=base, layers=(Layer(thickness=1e-4, material=film),))
-    found = remarks(solved(Sphere(radius=1.0, material=RIGID), body, part * 1e-4))
-    assert bool(found) is large
-    assert all("layer" in told for told in found)
-
-
 class End:
     """A state that presses so hard."""
 
@@ -98,3 +81,110 @@ def test_softest_within_a_contact_radius_counts(depth: float) -> None:
         indenter=paper.paraboloid(STEEL), body=body, loading=(LoadStep(normal_force=1.0),)
     )
     assert bool(beyond_linear_theory(scene, [End(1e6)])) is (depth < End.contact_radius)
+
+
+# ---- Numbers that are hardly what was meant are remarked on, and no others.
+
+
+SCENES = sorted((Path(__file__).resolve().parents[1] / "scenes").glob("*.toml"))
+MATERIALS = {"gel": 1e4, "rubber": 5e6, "polymer": 3e9, "steel": 210e9, "diamond": 1.1e12}
+
+
+def ball(E, R, W, coefficient=0.1, **indenter):
+    """A ball on its own material, with half the strain at which linear theory ends if W is 1."""
+    material = {"young_modulus": E, "poisson_ratio": 0.3}
+    shape = {"shape": "paraboloid", "radius": R, "material": material, **indenter}
+    return Scene.model_validate(
+        {
+            "indenter": shape,
+            "body": {"material": material},
+            "friction": {"coefficient": coefficient},
+            "loading": [{"normal_force": W * 1e-3 * E * R**2}],
+        }
+    )
+
+
+@pytest.mark.parametrize("file", SCENES, ids=lambda file: file.stem)
+def test_the_shipped_scenes_are_plausible(file):
+    contents = read_scene_file(file)
+    assert implausible(contents.scene, semi_analytical=contents.semi_analytical) == ()
+
+
+@pytest.mark.parametrize("E", MATERIALS.values(), ids=MATERIALS)
+@pytest.mark.parametrize("R", [1e-6, 1e-5, 18e-3, 0.5])
+def test_real_materials_and_sizes_are_plausible(E, R):
+    assert implausible(ball(E, R, 1.0)) == ()
+
+
+@pytest.mark.parametrize(("E", "R"), [(1.0, 1.0), (1.0, 46.4), (210.0, 18.0), (210e3, 18.0)])
+def test_scenes_without_units_or_in_their_own_are_left_alone(E, R):
+    dimensionless = SurfaceDiscretisation(window=(3 * R, 3 * R))
+    assert implausible(ball(E, R, 1.0), semi_analytical=dimensionless) == ()
+
+
+COATED = (
+    STEEL_ON_STEEL
+    + """
+[[body.layers]]
+thickness = "5 um"
+material = { young_modulus = "400 GPa", poisson_ratio = 0.2 }
+[friction]
+coefficient = 0.3
+[[loading]]
+normal_force = 100
+[[loading]]
+tangential_force = [20, 0]
+"""
+)
+MISTAKES = {  # of a steel ball on a coated one: the contact radius is 0.19 mm
+    "GPa left out": ("body.material.young_modulus=210", 'was "210 GPa" meant?'),
+    "MPa below a film": ("body.material.young_modulus=210e3", "strains of about 0.63"),
+    "mm left out": ("indenter.radius=10", 'was "10 mm" meant?'),
+    "um for mm": ('indenter.radius="10 um"', "strains of about"),
+    "thickness without unit": ("body.layers[1].thickness=5", 'was "5 um" meant?'),
+    "mm for um": ('body.layers[1].thickness="50 mm"', "hardly anything shows of what lies below"),
+    "nm for um": ('body.layers[1].thickness="5 nm"', "hardly anything shows of it"),
+    "a sign before a ratio": ("body.material.poisson_ratio=-0.3", "below the usual 0"),
+    "kN for N": ('loading[1].normal_force="60 kN"', "hardest ceramics yield before"),
+    "a tenth of a degree": ("loading[2]={tilt=[0,0.05]}", 'was "0.05 deg" meant?'),
+    "per cent": ("friction.coefficient=30", 'was "30 per cent" meant?'),
+    "MN for kN": ('loading[1].normal_force="1 MN"', "strains of about"),
+    "mm of shift": ('loading[2]={tangential_shift=["0.5 mm",0]}', "further than the contact"),
+    "degrees of twist": ("loading[2]={twist=1}", 'was "1 deg" meant?'),
+    "degrees of tilt": ("loading[2]={tilt=[0.5,0]}", 'was "0.5 deg" meant?'),
+    "degrees of slope": (
+        'indenter={shape="cone",slope_angle=0.5,material="rigid"}', 'was "0.5 deg" meant?',
+    ),
+    "mm of approach": ('loading[1]={approach="10 mm"}', "strains of about"),
+    "a tolerance of cells": ("semi_analytical.tolerance=0.1", "above the usual 0.001"),
+}  # fmt: skip
+
+
+@pytest.fixture
+def coated(tmp_path: Path) -> Path:
+    path = tmp_path / "coated.toml"
+    path.write_text(COATED)
+    return path
+
+
+@pytest.mark.parametrize(("change", "remark"), MISTAKES.values(), ids=MISTAKES)
+def test_a_usual_mistake_is_told(coated, change, remark):
+    sound, wrong = (read_scene_file(coated, overrides) for overrides in ((), (change,)))
+    assert implausible(sound.scene) == ()
+    told = implausible(wrong.scene, semi_analytical=wrong.semi_analytical)
+    assert any(remark in one for one in told), told
+
+
+@pytest.mark.parametrize("command", ["plan", "run"])
+def test_whoever_does_not_check_is_told_too(
+    command: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Once each, and a run says it again to whoever reads its summary."""
+    changes = ("friction.coefficient=30", "semi_analytical.cells=[16,16]")
+    words = [word for change in changes for word in ("--set", change)]
+    out = ("-o", tmp_path / "out", "--figures", "none", "--no-error") if command == "run" else ()
+    assert slipstick(command, SCENES[2], *words, *out) == 0
+    assert capsys.readouterr().err.count('was "30 per cent" meant?') == 1
+    if out:
+        summary = json.loads((tmp_path / "out" / "summary.json").read_text(encoding="utf-8"))
+        assert any('was "30 per cent" meant?' in remark for remark in summary["remarks"])

@@ -3,11 +3,11 @@ end is that of a few."""
 
 import gc
 import sys
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from test_soak import resident_bytes
 
 import slipstick
 from contact_scene import stored_fields
@@ -15,6 +15,15 @@ from contact_scene.increment import ReportedIncrement
 
 EARLY = 0.3  # of the increments: all is allocated, and fields go into the file
 STEEL = slipstick.IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
+
+
+def resident_bytes() -> int:
+    """Memory of the process."""
+    gc.collect()
+    status = Path("/proc/self/status").read_text(encoding="utf-8")
+    return 1024 * int(status.partition("VmRSS:")[2].split()[0])
+
+
 FINENESS: dict[str, Any] = {
     "semi-analytical": slipstick.SurfaceDiscretisation(cells=(16, 16), edge="off"),
     "radial": slipstick.RadialDiscretisation(rings=16),

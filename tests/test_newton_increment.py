@@ -1,7 +1,5 @@
 """Newton's method for pressure and shear at once: product, derivative, start and cost."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from contact_scenes import grid
@@ -17,8 +15,6 @@ from semi_analytical.krylov import least_residual
 from semi_analytical.linearised_increment import LinearisedIncrement
 from semi_analytical.model import ContactModel
 from semi_analytical.newton_iterate import reached
-from semi_analytical.predictor import predicted
-from semi_analytical.shearing import TangentialTarget
 
 TOLERANCE = 1e-8
 
@@ -80,46 +76,6 @@ def test_a_step_near_the_solution_squares_the_error(seed, saturation, rng):
     assert left(1e-6) < 0.03 * left(1e-5) + 1e-12
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_a_step_closes_the_gap_of_its_whole_zone(seed):
-    """Also of cells that would let go at the point it starts from."""
-    contact = DenseContact(seed, 0.3)
-    problem = contact.problem(*LOADS)
-    solution = contact.solved(*LOADS, solver=solve_together)
-    exact = np.concatenate([solution.shear, solution.pressure[None]])
-    at = Point(exact, problem.together(exact), solution.approach, solution.motion)
-    zones = Zones.of(Natural.at(at, problem), problem)
-    pressed = zones.contact
-    t = exact * np.where(np.cumsum(pressed).reshape(pressed.shape) % 2 == 0, 0.2, 1.0)
-    base, _ = reached(problem, t, solution.motion)
-    natural = Natural.at(base, problem)
-    assert np.any(pressed & ~natural.contact)
-    increment = LinearisedIncrement(problem, zones)
-    step = increment.solved(increment.unsolved(base, natural), 1e-13)
-    gap = problem.gap + base.displacements[2] + step.displacements[2]
-    closure = np.broadcast_to(base.closure + step.closure, gap.shape)
-    np.testing.assert_allclose(gap[pressed], closure[pressed], atol=1e-6)
-
-
-@pytest.mark.parametrize("seed", range(3))
-def test_slip_that_has_turned_is_kept_where_its_direction_is_taken_a_little_wrong(seed):
-    """But for the square of the angle."""
-    contact = DenseContact(seed, 0.3)
-    problem = contact.problem(*LOADS)
-    solution = contact.solved(*LOADS, solver=solve_together, tolerance=1e-13)
-    exact = np.concatenate([solution.shear, solution.pressure[None]])
-    at = Point(exact, problem.together(exact), solution.approach, solution.motion)
-    zones, angle = Zones.of(Natural.at(at, problem), problem), 1e-3
-
-    def turned(v):
-        return np.cos(angle) * v + np.sin(angle) * np.stack([-v[1], v[0]])
-
-    wrong = replace(zones, tangent=turned(zones.tangent), pulled=turned(zones.pulled))
-    kept = LinearisedIncrement(problem, wrong).admissible(exact)
-    assert np.any(solution.in_slip)
-    np.testing.assert_allclose(kept, exact, atol=angle**2 * np.max(exact))
-
-
 @pytest.mark.parametrize("softness", [0.01, 1.0, 100.0])
 def test_the_inverse_of_cells_on_springs_is_that_of_the_sum_of_compliances(softness, rng):
     contact, shape = model(), (32, 16)
@@ -148,32 +104,6 @@ def test_the_inverse_of_cells_on_springs_is_that_of_the_sum_of_compliances(softn
     expected = np.fft.irfft2(solved, (rows, columns))[:, : shape[0], : shape[1]]
     size = np.max(np.abs(expected), axis=(1, 2), keepdims=True)
     np.testing.assert_allclose(found(u) / size, expected / size, atol=1e-5)
-
-
-@pytest.fixture(scope="module")
-def marked_states():
-    """Model and states of pressing, then pushing."""
-    from semi_analytical import plan
-    from semi_analytical.history import marked
-
-    described = scene(press(increments=4), push(0.6, increments=4))
-    contact = ContactModel.of(described, grid(32))
-    return contact, [m.state for _, m in marked(contact, plan(described), TOLERANCE)]
-
-
-@pytest.mark.parametrize("number", [2, 3, 6, 7])
-def test_the_next_state_is_predicted_without_convolutions_and_nearer_than_by_the_last(
-    marked_states, number
-):
-    contact, states = marked_states
-    before, after = states[number - 1], states[number]
-    count = contact.convolutions.count
-    p, q = predicted(contact, before, after.target, TangentialTarget(force=after.sheared.force))
-    assert contact.convolutions.count == count
-    near = np.sum(np.abs(p - after.pressing.pressure)) + np.sum(np.abs(q - after.sheared.shear))
-    last = np.sum(np.abs(before.pressing.pressure - after.pressing.pressure))
-    last += np.sum(np.abs(before.sheared.shear - after.sheared.shear))
-    assert near < 0.6 * last
 
 
 def test_a_coupled_increment_takes_few_products():

@@ -24,12 +24,9 @@ TWIST = {"torque": 0.1 * LIMIT * A}
 COUPLED = partial(scene, indenter=RIGID_BALL)
 PRESS_ONCE = {**PRESS, "increments": 1}
 SCENES = {
-    "pressed": scene(PRESS, friction=None),
     "pressed at an approach": scene({"approach": APPROACH}, friction=None),
     "sheared": scene(PRESS, push(0.5)),
-    "sheared to the limit": scene(PRESS, push(1.0)),
     "twisted": scene(PRESS, TWIST),
-    "coupled": COUPLED(PRESS_ONCE),
     "coupled and sheared": COUPLED(PRESS_ONCE, push(0.3, increments=1)),
 }
 TILTED = scene({"normal_force": LOAD, "moment": (0.0, 0.1 * LOAD * A)}, friction=None)

@@ -117,6 +117,7 @@ def test_both_tables_have_the_same_numbers(written: tuple[Any, Path]) -> None:
 
 def test_the_increment_says_what_its_tables_say(written: tuple[Any, Path]) -> None:
     result, directory = written
+    assert len(SCALARS) > 20
     for row, increment in zip(table(directory), result.increments, strict=True):
         for name in SCALARS:
             value = getattr(increment, name)
@@ -129,6 +130,7 @@ def test_the_increment_says_what_its_tables_say(written: tuple[Any, Path]) -> No
 def test_a_step_takes_its_increments_together(written: tuple[Any, Path]) -> None:
     result, directory = written
     steps = json.loads((directory / SUMMARY).read_text(encoding="utf-8"))["steps"]
+    assert len(steps) == len(result.scene.loading)
     for number, step in enumerate(steps, 1):
         within = [i for i in result.increments if i.step == number]
         for name, mark in SCALARS.items():

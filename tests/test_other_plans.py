@@ -52,14 +52,6 @@ def coupled_one_way(described, cells=48):
     return solve(described, grid(cells, 1.2), TOLERANCE, plan=one_way(plan(described)))
 
 
-def test_one_way_the_pressure_is_that_without_friction():
-    described = scene(press(), coupled_push(0.6), body=bulk())
-    smooth = solve(scene(press(), body=bulk(), friction=None), grid(48, 1.2), TOLERANCE)
-    for step in coupled_one_way(described).steps:
-        expected = smooth.steps[-1].pressure  # of a quarter, not of half the window
-        np.testing.assert_allclose(step.pressure, expected, atol=1e-12 * np.max(expected))
-
-
 @pytest.mark.parametrize("body", [bulk(), coated()], ids=["homogeneous", "coated"])
 def test_one_way_every_increment_obeys_friction(body):
     described = scene(press(), coupled_push(0.6), coupled_push(-0.6), press(0.7), body=body)

@@ -4,14 +4,13 @@ import os
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any
 
 import h5py
 import pytest
 from command import outcome
 
 from contact_results.directory import run_directory
-from contact_results.directory.file_names import FIELDS, SUMMARY
+from contact_results.directory.file_names import FIELDS
 
 SCENE = """
 [indenter]
@@ -78,35 +77,3 @@ def test_a_reader_keeps_what_it_has_opened_and_the_run_replaces_it(tmp_path: Pat
     assert increments(tmp_path) == 3
     told, _ = reader.communicate("go\n")
     assert int(told) == size
-
-
-def held(monkeypatch: pytest.MonkeyPatch, name: str, times: float) -> list[str]:
-    """As on Windows: a file that is open elsewhere cannot be replaced, so many times."""
-    replace, refused = os.replace, list[str]()
-
-    def as_on_windows(source: Any, target: Any) -> None:
-        if Path(target).name == name and len(refused) < times:
-            refused.append(str(target))
-            raise PermissionError(13, "The process cannot access the file", str(source))
-        replace(source, target)
-
-    monkeypatch.setattr(os, "replace", as_on_windows)
-    return refused
-
-
-@pytest.mark.parametrize("name", [FIELDS, SUMMARY])
-def test_a_file_that_is_held_is_named_and_nothing_looks_complete(
-    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    assert run(tmp_path, 2).returncode == 0
-    with monkeypatch.context() as patched:
-        held(patched, name, times=float("inf"))
-        ended = run(tmp_path, 3)
-    assert ended.returncode == 2
-    assert f"{name} cannot be replaced: The process cannot access" in ended.stderr
-    assert "close the program that has it open" in ended.stderr
-    assert "Traceback" not in ended.stderr
-    assert not (tmp_path / "out" / SUMMARY).exists()
-    assert not [path for path in (tmp_path / "out").iterdir() if path.name.startswith(".")]
-    assert run(tmp_path, 3).returncode == 0
-    assert increments(tmp_path) == 3

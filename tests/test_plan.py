@@ -1,9 +1,13 @@
 """What a scene calls for: the effects, and into how many increments its steps are cut."""
 
+import numpy as np
 import pytest
-from contact_scenes import PRESS, RIGID_BALL, paraboloid, push, scene, slide, steel
+from contact_scenes import PRESS, RIGID_BALL, grid, paraboloid, push, scene, slide, steel
+from coupled_scenes import bulk, coated
+from coupled_scenes import press as pressed
+from coupled_scenes import scene as coupled_scene
 
-from semi_analytical import Coupling, plan
+from semi_analytical import Coupling, Result, SurfaceGrid, plan, solve
 
 ONE, MANY = False, True
 
@@ -81,3 +85,69 @@ def test_bodies_with_equal_ratios_do_not_couple(indenter, body):
     decided = plan(scene(PRESS, push(0.5), indenter=indenter, body=body))
     assert decided.shear
     assert decided.coupling is Coupling.NONE
+
+
+# ---- Into how many increments steps are cut, and whether that gives the accuracy asked for.
+
+
+TOLERANCE = 1e-7
+DEFAULT = 1e-2
+
+
+def shear_difference(described, one, other) -> float:
+    """Σ|q - q_other| / Σµp of the other [1]."""
+    limit = np.sum(described.friction.limit(other.pressure))
+    return np.sum(np.hypot(*(one.shear - other.shear))) / limit
+
+
+def counts(described, accuracy=DEFAULT):
+    return plan(described, accuracy).increments
+
+
+def free(x, y=0.0, friction=0.1, **more):
+    """A push in parts of the friction limit that leaves its increments to the solver."""
+    limit = friction * PRESS["normal_force"]
+    return {"tangential_force": (x * limit, y * limit), **more}
+
+
+WEAK = coupled_scene(PRESS, body=bulk(0.3))
+STRONG = coupled_scene(PRESS, body=bulk(0.3), friction=0.3)
+PUSHED = coupled_scene(PRESS, free(0.6), body=bulk(0.3))
+COATED = coupled_scene(PRESS, free(0.9), body=coated(2.0))
+TURNING = scene(PRESS, push(0.5), push(0, 0.5))
+OBLIQUE = scene({**PRESS, **push(0.3)})
+
+
+def test_explicit_increments_win_over_every_law():
+    assert counts(coupled_scene(pressed(increments=2), free(0.6, increments=3))) == (2, 3)
+    assert counts(scene(PRESS, push(0.5, increments=7))) == (1, 7)
+
+
+@pytest.mark.parametrize("described", [WEAK, STRONG, PUSHED, COATED, TURNING, OBLIQUE])
+def test_more_accuracy_takes_more_increments(described):
+    fine, coarse = counts(described, 1e-3), counts(described, 1e-1)
+    assert all(f >= c for f, c in zip(fine, coarse, strict=True))
+    assert sum(fine) > sum(coarse)
+
+
+def test_a_load_that_goes_straight_between_alike_bodies_takes_one():
+    assert counts(scene(PRESS, push(0.9), push(-0.9), slide(1.0))) == (1, 1, 1, 1)
+
+
+def path_error(described, cells: int | SurfaceGrid = 32, accuracy: float = DEFAULT) -> float:
+    """Σ|q - q_exact| / Σµp at the end, from four times the increments, first order taken off."""
+    planned = plan(described, accuracy)
+    window = cells
+    if isinstance(cells, int):
+        window = grid(cells, contacts=1.15 if described.body.layers == () else 1.3)
+    finer = planned.cut_into([(4 if s.path_matters else 1) * s.count for s in planned.path])
+    found: list[Result] = [
+        solve(described, window, TOLERANCE, plan=each) for each in (planned, finer)
+    ]
+    ends = [result.steps[-1] for result in found]
+    return shear_difference(described, *ends) / 0.75
+
+
+@pytest.mark.parametrize("described", [WEAK, PUSHED, TURNING], ids=["pressed", "pushed", "turning"])
+def test_default_accuracy_is_met(described):
+    assert path_error(described) <= DEFAULT

@@ -43,8 +43,3 @@ def test_the_peak_of_caps_and_ridges(pressure, ridge, within):
     found = peak_of(means(pressure))
     assert found.ridge is ridge
     assert found.value == pytest.approx(1.0, abs=within)
-
-
-def test_a_peak_at_an_edge_is_the_largest_mean():
-    step = means(lambda x, y: (x > 3.2) * (x - 20) ** 2 * (y > -40))
-    assert peak_of(step) == (np.max(step), True)

@@ -3,42 +3,108 @@ closed form, films."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
+from functools import cache
+from pathlib import Path
 from typing import Any
 
+import meshio
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from turning_contacts import (
-    ALIKE,
-    FRICTION,
-    LIMIT,
-    LOAD,
-    RADIUS,
-    SOFT,
-    at_points,
-    points,
-    push,
-    rough,
-    scene,
-    twist,
-)
 
 import radial
+import slipstick
+from contact_results.figures.map_panels import RingsAbove
+from contact_results.files.surface_file import write_surface
+from contact_results.stress.loaded_bodies import state_of_result, state_of_run
+from contact_results.stress.on_disc import stress_on_disc
+from contact_results.surface import Rings, surface_of
 from contact_scene import (
     RIGID,
     Body,
     CoulombFriction,
     FlatPunch,
     IsotropicMaterial,
-    Layer,
     LoadStep,
     Paraboloid,
+    Scene,
 )
-from contact_scene.solver_errors import UnsupportedScene
+from contact_scene.solver_errors import GrossSliding, UnsupportedScene
 from radial.circle import Circle
 from radial.coupling import Coupling
 from radial.ring_layout import laid
+from radial.ring_points import Points
+from radial.sliding import carried_times
+
+SOFT = IsotropicMaterial(young_modulus=0.91, poisson_ratio=0.3)
+LOAD, FRICTION = 4 / 3e6, 0.3  # of a ball with R = 1 and E* = 1: a = 1/100
+RADIUS, LIMIT = 0.01, LOAD * FRICTION
+TORQUE = 3 * math.pi / 16 * LIMIT * RADIUS  # at which all slips, of bodies that do not couple
+PRESS = LoadStep(normal_force=LOAD, increments=4)
+ALIKE: dict[str, Any] = {
+    "indenter": Paraboloid(radius=1.0, material=SOFT),
+    "body": Body(material=SOFT),
+}
+PATH = ((0.6, 0.0), (0.4, 0.5), (0.0, 0.3))
+
+
+def scene(*steps: LoadStep, **more: Any) -> Scene:
+    """A rigid ball on a soft body."""
+    return Scene(
+        **{
+            "indenter": Paraboloid(radius=1.0, material=RIGID),
+            "body": Body(material=SOFT),
+            "friction": CoulombFriction(coefficient=FRICTION),
+            "loading": (PRESS, *steps),
+        }
+        | more
+    )
+
+
+def push(x: float, y: float, increments: int = 3) -> LoadStep:
+    """To shares of µW along x and y."""
+    return LoadStep(tangential_force=(x * LIMIT, y * LIMIT), increments=increments)
+
+
+def twist(share: float, increments: int = 3) -> LoadStep:
+    return LoadStep(torque=share * TORQUE, increments=increments)
+
+
+def rough(asked: Scene, **how: Any) -> radial.Result:
+    """On half the rings, which obey the same laws."""
+    plan = how.pop("plan", None) or radial.plan(asked)
+    return radial.solve(asked, plan=replace(plan, fineness=0.5), **how)
+
+
+def turned(vector: Any, angle: float) -> Any:
+    (x, y), cos, sin = vector, math.cos(angle), math.sin(angle)
+    return np.array([x * cos - y * sin, x * sin + y * cos])
+
+
+@cache
+def turning() -> radial.Result:
+    return rough(scene(*(push(*end) for end in PATH)))
+
+
+@cache
+def beside() -> radial.Result:
+    return rough(scene(twist(0.4), push(0.5, 0.0), twist(-0.3)))
+
+
+@cache
+def at_points(text: str) -> radial.Result:
+    """A twist that needs no points, by them."""
+    asked = Scene.model_validate_json(text)
+    return radial.solve(asked, plan=replace(radial.plan(asked), circle=Circle.ONE))
+
+
+@cache
+def points(circle: Circle) -> Points:
+    asked = scene()
+    return laid(Coupling.of(asked), asked.indenter, [RADIUS], 6, 4, circle, FRICTION)
+
 
 CALLED_FOR = {
     "pressed": ((), {}, None),
@@ -110,21 +176,116 @@ def test_torsion_twists_the_surface_by_the_shear_modulus_alone() -> None:
                     atol=1e-12 * np.max(moved))  # fmt: skip
 
 
-@pytest.mark.parametrize("modulus", [0.2, 4.0])
-def test_points_twist_films_as_the_solver_without_points_does(modulus: float) -> None:
-    """Ball and body alike, coated both: they do not couple."""
-    film = IsotropicMaterial(young_modulus=modulus * 0.91, poisson_ratio=0.3)
-    layers = (Layer(thickness=RADIUS / 2, material=film),)
-    asked = scene(
-        twist(0.4), body=Body(material=SOFT, layers=layers),
-        indenter=Paraboloid(radius=1.0, material=SOFT, layers=layers),
-    )  # fmt: skip
-    known = radial.solve(asked)
-    found = at_points(asked.model_dump_json()).steps[1]
-    assert known.plan.circle is None
-    assert_allclose(found.twist, known.steps[1].twist, rtol=5e-4)
-    assert_allclose(found.contact_radius, known.steps[1].contact_radius, rtol=1e-3)
-    at = found.radii < 0.9 * found.contact_radius
-    shear = np.interp(found.radii[at], known.steps[1].radii, known.steps[1].shear_circumferential)
-    # Rings of 1/64 of the radius about the front, where shear has a corner.
-    assert np.mean(np.abs(found.shear_circumferential[at] - shear)) < 0.01 * np.max(shear)
+# ---- What friction carries of a push beside torsion, and sliding beyond it, by the radial s
+
+
+def test_friction_carries_less_of_a_push_beside_torsion() -> None:
+    ring = points(Circle.WHOLE)
+    r = np.repeat(ring.radii, ring.count)
+    limit = np.sqrt(np.maximum(1 - (r / RADIUS) ** 2, 0.0))
+    both = np.array([True, True, True])
+    force, torque = limit @ ring.areas, limit @ ring.levers
+    assert carried_times(ring, limit, np.array([0.6 * force, 0, 0]), both) == pytest.approx(
+        1 / 0.6, rel=1e-6
+    )
+    assert carried_times(ring, limit, np.array([0, 0, torque]), both) == pytest.approx(1, rel=1e-6)
+    given = np.array([0, 0.7 * force, 0.7 * torque])
+    ways = np.linspace(0, np.pi / 2, 2001)
+    slips = np.stack([0 * ways, np.cos(ways), np.sin(ways) / RADIUS], axis=1)
+    sliding = (slips @ ring.ways).reshape(len(ways), 2, -1)
+    least = np.min((np.hypot(sliding[:, 0], sliding[:, 1]) @ limit) / (slips @ given))
+    assert 1 / 1.4 < least < 1 / 0.7  # convex, and within the box of both
+    assert carried_times(ring, limit, given, both) == pytest.approx(least, rel=1e-5)
+    held = carried_times(ring, limit, np.array([0.7 * force, 0, 0]), np.array([True, True, False]))
+    assert held == pytest.approx(1 / 0.7, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("steps", "words"),
+    [
+        ((twist(1.2, 2),), "prescribe the twist"),
+        ((twist(0.8), push(0.8, 0.0)), "slides and turns"),
+        (
+            (push(0.6, 0.0), push(0.6, 0.6), LoadStep(approach=0.5 * RADIUS**2, increments=1)),
+            "not below the friction limit",
+        ),
+    ],
+)
+def test_more_than_friction_carries_is_refused(steps: tuple[LoadStep, ...], words: str) -> None:
+    with pytest.raises(GrossSliding, match=words):
+        rough(scene(*steps))
+
+
+# ---- Torsion beside a push and pushes that turn, by the radial solver: laws, and what is sh
+
+
+Pair = tuple[float, float]
+
+
+@pytest.mark.parametrize(("angle", "line"), [(math.pi / 2, (1.0, 0.0)), (math.radians(217), None)])
+def test_turned_loads_turn_all(angle: float, line: Pair | None) -> None:
+    """By two of eight points with angles from the same line; by any angle with the line, too."""
+    asked = scene(*(push(*turned(end, angle)) for end in PATH))
+    plan = radial.plan(asked)
+    other = rough(asked, plan=replace(plan, direction=line or plan.direction))
+    size = math.hypot(*turning().steps[1].tangential_shift)
+    for one, two in zip(turning().steps, other.steps, strict=True):
+        assert_allclose(two.tangential_shift, turned(one.tangential_shift, angle),
+                        atol=1e-10 * size)  # fmt: skip
+        for name in ("approach", "contact_radius", "elastic_energy", "dissipated_energy"):
+            assert_allclose(getattr(two, name), getattr(one, name), rtol=1e-10)
+
+
+def test_mirrored_loads_mirror_all() -> None:
+    """About x: what is along y and about z goes the other way."""
+    other = rough(scene(twist(-0.4), push(0.5, 0.0), twist(0.3)))
+    for one, two in zip(beside().steps, other.steps, strict=True):
+        assert one.tangential_shift is not None
+        assert two.tangential_shift is not None
+        size = math.hypot(*beside().steps[2].tangential_shift)
+        assert_allclose(two.tangential_shift, one.tangential_shift * np.array([1, -1]),
+                        atol=1e-10 * size)  # fmt: skip
+        assert two.twist == pytest.approx(-one.twist, rel=1e-10)
+        assert two.torque == pytest.approx(-one.torque, rel=1e-12)
+        assert two.dissipated_energy == pytest.approx(one.dissipated_energy, rel=1e-10)
+
+
+def test_fields_carry_the_loads_and_obey_coulomb() -> None:
+    end, surface = beside().steps[3], surface_of(beside())
+    shear, (x, y) = surface.vector(end, "shear"), surface.positions
+    assert shear is not None
+    assert_allclose(np.sum(surface.weights), math.pi * end.radii[-1] ** 2, rtol=1e-12)
+    assert_allclose(np.sum(shear * surface.weights, axis=(1, 2)), end.tangential_force,
+                    atol=5e-3 * LIMIT)  # fmt: skip
+    about = np.sum((shear[1] * x - shear[0] * y) * surface.weights)
+    assert_allclose(about, end.torque, atol=5e-3 * TORQUE)
+    assert max(step.residuals.friction_cone for step in beside().increments) < 1e-10
+    assert end.residuals.torque_equilibrium < 1e-10
+    assert surface.along(end.pressure).shape == (2 * len(end.radii),)
+
+
+def test_stress_below_a_turning_push_is_refused_by_name() -> None:
+    with pytest.raises(UnsupportedScene, match="load turns, or there is torsion beside it"):
+        stress_on_disc(state_of_result(turning(), None), depths=[RADIUS])
+
+
+def test_seen_from_above_the_circle_is_whole(tmp_path: Path) -> None:
+    """Maps and the mesh of a run: shear carries the load on either, across the line, too."""
+    result, surface = beside(), surface_of(beside())
+    assert isinstance(surface, Rings)
+    end, area = result.steps[3], 0.0
+    above = RingsAbove.around_contact(result, surface)
+    shear, area = above.vector(end, "shear"), (above.x[1] - above.x[0]) ** 2
+    x, y = np.meshgrid(above.x, above.y, indexing="ij")
+    assert shear is not None
+    # Linear between eight rays, which cuts chords.
+    assert_allclose(np.sum(shear, axis=(1, 2)) * area, end.tangential_force, atol=0.03 * LIMIT)
+    about = np.sum(shear[1] * x - shear[0] * y) * area
+    assert_allclose(about, end.torque, atol=0.01 * TORQUE)
+    slipstick.save(result, tmp_path / "out")
+    again = state_of_run(tmp_path / "out", None).surface
+    assert isinstance(again, Rings)
+    assert again.whole
+    fields = {name: getattr(end, name) for name in ("pressure", "shear_radial")}
+    write_surface(surface, fields, tmp_path / "surface.vtu", "")
+    assert meshio.read(tmp_path / "surface.vtu").points.shape == (end.pressure.size, 3)

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 import pytest
 from contact_scenes import RIGID_BALL, YOUNG, A, steel
-from kept_standing import KeptStanding
 from numpy.testing import assert_allclose
 
 import radial
@@ -26,7 +25,6 @@ from contact_scene import (
 from contact_scene.solver_errors import NotConverged, UnsupportedScene
 from contact_scene.summary import ContactStatus
 from radial.rings import OUTSIDE, rings_about
-from radial.sheared import Sheared
 from verification.problems.indentation import STRONG, WEAK, Indentation
 
 # Of half-spaces with E* = 1 below a ball with R = 1, so that a = W = 1 are of a kind.
@@ -76,28 +74,6 @@ def test_half_spaces_answer_the_pressure_of_hertz_as_hertz_says(front: float) ->
 
 UP_AND_DOWN = (LoadStep(normal_force=1e-3, increments=4), LoadStep(normal_force=3e-4, increments=3),
                LoadStep(approach=0.01, increments=3))  # fmt: skip
-
-
-def test_scenes_that_are_alike_have_results_that_are_alike() -> None:
-    """Lengths by 1e-3 and stresses by 1e11."""
-    small = coated(2.0, 0.1 * 1e-3)
-    stiff = Body(
-        material=SOFT.model_copy(update={"young_modulus": 0.91e11}),
-        layers=tuple(
-            layer.model_copy(
-                update={"material": SOFT.model_copy(update={"young_modulus": 1.82e11})}
-            )
-            for layer in small.layers
-        ),
-    )
-    tiny = Paraboloid(radius=1e-3, material=RIGID)
-    one = radial.solve(scene(body=coated(2.0, 0.1))).steps[0]
-    other = radial.solve(
-        scene(LoadStep(normal_force=1e2, increments=4), body=stiff, indenter=tiny)
-    ).steps[0]
-    assert_allclose(other.approach, 1e-3 * one.approach, rtol=1e-9)
-    assert_allclose(other.stick_radius, 1e-3 * (one.stick_radius or 0), rtol=1e-6)
-    assert_allclose(other.dissipated_energy, 1e2 * (one.dissipated_energy or 0), rtol=1e-6)
 
 
 def test_bodies_that_change_places_have_shear_of_the_other_sign() -> None:
@@ -170,17 +146,6 @@ def test_stated_errors_hold_the_true_ones(one: Indentation) -> None:
         error = errors[name].error
         assert isinstance(error, float)
         assert abs(getattr(end, name) - exact) < error < 0.1 * exact
-
-
-def test_a_solve_that_goes_on_has_the_same_bits() -> None:
-    kept = KeptStanding(6, Sheared)
-    whole = radial.solve(scene(*UP_AND_DOWN), keeper=kept)
-    assert kept.bytes
-    again = radial.solve(scene(*UP_AND_DOWN), keeper=kept)
-    assert len(again.increments) == len(whole.increments)
-    last, expected = again.steps[-1], whole.steps[-1]
-    assert last.approach == expected.approach
-    assert np.array_equal(last.shear_radial, expected.shear_radial)  # type: ignore[arg-type]
 
 
 def test_a_map_of_friction_is_refused_by_name() -> None:

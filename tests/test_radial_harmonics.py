@@ -102,6 +102,7 @@ def test_work_is_the_same_both_ways() -> None:
 
 
 def test_energies_are_positive() -> None:
+    assert len(homogeneous()) == HIGHEST + 1
     for block in homogeneous():
         whole = block.transpose(0, 2, 1, 3)
         size = 3 * len(NODES)

@@ -3,7 +3,6 @@
 import sys
 from pathlib import Path
 
-import numpy as np
 import pytest
 from command import outcome
 from test_size_bombs import slipstick
@@ -12,7 +11,6 @@ import radial
 from contact_scene import read_scene_file
 from contact_scene.solver_errors import ResourceRefused, UnsupportedScene
 from radial import memory
-from radial.kept import kept_within
 from radial.memory import estimated_bytes
 
 WITHIN = 0.15
@@ -93,21 +91,3 @@ def test_plan_says_how_much_and_refuses_what_no_polynomials_resolve(tmp_path: Pa
     described = read_scene_file(path).scene
     with pytest.raises(UnsupportedScene, match="times as large as the outermost layer is thick"):
         estimated_bytes(described, radial.plan(described))
-
-
-def test_no_more_is_kept_than_there_is_room_for() -> None:
-    computed = []
-
-    @kept_within(1000)
-    def numbers(count: int) -> tuple[np.ndarray, ...]:
-        computed.append(count)
-        return (np.zeros(count), np.ones(count))
-
-    for count in (10, 20, 10, 20):
-        numbers(count)
-    assert computed == [10, 20]
-    numbers(200)  # 3200 bytes
-    assert numbers(200)[0].shape == (200,)
-    numbers(30)
-    numbers(200)
-    assert computed == [10, 20, 200, 30, 200]

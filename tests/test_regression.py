@@ -439,6 +439,7 @@ def test_largest_residual_may_be_found_in_another_run(healthy: CaseOutcome) -> N
 
 @pytest.mark.parametrize("level", Level)
 def test_numbers_of_a_case_have_keys_of_their_own(level: Level) -> None:
+    assert choose(level)
     for case in choose(level):
         keys = [(q.name, q.run, type(q.tolerance)) for q in case.quantities]
         keys += [(c.name, c.subject, type(c.tolerance)) for c in case.checks]

@@ -4,12 +4,12 @@ import re
 
 import numpy as np
 import pytest
-from contact_scenes import APPROACH, PRESS, RADIUS, A, bump, scene, steel
+from contact_scenes import APPROACH, PRESS, RADIUS, A, grid, push, scene, steel
 
-from contact_errors.on_cells import stated_errors
 from contact_results.remarks import remarks
-from contact_scene import HeightMap
+from contact_scene import Ellipsoid, HeightMap
 from semi_analytical import SurfaceGrid, solve
+from semi_analytical.resolution import resolution
 
 POINTS = 192
 
@@ -54,21 +54,60 @@ def test_a_smooth_map_may_be_thinned():
     assert told(0.0, 1.0, 64)[0] is None
 
 
-@pytest.mark.parametrize("seed", [0, 1, 2])
-@pytest.mark.parametrize("cells", [64, 96])
-def test_the_stated_error_of_the_peak_covers_what_the_cells_leave_out(seed, cells):
-    spacing = 2.4 * A / POINTS
-    k = 2 * np.pi * np.fft.fftfreq(POINTS, spacing)
-    k = np.hypot(k[:, None], k)
-    spectrum = np.where(k > 2 * np.pi / (0.5 * A), np.maximum(k, 1.0) ** -1.8, 0.0)
-    noise = np.fft.fft2(np.random.default_rng(seed).standard_normal((POINTS, POINTS)))
-    rough = np.real(np.fft.ifft2(noise * spectrum))
-    heights = bump(POINTS, spacing) + 1e-3 * APPROACH * rough / np.std(rough)
-    map_ = HeightMap(file=heights, spacing=spacing, material=steel())
-    thinned, whole = (
-        solve(scene(PRESS, friction=None, indenter=map_), SurfaceGrid((n, n), map_.extent), 1e-6)
-        for n in (cells, POINTS)
-    )
-    found, exact = (result.steps[0].peak_pressure for result in (thinned, whole))
-    stated = stated_errors(thinned).steps[0]["peak_pressure"]
-    assert 0.005 * exact < abs(found - exact) < stated.error < 10 * abs(found - exact)
+# ---- What is resolved of a result is counted in cells, whatever the sizes, loads and materi
+
+
+TOLERANCE = 1e-8
+
+
+def solved(*loading, cells=32, contacts=1.5, **parts):
+    return solve(scene(*loading, **parts), grid(cells, contacts), TOLERANCE)
+
+
+def resolved(*loading, **parts):
+    return resolution(solved(*loading, **parts))[-1]
+
+
+@pytest.mark.parametrize("cells", [31, 32])
+@pytest.mark.parametrize("radius", [1.6, 3.0, 8.3])
+def test_contact_is_counted_in_cells(cells, radius):
+    found = resolved(PRESS, friction=None, cells=cells, contacts=cells / 2 / radius)
+    assert found.contact == pytest.approx(radius, abs=0.8 / radius)
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_of_an_ellipse_the_smaller_semi_axis_counts_whatever_way_it_lies(axis):
+    radii, window = (RADIUS, 9 * RADIUS), (4 * A, 6 * A)
+    lying = Ellipsoid(radii=radii[:: 1 - 2 * axis], material=steel())
+    surface = SurfaceGrid((48, 48), window[:: 1 - 2 * axis])
+    result = solve(scene(PRESS, friction=None, indenter=lying), surface, TOLERANCE)
+    across = np.max(np.sum(result.steps[0].in_contact, axis=axis))
+    assert resolution(result)[0].contact == pytest.approx(across / 2, abs=0.5)
+
+
+def test_the_stick_zone_shrinks_as_cattaneo_says_and_slip_takes_the_rest():
+    for part in (0.3, 0.7, 0.9):
+        found = resolved(PRESS, push(part), cells=64)
+        assert found.stick == pytest.approx(found.contact * np.cbrt(1 - part), abs=0.5)
+        assert found.annulus == found.contact - found.stick
+    held = resolved(PRESS, push(1e-6), cells=64)
+    assert (held.stick, held.annulus) == (pytest.approx(held.contact), None)
+    free = resolved(PRESS, friction=None)
+    assert (free.stick, free.annulus) == (None, None)
+
+
+def egg_box(wave, cells=64):
+    """Crests so many cells apart, on a window of three contact radii."""
+    ridges = np.cos(2 * np.pi * (np.arange(cells) + 0.5) / wave)
+    heights = A**2 / RADIUS * np.add.outer(ridges, ridges)
+    return HeightMap(file=heights, spacing=3 * A / cells, material=steel())
+
+
+@pytest.mark.parametrize("wave", [8, 16, 32])
+def test_patches_count_as_one_of_them_and_the_wave_of_a_sine_is_its_length(wave):
+    result = solved({"approach": A**2 / RADIUS}, friction=None, indenter=egg_box(wave), cells=64)
+    patches = (64 // wave) ** 2
+    across = np.sqrt(np.count_nonzero(result.steps[0].in_contact) / patches / np.pi)
+    found = resolution(result)[0]
+    assert found.contact == pytest.approx(across, rel=0.05) or found.contact < 1.0 < across < 1.2
+    assert found.wave == pytest.approx(wave, rel=0.15)  # of the part in touch

@@ -4,22 +4,62 @@ import numpy as np
 import pytest
 from contact_scenes import (
     APPROACH,
+    INDENTERS,
+    LIMIT,
     LOAD,
     MU,
     PRESS,
     RADIUS,
     RIGID_BALL,
     A,
+    bump,
+    grid,
     paraboloid,
     push,
     scene,
 )
-from rotations import GRID, PUNCH, TOLERANCE, close, end, lean, roll, twist
 
-from contact_scene import Ellipsoid
+from contact_scene import Ellipsoid, HeightMap, SceneError, SurfaceDiscretisation
+from contact_scene.summary import ContactStatus
 from semi_analytical import (
+    ContactAtWindowEdge,
+    ContactNotResolved,
+    GrossSliding,
+    SurfaceGrid,
     plan,
+    solve,
 )
+from semi_analytical.discretise import discretise
+
+TOLERANCE = 1e-9
+GRID = grid(32, 2.0)
+SLIDING = 3 * np.pi / 16 * LIMIT * A  # the torque at which a Hertz contact slips all over
+PUNCH = INDENTERS["flat punch"]
+
+
+def end(*loading, on=GRID, **more):
+    """The state after all loading steps."""
+    return solve(scene(*loading, **more), on, TOLERANCE).steps[-1]
+
+
+def lean(x, y=0.0):
+    """The moment of the full load acting at parts of the contact radius from the origin."""
+    return {"moment": (y * A * LOAD, x * A * LOAD)}
+
+
+def roll(x, y=0.0):
+    """The tilt by which a ball rolls so far."""
+    return {"tilt": (y * A / RADIUS, x * A / RADIUS)}
+
+
+def twist(part, **more):
+    """A torque in parts of that at which all slips."""
+    return {"torque": part * SLIDING, **more}
+
+
+def close(one, other, size):
+    """Equal to a size."""
+    np.testing.assert_allclose(one, other, rtol=0, atol=size)
 
 
 def test_reported_moments_are_those_of_the_tractions():
@@ -140,3 +180,102 @@ def test_rotations_are_solved_for_where_a_step_calls_for_them(loading, tilts, tw
     assert effects["torsion"].why
     smooth = [step for step in loading if set(step) <= {*PRESS, "moment", "tilt"}]
     assert not plan(scene(*smooth, friction=None)).torsion
+
+
+# ---- Torsion: closed forms, reversal, reciprocity, and the limit of friction.
+
+
+def test_reciprocity_of_force_and_torque():
+    """A contact beside the origin that sticks: what a force turns, a torque shifts."""
+    beside = {**PRESS, **lean(0.0, 0.4), "torque": 0.0}
+    pushed = end(beside, push(0.1), friction=50.0)
+    turned = end(beside, twist(0.1), friction=50.0)
+    by_force = pushed.twist / pushed.tangential_force[0]
+    by_torque = turned.tangential_shift[0] / turned.torque
+    assert abs(by_force) > 0
+    assert by_force == pytest.approx(by_torque, rel=1e-6)
+
+
+def test_torque_beyond_friction_is_refused_with_its_limit():
+    with pytest.raises(GrossSliding, match="prescribe twist") as caught:
+        end(PRESS, twist(1.3))
+    limit = float(str(caught.value).split("friction limit ")[1].split(" N m")[0])
+    assert limit == pytest.approx(SLIDING, rel=2e-2)
+    assert caught.value.where == "step 2, increment 1 of 1"
+
+
+def test_force_and_torque_that_friction_carries_alone_may_be_too_much_together():
+    end(PRESS, push(0.8))
+    end(PRESS, twist(0.8))
+    with pytest.raises(GrossSliding, match=r"together reach the friction limit, which is 0\.\d+"):
+        end(PRESS, {**push(0.8), **twist(0.8), "increments": 1})
+
+
+@pytest.mark.parametrize("bodies", [{}, {"indenter": RIGID_BALL}], ids=["alike", "unlike"])
+def test_a_twist_without_end_slides_at_the_limit(bodies):
+    state = end({**PRESS, "increments": 1}, {"twist": 0.5, "increments": 1}, **bodies)
+    x, y = GRID.coordinates()
+    limit = MU * np.sum(state.pressure * np.hypot(x, y)) * GRID.cell_area
+    assert state.torque == pytest.approx(limit, rel=1e-3)
+    assert state.status in (ContactStatus.GROSS_SLIDING, ContactStatus.NO_STICK_AREA_LEFT)
+    assert state.stick_area == 0
+
+
+def test_without_friction_coefficient_no_torque_is_carried():
+    with pytest.raises(GrossSliding, match="without friction"):
+        end(PRESS, twist(0.1), friction=0.0)
+    turned = end(PRESS, {"twist": 0.1}, friction=0.0)
+    assert turned.torque == 0
+    assert turned.twist == 0.1
+
+
+# ---- Tilt: where the force acts, the contact is; and what cannot be carried.
+
+
+def test_reciprocity_of_force_and_moment():
+    """The ball rolls: dω_z/dM = dφ/dW, both - M/(W²R)."""
+    d = 1e-3
+
+    def state(load, moment):
+        return end({"normal_force": load, "moment": (0.0, moment)}, friction=None)
+
+    M = 0.3 * A * LOAD
+    by_moment = (state(LOAD, (1 + d) * M).approach - state(LOAD, (1 - d) * M).approach) / (
+        2 * d * M
+    )
+    by_load = (state((1 + d) * LOAD, M).tilt[1] - state((1 - d) * LOAD, M).tilt[1]) / (2 * d * LOAD)
+    assert by_moment == pytest.approx(by_load, rel=1e-4)
+    # The contact passes over few cells: between two of them it rolls by fits and starts.
+    assert by_moment == pytest.approx(-M / (LOAD**2 * RADIUS), rel=0.1)
+
+
+def test_a_force_beyond_the_window_asks_for_a_larger_one():
+    with pytest.raises(ContactAtWindowEdge, match="outside the window"):
+        end({**PRESS, **lean(3.0)}, friction=None)
+
+
+def test_a_force_on_the_rim_of_a_punch_tips_it_over():
+    with pytest.raises(ContactNotResolved, match="tips over"):
+        end({**PRESS, **lean(0.999)}, friction=None, indenter=PUNCH, on=grid(32, 1.1))
+
+
+@pytest.mark.parametrize("step", [lean(2.0, 1.0), roll(2.0, 1.0)], ids=["moment", "tilt"])
+def test_the_chosen_window_holds_a_contact_beside_the_origin(step):
+    described = scene({**PRESS, **lean(0.0)}, step, friction=None)
+    chosen = discretise(described, SurfaceDiscretisation())
+    x, y = chosen.coordinates()
+    carries = solve(described, chosen, 1e-6).steps[1].pressure > 0
+    assert np.mean(x[carries]) == pytest.approx(2 * A, rel=0.05)
+    assert np.mean(y[carries]) == pytest.approx(A, rel=0.05)
+    assert np.all(np.array(chosen.window) < 2 * 1.4 * np.array([3 * A, 2 * A]))
+
+
+def test_a_height_map_carries_moments_within_its_extent():
+    cells, spacing = 24, 3 * A / 24
+    bowl = HeightMap(file=bump(cells, spacing), spacing=spacing, material=paraboloid().material)
+    on = SurfaceGrid((cells, cells), bowl.extent)
+    one = end({**PRESS, **lean(0.3)}, friction=None, indenter=bowl, on=on)
+    other = end({**PRESS, **lean(0.3)}, friction=None, on=on)
+    close(one.pressure, other.pressure, 1e-6 * other.peak_pressure)
+    with pytest.raises(SceneError, match="tips over"):
+        scene({**PRESS, **lean(1.6)}, friction=None, indenter=bowl)

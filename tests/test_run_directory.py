@@ -2,18 +2,22 @@
 
 import os
 import signal
+import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
+from command import slipstick
+from scene_texts import STEEL_ON_STEEL
 
 from contact_results.directory.atomic_file import atomic_file
 from contact_results.directory.directory_lock import acquire, release
 from contact_results.directory.file_names import SUMMARY, TIMING
 from contact_results.directory.refusal import OutputRefused
 from contact_results.directory.run_directory import run_directory
+from contact_results.directory.sole_use import in_sole_use
 from contact_results.directory.timing import Stopwatch, write_timing
 
 
@@ -222,3 +226,87 @@ def test_no_file_takes_the_place_of_a_device_or_a_queue(tmp_path: Path) -> None:
         unfinished.write_text("a page")
     assert (tmp_path / "page.html").is_fifo()
     assert len([*tmp_path.iterdir()]) == 1
+
+
+# ---- One process at a time makes the results of a directory, and nothing dead stands in its
+
+
+ROOT = Path(__file__).resolve().parents[1]
+SCENE = f"""{STEEL_ON_STEEL}
+[[loading]]
+normal_force = 100
+[semi_analytical]
+cells = [16, 16]
+"""
+HOLD = """
+import sys, time
+from pathlib import Path
+from contact_results.directory.sole_use import in_sole_use
+
+with in_sole_use(Path(sys.argv[1])):
+    print("held", flush=True)
+    time.sleep(100)
+"""
+
+
+def entered(target: Path) -> bool:
+    try:
+        with run_directory(target):
+            return True
+    except OutputRefused:
+        return False
+
+
+@pytest.fixture(params=[True, False], ids=["there", "not there yet"])
+def target(request: pytest.FixtureRequest, tmp_path: Path) -> Path:
+    target = tmp_path / "out"
+    if request.param:
+        target.mkdir()
+    return target
+
+
+def test_second_run_is_refused_and_told_of_the_first(target: Path) -> None:
+    with run_directory(target):
+        with pytest.raises(OutputRefused, match=f"in use by process {os.getpid()} on"):
+            run_directory(target).__enter__()
+        target.mkdir(exist_ok=True)  # by somebody else: the first one's lock is beside it
+        assert not entered(target)
+    assert entered(target)
+    assert [path.name for path in target.parent.rglob("*")] == ["out"]
+
+
+def test_lock_of_a_dead_process_stops_nobody(target: Path) -> None:
+    holder = subprocess.Popen(
+        [sys.executable, "-c", HOLD, target], cwd=ROOT, stdout=subprocess.PIPE, text=True
+    )
+    assert holder.stdout is not None
+    assert holder.stdout.readline() == "held\n"
+    assert not entered(target)
+    holder.send_signal(signal.SIGKILL)
+    holder.communicate()
+    assert list(target.parent.rglob(".out.in-use"))
+    target.mkdir(exist_ok=True)
+    assert entered(target)
+    assert [path.name for path in target.parent.rglob("*")] == ["out"]
+
+
+@pytest.mark.parametrize(
+    "command",
+    [("run", "scene.toml"), ("run", "scene.toml", "--solver=fem"), ("verify", "layered_identities"),
+     ("maintain", "study", "sampling", "scene.toml"), ("maintain", "study", "stability")],
+    ids=" ".join,
+)  # fmt: skip
+def test_commands_leave_a_directory_in_use_alone(
+    command: tuple[str, ...],
+    target: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(target.parent)
+    Path("scene.toml").write_text(SCENE, encoding="utf-8")
+    with in_sole_use(target):
+        assert slipstick(*command, "--output", target) == 2
+    errors = capsys.readouterr().err
+    assert errors.count("error: ") == errors.count("\n") == 1
+    assert f"{target} is in use by process {os.getpid()} on" in errors
+    assert not target.exists() or [*target.iterdir()] == []

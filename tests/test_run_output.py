@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from command import rows
 from conftest import leave_figures_undrawn
-from synthetic_result import CONVOLUTIONS, ITERATIONS, WORST_RESIDUAL, synthetic_result
+from synthetic_result import CONVOLUTIONS, ITERATIONS, synthetic_result
 
 from contact_results.directory.file_names import SUMMARY
 from contact_results.directory.timing import Stopwatch, write_timing
@@ -105,17 +105,6 @@ def test_profile_holds_the_numbers_of_the_line_y_0(tmp_path: Path, ny: int) -> N
     mine = [row for row in table if row["step"] == "2"]
     assert [float(row["x [m]"]) for row in mine] == result.grid.x.tolist()
     assert [float(row["shear_x [Pa]"]) for row in mine] == shear.tolist()
-
-
-def test_increment_table_has_one_row_per_increment(written: tuple[Result, Path]) -> None:
-    result, directory = written
-    table = rows(directory / "increments.csv")
-    assert [(int(row["step"]), int(row["increment"])) for row in table] == [
-        (increment.step, increment.index) for increment in result.increments
-    ]
-    forces = [float(row["tangential_force_x [N]"]) for row in table]
-    assert forces == [increment.tangential_force[0] for increment in result.increments]
-    assert {float(row["worst_residual [1]"]) for row in table} == {WORST_RESIDUAL}
 
 
 def test_field_file_holds_the_ends_of_steps_bit_for_bit(

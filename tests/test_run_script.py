@@ -32,8 +32,8 @@ def clone(tmp_path: Path) -> Path:
     ("options", "spread"),
     [
         ("", True), ("-q", True), ("-k grid", True), ("-m slow --timeout 9", True),
-        ("--ignore=tests/test_grid.py", True),
-        ("tests/test_grid.py -q", False), ("tests/test_grid.py::test_it", False),
+        ("--ignore=tests/test_plan.py", True),
+        ("tests/test_plan.py -q", False), ("tests/test_grid.py::test_it", False),
         ("-n 0", False), ("-n0 -q", False), ("--numprocesses=3", False),
     ],
 )  # fmt: skip

@@ -1,5 +1,8 @@
 """Bad scene files: every mistake is told once, with file, line, key and what would be right."""
 
+import copy
+import gc
+import math
 import os
 import time
 from pathlib import Path
@@ -7,8 +10,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from strategies import Document, as_toml, documents
 
-from contact_scene import Problem, SceneError, read_scene_file
+from contact_scene import Problem, SceneError, SceneFile, read_scene_file
+from contact_scene.quantity import Quantity
+from contact_scene.units import LENGTH
 
 SCENE = """\
 title = "x"
@@ -239,6 +247,7 @@ def test_what_is_no_file_is_refused(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe")
     names = {".": "is a folder", "none.toml": "no such file", "pipe": "not a regular file"}
     names |= {"x" * 300: "cannot be read", "a\0b": "no such file"}
+    assert len(names) == 5
     for name, words in names.items():
         with pytest.raises(SceneError, match=words) as caught:
             read_scene_file(tmp_path / name)
@@ -288,7 +297,7 @@ def save_boast(path: Path) -> None:
         (lambda path: np.save(path, np.zeros((4, 4, 4))), "has shape (4, 4, 4)"),
         (lambda path: np.save(path, np.zeros((3, 99))), "of 4 to 16384 values each"),
         (lambda path: np.save(path, np.zeros((4097, 4096), "i1")), "at most 16777216 values in"),
-        (lambda path: np.save(path, np.full((4, 4), np.nan)), "holds nan at [0, 0]"),
+        (lambda path: np.save(path, np.full((4, 4), np.inf)), "holds inf at [0, 0]"),
         (lambda path: np.save(path, np.zeros((4, 4), complex)), "values of type complex128"),
         (lambda path: path.mkdir(), "there is no file"),
     ],
@@ -393,5 +402,115 @@ def test_every_bad_override_is_told_beside_what_else_is_wrong(tmp_path: Path) ->
 
 def test_messages_carry_no_control_characters(tmp_path: Path) -> None:
     text = changed(("18 mm", "\\u001b[31m\\u009b\\u202e"), ("title", '"\\u001b]0;x"'))
-    for problem in problems(tmp_path, text):
+    assert all(str(problem).isprintable() for problem in problems(tmp_path, text))
+
+
+# ---- Whatever stands in a scene file, reading it gives a scene or a `SceneError`, and soon.
+
+
+EXAMPLE = (Path(__file__).resolve().parents[1] / "scenes" / "fretting_loop.toml").read_bytes()
+
+# The profile says how much: dev and ci 25 -> 100 and 500, nightly 2 000 -> 8 000 and 40 000
+# examples.
+STRUCTURED = settings(max_examples=4 * settings().max_examples)
+BYTES = settings(max_examples=20 * settings().max_examples)
+LONGEST = 0.05  # seconds of CPU; of 1 250 examples half took 0.5 ms, the longest 4 ms
+
+JUNK: st.SearchStrategy[Any] = st.recursive(
+    st.sampled_from([0, -1, 1, 10**30, True, 0.0, -0.0, 1e300, 5e-324, math.nan, math.inf])
+    | st.sampled_from(["", "rigid", "1 mm", "1 s", "1 kN", "sphere", "height_map", "../x"])
+    | st.sampled_from(["<sphere>", "nan mm", "1e9 GPa", "1 furlong"]),
+    lambda inner: (
+        st.lists(inner, max_size=3)
+        | st.dictionaries(
+            st.sampled_from(["shape", "material", "radius", "map", "file", "<elastic>", "x", ""]),
+            inner,
+            max_size=3,
+        )
+    ),
+    max_leaves=5,
+)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    Quantity(LENGTH, "a length")("1 inch")  # whoever meets the first such unit waits for pint
+    return tmp_path_factory.mktemp("fuzz")
+
+
+def check(error: SceneError, path: Path, lines: int) -> None:
+    assert error.problems
+    assert len(set(error.problems)) == len(error.problems)
+    for problem in error.problems:
         assert str(problem).isprintable()
+        assert problem.file == str(path)
+        assert problem.line is None or 1 <= problem.line <= lines
+
+
+def outcome(folder: Path, contents: bytes) -> SceneFile | SceneError:
+    path = folder / "scene.toml"
+    path.write_bytes(contents)
+    gc.disable()  # what Hypothesis leaves behind is not the reader's to tidy up
+    start = time.process_time()
+    try:
+        return read_scene_file(path)
+    except SceneError as error:
+        check(error, path, contents.count(b"\n") + 1)
+        return error
+    finally:
+        took = time.process_time() - start
+        gc.enable()
+        assert took < LONGEST
+
+
+def places(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
+    keys = value if isinstance(value, dict) else range(len(value)) if type(value) is list else ()
+    found = [(*path, key) for key in keys]
+    return found + [place for key in keys for place in places(value[key], (*path, key))]
+
+
+@st.composite
+def mutated(draw: st.DrawFn) -> Document:
+    document: Any = copy.deepcopy(draw(documents()))
+    for _ in range(draw(st.integers(1, 4))):
+        where = draw(st.sampled_from(places(document)))
+        holder = document
+        for key in where[:-1]:
+            holder = holder[key]
+        change = draw(st.sampled_from(["replace", "remove", "add", "rename"]))
+        if change == "replace":
+            holder[where[-1]] = draw(JUNK)
+        elif change == "add" and isinstance(holder, dict):
+            holder[draw(st.sampled_from(["x", "<sphere>", "layers", "map"]))] = draw(JUNK)
+        elif change == "rename" and isinstance(holder, dict):
+            holder[str(where[-1])[:-1]] = holder.pop(where[-1])
+        else:
+            del holder[where[-1]]
+        if not places(document):
+            break
+    return document
+
+
+@STRUCTURED
+@given(mutated())
+def test_a_mutated_scene_is_read_or_refused(folder: Path, document: Document) -> None:
+    assert outcome(folder, as_toml(document).encode())
+
+
+@BYTES
+@given(st.data())
+def test_a_mutated_file_is_read_or_refused(folder: Path, data: st.DataObject) -> None:
+    contents = bytearray(EXAMPLE)
+    for _ in range(data.draw(st.integers(1, 4))):
+        at = data.draw(st.integers(0, len(contents)))
+        length = data.draw(st.sampled_from([0, 0, 1, 1, 2, 10, 500]))
+        contents[at : at + length] = data.draw(
+            st.binary(max_size=3)
+            | st.sampled_from([b"\n", b'"', b"[", b"]", b"{", b"=", b".", b"0"])
+        )
+    assert outcome(folder, bytes(contents))
+
+
+@given(st.binary(max_size=200) | st.text(max_size=100).map(str.encode))
+def test_anything_else_is_refused(folder: Path, contents: bytes) -> None:
+    assert isinstance(outcome(folder, contents), SceneError)

@@ -1,11 +1,8 @@
 """The files of a result on a section, and the commands that write and read them."""
 
-import json
 from pathlib import Path
 from typing import Any
 
-import h5py
-import jsonschema
 import numpy as np
 import pytest
 from command import rows, slipstick
@@ -13,10 +10,7 @@ from conftest import leave_figures_undrawn
 from fem_scenes import solved
 
 from contact_results.directory.file_names import SUMMARY
-from contact_results.files.field_file import FIELDS
-from contact_results.files.mesh_file import read_mesh
 from contact_results.result_files import write_result
-from contact_results.surface import surface_of
 from contact_scene import (
     Body,
     CoulombFriction,
@@ -26,7 +20,7 @@ from contact_scene import (
     Paraboloid,
     Scene,
 )
-from contact_scene.summary import load_summary, summary_schema
+from contact_scene.summary import load_summary
 from fem_reference import Result
 from verification.problems.layered_scene import coated, exact_contact, film
 
@@ -72,20 +66,6 @@ def _write(result: Result, directory: Path) -> None:
         write_result(result, directory, figures="all")
 
 
-def test_summary_fulfils_the_schema_of_every_solver(written: tuple[Result, Path]) -> None:
-    result, directory = written
-    text = (directory / SUMMARY).read_text(encoding="utf-8")
-    jsonschema.validate(json.loads(text), summary_schema())
-    summary = load_summary(text)
-    assert summary.solver == "fem_reference.complementarity"
-    assert summary.cells is summary.window is None
-    assert len(summary.steps) == len(result.scene.loading)
-    for step, end in zip(summary.steps, result.steps, strict=True):
-        assert step.approach == end.approach
-        assert step.dissipated_energy == end.dissipated_energy
-        assert step.status is end.status
-
-
 def test_profiles_are_the_fields_at_the_ends_of_steps(written: tuple[Result, Path]) -> None:
     result, directory = written
     found = rows(directory / "profiles.csv")
@@ -117,39 +97,6 @@ def test_profiles_are_the_fields_at_the_ends_of_steps(written: tuple[Result, Pat
             ).tolist()
             if result.scene.title == "twisted":
                 assert [float(row["shear_y [Pa]"]) for row in rows_] == (outward * around).tolist()
-
-
-def test_increments_are_all_there(written: tuple[Result, Path]) -> None:
-    result, directory = written
-    found = rows(directory / "increments.csv")
-    assert len(found) == len(result.increments)
-    for row, increment in zip(found, result.increments, strict=True):
-        assert float(row["approach [m]"]) == increment.approach
-        assert row["torque [N m]"] == ("" if increment.torque is None else repr(increment.torque))
-
-
-def test_weights_of_rings_carry_the_loads(written: tuple[Result, Path]) -> None:
-    result, _ = written
-    surface = surface_of(result)
-    for end in result.steps:
-        pressure, shear = surface.scalar(end, "pressure"), surface.vector(end, "shear")
-        assert np.sum(surface.weights * pressure) == pytest.approx(end.normal_force, rel=1e-12)
-        if end.tangential_force is not None and np.any(end.tangential_force):
-            carried = np.sum(surface.weights * shear[0])
-            assert carried == pytest.approx(end.tangential_force[0], rel=1e-12)
-
-
-def test_fields_have_every_step(written: tuple[Result, Path]) -> None:
-    result, directory = written
-    with h5py.File(directory / FIELDS) as file:
-        group = file["increments"]
-        np.testing.assert_array_equal(file["radii"][:], result.increments[0].radii)
-        for n, end in enumerate(result.steps):
-            stored = group["pressure"][n]
-            if end.pressure.ndim < stored.ndim:
-                stored = stored[:, 0]
-            np.testing.assert_array_equal(stored, end.pressure)
-        np.testing.assert_array_equal(group["approach"], [i.approach for i in result.increments])
 
 
 TOML = """
@@ -199,23 +146,6 @@ def test_run_names_its_solver(place: Path, solver: str, name: str) -> None:
     bodies = coated(Layer(thickness=0.2e-3, material=film(2.0, 1.0).material))
     assert summary.steps[-1].approach == pytest.approx(exact_contact(bodies).approach, rel=0.01)
     assert (summary.steps[-1].stick_radius or 0.0) < summary.steps[-1].contact_radius
-
-
-def test_stress_of_a_run_keeps_both_sides_of_an_interface(place: Path) -> None:
-    assert slipstick("stress", place / "fem-complementarity", "-o", place / "stress") == 0
-    record = json.loads((place / "stress/stress.json").read_text(encoding="utf-8"))
-    assert "Gauss points" in record["recovery"]
-    found = rows(place / "stress/stress_interfaces.csv")
-    on_axis = {row["side"]: row for row in found if float(row["x [m]"]) == 0}
-    above, below = (float(on_axis[side]["sigma_xx [Pa]"]) for side in ("above", "below"))
-    assert above - below > 1e8
-    mesh = read_mesh(place / "stress/stress_section.vtu")
-    assert mesh.cells[0] == "quad9"
-    assert {"stress [Pa]", "von_mises [Pa]", "material"} <= set(mesh.at_points)
-    axis = rows(place / "stress/stress_axis.csv")
-    depths = [float(row["depth [m]"]) for row in axis]
-    assert depths == sorted(depths)
-    assert float(axis[0]["sigma_zz [Pa]"]) < -1e9
 
 
 REFUSED = {

@@ -31,6 +31,7 @@ def test_pictures_are_small_and_name_themselves(pictures: tuple[Picture, ...]) -
 
 
 def test_fields_are_images_and_their_axes_are_text(pictures: tuple[Picture, ...]) -> None:
+    assert pictures
     for one in pictures:
         assert "data:image/png" in one.svg
         assert len(re.findall("<text", one.svg)) > 8

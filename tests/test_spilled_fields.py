@@ -1,10 +1,6 @@
 """Fields beyond what memory holds go into a file of TMPDIR: what happens where it cannot grow, or
 there is no such folder, or the run is killed."""
 
-import os
-import signal
-import subprocess
-import sys
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -16,7 +12,6 @@ from contact_scene import stored_fields
 
 resource = pytest.importorskip("resource")
 
-ROOT = Path(__file__).resolve().parents[1]
 SCENE = """
 [indenter]
 shape = "sphere"
@@ -68,41 +63,3 @@ def test_a_file_that_cannot_grow_is_told_and_nothing_is_left(
     (told,) = (line for line in ended.stderr.splitlines() if line.startswith("error"))
     assert f"{tmp_path / 'temporary'} (TMPDIR), for the fields of increments: " in told
     assert left(tmp_path) == ["scene.toml", "temporary"]
-
-
-SPILLING = f"""
-import sys
-sys.path.insert(0, {str(ROOT)!r})
-from contact_scene import stored_fields
-stored_fields.MOST_HELD = 0
-put = stored_fields.FieldStore._put
-def told(store, array):
-    kept = put(store, array)
-    print("spilled", flush=True)
-    return kept
-stored_fields.FieldStore._put = told
-from slipstick.cli import main
-main()
-"""
-
-
-@pytest.mark.parametrize("words", [RUNS["run"], RUNS["to an accuracy"]], ids=["run", "accuracy"])
-def test_a_killed_run_leaves_nothing_among_temporary_files(
-    words: tuple[str, ...], tmp_path: Path
-) -> None:
-    started = subprocess.Popen(
-        [sys.executable, "-c", SPILLING, *words], cwd=tmp_path, text=True,
-        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
-        env=os.environ | {"TMPDIR": str(tmp_path / "temporary")},
-    )  # fmt: skip
-    assert started.stdout is not None
-    for _ in range(9):
-        assert started.stdout.readline() == "spilled\n"
-    started.send_signal(signal.SIGKILL)
-    started.communicate()
-    assert started.returncode == -signal.SIGKILL
-    assert left(tmp_path / "temporary") == []
-    assert outcome(*words, cwd=tmp_path).returncode == 0
-    assert left(tmp_path / "temporary") == []
-    hidden = [path.name for path in tmp_path.iterdir() if path.name.startswith(".")]
-    assert hidden == []

@@ -400,6 +400,7 @@ def test_errors_cover_what_is_wrong(known: Callable[[], Known]) -> None:
     result = package.solve(posed, solver, asked)
     stated = stated_errors(result).steps[step]
     values = values_of(result, fretting_cycles(result))[step]
+    assert {*spoilt, *exact} <= {*stated}
     for name in spoilt:
         assert stated[name].status is ErrorStatus.NOT_CONVERGED, name
     for name, value in exact.items():

@@ -157,24 +157,6 @@ def test_a_field_says_whether_the_edge_was_fitted(reason: str | None) -> None:
         assert tension.value < 0.95 * exact
 
 
-@pytest.mark.parametrize("depth", [3.0, 7.5])
-def test_means_of_cells_are_seen_from_within_as_what_they_are_means_of(depth: float) -> None:
-    """As constants they would act like tractions that are smoothed once more."""
-    grid, pressure = pressed_on()
-    body = Body(material=IsotropicMaterial(young_modulus=1.0, poisson_ratio=NU))
-    exact = huber(*places(grid), depth)
-
-    def wrong(edges: bool) -> float:
-        axes, tractions = {"x": grid.x, "y": grid.y}, {"pressure": pressure}
-        state = LoadedBodies("", body, body, 1, axes, tractions, None, edges=edges)
-        stress = stress_on_cells(state, depths=[depth]).points.stress[:, 0]
-        beside = (stress.shape[1] - CELLS) // 2
-        inner = slice(beside, beside + CELLS)
-        return float(np.max(np.abs(stress[:, inner, inner] - exact)))
-
-    assert wrong(edges=True) < 3e-4 < 9e-4 < wrong(edges=False)
-
-
 def test_an_undetermined_edge_stays_a_candidate_for_the_largest_tension() -> None:
     """Behind a ball pushed on a stiff film: 2.02 ± .01 GPa on 128² cells. Without the edge 1.6 GPa
     are found, at the interface."""

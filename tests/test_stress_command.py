@@ -105,20 +105,6 @@ def test_maxima_name_both_sides_of_the_interface(place: Path) -> None:
     assert [float(row["value [Pa]"]) for row in table] == [e["value"] for e in record["maxima"]]
 
 
-def test_axis_is_continuous_where_it_must_be_and_jumps_where_it_must(place: Path) -> None:
-    table = rows(place / "out" / "stress_axis.csv")
-    at = [row for row in table if float(row["depth [m]"]) == 0.1e-3]
-    above, below = at
-    assert (above["material"], below["material"]) == ("layer 1", "base")
-    peak = float(table[0]["sigma_zz [Pa]"])
-    for name in ("sigma_zz [Pa]", "u_z [m]"):
-        assert float(above[name]) == pytest.approx(float(below[name]), rel=1e-11)
-    assert abs(float(above["sigma_xx [Pa]"]) - float(below["sigma_xx [Pa]"])) > 1e-2 * abs(peak)
-    # On the axis the surface carries the pressure, between the four cells of the run's largest.
-    summary = json.loads((place / "run" / "summary.json").read_text(encoding="utf-8"))
-    assert -peak == pytest.approx(summary["steps"][-1]["peak_pressure"], rel=5e-3)
-
-
 def test_run_and_scene_give_the_same(place: Path) -> None:
     ended = outcome("stress", place / "run", "-o", place / "of_run", "--figures", "none", cwd=ROOT)
     assert ended.returncode == 0, ended.stderr

@@ -10,11 +10,8 @@ from numpy.testing import assert_allclose
 
 import radial
 import slipstick
-from contact_results.stress.extremes import extremes
 from contact_results.stress.loaded_bodies import state_of_result, state_of_run
 from contact_results.stress.on_disc import stress_on_disc
-from contact_results.stress.points import StressField
-from contact_results.stress.radial_body import RadialBody
 from contact_scene import (
     Body,
     CoulombFriction,
@@ -143,40 +140,6 @@ def pushed(direction: tuple[float, float] = (1.0, 0.0)) -> Scene:
         Body(material=SOFT), SAME, LoadStep(normal_force=W, increments=1),
         LoadStep(tangential_force=force, increments=2),
     )  # fmt: skip
-
-
-def test_a_plane_below_carries_the_loads() -> None:
-    result = radial.solve(pushed())
-    body = RadialBody.of(state_of_result(result, None), indenter=False)
-    nodes, weights = np.polynomial.legendre.leggauss(60)
-    t = (1 + nodes) / 2
-    scale = body.parts.radius
-    r, area = scale * t / (1 - t), scale**2 * weights / 2 * t / (1 - t) ** 3
-    turns = 2 * np.pi * np.arange(12) / 12
-    x, y = (r[:, None] * way + 0 * r[:, None] for way in (np.cos(turns), np.sin(turns)))
-    stress = body.points((Level(0.5 * scale, 0),), x.ravel(), y.ravel()).stress[:, 0]
-    zz, yz, xz = (2 * np.pi * np.mean(stress[n].reshape(x.shape), axis=1) @ area for n in (2, 3, 4))
-    assert_allclose(-zz, W, rtol=5e-5)
-    # Of the shear the share of the pressure is straight between rings, with fronts between them.
-    assert_allclose(-xz, 0.06 * W, rtol=3e-3)
-    assert abs(yz) < 1e-6 * W
-
-
-def of(scene: Scene) -> StressField:
-    return stress_on_disc(state_of_result(radial.solve(scene), None), depths=[0.0, 0.3])
-
-
-def test_the_scene_may_be_turned() -> None:
-    """Places of the largest stresses turn with the load."""
-    along_x, along_y = pushed(), pushed((0.0, 1.0))
-    for one, other in zip(
-        extremes(of(along_x), along_x.body), extremes(of(along_y), along_y.body), strict=True
-    ):
-        assert_allclose(other.value, one.value, rtol=1e-9)
-        assert_allclose((other.y, -other.x, other.depth), (one.x, one.y, one.depth), atol=1e-6)
-    tension = next(e for e in extremes(of(along_y), along_y.body) if e.measure == "max_principal")
-    body = RadialBody.of(state_of_result(radial.solve(along_y), None), indenter=False)
-    assert np.max(body.largest(tension).measures["max_principal"]) >= tension.value * (1 - 1e-9)
 
 
 def test_a_run_that_was_written_has_the_same_stress(tmp_path: Path) -> None:

@@ -17,9 +17,10 @@ ROOT = Path(__file__).resolve().parents[1]
 
 
 def test_the_ball_is_that_of_the_reference_within_both_uncertainties() -> None:
-    for row in load_reference("coated_frictionless_paraboloid")["rows"]:
-        if row["nu1"] != row["nu2"]:
-            continue
+    rows = load_reference("coated_frictionless_paraboloid")["rows"]
+    alike = [row for row in rows if row["nu1"] == row["nu2"]]
+    assert len(alike) > 2
+    for row in alike:
         chosen = {
             name: [row[of]] for name, of in (("E1_over_E2",) * 2, ("h_over_aH",) * 2, ("nu", "nu1"))
         }
@@ -99,9 +100,7 @@ def test_what_no_table_has_is_refused(arguments: tuple[str, ...], words: str) ->
     assert words in " ".join(re.sub("[│\n]", " ", ended.stderr).split())
 
 
-@pytest.mark.parametrize(
-    "value", ["5e-324", "1e-300", "1e300", "inf", "nan", "-1e300", "9" * 10_000]
-)
+@pytest.mark.parametrize("value", ["1e-300", "inf", "nan", "9" * 10_000])
 @pytest.mark.parametrize(
     ("name", "axis"), [(table.name, axis) for table in TABLES.values() for axis in table.axes]
 )

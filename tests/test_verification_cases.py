@@ -29,6 +29,7 @@ def test_names_are_unique_and_fit_for_commands(level: Level) -> None:
 
 @pytest.mark.parametrize("level", Level)
 def test_no_two_verdicts_of_a_case_have_one_name(level: Level) -> None:
+    assert choose(level)
     for case in choose(level):
         named = [(quantity.name, quantity.run) for quantity in case.quantities]
         named += [(check.name, check.subject) for check in case.checks]
@@ -68,6 +69,7 @@ def test_every_case_states_its_equations_its_orders_and_the_errors_of_its_refere
 
 @pytest.mark.parametrize("case", QUICK.values(), ids=QUICK)
 def test_every_scene_of_a_case_is_supported(case: Case) -> None:
+    assert case.runs
     for run in case.runs:
         decide = fem_reference.plan if isinstance(run, SectionRun) else plan
         assert decide(run.scene).effects

@@ -87,6 +87,7 @@ points = st.lists(
 @given(points)
 def test_no_point_beats_one_of_the_pareto_line(all_points: list[Point]) -> None:
     line = pareto(all_points, seconds)
+    assert bool(line) == bool(all_points)
     for kept in line:
         assert not any(
             p.seconds <= kept.seconds
@@ -99,6 +100,7 @@ def test_no_point_beats_one_of_the_pareto_line(all_points: list[Point]) -> None:
 @given(points)
 def test_every_point_is_beaten_by_the_pareto_line_or_on_it(all_points: list[Point]) -> None:
     line = pareto(all_points, seconds)
+    assert len(line) <= len(all_points)
     for p in all_points:
         assert any(kept.seconds <= p.seconds and kept.error <= p.error for kept in line)
 
