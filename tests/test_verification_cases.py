@@ -57,6 +57,7 @@ def test_every_case_states_its_equations_its_orders_and_the_errors_of_its_refere
 ) -> None:
     """An order is judged, or a reason is given; a reference that somebody computed has an error."""
     computed = (ReferenceKind.CLOSED_FORM, ReferenceKind.SEMI_CLOSED, ReferenceKind.EXTERNAL_CODE)
+    assert choose(level)
     for case in choose(level):
         assert case.equations, case.name
         assert bool(case.orders) != bool(case.no_order), case.name
