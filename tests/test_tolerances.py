@@ -202,10 +202,10 @@ def test_every_accepted_tolerance_belongs_to_a_recorded_number(level: str) -> No
         if level in baseline.levels
         for quantity in baseline.levels[level].quantities
     }
-    for acceptance in read_tolerances(level).accepted:
-        assert acceptance.because
-        accepted = {(case, key) for case, keys in acceptance.tolerances.items() for key in keys}
-        assert accepted <= recorded
+    accepted = read_tolerances(level).accepted
+    assert all(one.because for one in accepted)
+    named = [pair for one in accepted for pair in one.tolerances.items()]
+    assert {(case, key) for case, keys in named for key in keys} <= recorded
 
 
 def test_verify_judges_by_the_accepted_tolerances(
