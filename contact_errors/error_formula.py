@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 
 from contact_errors.values import Values, prescribed, scale
 from contact_scene import Scene
+from contact_scene.geometry import ShapedBody
 from contact_scene.increment_error import near_gross_slip
 from contact_scene.stated_error import EXACT, Amount, ErrorStatus, Part, StatedError
 
@@ -51,12 +52,12 @@ LIMITS: Mapping[str, float] = MappingProxyType(
 
 CONTACT_EDGE = frozenset({"contact_radius", "contact_area"})
 STICK_EDGE = frozenset({"stick_radius", "stick_area"})
-AT_EDGES = frozenset({"slip_amplitude", "ruiz_f1"})
-PEAK, STRESS = "peak_pressure", frozenset({"ruiz_f2"})
+# Largest values in cells that the edge cuts anywhere.
+AT_EDGES, PEAK = frozenset({"slip_amplitude", "ruiz_f1", "ruiz_f2"}), "peak_pressure"
 OF_SLIP = frozenset(
     {
         *("tangential_shift", "tangential_force", "twist", "torque", "dissipated_energy"),
-        *("energy_per_cycle", "input_work", *AT_EDGES, *STRESS),
+        *("energy_per_cycle", "input_work", *AT_EDGES),
     }
 )
 
@@ -73,9 +74,11 @@ class Features:
     fitted    whether the edge of the contact is fitted within the cells
     stick_fitted
               the same of the edge of the stick zone
-    sharp     whether the indenter has a rim, below which all numbers converge with the first order
+    sharp     whether the indenter has a rim or a tip, below which all numbers converge with the
+              first order
     infinite  whether the exact peak pressure is infinite
-    cusp      whether friction acts back on the pressure
+    cusp      whether the pressure has a cusp: friction acts back on it, or the gap grows with a
+              power between 1 and 2
     ridge     whether the largest pressure is nearer to the edge of the contact than to its middle
     slides    whether all of the contact certainly slips
     changes   relative changes of numbers in the last iteration of the edge correction
@@ -99,11 +102,10 @@ class Features:
         """Convergence order of a number in the size of a cell."""
         if self.sharp:
             return EDGE
-        if name in STRESS or (name == PEAK and self.cusp):
+        if name in AT_EDGES or (name == PEAK and self.cusp):
             return ROOT
         first = (
-            name in AT_EDGES
-            or (name == PEAK and self.ridge)
+            (name == PEAK and self.ridge)
             or (name in CONTACT_EDGE and not self.fitted)
             or (name in STICK_EDGE and not self.stick_fitted)
         )
@@ -119,6 +121,16 @@ class Features:
         elif name in OF_SLIP:
             sizes["annulus"] = self.annulus
         return all(size is None or size >= LIMITS[feature] for feature, size in sizes.items())
+
+
+def is_singular(indenter: ShapedBody) -> bool:
+    """Whether the exact pressure is infinite below a rim or a tip."""
+    return indenter.rim is not None or indenter.gap_exponent == 1
+
+
+def has_cusp(indenter: ShapedBody) -> bool:
+    """Whether the pressure of a smooth contact has a cusp at the point of first touch."""
+    return indenter.gap_exponent is not None and 1 < indenter.gap_exponent < 2
 
 
 @dataclass(frozen=True)

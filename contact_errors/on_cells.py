@@ -20,7 +20,7 @@ from contact_errors.coarse_solves import (
     estimated,
 )
 from contact_errors.cost_estimate import Work, work_on_cells
-from contact_errors.error_formula import PEAK, Features
+from contact_errors.error_formula import PEAK, Features, has_cusp, is_singular
 from contact_results.remarks import left_out
 from contact_results.stress import on_cells as stress_on_cells
 from contact_scene import SurfaceDiscretisation
@@ -125,9 +125,9 @@ class CellSolver(DiscretisedSolver):
                 annulus=0.0 if hides else cells.annulus,
                 fitted=report is not None and not (thin and (coupled or law is None)),
                 stick_fitted=report is not None and report.border and not coupled,
-                sharp=indenter.rim is not None,
-                infinite=indenter.rim is not None or indenter.gap_exponent == 1,
-                cusp=coupled,
+                sharp=is_singular(indenter),
+                infinite=is_singular(indenter),
+                cusp=coupled or has_cusp(indenter),
                 ridge=ridge or _to_edge(end) < cells.contact / 2,
                 slides=sliding and not hides,
                 changes={} if report is None else _changes(report),

@@ -22,7 +22,7 @@ from contact_errors.coarse_solves import (
     slip_zone,
 )
 from contact_errors.cost_estimate import Work, work_on_elements
-from contact_errors.error_formula import Features
+from contact_errors.error_formula import Features, has_cusp, is_singular
 from contact_scene import FiniteElementDiscretisation
 from contact_scene.solver_errors import SurfacesOverlap
 from contact_scene.stated_error import Part, StatedErrors
@@ -118,9 +118,9 @@ class ElementSolver(DiscretisedSolver):
             layer=per_length * thinnest,
             stick=stick,
             annulus=annulus,
-            sharp=indenter.rim is not None,
-            infinite=indenter.rim is not None or indenter.gap_exponent == 1,
-            cusp=result.plan.path in CUSPED,
+            sharp=is_singular(indenter),
+            infinite=is_singular(indenter),
+            cusp=result.plan.path in CUSPED or has_cusp(indenter),
             ridge=_peak_radius(end) > end.contact_radius / 2,
             slides=end.status is ContactStatus.GROSS_SLIDING,
         )

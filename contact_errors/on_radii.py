@@ -18,7 +18,7 @@ from contact_errors.coarse_solves import (
     slip_zone,
 )
 from contact_errors.cost_estimate import Work, work_on_rings
-from contact_errors.error_formula import Features
+from contact_errors.error_formula import Features, is_singular
 from contact_scene import RadialDiscretisation
 from contact_scene.stated_error import Part, StatedErrors
 from contact_scene.summary import ContactStatus
@@ -91,7 +91,7 @@ class RingSolver(DiscretisedSolver):
             stick_fitted=not plan.circle,
             # Values at rings are biased: all numbers converge with the first order.
             sharp=self.counted and (plan.circle is None or indenter.rim is not None),
-            infinite=indenter.rim is not None or indenter.gap_exponent == 1,
+            infinite=is_singular(indenter),
             cusp=plan.coupled,
             slides=end.status is ContactStatus.GROSS_SLIDING,
         )
