@@ -408,8 +408,10 @@ def _apart_of_stated(ours: Any, _: int, problem: Problem) -> float:
     ):
         for of in (*SCALARS, *MOTIONS):
             values = getattr(one, of), getattr(other, of)
+            if any(value is None for value in values):
+                continue
             allowed = sum(size(errors[of].error) for errors in stated)
-            if allowed and all(value is not None for value in values):
+            if allowed:
                 shares.append(size(np.subtract(*values)) / allowed)
     return worst(*shares)
 
