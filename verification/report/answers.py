@@ -11,7 +11,6 @@ from verification.judging.outcome import CaseOutcome, Verdict
 from verification.judging.verdict_text import clearance_text
 from verification.problems.reference import ReferenceKind
 from verification.report.both_solvers import WORDS, SharedReference, shared_references
-from verification.report.equal_fineness import nearer_sentences, nearer_table, votes
 from verification.report.prices import cost_sentence, price_table, telling_chart
 from verification.report.sections import StudySection, study_of, study_section
 from verification.running.record import StudyRecord
@@ -73,14 +72,11 @@ def _cost(report: Report) -> Answer:
 def _disagreement(report: Report) -> Answer:
     """From the references that both solvers were judged by, and from their comparisons."""
     shared = shared_references(report)
-    cast = votes(shared)
     return Answer(
-        "Where do finite elements and the semi-analytical method disagree, and which is nearer to "
-        "the reference?",
-        (*_nearer(shared), *_direct(report)),
+        "Where do finite elements and the semi-analytical method disagree?",
+        (*_furthest(shared), *_direct(report)),
         None,
         (("solvers", "all of them"),) if shared else (),
-        table=nearer_table(cast, shared) if cast else None,
     )
 
 
@@ -104,20 +100,17 @@ def _chart(record: StudyRecord | None, wanted: tuple[str, ...]) -> Chart | None:
     return next(iter([*named, *by_name.values()]), None)
 
 
-def _nearer(shared: tuple[SharedReference, ...]) -> list[str]:
-    if not shared:
-        return []
-    sentences = nearer_sentences(votes(shared), shared)
+def _furthest(shared: tuple[SharedReference, ...]) -> list[str]:
+    """The largest difference of both solvers from one reference."""
     told = [pair for pair in shared if pair.tells]
-    if told:
-        worst = max(told, key=lambda pair: pair.difference)
-        errors = " and ".join(f"{WORDS[s]} {percent(worst.by(s).error)}" for s in Solver)
-        sentences.append(
-            f"On their finest runs, which are not equally fine, they are furthest apart in "
-            f"{worst.name}: {percent(worst.difference)} of the reference "
-            f"({errors} from it)."
-        )
-    return sentences
+    if not told:
+        return []
+    worst = max(told, key=lambda pair: pair.difference)
+    errors = " and ".join(f"{WORDS[s]} {percent(worst.by(s).error)}" for s in Solver)
+    return [
+        f"On their finest runs, which are not equally fine, they are furthest apart in "
+        f"{worst.name}: {percent(worst.difference)} of the reference ({errors} from it)."
+    ]
 
 
 def _direct(report: Report) -> list[str]:
