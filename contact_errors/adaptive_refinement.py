@@ -44,9 +44,9 @@ MOST_AT_ONCE, LEAST_AT_ONCE, UNCONVERGED = 4.0, 1.15, 2.0
 # Doublings of the cells of the first level until they resolve the contact.
 MOST_DOUBLINGS = 5
 MOST_ROUNDS = 7
-# The first level may overestimate the refinement of the cells by this factor, and a refinement
-# beyond the other is not told from it.
-DOUBT, FURTHEST = 2.0, 1e4
+# The first level may overestimate an error by the first factor. Refinements beyond the second are
+# equally out of reach.
+DOUBT, FURTHEST = 4.0, 1e4
 # Of the natural size of a number: a smaller number is a zero with round-off.
 ROUND_OFF = 1e-7
 
@@ -353,9 +353,10 @@ def targets_of(request: AccuracyRequest, level: RefinementLevel, levels: Levels)
         if name in left_out:
             raise AccuracyOutOfReach(f"no accuracy of {name} can be had: {left_out[name]}")
     shares = {name: share for name, share in request.shares().items() if name not in left_out}
-    needed = bounded(level.needed(shares, believed=1.0), FURTHEST)
-    finest = levels.solver.refined(level.fineness, Refinement(needed.cells / DOUBT))
-    if needed.cells > DOUBT and (too_large := levels.too_large(finest)):
+    doubted = {name: DOUBT * share for name, share in shares.items()}
+    needed = bounded(level.needed(doubted, believed=1.0), FURTHEST)
+    finest = levels.solver.refined(level.fineness, needed)
+    if needed.cells > UNCONVERGED and (too_large := levels.too_large(finest)):
         raise AccuracyOutOfReach(f"no grid can meet the request: {too_large}")
     return Targets(shares, left_out)
 
