@@ -51,6 +51,7 @@ class Rim:
     unsafe   part of all cells along the edge without a reliable fit
     domain     that all fields are given on
     line     edge of a contact on a film
+    phi      (nx, ny) cell means of phi without a film
     """
 
     region: Mask
@@ -61,6 +62,7 @@ class Rim:
     unsafe: float
     domain: ReducedDomain
     line: EdgeLine | None = None
+    phi: Field | None = None
 
     @cached_property
     def outer(self) -> Mask:
@@ -101,8 +103,9 @@ def rim(
     shape: EdgeShape
     if film is None:
         shape = edge_shape(
-            scaled, region, STENCIL, rings=0, exponent=exponent, depth=depth, domain=domain
-        )
+            scaled, region, STENCIL, rings=0, exponent=exponent, depth=depth, domain=domain,
+            before=before.phi if before else None,
+        )  # fmt: skip
     else:
         line = before.line if before else None
         stencil = STENCIL if isinstance(exponent, np.ndarray) else OF_FILM
@@ -132,6 +135,7 @@ def rim(
         unsafe=np.count_nonzero(~safe) / (len(safe) + len(deep_i)),
         domain=domain,
         line=shape.line if isinstance(shape, FilmShape) else None,
+        phi=None if isinstance(shape, FilmShape) else shape.phi,
     )
 
 

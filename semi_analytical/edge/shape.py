@@ -144,6 +144,7 @@ def edge_shape(
     rounds: int = 3,
     depth: Field | None = None,
     domain: ReducedDomain = WINDOW,
+    before: Field | None = None,
 ) -> EdgeShape:
     """Shape of the edge of a region.
 
@@ -158,6 +159,7 @@ def edge_shape(
     rounds    data of the first are means^(1/alpha), from cells beyond the cut ones; of the others
               `centre_value` with the slope of the last
     depth     of the region, where it is known: see `depth_of`
+    before    `phi` of nearly the same means: one round then suffices
     domain      that all are given on
     Raises ValueError where no cell is left to be data.
     """
@@ -174,6 +176,8 @@ def edge_shape(
     band = data & (depth < ASKED + 1.5 * stencil.reach)
     of_band = exponent[band] if isinstance(exponent, np.ndarray) else exponent
     phi, weight = power(means, np.divide(1, exponent)), inner.astype(float)
+    if before is not None:
+        phi, weight, rounds = before.copy(), data.astype(float), 2
     # Farther in the differences of data tell the slope, which hardly matters there.
     i, j = np.nonzero(band & (depth < max(rings, 1) + 2))
     for _ in range(rounds - 1):
