@@ -56,6 +56,13 @@ def test_a_mutant_is_detected_by_a_test_that_fails_and_by_no_other(
         MutantRun("kernel/adds.py", 0).compute()
 
 
+def test_every_kernel_and_its_tests_exist() -> None:
+    root = mutants.ROOT
+    for kernel, tests in KERNELS.items():
+        assert (root / kernel).is_file(), kernel
+        assert all((root / "tests" / f"{name}.py").is_file() for name in tests), kernel
+
+
 @pytest.mark.parametrize(("part", "status"), [(0.95, Status.PASS), (0.85, Status.FAIL)])
 def test_nine_in_ten_have_to_be_detected(part: float, status: Status) -> None:
     settings = Settings(Level.FULL)

@@ -28,7 +28,7 @@ from verification.running.stored_studies import stored_studies
 from verification.running.study import Settings
 from verification.studies.catalogue import STUDIES
 
-STUDY = ("maintain", "study", "coated-tractions", "--cells", "16", "--output", "out")
+STUDY = ("maintain", "study", "coated-tractions", "--cells", "24", "--output", "out")
 
 
 @dataclass
@@ -175,7 +175,7 @@ def killed_and_resumed(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, 
         stderr=subprocess.DEVNULL,
         check=False,
     )
-    kept = {path.name: path.stat().st_mtime_ns for path in cases.glob("coated*.json")}
+    kept = {path.name: path.stat().st_mtime_ns for path in cases.glob("*.json")}
     assert len(kept) == 1
     assert not (directory / "out" / "study.json").exists()
     ended = outcome(*STUDY, "--workers", "1", cwd=directory)
@@ -195,8 +195,8 @@ def test_killed_study_goes_on_where_it_stopped(
     killed_and_resumed: tuple[Path, dict[str, int]],
 ) -> None:
     out, kept = killed_and_resumed
-    now = {path.name: path.stat().st_mtime_ns for path in (out / "cases").glob("coated*.json")}
-    assert len(now) == 4
+    now = {path.name: path.stat().st_mtime_ns for path in (out / "cases").glob("*.json")}
+    assert len(now) == 24
     assert now | kept == now
 
 
