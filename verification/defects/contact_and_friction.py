@@ -197,7 +197,8 @@ CONTACT_AND_FRICTION = (
     ),
     Defect(
         "residual-zero-of-contact", "The residuals of contact are always zero, pressures rough.",
-        ("dissimilar_bodies", "hertz_approach_control"), _blind,
+        # Where edges are corrected, the repeated solves leave no rough pressure.
+        ("hertz_approach_control",), _blind,
     ),
     Defect(
         "residual-zero-of-friction", "The residuals of friction are always zero, shears rough.",
