@@ -6,12 +6,13 @@ surface next to the edge of the contact. The error of the largest stress found i
 
     max over these places (value + its error) - largest stress found
 
-Inside the stress converges with order 2, next to a fitted edge with order 1, next to another edge
-with order ½. Half a cell inside the edge of tractions that end in a square root, the tensile stress
-lacks m^-½ of its value on m cells per contact radius. On a fitted edge the error is also that of
-another fit. An edge that is not fitted and may have the largest stress leaves the stress not
-converged. The von Mises stress is not largest at an edge without shear, and has no such place
-unless it is found there.
+Inside the stress converges with order 2, and twice the excess of a parabola through three depth
+levels is added for a largest value between levels. Next to a fitted edge the stress converges with
+order 1, next to another edge with order ½. Half a cell inside the edge of tractions that end in a
+square root, the tensile stress lacks m^-½ of its value on m cells per contact radius. On a fitted
+edge the error is also that of another fit. An edge that is not fitted and may have the largest
+stress leaves the stress not converged. The von Mises stress is not largest at an edge without
+shear, and has no such place unless it is found there.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
 from contact_results.stress.on_cells import stress_on_cells
 from contact_results.stress.on_disc import stress_on_disc
 from contact_results.stress.on_section import stress_on_section
-from contact_results.stress.points import StressField
+from contact_results.stress.points import StressField, StressPoints
 from contact_scene import Body
 from contact_scene.accuracy import LARGEST_TENSION
 from contact_scene.stated_error import Part, StatedError, StatedErrors
@@ -109,7 +110,8 @@ def stress_errors(
     body, near = state.indenter if indenter else state.body, NEAR * _side(state)
     here = _places(field, body, near)
     there = [_places(_field(one, indenter=indenter, depths=sampled), body, near) for one in two]
-    fitted, errors = _is_fitted(field), []
+    fitted, errors, points = _is_fitted(field), [], field.points.in_a_row
+    measures = points.measures
     for extreme in found:
         largest, unresolved = 0.0, False
         for at_edge, values in here.items():
@@ -121,6 +123,8 @@ def stress_errors(
             order = SMOOTH if not at_edge else EDGE if fitted else ROOT
             others = [each[at_edge].get((extreme.region, extreme.measure), 0.0) for each in there]
             error = max(abs(value - other) for other in others) / _growth(order)
+            if not shallow:
+                error += _between_levels(points, measures[extreme.measure], extreme)
             if at_edge and field.edge is not None and extreme.region in AT_SURFACE:
                 error = max(error, field.edge.apart / _growth(ROOT))
             if at_edge and tension and not fitted:
@@ -146,6 +150,28 @@ def _places(field: StressField, body: Body, near: float) -> Mapping[bool, Mappin
         each = extremes(replace(field, points=points, edge=edge), body)
         found[at_edge] = {(e.region, e.measure): e.value for e in each}
     return found
+
+
+def _between_levels(points: StressPoints, values: Field, extreme: Extreme) -> float:
+    """Twice the excess of the parabola through the largest values on three depth levels.
+
+    Twice, as a parabola omits terms of third order in the distance of the levels. 0 on an interface
+    and at the end of a material.
+
+    values  of the measure at the points (n,)
+    """
+    here = (points.depth == extreme.depth) & (values == extreme.value)
+    inside = points.material == points.material[np.argmax(here)]
+    levels = np.unique(points.depth[inside])
+    k = int(np.searchsorted(levels, extreme.depth))
+    if extreme.region.startswith("interface") or not 0 < k < len(levels) - 1:
+        return 0.0
+    three = levels[k - 1 : k + 2]
+    largest = [float(np.max(values[inside & (points.depth == z)])) for z in three]
+    (below, above), fall = np.diff(three), np.diff(largest)
+    bend = (fall[1] / above - fall[0] / below) / (below + above)
+    slope = fall[0] / below + bend * below
+    return float(slope**2 / (-2 * bend)) if bend < 0 else 0.0
 
 
 def _growth(order: float) -> float:

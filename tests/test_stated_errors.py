@@ -18,10 +18,12 @@ import slipstick as package
 from contact_errors.coarse_solves import Fineness, ratios, recounted
 from contact_errors.error_formula import Comparison, Features, SolvedRun, largest_so_far
 from contact_errors.on_cells import CellSolver
-from contact_errors.stress_errors import largest_tensile_stress, on_wide_cells
+from contact_errors.stress_errors import largest_tensile_stress, on_wide_cells, stress_errors
 from contact_errors.values import OF_CYCLES, PHYSICAL, values_of
 from contact_results.cycles import fretting_cycles
-from contact_results.stress.loaded_bodies import LoadedBodies
+from contact_results.stress.extremes import extremes
+from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
+from contact_results.stress.on_cells import stress_on_cells
 from contact_scene import (
     RIGID,
     Body,
@@ -425,6 +427,24 @@ def test_an_edge_that_may_have_the_largest_stress_leaves_it_open(count: int) -> 
     assert found is not None
     value, error, _ = found
     assert error.status is ErrorStatus.NOT_CONVERGED or abs(value - 2.0e9) <= size(error)
+
+
+@pytest.mark.parametrize("deeper", [0.0, 0.03, 0.06, 0.09, 0.13])
+def test_a_largest_stress_between_depths_is_covered(deeper: float) -> None:
+    """Below Hertz's contact the stress on the axis is known (Johnson 1985, eq. 3.45)."""
+    posed = scene(PRESS, indenter=paraboloid(steel(0.3)), body=steel(0.3))
+    result = package.solve(posed, "semi-analytical", cells(64))
+    state = state_of_result(result, 1, stated_errors(result))
+    radius = result.steps[0].contact_radius
+    depths = [z * radius for z in (0.0, 0.2, 0.35 + deeper, 0.55 + deeper, 0.8, 1.2)]
+    field = stress_on_cells(state, depths=depths)
+    found = [e for e in extremes(field, posed.body) if e.measure != "max_principal"]
+    z = np.linspace(0.3, 0.7, 4001)
+    radial = 1.3 * (1 - z * np.arctan(1 / z)) - 1 / (2 * (1 + z**2))
+    exact = hertz().peak_pressure * float(np.max(1 / (1 + z**2) - radial))
+    for extreme, error in zip(found, stress_errors(state, field, found), strict=True):
+        largest = exact if extreme.measure == "von_mises" else exact / 2
+        assert abs(extreme.value - largest) <= size(error) <= 0.05 * largest
 
 
 @pytest.mark.parametrize(("nu", "count"), [(0.2, 32), (0.49, 32), (0.499, 32), (0.47, 100)])
