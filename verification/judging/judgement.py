@@ -116,6 +116,7 @@ def _run_record(run: AnyRun, case: Case, result: Any) -> RunRecord:
         convolutions=sum(i.convolutions for i in result.increments) if grid else 0,
         factorizations=sum(i.factorizations for i in result.increments) if mesh else 0,
         largest_residual=finite(largest_residual(result)),
+        edge_change=max(i.edge_change or 0.0 for i in result.increments) if grid else 0.0,
     )
 
 

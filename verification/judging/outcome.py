@@ -255,6 +255,8 @@ class RunRecord(Description):
     """Sparse factorisations of finite elements."""
 
     largest_residual: float | None
+    edge_change: float = 0.0
+    """Largest relative change in the last iteration of the edge correction; 0 without one."""
 
     @property
     def solver(self) -> Solver:

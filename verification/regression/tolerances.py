@@ -116,18 +116,19 @@ def proposed(
         reports = [
             report.model_copy(update={"cases": held_to(report.cases, known)}) for report in reports
         ]
-    for case, key, verdicts in _together(reports):
+    for case, key, verdicts, floor in _together(reports):
         bound, held = (verdicts[0].bound or verdicts[0].allowed), verdicts[0].allowed
         error = max(verdict.error or 0.0 for verdict in verdicts)
-        allowed = float(f"{TIMES * error + LEAST:.2g}")
-        slack = held > SLACK * max(error, LEAST) or error > held
+        allowed = float(f"{TIMES * error + floor:.2g}")
+        slack = held > SLACK * max(error, floor) or error > held
         if slack and allowed < bound:
             found.setdefault(case, {})[key] = Tolerance(allowed=allowed, error=error)
     return found
 
 
-def _together(reports: Sequence[Report]) -> Iterator[tuple[str, str, list[Verdict]]]:
-    """Yield the verdicts of all reports on one number that every report has."""
+def _together(reports: Sequence[Report]) -> Iterator[tuple[str, str, list[Verdict], float]]:
+    """Yield the verdicts of all reports on one number that every report has, and the error that
+    depends on the iterates at which its solves end: of an edge correction, its last change."""
     levels = sorted({report.level for report in reports})
     if len(levels) != 1:
         raise BaselineRefused(f"the reports are of the levels {', '.join(levels)}; name one level")
@@ -135,11 +136,15 @@ def _together(reports: Sequence[Report]) -> Iterator[tuple[str, str, list[Verdic
         {(case.name, text_of(v)): v for case in report.cases for v in case.verdicts}
         for report in reports
     ]
+    changes = {
+        (case.name, run.label): run.edge_change for case in reports[0].cases for run in case.runs
+    }
     for key, verdict in maps[0].items():
         verdicts = [found[key] for found in maps if key in found]
         finite = all(v.error is not None for v in verdicts) and len(verdicts) == len(maps)
         if finite and verdict.tolerance_kind != "order":
-            yield *key, verdicts
+            change = max((changes[key[0], label] for label in verdict.runs), default=0.0)
+            yield *key, verdicts, LEAST + change
 
 
 def accept_tolerances(reports: Sequence[Report], because: str, directory: Path = TOLERANCES) -> int:
