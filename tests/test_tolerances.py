@@ -60,7 +60,13 @@ def report_of(*cases: CaseOutcome, kernel: str = "Haswell", level: str = "quick"
 
 @pytest.fixture(scope="module")
 def outcome() -> CaseOutcome:
-    return judge(hertz_point(cells=(32, 48, 64))).model_copy(update={"charts": ()})
+    return settled(judge(hertz_point(cells=(32, 48, 64))).model_copy(update={"charts": ()}), 0.0)
+
+
+def settled(outcome: CaseOutcome, change: float) -> CaseOutcome:
+    """The case with this last change of the edge correction in all runs."""
+    runs = tuple(run.model_copy(update={"edge_change": change}) for run in outcome.runs)
+    return outcome.model_copy(update={"runs": runs})
 
 
 def changed(
@@ -155,6 +161,18 @@ def test_accepted_tolerances_are_twice_the_largest_error_over_kernels(
     assert failed
     assert all(verdict.status is Status.FAIL for verdict in failed)
     assert proposed([report_of(held)]) == {}
+
+
+def test_a_tolerance_allows_for_the_last_change_of_the_edge_correction(
+    outcome: CaseOutcome,
+) -> None:
+    settled_at = [proposed([report_of(settled(outcome, change))]) for change in (0.0, 1e-6, 1.0)]
+    exact, loose, unsettled = (found.get(outcome.name, {}) for found in settled_at)
+    assert unsettled == {}
+    assert loose
+    for key, tolerance in loose.items():
+        assert tolerance.allowed == pytest.approx(2 * tolerance.error + LEAST + 0.5e-6, rel=0.05)
+        assert tolerance.allowed >= exact[key].allowed
 
 
 def test_a_tolerance_never_exceeds_the_bound_of_its_case(outcome: CaseOutcome) -> None:

@@ -28,6 +28,8 @@ SLACK, TIMES = 3.0, 2.0
 # Over the scale of errors: ten times the tolerance of the solvers. By so much an error depends on
 # the iterate at which a solve ends, and with it on the processor.
 LEAST = 1e-7
+# Of the last change Σ|Δp|/Σp of an edge correction half is moved, as the force stays.
+MOVED = 0.5
 
 
 class Tolerance(Description):
@@ -144,7 +146,7 @@ def _together(reports: Sequence[Report]) -> Iterator[tuple[str, str, list[Verdic
         finite = all(v.error is not None for v in verdicts) and len(verdicts) == len(maps)
         if finite and verdict.tolerance_kind != "order":
             change = max((changes[key[0], label] for label in verdict.runs), default=0.0)
-            yield *key, verdicts, LEAST + change
+            yield *key, verdicts, LEAST + MOVED * change
 
 
 def accept_tolerances(reports: Sequence[Report], because: str, directory: Path = TOLERANCES) -> int:
