@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from contact_scenes import grid
-from coupled_scenes import press, push, scene
+from coupled_scenes import bulk, press, push, scene
 from random_compliance import compliance
 from test_alternation import LOADS, DenseContact
 
@@ -112,3 +112,10 @@ def test_a_coupled_increment_takes_few_products():
     increments = solve(described, grid(64), TOLERANCE).increments
     assert all(increment.halvings == 0 for increment in increments)
     assert np.mean([increment.convolutions for increment in increments]) < 62
+
+
+def test_strong_friction_starts_from_the_shear_that_comes_with_a_pressure():
+    """Without shear Newton's method goes from all sticks to all slips and back."""
+    described = scene(press(increments=1), body=bulk(0.4), friction=1.0)
+    (pressed,) = solve(described, grid(64), TOLERANCE).increments
+    assert pressed.convolutions < 115
