@@ -439,6 +439,7 @@ def test_a_largest_stress_between_depths_is_covered(deeper: float) -> None:
     depths = [z * radius for z in (0.0, 0.2, 0.35 + deeper, 0.55 + deeper, 0.8, 1.2)]
     field = stress_on_cells(state, depths=depths)
     found = [e for e in extremes(field, posed.body) if e.measure != "max_principal"]
+    assert found
     z = np.linspace(0.3, 0.7, 4001)
     radial = 1.3 * (1 - z * np.arctan(1 / z)) - 1 / (2 * (1 + z**2))
     exact = hertz().peak_pressure * float(np.max(1 / (1 + z**2) - radial))
