@@ -40,7 +40,7 @@ LONGEST = (
     "test_energy_balance", "test_convergence_studies", "test_study_stability",
     "test_stability_sections", "test_section_output", "test_cli_run", "test_coupled_histories",
     "test_radial", "test_fem_harmonics", "test_examples", "test_stress_influence",
-    "test_coupled_increment", "test_stress_on_disc", "test_hostile_outputs", "test_radial_turning",
+    "test_coupled_increment", "test_stress_on_disc", "test_hostile_outputs",
     "test_from_python", "test_one_case", "test_other_plans",
 )  # fmt: skip
 
