@@ -293,7 +293,7 @@ def test_lock_of_a_dead_process_stops_nobody(target: Path) -> None:
 @pytest.mark.parametrize(
     "command",
     [("run", "scene.toml"), ("run", "scene.toml", "--solver=fem"), ("verify", "layered_identities"),
-     ("maintain", "study", "refinement", "scene.toml"), ("maintain", "study", "stability")],
+     ("maintain", "study", "stability")],
     ids=" ".join,
 )  # fmt: skip
 def test_commands_leave_a_directory_in_use_alone(
