@@ -110,8 +110,7 @@ def stress_errors(
     body, near = state.indenter if indenter else state.body, NEAR * _side(state)
     here = _places(field, body, near)
     there = [_places(_field(one, indenter=indenter, depths=sampled), body, near) for one in two]
-    fitted, errors, points = _is_fitted(field), [], field.points.in_a_row
-    measures = points.measures
+    fitted, errors, measures = _is_fitted(field), [], field.points.measures
     for extreme in found:
         largest, unresolved = 0.0, False
         for at_edge, values in here.items():
@@ -124,7 +123,7 @@ def stress_errors(
             others = [each[at_edge].get((extreme.region, extreme.measure), 0.0) for each in there]
             error = max(abs(value - other) for other in others) / _growth(order)
             if not shallow:
-                error += _between_levels(points, measures[extreme.measure], extreme)
+                error += _between_levels(field.points, measures[extreme.measure], extreme)
             if at_edge and field.edge is not None and extreme.region in AT_SURFACE:
                 error = max(error, field.edge.apart / _growth(ROOT))
             if at_edge and tension and not fitted:
@@ -158,10 +157,10 @@ def _between_levels(points: StressPoints, values: Field, extreme: Extreme) -> fl
     Twice, as a parabola omits terms of third order in the distance of the levels. 0 on an interface
     and at the end of a material.
 
-    values  of the measure at the points (n,)
+    values  of the measure at the points (…)
     """
     here = (points.depth == extreme.depth) & (values == extreme.value)
-    inside = points.material == points.material[np.argmax(here)]
+    inside = points.material == points.material.flat[int(np.argmax(here))]
     levels = np.unique(points.depth[inside])
     k = int(np.searchsorted(levels, extreme.depth))
     if extreme.region.startswith("interface") or not 0 < k < len(levels) - 1:

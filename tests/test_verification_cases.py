@@ -68,10 +68,10 @@ def test_every_case_states_its_equations_its_orders_and_the_errors_of_its_refere
             assert kind not in computed or uncertainty > 0, (case.name, name)
 
 
-@pytest.mark.parametrize("case", QUICK.values(), ids=QUICK)
-def test_every_scene_of_a_case_is_supported(case: Case) -> None:
-    assert case.runs
-    for run in case.runs:
+def test_every_scene_of_a_case_is_supported() -> None:
+    runs = [run for case in QUICK.values() for run in case.runs]
+    assert runs
+    for run in runs:
         decide = fem_reference.plan if isinstance(run, SectionRun) else plan
         assert decide(run.scene).effects
 
