@@ -334,9 +334,19 @@ ENTRIES = (
                 "µm",
                 UM,
             ),
-            Claim("shift", "CONTACT, 19 × 19", 8.155, 5e-4, scalar("tangential_shift"), "µm", UM),
+            Claim(
+                "shift",
+                "CONTACT, 19 × 19",
+                8.155,
+                5e-4,
+                scalar("tangential_shift"),
+                "µm",
+                UM,
+                verdict=DIFFERS,
+            ),
         ),
-        "CONTACT is 0.07 % off in the peak, on its coarse grid; the shifts agree to 0.02 %. Both "
+        "CONTACT is 0.07 % off in the peak and 0.01 % in the shift, on its coarse grid: with finer "
+        "cells and increments the shift converges to 8.156 µm. Both shifts "
         "are 0.2 % below the closed form, which neglects the shear across the load.",
     ),
     Entry(
