@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 import radial
 import semi_analytical
+from contact_errors.error_formula import AT_EDGES
 from contact_errors.values import Values, prescribed, values_of
 from contact_results.cycles import fretting_cycles
 from contact_scene import Ellipsoid, LoadStep, Paraboloid, Scene, SurfaceDiscretisation
@@ -348,9 +349,13 @@ def refined(rng: Rng, posed: Posed) -> KnownScene:
 
 
 class _Level(NamedTuple):
-    """Numbers of a solve at the ends of the steps, largest stresses of the last step included."""
+    """Numbers of a solve at the ends of the steps, largest stresses of the last step included.
+
+    cell  side of a cell over the last contact radius
+    """
 
     steps: Sequence[Values]
+    cell: float
 
     @classmethod
     def of(cls, posed: Posed, times: float, counts: tuple[int, ...]) -> _Level:
@@ -364,7 +369,7 @@ class _Level(NamedTuple):
         if posed.stressed:
             found = stress_maxima(result, len(steps))
             steps[-1] = {**steps[-1], **{n: np.atleast_1d(found[n][0]) for n in STRESSES}}
-        return cls(steps)
+        return cls(steps, max(result.grid.spacing) / result.steps[-1].contact_radius)
 
 
 def _of_levels(
@@ -381,5 +386,7 @@ def _of_levels(
             effect, open_path = 2 * much - some - at, abs(much - some)
             value = best + effect
             apart = ORDER_ONE * abs(best - other) + open_path + OTHER_CELLS * abs(effect)
+            if name in AT_EDGES:  # its cell is next to the edge, anywhere in a cell
+                apart = max(apart, fine.cell * abs(best))
             reference = Reference(value, ReferenceKind.OWN_REFINEMENT, source, apart)
             yield Truth(step, name, reference)
