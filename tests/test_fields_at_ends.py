@@ -88,10 +88,9 @@ def test_fields_that_stay_are_those_of_every_increment(tmp_path):
     lighter = {"normal_force": 0.5 * LOAD, "increments": 2}
     result = solve(scene(PRESS, push(0.2, increments=3), lighter, push(-0.2)), grid(16), 1e-8)
     write_fields(result, (), tmp_path, all_fields=True)
-    assert result.increments[0].shear is None
+    assert len(result.increments) == 7
     with h5py.File(tmp_path / FIELDS) as file:
         for name in ("pressure", "in_contact", "gap", "shear", "slip"):
             for index, increment in enumerate(result.increments):
                 field = getattr(increment, name)
-                if field is not None:
-                    np.testing.assert_array_equal(file["increments"][name][index], field)
+                np.testing.assert_array_equal(file["increments"][name][index], field)
