@@ -35,7 +35,7 @@ KERNELS = {
     "semi_analytical/frf/surface.py": ("test_frf",),
     "semi_analytical/influence/closed_form.py": ("test_operator", "test_influence_layered"),
     "semi_analytical/contact_area.py": ("test_stick_area",),
-    "semi_analytical/stick_slip.py": ("test_stick_slip",),
+    "semi_analytical/stick_slip.py": ("test_stick_slip", "test_torsion_load"),
     "semi_analytical/admissible_shear.py": ("test_admissible_shear", "test_stick_slip"),
     "semi_analytical/edge/kernels.py": ("test_edge_shape",),
     "semi_analytical/normal.py": ("test_normal",),
