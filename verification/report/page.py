@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Sequence
 from functools import cache
 
 import jinja2
@@ -51,6 +53,7 @@ from verification.running.study_text import measured_text
 
 PAPER_CASE = "paper_fretting_loop"  # which makes the paper's figures 1 and 2
 MOST_WORSE = 6  # on the front; the rest stands below
+SEVERAL = 2  # cases whose equal references and reasons are printed once
 MOST_MOVED = 40
 
 
@@ -88,6 +91,7 @@ def _environment() -> jinja2.Environment:
         thin=_thin,
         kinds=_kinds,
         references=_references,
+        common=_common,
         answers=answers,
         study_section=study_section,
         measured_text=measured_text,
@@ -159,6 +163,15 @@ def _inconclusive(report: Report) -> list[tuple[CaseOutcome, Verdict]]:
         for verdict in case.verdicts
         if verdict.status is Status.INCONCLUSIVE
     ]
+
+
+def _common(cases: Sequence[CaseOutcome]) -> dict[str, list[str]]:
+    """References and reasons that several cases share, with their verdicts."""
+    named: dict[str, list[str]] = {}
+    times = Counter(text for case in cases for text in _references(case))
+    for case in cases:
+        named.update(_references(case))
+    return {text: named[text] for text, count in times.items() if count >= SEVERAL}
 
 
 def _references(case: CaseOutcome) -> dict[str, list[str]]:
