@@ -20,6 +20,7 @@ from contact_scene import (
     Paraboloid,
     Scene,
 )
+from contact_scene.discretisation import EdgeCorrection
 from semi_analytical import one_way
 from semi_analytical.grid import SurfaceGrid
 from verification.cases.consistent_tangent import consistent_tangent
@@ -414,9 +415,12 @@ def sheared_increments(
     push = (part * HALF.friction * paper.NORMAL_FORCE, 0.0)
     grid = paper.square_grid(cells, paper.WINDOW_PER_RADIUS / 2 * HALF.contact_radius)
     scene = HALF.problem(1).scene
+    # Orders of the increments: changes below 1e-6 are those of the edge correction.
+    several = len(counts) >= 5
+    edge: EdgeCorrection = "off" if several else "last"
     runs = tuple(
         Run(
-            f"{count} increments",
+            f"{count} increments" + (", edge off" if several else ""),
             scene.model_copy(
                 update={
                     "loading": (
@@ -425,6 +429,7 @@ def sheared_increments(
                 }
             ),
             grid,
+            edge=edge,
         )
         for count in counts
     )  # fmt: skip
@@ -441,7 +446,6 @@ def sheared_increments(
         ),
         apart=1,
     )  # fmt: skip
-    several = len(counts) >= 5
     return case(
         "sheared_increments",
         "Shearing a coupled contact in smaller increments",
@@ -600,9 +604,12 @@ def no_slip_indentation(level: Level = Level.QUICK) -> Case:
     grid = paper.square_grid(96, 1.2 * HERTZ.contact_radius)
     punch = FlatPunch(radius=HERTZ.contact_radius, material=RIGID)
 
-    def run(label: str, title: str, indenter: Any, nu: float, friction: Any, count: int) -> Run:
+    def run(
+        label: str, title: str, indenter: Any, nu: float, friction: Any, count: int,
+        edge: EdgeCorrection = "last",
+    ) -> Run:  # fmt: skip
         scene = pressed(title, indenter, half_space(nu), pressing(count), friction=friction)
-        return Run(label, scene, grid)
+        return Run(label, scene, grid, edge=edge)
 
     # The radius is fixed and nothing slips: the state does not depend on the way.
     bonded, smooth = (
@@ -618,8 +625,8 @@ def no_slip_indentation(level: Level = Level.QUICK) -> Case:
     balls = {
         nu: [
             run(
-                f"ball, ν = {nu:g}, {count} increments", "Rigid ball that does not slip",
-                rigid_ball(), nu, NO_SLIP_FRICTION, count,
+                f"ball, ν = {nu:g}, {count} increments, edge off", "Rigid ball that does not slip",
+                rigid_ball(), nu, NO_SLIP_FRICTION, count, "off",
             )
             for count in (few, many)
         ]
