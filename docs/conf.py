@@ -63,6 +63,6 @@ def described(app, kind, name, thing, options, lines) -> None:
 
 def formula(page, node) -> None:
     """Write a formula as MathML."""
-    block = node.tagname == "math_block"
-    page.body.append(latex2mathml.tex2mathml(node.astext(), as_block=block))
+    text, block = node.astext().replace("\\tfrac", "\\frac"), node.tagname == "math_block"
+    page.body.append(latex2mathml.tex2mathml(text, as_block=block))
     raise nodes.SkipNode

@@ -163,8 +163,7 @@ def save(
     OutputRefused where other files are in the way.
 
     errors  of the result, from `stated_errors`; they are left out if absent
-    all_fields
-                store the fields of all increments, not of the last one of each load step
+    all_fields  store the fields of all increments, not of the last one of each load step
     """
     from contact_results.directory.run_directory import run_directory
     from contact_results.result_files import write_result

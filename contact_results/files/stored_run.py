@@ -84,8 +84,7 @@ class StoredRun:
     last_cycle   fields of the last closed load cycle; empty if there is none
     tables       profiles, increments and, where load cycles close, cycles
     direction    unit vector from which angles count, that of the tangential load
-    discretisation
-                 of finite elements; None of others
+    discretisation  of finite elements; None of others
     """
 
     summary: RunSummary
