@@ -94,7 +94,7 @@ class Rubbing:
             laid, share = share, stick_share(end)
             if abs(place_of(share) - place_of(laid)) <= 1:
                 break
-        return sheared(self.friction, end, target, before, power, tried)
+        return sheared(self.friction, end, target, self.radii, before, power, tried)
 
     @property
     def _count(self) -> int:
@@ -106,7 +106,8 @@ class Rubbing:
         like = before.end if before else None
         end = self._at(radius, rings_about(share, self._count), _moved(before), like)
         target = Target(None, None)
-        return sheared(self.friction, end, target, before, self._power(target, before), 0)
+        power = self._power(target, before)
+        return sheared(self.friction, end, target, self.radii, before, power, 0)
 
     def _at(
         self, radius: float, rings: Rings, moved: Callable[[Array], Array], like: Rubbed | None
@@ -221,7 +222,7 @@ class Rubbing:
             pressure=p,
             gap=np.maximum(gap, 0.0),
             shear_radial=self._shear(state, p, r),
-            slip_radial=state.at(state.slip, r),
+            slip_radial=state.slip,
             in_stick=sticks,
         )
 

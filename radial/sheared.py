@@ -20,7 +20,8 @@ class Sheared:
 
     end        the contact, with what slipped in the increment
     target     what was asked of it
-    slip       since two particles touched, at the nodes [length]
+    slip       since two particles touched, at the radii of the report: these are the same in all
+               increments, so that sticking particles keep their slip exactly [length]
     begun      contact radius at the start of the increment; 0 from first touch [length]
     middling   stick radius of the increment as a whole, which is that half way [length]
     front      stick radius at the end [length]
@@ -44,11 +45,6 @@ class Sheared:
     tried: int
 
     @property
-    def radii(self) -> Array:
-        """Of the nodes [length]."""
-        return np.asarray(self.end.radius * self.end.rings.x)
-
-    @property
     def normal_force(self) -> float:
         """As it was asked for, or what came out [force]."""
         return self.end.load if self.target.force is None else self.target.force
@@ -60,35 +56,42 @@ class Sheared:
 
     def at(self, field: Array, r: Array) -> Array:
         """A field of the nodes at radii r, zero outside of the contact."""
-        return np.asarray(np.interp(r, self.radii, field, right=0.0))
+        return np.asarray(np.interp(r, self.end.radius * self.end.rings.x, field, right=0.0))
 
 
 def sheared(
     friction: CoulombFriction,
     end: Rubbed,
     target: Target,
+    radii: Array,
     before: Sheared | None,
     power: float,
     tried: int,
 ) -> Sheared:
-    """Slip, front and energies after an increment."""
+    """Slip, front and energies after an increment.
+
+    radii  of the report [length]
+    """
     x, a = end.rings.x, end.radius
     begun, force, depth = 0.0, 0.0, 0.0
     if before is not None:
         begun, force, depth = before.end.radius, before.end.load, before.end.approach
     r, nothing = a * x, np.zeros_like(x)
-    slip, shear, limit = nothing, nothing, nothing
+    shear, limit = nothing, nothing
     if before is not None:
-        slip, shear = before.at(before.slip, r), before.at(before.end.shear, r)
+        shear = before.at(before.end.shear, r)
         limit = friction.limit(before.at(finite_pressure(before.end), r))
     slipped = touched(r, begun, a) * end.slipped * (end.sliding != 0)
+    slip = np.interp(radii, r, slipped, right=0.0)
+    if before is not None:
+        slip += before.slip * (radii < a)
     rubbing = 0.5 * (limit + friction.limit(finite_pressure(end))) * np.abs(slipped)
     open_ = np.abs(end.shear - shear) * np.abs(slipped)
     stuck = middling = stick_share(end) * a
     if before is not None:
         stuck = front(a, begun, middling, before.begun, before.middling)
     return Sheared(
-        end, target, slip + slipped, begun, middling, stuck,
+        end, target, slip, begun, middling, stuck,
         (before.worked if before else 0.0) + 0.5 * (force + end.load) * (end.approach - depth),
         (before.lost if before else 0.0) + end.over(rubbing),
         (before.uncertain if before else 0.0) + end.over(open_),

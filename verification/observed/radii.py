@@ -202,6 +202,11 @@ def _violations(before: _Surface | None, now: _Surface) -> Iterator[float]:
     yield from missing[:2]
     if told.torque is not None:
         yield float(missing[2]) / told.contact_radius
+    if told.angles is None and before is not None and not now.divided(before):
+        passed = np.hypot(*(now.s - before.s)).ravel()
+        sticks = np.asarray(told.in_stick) & np.asarray(before.told.in_stick)
+        most_passed = max(float(np.max(passed)), LEAST_SLIP * told.approach)
+        yield float(np.max(passed, where=sticks, initial=0.0)) / most_passed
     if now.on_disc and np.count_nonzero(told.in_contact & ~np.asarray(told.in_stick)) < IN_ANNULUS:
         return
     way, start = now.s, 0.0 if before is None else before.limit
