@@ -52,7 +52,7 @@ TOUCHED = 1e-6
 
 # Sides of a cell: an outermost layer that is thicker is a half-space to the few cells of an edge.
 THICK = 16.0
-# Of X from 1, below which layers are told from nothing by no edge.
+# Relative difference of X from 1, or of two materials, below which an edge does not show a layer.
 LEAST_CONTRAST = 1e-3
 SAMPLED = np.geomspace(1e-3, 10.0, 41)
 
@@ -171,7 +171,7 @@ def film_law(lower: Body, upper: Body, spacing: tuple[float, float]) -> FilmLaw 
     layered = [stack for stack in stacks if stack.layers]
     if not layered or any(stack.base is None for stack in layered):
         return None
-    thickness = min(stack.layers[0].thickness for stack in layered)
+    thickness = min(_uniform_depth(stack) for stack in layered)
     if thickness > THICK * max(spacing):
         return None
     unit = sum(map(_compliance, stacks))
@@ -185,6 +185,17 @@ def film_law(lower: Body, upper: Body, spacing: tuple[float, float]) -> FilmLaw 
     if np.max(np.abs(response(SAMPLED) - 1)) < LEAST_CONTRAST:
         return None
     return FilmLaw(response, (spacing[0] / thickness, spacing[1] / thickness))
+
+
+def _uniform_depth(stack: Stack) -> float:
+    """Depth above which all layers are like the outermost [length]."""
+    depth, outer = 0.0, stack.outer
+    for layer in stack.layers:
+        stiffer = abs(layer.shear_modulus / outer.shear_modulus - 1)
+        if max(stiffer, abs(layer.poisson_ratio - outer.poisson_ratio)) > LEAST_CONTRAST:
+            break
+        depth += layer.thickness
+    return depth
 
 
 def _compliance(stack: Stack) -> float:
