@@ -1,20 +1,12 @@
 """Records of reports for tests: all that a page can hold, without a solve."""
 
 from contact_scene import (
-    RIGID,
-    Body,
-    CoulombFriction,
     IsotropicMaterial,
-    Layer,
-    LoadStep,
-    Paraboloid,
-    Scene,
 )
 from contact_scene.summary import EffectSummary
 from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.exhibits.table import Table
 from verification.judging.outcome import CaseOutcome, RunRecord, SceneRecord, Status, Verdict
-from verification.judging.section_sketch import SectionSketch, section_sketch
 from verification.report.omissions import OMISSIONS
 from verification.running.provenance_record import Provenance
 from verification.running.record import StudyRecord
@@ -23,21 +15,6 @@ from verification.running.sources import source_digest
 from verification.running.study import Conclusion, LostCase, Statement
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
-COATED = Scene(
-    title="A coated body",
-    indenter=Paraboloid(radius=18e-3, material=RIGID),
-    body=Body(material=STEEL, layers=(Layer(thickness=4e-4, material=STEEL),)),
-    friction=CoulombFriction(coefficient=0.1),
-    loading=(LoadStep(normal_force=1e3), LoadStep(tangential_force=(60.0, 0.0))),
-)
-RADIUS = 4e-4
-
-
-def sketch(scene: Scene = COATED, contact_radius: float = RADIUS) -> SectionSketch:
-    """The section of a scene."""
-    drawn = section_sketch(scene, contact_radius)
-    assert drawn is not None
-    return drawn
 
 
 def made_by() -> Provenance:
@@ -93,8 +70,7 @@ def case(
     effects = (EffectSummary(name="friction", on=True, why=text),)
     return CaseOutcome(
         name=name, title=text, problem=text,
-        scenes=(SceneRecord(title=text, lines=(("body", text),), effects=effects,
-                            sketch=sketch()),),
+        scenes=(SceneRecord(title=text, lines=(("body", text),), effects=effects),),
         runs=(run,), findings=(), limits=(text,),
         charts=(chart(f"{name}_chart", text),) if drawn else (),
         verdicts=tuple(verdict(n, *pair, run.label) for n, pair in values.items()),

@@ -1,4 +1,4 @@
-"""The report's page: its order, what it answers, what is missing, and how scenes are drawn."""
+"""The report's page: its order, its answers and what is missing."""
 
 import ast
 import re
@@ -6,21 +6,16 @@ from pathlib import Path
 
 import pytest
 from report_examples import (
-    COATED,
-    RADIUS,
     case,
     chart,
     report_of,
     run_record,
-    sketch,
     study,
     verdict,
 )
 
-from contact_scene import RIGID, FlatPunch, LoadStep, Scene
 from verification.exhibits.table import Table
 from verification.judging.outcome import CaseOutcome, OrderRecord, Status
-from verification.judging.section_sketch import HALF_WIDTH, section_sketch
 from verification.problems.reference import ReferenceKind
 from verification.report.answers import answers
 from verification.report.both_solvers import both_solvers_charts, furthest_apart, shared_references
@@ -32,7 +27,6 @@ from verification.report.features import features
 from verification.report.page import render_page
 from verification.report.prices import price_table, telling_chart
 from verification.report.sections import TITLES, stored_records, study_section
-from verification.report.sketch import sketch_svg, thin_layers
 from verification.report.summary_text import render_summary
 from verification.running.record import StudyRecord, dump_study
 from verification.running.report_record import Report
@@ -400,44 +394,6 @@ def test_cells_of_somebodys_choice_are_no_level_of_a_study(tmp_path: Path) -> No
 
 def test_summary_names_the_studies() -> None:
     assert "stability ✓ pass (quick)" in render_summary(report_of((), (study("stability"),)))
-
-
-def test_a_scene_is_drawn_to_scale() -> None:
-    svg = sketch_svg(sketch(), "name", "title")
-    ((left, right),) = re.findall(r'class="contact" x1="([\d.]+)" y1="[\d.]+" x2="([\d.]+)"', svg)
-    ((height,),) = [re.findall(r'class="layer-0"[^>]*height="([\d.]+)"', svg)]
-    across = float(right) - float(left)
-    assert float(height) / across == pytest.approx(4e-4 / (2 * RADIUS), abs=1e-3)
-    assert not thin_layers(sketch())
-
-
-def test_a_layer_too_thin_to_be_drawn_is_said_to_be() -> None:
-    assert thin_layers(sketch(contact_radius=1e3 * RADIUS))
-
-
-def test_a_punch_ends_at_its_rim() -> None:
-    punch = Scene(
-        title="",
-        indenter=FlatPunch(radius=RADIUS, material=RIGID),
-        body=COATED.body,
-        loading=(LoadStep(approach=1e-6),),
-    )
-    drawn = sketch(punch)
-    assert drawn.outline[0][0] == -drawn.outline[-1][0] == pytest.approx(-RADIUS, rel=1e-6)
-    assert drawn.half_width == pytest.approx(HALF_WIDTH * RADIUS)
-    assert drawn.loads == ("ω_z",)
-    assert all(gap == 0 for _, gap in drawn.outline)
-
-
-def test_a_scene_without_contact_has_no_picture() -> None:
-    assert section_sketch(COATED, 0.0) is None
-
-
-def test_loads_and_materials_are_told_in_words() -> None:
-    svg = sketch_svg(sketch(), "name", "title")
-    assert "W (normal force), T (tangential force)" in svg
-    assert "E = 210 GPa" in svg
-    assert "µ = 0.1" in svg
 
 
 def test_a_compact_drawing_keeps_what_is_referred_to() -> None:

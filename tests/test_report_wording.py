@@ -1,7 +1,6 @@
 """What the page finds out hangs on fields: labels, titles and claims are for people alone."""
 
 import json
-import re
 from collections.abc import Callable
 from functools import cache
 from itertools import count
@@ -23,7 +22,6 @@ from verification.report.order_table import not_judged
 from verification.report.orders import observed_orders
 from verification.report.page import PAPER_CASE
 from verification.report.profiles_together import profiles_together
-from verification.report.sketch import sketch_svg
 from verification.running.report_record import Report, dump_report, load_report
 
 KEPT = Path(__file__).resolve().parents[1] / "reports/full/report.json.xz"
@@ -154,18 +152,8 @@ def answered(report: Report) -> object:
     ], numbers(furthest_apart(shared_references(report)))  # fmt: skip
 
 
-def sketched(report: Report) -> object:
-    """Lines of all sketches, without their texts."""
-    return [
-        re.sub(r">[^<]*<|Indenter[^<]*", "><", sketch_svg(scene.sketch, "s", ""))
-        for case in report.cases
-        for scene in case.scenes
-        if scene.sketch is not None
-    ]
-
-
 @pytest.mark.parametrize(
-    "found", [promised, paired, drawn, ordered, answered, sketched],
+    "found", [promised, paired, drawn, ordered, answered],
     ids=lambda found: found.__name__,
 )  # fmt: skip
 def test_other_words_change_nothing_but_words(found: Callable[[Report], object]) -> None:

@@ -19,7 +19,6 @@ from verification.judging.change import Change, ChangeKind
 from verification.judging.judgement import judge
 from verification.judging.outcome import CaseOutcome, Status
 from verification.judging.verdict_text import failure_line, failure_text
-from verification.report.extent import extent
 from verification.report.files import JUNIT, PAGE, RECORD, SHEETS, SUMMARY, write_report
 from verification.report.omissions import OMISSIONS
 from verification.report.page import render_page, render_sheets
@@ -137,11 +136,10 @@ def test_figures_have_names_and_take_the_colours_of_the_page(
 ) -> None:
     page = pages[SHEETS]
     figures = [attributes for tag, attributes in Outline(page).tags if tag == "svg"]
-    most = extent(report.level).sketches
-    drawn = sum(len(case.charts) + min(most, len(case.scenes)) for case in report.cases)
+    drawn = sum(len(case.charts) for case in report.cases)
     assert len(figures) == drawn
     assert all(figure.get("role") == "img" for figure in figures)
-    assert page.count("<title id=") == page.count("<desc id=") == drawn
+    assert page.count("<title id=") == drawn
     assert "var(--series-1)" in page
     assert "#0072b2" not in page[page.index("<body ") :].lower()
 

@@ -21,7 +21,6 @@ from verification.judging.outcome import (
     Verdict,
 )
 from verification.judging.run import AnyRun, RadiiRun, Run, SectionRun
-from verification.judging.section_sketch import section_sketch
 from verification.judging.verdicts import (
     finite,
     judge_check,
@@ -139,11 +138,5 @@ def _scenes(case: Case, results: Results) -> tuple[SceneRecord, ...]:
                 title=run.scene.title,
                 lines=tuple(line for line in lines if line[0] not in DISCRETISATION),
                 effects=tuple(EffectSummary(name=e.name, on=e.on, why=e.why) for e in effects),
-                sketch=section_sketch(run.scene, _largest_radius(results[run.label])),
             )
     return tuple(records.values())
-
-
-def _largest_radius(result: Any) -> float:
-    """The largest contact radius of a history [length]."""
-    return max(float(increment.contact_radius) for increment in result.increments)

@@ -14,7 +14,6 @@ from verification.exhibits.chart import Chart
 from verification.exhibits.table import Table
 from verification.judging.change import Change, CounterChange, Gone, Origin
 from verification.judging.order_of_convergence import Followed, Refinement
-from verification.judging.section_sketch import SectionSketch
 from verification.solver import Method, Solver
 
 # Verdicts that any case has.
@@ -279,8 +278,6 @@ class SceneRecord(Description):
     title: str
     lines: tuple[tuple[str, str], ...]
     effects: tuple[EffectSummary, ...]
-    sketch: SectionSketch | None = None
-    """The scene in section, to scale; null where it was not solved."""
 
 
 class CaseOutcome(Description):

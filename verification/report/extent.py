@@ -7,18 +7,17 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Extent:
-    """The most charts of a study, rows of a table and sketches of a case; whether studies have
-    pages beside the report, and whether solves are told one by one."""
+    """Most charts of a study and rows of a table; pages of studies beside the report; a table of
+    the solves."""
 
     charts: int = 4
     rows: int = 1_000_000
-    sketches: int = 1_000
     appendices: bool = True
     solves: bool = True
 
 
 # Its pages are to have less than 1 MB each.
-QUICK = Extent(charts=2, rows=40, sketches=1, appendices=False, solves=False)
+QUICK = Extent(charts=2, rows=40, appendices=False, solves=False)
 
 
 def extent(level: str) -> Extent:

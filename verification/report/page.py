@@ -7,12 +7,11 @@ from collections.abc import Sequence
 from functools import cache
 
 import jinja2
-from markupsafe import Markup
 
 from verification.exhibits.chart import Chart
 from verification.exhibits.numbers import plain, value_text
 from verification.exhibits.table import Table
-from verification.judging.outcome import CaseOutcome, SceneRecord, Status, Verdict
+from verification.judging.outcome import CaseOutcome, Status, Verdict
 from verification.judging.verdict_text import (
     clearance_text,
     failure_text,
@@ -44,7 +43,6 @@ from verification.report.orders import observed_orders
 from verification.report.profiles_together import profiles_together
 from verification.report.sections import study_section
 from verification.report.shared_styles import with_shared_styles
-from verification.report.sketch import sketch_svg, thin_layers
 from verification.report.stability_map import legend, stability_map
 from verification.report.svg import image_address
 from verification.report.templating import environment
@@ -87,8 +85,6 @@ def _environment() -> jinja2.Environment:
         PAPER_CASE=PAPER_CASE,
         MOST_MOVED=MOST_MOVED,
         bar=_bar,
-        sketch=_sketch,
-        thin=_thin,
         kinds=_kinds,
         references=_references,
         common=_common,
@@ -118,15 +114,6 @@ def _environment() -> jinja2.Environment:
         worse_rows=worse_rows,
     )
     return made
-
-
-def _sketch(scene: SceneRecord, name: str) -> Markup:
-    assert scene.sketch is not None
-    return Markup(sketch_svg(scene.sketch, name, scene.title))  # nosec B704: escaped there
-
-
-def _thin(scene: SceneRecord) -> bool:
-    return scene.sketch is not None and thin_layers(scene.sketch)
 
 
 def _bar(verdict: Verdict) -> int:
@@ -175,14 +162,14 @@ def _common(cases: Sequence[CaseOutcome]) -> dict[str, list[str]]:
 
 
 def _references(case: CaseOutcome) -> dict[str, list[str]]:
-    """Where references are from and why tolerances are what they are, each once, with verdicts."""
+    """Return each source of a reference and each reason of a tolerance, with its verdicts."""
     found: dict[str, list[str]] = {}
     for v in case.verdicts:
-        text = (
-            f"Reference: {v.reference_kind}; {v.source}. Tolerance {v.tolerance_kind}, relative to "
-            f"{v.scale_name}: {v.because}."
-        )
-        names = found.setdefault(text, [])
-        if v.name not in names:
-            names.append(v.name)
+        for text in (
+            f"Reference: {v.reference_kind}; {v.source}.",
+            f"Tolerance {v.tolerance_kind}, relative to {v.scale_name}: {v.because}.",
+        ):
+            names = found.setdefault(text, [])
+            if v.name not in names:
+                names.append(v.name)
     return found

@@ -61,11 +61,10 @@ def _id(name: str) -> str:
 
 
 def _labelled(svg: str, chart: Chart, name: str) -> str:
-    """A name and a text for those who do not see the figure, and no fixed size."""
+    """Add the title for screen readers and remove the fixed size."""
     opening, rest = svg.split(">", 1)
     opening = re.sub(r'\s(width|height)="[^"]*"', "", opening)
     return (
-        f'{opening} role="img" aria-labelledby="{name}-name {name}-text">'
-        f'<title id="{name}-name">{escape(chart.title)}</title>'
-        f'<desc id="{name}-text">{escape(chart.caption)}</desc>{rest}'
+        f'{opening} role="img" aria-labelledby="{name}-name">'
+        f'<title id="{name}-name">{escape(chart.title)}</title>{rest}'
     )
