@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from contact_scene.load_path import ControlKind, LoadRamp
 from contact_scene.scene import Scene
-from contact_scene.separation import continued, position, separated, since_touch
-from contact_scene.solver_errors import NotConverged, SolverError
+from contact_scene.separation import continued, position, separated, since_touch, virgin
+from contact_scene.solver_errors import NotConverged, NothingTouches, SolverError
 from contact_scene.standing import Mark, Standing
 from contact_scene.summary import ContactStatus
 
@@ -80,7 +80,17 @@ def marked_increments(
     counts  how many increments each loading step takes
     since   where the same march stood before, to go on from there
     raises  what the solver raises, with the last converged increment as `last_state`
+
+    An increment within a step that touches nothing at its approach, before first touch or before
+    separation, is the empty contact. Those before the first contact of all are returned together
+    with it, as it determines the shapes of their arrays.
     """
+
+    def empty(last: Told, ramp: LoadRamp, end: float, approach: float | None, place: Place) -> Told:
+        """Return the empty contact at a fraction of a ramp."""
+        gap = solver.undeformed_gap(last, position(last, ramp, end)["tilt"])
+        return separated(last, ramp, end, gap, vars(place), approach)
+
     mark: Mark[S] | None = since.mark if since else None
     told: Sequence[Any] = since.increments if since else ()
     last: Told | None = told[-1] if told else None
@@ -92,28 +102,41 @@ def marked_increments(
         done += behind
         ends = [0.0, *fractions(scene, ramp, count)]
         led = since_touch(ramp, apart) if apart else ramp
+        untouched: list[tuple[float, float | None, Place]] = []
         for index in range(behind + 1, len(ends)):
-            place = Place(ramp.step, index, count)
+            place, end = Place(ramp.step, index, count), ends[index]
             done += 1
-            if ramp.normal.end == 0 and (start is None or index == count):
-                assert last is not None  # the first step presses
-                gap = solver.undeformed_gap(last, position(last, ramp, ends[index])["tilt"])
-                last = apart = separated(last, ramp, ends[index], gap, vars(place))
+            before, way = state, _Way(solver, led, start, solver.spent())
+            falls = ramp.normal.end == 0
+            approach, touches = None, not (falls and (start is None or index == count))
+            reached: Reached[S] | None = None
+            try:
+                if touches:
+                    found, halvings = way.reach(before, ends[index - 1], end, MOST_HALVINGS)
+                    spent = solver.spent() - way.begun
+                    reached = Reached(place, before, found, halvings, spent)
+            except SolverError as error:
+                fails = not isinstance(error, NothingTouches) or index == count
+                if fails or not (falls or before is None):
+                    error.where = f"step {ramp.step}, increment {index} of {count}"
+                    error.last_state = last
+                    raise
+                approach = ramp.normal.led(end, (0.0, 0.0))[1]
+            if reached is not None:
+                state = reached.state
+                here = solver.report(reached, here if apart else last)
+                for earlier, approach, at in untouched:
+                    last = apart = empty(apart or virgin(here), ramp, earlier, approach, at)
+                    yield apart, Mark(done - index + at.index, None, start)
+                untouched.clear()
+                last = continued(apart, here) if apart else here
+                yield last, Mark(done, state, start, here if apart else None)
+            elif last is None:
+                untouched.append((end, approach, place))
+            else:
+                last = apart = empty(last, ramp, end, approach, place)
                 state = here = None
                 yield last, Mark(done, state, start)
-                continue
-            way = _Way(solver, led, start, solver.spent())
-            before = state
-            try:
-                state, halvings = way.reach(before, ends[index - 1], ends[index], MOST_HALVINGS)
-            except SolverError as error:
-                error.where = f"step {ramp.step}, increment {index} of {count}"
-                error.last_state = last
-                raise
-            reached = Reached(place, before, state, halvings, solver.spent() - way.begun)
-            last = here = solver.report(reached, here if apart else last)
-            last = continued(apart, last) if apart else last
-            yield last, Mark(done, state, start, here if apart else None)
 
 
 def fractions(scene: Scene, ramp: LoadRamp, count: int) -> list[float]:
@@ -148,6 +171,11 @@ class _Way(Generic[S]):
             if halvings_left == 0 or self.solver.spent() > too_much:
                 raise
         middle = 0.5 * (begin + end)
-        half, first = self.reach(state, begin, middle, halvings_left - 1)
+        try:
+            half, first = self.reach(state, begin, middle, halvings_left - 1)
+        except NothingTouches:
+            if state is not None:
+                raise
+            half, first = None, 0  # the empty contact
         whole, second = self.reach(half, middle, end, halvings_left - 1)
         return whole, 1 + first + second

@@ -20,10 +20,12 @@ from contact_scene.summary import ContactStatus
 Field = NDArray[np.float64]
 Reported = TypeVar("Reported")
 
+# Places of an increment in space and in the history.
+_PLACES = frozenset({"radii", "angles", "step", "index", "increments_in_step", "path"})
 # Fields and scalars that separation does not change; all others vanish.
-_KEPT = frozenset(
+_KEPT = _PLACES | frozenset(
     {
-        *("radii", "angles", "step", "index", "increments_in_step", "path", "slip_distance"),
+        "slip_distance",
         *("slip", "slip_radial", "slip_circumferential", "slip_along_load", "dissipation"),
         *("tangential_shift", "twist", "tilt", "dissipated_energy", "dissipation_uncertainty"),
     }
@@ -41,12 +43,18 @@ _CONJUGATE = {
 
 
 def separated(
-    last: Reported, ramp: LoadRamp, fraction: float, gap: Field, place: Mapping[str, int]
+    last: Reported,
+    ramp: LoadRamp,
+    fraction: float,
+    gap: Field,
+    place: Mapping[str, int],
+    approach: float | None = None,
 ) -> Reported:
     """Return the increment without contact that follows another one.
 
-    gap    of the undeformed surfaces at the approach 0 and the tilt of `position` [length]
-    place  step and increment
+    gap       of the undeformed surfaces at the approach 0 and the tilt of `position` [length]
+    place     step and increment
+    approach  prescribed; that of first touch if absent
     """
     before: Any = last
     found = {f.name: _zero(getattr(before, f.name)) for f in fields(before) if f.init}
@@ -54,8 +62,8 @@ def separated(
     if before.in_stick is not None:  # a small contact may not have had its stick zone determined
         found |= {name: 0.0 for name in ("stick_area", "stick_radius") if name in found}
     found |= position(before, ramp, fraction)
-    lowest = 0.0
-    if found["tilt"] is not None and np.any(found["tilt"]):
+    lowest = approach or 0.0
+    if approach is None and found["tilt"] is not None and np.any(found["tilt"]):
         # Beyond a rim the gap is infinite, and the first contact is on the rim.
         smooth = bool(np.all(np.isfinite(gap)))
         lowest = float(np.min(gap)) + (lowest_point(gap)[0] if smooth else 0.0)
@@ -74,6 +82,14 @@ def separated(
         )
         found |= {"input_work": dissipated, "unresolved_work": worked - dissipated}
     return cast(Reported, replace(before, **found))
+
+
+def virgin(increment: Reported) -> Reported:
+    """Return an increment of bodies that have never touched: zero but for its places."""
+    of: Any = increment
+    moved = {f.name: _zero(getattr(of, f.name)) for f in fields(of) if f.init}
+    zero = {name: value for name, value in moved.items() if name not in _PLACES}
+    return cast(Reported, replace(of, **zero))
 
 
 def position(last: Any, ramp: LoadRamp, fraction: float) -> dict[str, Any]:

@@ -49,6 +49,10 @@ class ContactNotResolved(SolverError):
     """The contact is smaller than the cells: none touches, or only a few carry the load."""
 
 
+class NothingTouches(ContactNotResolved):
+    """No cell or ring comes into contact at a prescribed approach."""
+
+
 class SurfacesOverlap(SolverError):
     """The springs of a penalty leave more overlap than is allowed; smaller increments do not help.
 

@@ -6,7 +6,12 @@ import numpy as np
 
 from contact_scene.array_types import Field
 from contact_scene.residuals import worst
-from contact_scene.solver_errors import ContactAtWindowEdge, ContactNotResolved, NotConverged
+from contact_scene.solver_errors import (
+    ContactAtWindowEdge,
+    ContactNotResolved,
+    NotConverged,
+    NothingTouches,
+)
 from semi_analytical.bearing import bearing_pressure
 from semi_analytical.box import Box, box_around
 from semi_analytical.contact_area import covered_cells
@@ -225,7 +230,8 @@ def refuse_unresolved_contact(model: ContactModel, target: NormalTarget) -> None
     if target.tilting is None or target.tilting.moment is None:
         gap = float(np.min(model.gap))
         least = f"the gap is at least {gap:.4g} m" if gap < np.inf else "nothing of the indenter is"
-        raise ContactNotResolved(
+        kind = ContactNotResolved if target.approach is None else NothingTouches
+        raise kind(
             f"no cell of the window touches: {least} at the cell centres; take more cells or a "
             f"smaller window"
         )

@@ -58,6 +58,11 @@ TILTED = (
     LoadStep(normal_force=100.0, moment=(0.0, 1e-3), increments=2),
     LoadStep(tangential_force=(20.0, 0.0), increments=2),
 )
+# The first increments touch no cell.
+APPROACHED = (
+    LoadStep(approach=1e-6, increments=8),
+    LoadStep(tangential_force=(2.0, 0.0), increments=1),
+)
 SURFACE = SurfaceDiscretisation(cells=(16, 16), edge="off")
 SECTION = FiniteElementDiscretisation(elements_per_radius=4, contact_radius=2e-4)
 Solve = Callable[[Keeper | None], Any]
@@ -104,6 +109,9 @@ SOLVES = {
     "edges inside the cells": with_edges(PLAIN, "all"),
     "coupled": on_surface(COATED, LOOP),
     "separated": on_surface(PLAIN, LIFTED),
+    "before first touch": on_surface(
+        SOFTER, APPROACHED, SurfaceDiscretisation(cells=(12, 12), window=(5e-4, 5e-4))
+    ),
     "coupled, edges inside the cells": with_edges(SOFTER, "last", BALL),
     "pressed on rings": on_rings((PRESSED, LoadStep(normal_force=60.0, increments=2))),
     "pushed on rings": on_rings(LOOP[:2]),

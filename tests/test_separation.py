@@ -126,6 +126,30 @@ def test_tilted_bodies_separate_at_first_touch() -> None:
     assert again.approach == first.approach
 
 
+@pytest.mark.parametrize("solver", ["semi-analytical", "fem-complementarity"])
+@pytest.mark.parametrize("returns", [False, True])
+def test_increments_before_first_touch_are_empty(solver: str, returns: bool) -> None:
+    """The first of 30 lies within a cell or ring. The end is that of one increment."""
+    before = (*LED, slide(1, **FEW), {"approach": 0.0, **slide(1)}) if returns else ()
+    posed = (*before, {**LED[0], "increments": 30})
+    fine = {"semi-analytical": SurfaceDiscretisation(cells=(16, 16))}.get(
+        solver, FiniteElementDiscretisation(elements_per_radius=8)
+    )
+    found, alone = (
+        slipstick.solve(scene(*steps), solver, fine) for steps in (posed, (*before, *LED))
+    )
+    first, *_, end = found.increments[-30:]
+    assert first.status is ContactStatus.SEPARATED
+    assert first.approach == pytest.approx(APPROACH / 900)
+    assert first.normal_force == first.contact_area == (first.elastic_energy or 0.0) == 0
+    assert np.min(first.gap) > 0
+    assert ((first.dissipated_energy or 0.0) > 0) == returns
+    last = alone.increments[-1]
+    for number in ("normal_force", "elastic_energy", "dissipated_energy"):
+        one, other = getattr(end, number) or 0.0, getattr(last, number) or 0.0
+        assert one == pytest.approx(other, rel=1e-6), number
+
+
 @pytest.mark.parametrize(
     ("step", "problem"),
     [

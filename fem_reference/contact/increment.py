@@ -12,7 +12,7 @@ import numpy as np
 from contact_scene.array_types import Field, Mask, Vector
 from contact_scene.friction import sliding_friction
 from contact_scene.residuals import Residuals, ShearResiduals
-from contact_scene.solver_errors import ContactNotResolved, NotConverged, motion_undefined
+from contact_scene.solver_errors import NotConverged, NothingTouches, motion_undefined
 from contact_scene.summary import ContactStatus
 from fem_reference.contact.alternating_iteration import (
     AlternationFailed,
@@ -53,7 +53,7 @@ def advance(
 ) -> PointState:
     """Solve an increment. All residuals of the state at its end are at most the tolerance.
 
-    raises  NotConverged, SurfacesOverlap, GrossSliding, ContactNotResolved
+    raises  NotConverged, SurfacesOverlap, GrossSliding, NothingTouches
     """
     _refuse_unresolved(contact, loads)
     before = before or contact.untouched()
@@ -69,10 +69,10 @@ def advance(
 
 
 def _refuse_unresolved(contact: PointContact, loads: Loads) -> None:
-    """Raise ContactNotResolved if the approach is below the gap at all points."""
+    """Raise NothingTouches if the approach is below the gap at all points."""
     approach, gap = loads.normal.approach, float(np.min(contact.gap))
     if approach is not None and approach <= gap:
-        raise ContactNotResolved(
+        raise NothingTouches(
             f"no ring comes into contact: the approach is {approach:.3g} m, the mean gap at the "
             f"innermost ring {gap:.3g} m; use a larger approach or more elements per radius"
         )
