@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from synthetic_result import synthetic_result
 
 import fem_reference
 import radial
@@ -36,8 +35,7 @@ from contact_scene import (
 from contact_scene.discretisation import EdgeCorrection
 from contact_scene.solver_errors import GrossSliding
 from contact_scene.standing import Keeper, Standing
-from contact_scene.stored_fields import FieldStore, StoredArray, WithFields
-from semi_analytical.fields import Increment, Result
+from contact_scene.stored_fields import StoredArray, WithFields
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 SOFT = IsotropicMaterial(young_modulus=70e9, poisson_ratio=0.33)
@@ -281,18 +279,6 @@ def test_file_of_a_stranger_runs_nothing(protocol: int, tmp_path: Path) -> None:
     assert not (tmp_path / "made").exists()
 
 
-@pytest.mark.parametrize(
-    "name",
-    ["contact_scene.kept_arrays\nos.system",
-     "contact_scene.kept_arrays\nremembered",
-     "semi_analytical.solve\nsolve", "numpy\nload", "slipstick.cli\nmain"],
-)  # fmt: skip
-def test_functions_are_not_looked_up(name: str, tmp_path: Path) -> None:
-    content = f"c{name}\n.".encode()
-    with pytest.raises(Unusable, match="does not belong into a checkpoint"):
-        unpacked(forged(content, tmp_path), "this solve")
-
-
 def test_arrays_of_other_types_and_fields_of_other_files_are_not_read(tmp_path: Path) -> None:
     (tmp_path / "secret").write_bytes(bytes(range(64)))
     array = b"ccontact_results.directory.checkpoint_file\narray\n"
@@ -354,25 +340,6 @@ def in_file(value: WithFields) -> list[str]:
     return [name for name, array in kept if isinstance(array, stored_fields.StoredArray)]
 
 
-def long_result(count: int, cells: int = 64) -> Result:
-    """One increment so often that only its numbers could be held, each time with arrays of its
-    own, and a cycle in it."""
-    short = synthetic_result((cells, cells))
-    *before, last = short.increments
-    fields = FieldStore()
-    increments = [*before, *(fields.kept(anew(last, number)) for number in range(count))]
-    return replace(short, increments=tuple(increments))
-
-
-def anew(increment: Increment, number: int) -> Increment:
-    scaled: dict[str, Any] = {
-        name: array * (1 + 1e-6 * number)
-        for name, array in vars(increment).items()
-        if isinstance(array, np.ndarray) and array.dtype == float
-    }
-    return replace(increment, **scaled)
-
-
 @pytest.mark.parametrize("name", ["similar", "torsion", "similar by penalty"])
 def test_files_are_the_same_to_the_byte(
     name: str, tmp_path: Path, request: pytest.FixtureRequest
@@ -390,20 +357,3 @@ def test_files_are_the_same_to_the_byte(
         write_result(result, directory, figures="none", all_fields=True)
         written.append({path.name: path.read_bytes() for path in directory.iterdir()})
     assert written[0] == written[1]
-
-
-@pytest.mark.usefixtures("stored")
-def test_a_field_that_was_read_cannot_be_written_to() -> None:
-    increment = long_result(1).increments[-1]
-    with pytest.raises(ValueError, match="read-only"):
-        increment.pressure[0, 0] = 1.0
-    assert increment.pressure is not increment.pressure
-
-
-def test_full_disk_is_told_with_the_place(monkeypatch: pytest.MonkeyPatch, stored: None) -> None:
-    def full(**_: Any) -> Any:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr("tempfile.TemporaryFile", full)
-    with pytest.raises(OSError, match=r"No space left on device.*TMPDIR"):
-        long_result(1)

@@ -14,7 +14,6 @@ from verification.judging.ladder import (
     named,
     on_cells,
     on_elements,
-    on_springs,
     part_of_side,
     with_edge_at,
 )
@@ -35,7 +34,6 @@ from verification.problems.hertz import BALL
 from verification.problems.paper_scene import HERTZ, hertz_grid
 from verification.problems.problem import Problem
 from verification.problems.sheared import sheared
-from verification.solver import Method
 
 CELLS = (32, 64, 128)
 SHEARED = sheared("sheared", (0.3, 0.9))
@@ -66,13 +64,6 @@ def test_errors_of_a_history_are_over_one_scale_at_every_stop(what: Observable) 
         value, scale = at.reference(SHEARED).value, SHEARED.scale(at.over)
         assert at.error(SHEARED)(answered(SHEARED)) == 0
         assert at.error(SHEARED)(answered(SHEARED, 1.01)) == pytest.approx(0.01 * value / scale)
-
-
-def test_the_mean_over_stops_is_the_root_mean_square_of_their_errors() -> None:
-    result = answered(SHEARED, 1.02)
-    single = [SHIFT.at(k, 0.1 * k, "µW").error(SHEARED)(result) for k in (1, 2)]
-    mean = SHIFT.over_stops("two stops").error(SHEARED)(result)
-    assert mean == pytest.approx(np.sqrt(np.mean(np.square(single))))
 
 
 def test_a_verdict_is_named_after_what_and_where_and_an_order_after_what() -> None:
@@ -150,17 +141,6 @@ def test_a_figure_follows_the_mesh_by_its_order_and_a_part_of_a_side_the_side() 
     assert asked(1e-4, 2)(coarse) == 4e-4
     assert part_of_side(0.1)(coarse) == 0.1 / 32
     assert part_of_side(0.1)(on_cells(BALL, (60,), window=2.0).judged) == pytest.approx(0.1 / 30)
-
-
-def test_what_is_measured_is_said_in_the_words_of_each_discretisation() -> None:
-    meshes = on_elements(BALL, (16,))
-    springs = on_springs(meshes, "springs", penalty=20.0)
-    assert springs.judged.run.method is Method.PENALTY  # type: ignore[union-attr]
-    ladders = (on_cells(BALL, (32,)), meshes, springs)
-    said = [PEAK_PRESSURE.said(one.judged.words) for one in ladders]
-    assert [text.rpartition("any ")[2] for text in said] == ["cell", "ring", "Gauss point"]
-    for what in (APPROACH, CONTACT_RADIUS, PRESSURE_L2, SHIFT, STICK_RADIUS, CENTRAL_PRESSURE):
-        assert not any("{" in what.said(one.judged.words) for one in ladders)
 
 
 def test_runs_that_parts_share_are_solved_once() -> None:

@@ -1,7 +1,5 @@
 """Fields that elasticity knows exactly are exact on any mesh of quadrilaterals."""
 
-import builtins
-import sys
 from math import pi
 
 import numpy as np
@@ -14,7 +12,7 @@ from contact_scene.solver_errors import SolverError, UnsupportedScene
 from fem_reference.elasticity.hat_functions import hats_on
 from fem_reference.elasticity.section_basis import displacement_basis
 from fem_reference.elasticity.weak_form import dilatation, element_stiffness
-from fem_reference.mesh.gmsh_mesh import GmshMissing, gmsh_section_mesh
+from fem_reference.mesh.gmsh_mesh import gmsh_section_mesh
 from fem_reference.mesh.section_mesh import SectionMesh, section_mesh
 from fem_reference.mesh.section_outline import GROWTH
 
@@ -277,17 +275,3 @@ def test_holes_and_overlaps_are_noticed(mesher, change):
 def test_sizes_that_make_no_mesh_are_refused(mesher, body, arguments, error, message):
     with pytest.raises(error, match=message):
         mesher(body, **arguments)
-
-
-@pytest.mark.parametrize("error", [ImportError("No module named gmsh"), OSError("libGLU.so.1")])
-def test_missing_gmsh_is_named_with_its_packages(monkeypatch, error):
-    def fail(name, *arguments, **options):
-        if name == "gmsh":
-            raise error
-        return importing(name, *arguments, **options)
-
-    importing = builtins.__import__
-    monkeypatch.delitem(sys.modules, "gmsh", raising=False)
-    monkeypatch.setattr(builtins, "__import__", fail)
-    with pytest.raises(GmshMissing, match=f"{error}.*libglu1-mesa.*tensor"):
-        gmsh_section_mesh(stack(), 4)

@@ -13,10 +13,8 @@ from verification.cases.catalogue import choose
 from verification.cases.fretting import fem_partial_slip
 from verification.cases.frictional_pressing import sheared_increments
 from verification.cases.hertz import fem_hertz
-from verification.convergence.observed_order import observed_order
 from verification.exhibits.chart import Look
-from verification.exhibits.convergence_chart import convergence_chart
-from verification.judging.case import Case, Derived, Level, Quantity, Required
+from verification.judging.case import Case, Derived, Level, Quantity
 from verification.judging.order_of_convergence import Followed, OrderOfConvergence, Refinement
 from verification.judging.outcome import Status, Verdict
 from verification.judging.verdicts import judge_order, judge_quantity
@@ -25,8 +23,6 @@ from verification.report.order_table import REASONS, not_judged
 from verification.solver import Solver
 
 SIZES = 0.1 * 2.0 ** (-np.arange(6) / 2)
-NAMED = (Followed.PRESSURE, Followed.PEAK_PRESSURE, Followed.APPROACH, Followed.SHIFT)
-MESHED = (Solver.CELLS, Solver.ELEMENTS)
 Place = tuple[Followed, str, Refinement]
 PLACES: list[Place] = list(product(Followed, Solver, Refinement))
 
@@ -70,11 +66,6 @@ def test_every_order_is_judged_or_has_a_reason_why_not(place: Place) -> None:
     assert (place in judged_at(Level.FULL)) != (place in REASONS)
 
 
-@pytest.mark.parametrize("place", list(product(NAMED, MESHED, [Refinement.MESH])), ids=str)
-def test_headline_quantities_are_judged_on_finer_meshes(place: Place) -> None:
-    assert place in judged_at(Level.STANDARD)
-
-
 def test_a_judged_order_needs_no_reason() -> None:
     verdict = judged(SIZES, 1.0)
     assert verdict.order is not None
@@ -97,25 +88,6 @@ def test_runs_of_one_size_tell_the_order_that_each_alone_hides(rng: np.random.Ge
     assert judged(signed * SIZES[:, None], 2.5).status is Status.FAIL
 
 
-def test_drawn_line_is_the_judged_one(rng: np.random.Generator) -> None:
-    errors = SIZES**1.5 * np.exp(0.1 * rng.standard_normal(len(SIZES)))
-    chart = convergence_chart("c", "", "", list(SIZES), {"value": list(errors)}, {"value": 1.5})
-    by_look = {curve.look: curve for curve in chart.rows[0][0].curves}
-    line, band = by_look[Look.FITTED], by_look[Look.BAND]
-    observed = observed_order(list(SIZES), list(errors))
-    slope = np.log(line.y[0] / line.y[1]) / np.log(line.x[0] / line.x[1])
-    assert slope == pytest.approx(observed.order, rel=1e-3)
-    assert f"{observed.order:.2f} ± {observed.half_width:.2f}" in by_look[Look.LEVELS].label
-    assert min(band.y) < min(line.y)
-    assert max(band.y) > max(line.y)
-    assert by_look[Look.SLOPE].label == "slope 1.5"
-
-
-def test_errors_that_vanish_are_drawn_without_a_line() -> None:
-    chart = convergence_chart("c", "", "", list(SIZES), {"value": [0.0] * len(SIZES)}, {})
-    assert {curve.look for curve in chart.rows[0][0].curves} == {Look.POINTS}
-
-
 @pytest.mark.parametrize(
     ("reference", "status", "clearance"), [(0.0, Status.PASS, 0.0), (0.5, Status.FAIL, None)]
 )
@@ -134,18 +106,6 @@ def test_values_that_refinement_does_not_change_are_judged_exactly(
     case = Case("planted", "", "", runs, (quantity,))
     verdict = judge_quantity(quantity, case, dict.fromkeys(labels, 0.0))
     assert (verdict.allowed, verdict.status, verdict.clearance) == (0.0, status, clearance)
-
-
-def test_error_beyond_all_bounds_has_a_clearance_in_numbers() -> None:
-    runs: Any = (SimpleNamespace(label="run", spacing=1.0),)
-    quantity = Quantity(
-        "law", "", "", "run", lambda result: result, identity(0.0, "planted"),
-        Required(1e-7, "planted"), 1.0,
-    )  # fmt: skip
-    verdict = judge_quantity(quantity, Case("planted", "", "", runs, (quantity,)), {"run": 1e303})
-    assert verdict.status is Status.FAIL
-    assert verdict.clearance is not None
-    assert 1.0 < verdict.clearance < np.inf
 
 
 def pressed() -> Case:
@@ -186,10 +146,3 @@ def test_lines_of_a_chart_are_those_that_are_judged(case_of: Callable[[], Case])
         assert slope == pytest.approx(verdict.value, rel=2e-3), order.name
         sizes = verdict.order.sizes
         assert x_coarse / x_fine == pytest.approx(sizes[0] / sizes[-1], rel=2e-3), order.name
-
-
-def test_slope_that_nothing_tells_is_not_printed() -> None:
-    errors = [1.0, 0.2, 1.1, 0.3, 0.9, 0.25]
-    chart = convergence_chart("c", "", "", list(SIZES), {"value": errors}, {})
-    labels = [c.label for (panel,) in chart.rows for c in panel.curves]
-    assert "value: no order can be read" in labels

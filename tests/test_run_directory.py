@@ -125,19 +125,6 @@ def test_unwritable_output_is_refused_before_work(tmp_path: Path, target: Any) -
         refused_run(target(tmp_path))
 
 
-def test_missing_permission_is_refused_before_work(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Simulated, because the administrator may write everywhere."""
-
-    def refuse(path: Path, *args: Any, **kwargs: Any) -> None:
-        raise PermissionError(13, "Permission denied", str(path))
-
-    monkeypatch.setattr(Path, "mkdir", refuse)
-    with pytest.raises(OutputRefused, match="Permission denied"):
-        refused_run(tmp_path / "out")
-
-
 def test_abandoned_directory_is_cleared_away_and_a_live_one_is_not(tmp_path: Path) -> None:
     abandoned = tmp_path / ".out.partial-0badcafe"
     abandoned.mkdir()

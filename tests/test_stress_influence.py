@@ -6,13 +6,11 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer
-from contact_scene.solver_errors import ResourceRefused
 from semi_analytical.frf.depth import Descent, Level, in_plane, material_at
 from semi_analytical.frf.stack import HalfSpace, Stack
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients, RectangleIntegrals
 from semi_analytical.stress import default_depths, interfaces, subsurface, subsurface_section
-from semi_analytical.stress import field as stress_field
 from semi_analytical.stress.cells import depth_coefficients
 from semi_analytical.stress.components import FIELDS, TRACTIONS
 from semi_analytical.stress.levels import line_weights
@@ -385,16 +383,3 @@ def test_default_depths_reach_both_sides_of_every_interface():
 def test_depths_outside_of_the_body_are_refused(stack, depth, complaint):
     with pytest.raises(ValueError, match=complaint):
         subsurface(stack, GRID, LOAD, None, [depth])
-
-
-def test_tractions_of_another_grid_are_refused():
-    with pytest.raises(ValueError, match=r"pressure has shape \(7, 8\), expected \(8, 8\)"):
-        subsurface(COATED, GRID, np.ones((7, 8)), None, [0.1])
-    with pytest.raises(ValueError, match=r"shear has shape \(8, 8\)"):
-        subsurface(COATED, GRID, LOAD, LOAD, [0.1])
-
-
-def test_fields_beyond_the_memory_are_refused(monkeypatch):
-    monkeypatch.setattr(stress_field, "available_bytes", lambda: 1 << 20)
-    with pytest.raises(ResourceRefused, match="fields at 1 depths on 8 x 8 cells"):
-        subsurface(COATED, GRID, LOAD, None, [0.1])

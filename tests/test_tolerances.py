@@ -187,20 +187,6 @@ def test_a_tolerance_never_exceeds_the_bound_of_its_case(outcome: CaseOutcome) -
     assert held_to([outcome], known) == (outcome,)
 
 
-def test_a_later_acceptance_replaces_the_numbers_it_names(
-    outcome: CaseOutcome, tmp_path: Path
-) -> None:
-    accept_tolerances([report_of(outcome)], "first", tmp_path)
-    grown = held_to([changed(outcome, times=2.5)], read_tolerances("quick", tmp_path))
-    assert Status.FAIL in {verdict.status for verdict in grown[0].verdicts}
-    accept_tolerances([report_of(*grown)], "grown", tmp_path)
-    known = read_tolerances("quick", tmp_path)
-    assert {acceptance.because for acceptance in known.accepted} <= {"first", "grown"}
-    keys = [key for one in known.accepted for key in one.tolerances.get(outcome.name, {})]
-    assert len(keys) == len(set(keys))
-    assert known.accepted[-1].because == "grown"
-
-
 def test_tolerances_need_a_reason_and_one_level(outcome: CaseOutcome, tmp_path: Path) -> None:
     with pytest.raises(BaselineRefused, match="reason"):
         accept_tolerances([report_of(outcome)], " ", tmp_path)
@@ -241,13 +227,3 @@ def test_verify_judges_by_the_accepted_tolerances(
     assert slipstick(*verify) == 1
     failed = capsys.readouterr().out.count("\nFAIL dissimilar_bodies/")
     assert failed >= len(tight) - 1 > 1
-
-
-def test_the_command_lists_proposals(
-    outcome: CaseOutcome, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    file = tmp_path / "report.json"
-    file.write_text(report_of(outcome).model_dump_json())
-    assert slipstick("maintain", "tolerances", file) == 0
-    assert "[64x64] required" in capsys.readouterr().out
-    assert slipstick("maintain", "tolerances", file, "--accept") == 2

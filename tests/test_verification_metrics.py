@@ -48,20 +48,6 @@ def test_shear_error_counts_the_transverse_component() -> None:
     assert shear_error(shear, np.stack([exact, 0 * exact]), limit) == pytest.approx(0.5)
 
 
-@pytest.mark.parametrize("order", [1.0, 1.5, 2.0])
-def test_observed_order_of_a_power_law_is_exact(order: float) -> None:
-    observed = observed_order(LEVELS, 7 * LEVELS**order)
-    assert observed.order == pytest.approx(order)
-    assert observed.half_width < 1e-10
-
-
-def test_interval_of_the_order_covers_the_truth(rng: np.random.Generator) -> None:
-    trials = [observed_order(LEVELS, LEVELS**1.5 * np.exp(0.1 * rng.standard_normal(6)))
-              for _ in range(2000)]  # fmt: skip
-    covered = np.mean([abs(trial.order - 1.5) <= trial.half_width for trial in trials])
-    assert 0.93 <= covered <= 0.97
-
-
 def test_band_contains_the_true_line(rng: np.random.Generator) -> None:
     """At the ends of the levels and in their middle, in 95 % of the trials."""
     sizes = LEVELS[[0, 2, -1]]
@@ -79,19 +65,6 @@ def test_errors_of_one_size_count_by_their_root_mean_square() -> None:
         [2.0, 1.0],
         [pytest.approx(12.5**0.5), 1.0],
     )
-
-
-@pytest.mark.parametrize(
-    ("name", "error"),
-    {
-        "first-order term": 1e-2 * LEVELS + LEVELS**2,
-        "error floor of 0.05 %": 5e-4 + LEVELS**2,
-        "bias of 0.3 %": 3e-3 + LEVELS**2,
-    }.items(),
-)
-def test_order_gate_sees_what_a_one_per_cent_gate_passes(name: str, error: np.ndarray) -> None:
-    assert np.all(error[-1] < 1e-2), name
-    assert abs(observed_order(LEVELS, error).order - 2) > 0.25
 
 
 @pytest.mark.parametrize("sizes", [LEVELS, LEVELS[[0, 2, -1]]], ids=["six levels", "three"])
@@ -112,27 +85,6 @@ def test_uncertainty_covers_an_error_that_has_no_order_on_the_coarser_levels() -
         errors = LEVELS / (1 + (LEVELS / resolved) ** 4)
         uncertainty = numerical_uncertainty(LEVELS, 1 + errors, 1.0)
         assert abs(errors[-1]) <= 2 * uncertainty < 4 * abs(errors[-1])
-
-
-def test_uncertainty_does_not_depend_on_the_order_of_the_levels() -> None:
-    values = 1 + LEVELS + LEVELS**2
-    assert numerical_uncertainty(LEVELS[::-1], values[::-1], 1.0) == pytest.approx(
-        numerical_uncertainty(LEVELS, values, 1.0)
-    )
-
-
-def test_uncertainty_does_not_grow_with_a_bias() -> None:
-    values = 1 + LEVELS**2
-    biased = numerical_uncertainty(LEVELS, 1.003 * values, 2.0)
-    assert biased == pytest.approx(1.003 * numerical_uncertainty(LEVELS, values, 2.0))
-    assert abs(1.003 * values[-1] - 1) > 2 * biased
-
-
-def test_uncertainty_is_in_the_unit_of_the_value() -> None:
-    values = 1 + LEVELS**2
-    assert numerical_uncertainty(1e3 * LEVELS, 1e9 * values, 2.0) == pytest.approx(
-        1e9 * numerical_uncertainty(LEVELS, values, 2.0)
-    )
 
 
 def test_too_few_levels_are_refused() -> None:
