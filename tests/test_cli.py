@@ -25,7 +25,6 @@ from contact_scene.solver_errors import (
     UnsupportedScene,
 )
 from slipstick.cli import main
-from slipstick.cli.lazy_commands import ALL_COMMANDS
 from slipstick.solvers.names import SolverName
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -133,18 +132,6 @@ def test_a_solver_is_used_without_the_other_and_without_the_harness(
     assert (out / SUMMARY).exists()
 
 
-@pytest.mark.parametrize("command", ALL_COMMANDS)
-def test_help_cuts_no_word_on_a_narrow_terminal(
-    command: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("COLUMNS", "80")
-    assert slipstick(*command.split(), "--help") == 0
-    lines = capsys.readouterr().out.splitlines()
-    assert max(map(len, lines)) <= 80
-    assert "…" not in "".join(lines)
-    assert not [line for line in lines if re.search(r"<[^>=]*$", line)]  # values that are taken
-
-
 @pytest.mark.parametrize(
     ("command", "words"),
     [
@@ -212,17 +199,6 @@ def test_check_speaks_json(scene: Path, capsys: pytest.CaptureFixture[str]) -> N
     assert outcome["problems"][0]["key"] == "indenter.radus"
 
 
-def test_text_of_a_scene_cannot_colour_or_hide_itself(
-    scene: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    """What looks like markup is shown as it is, and an escape sequence as its code."""
-    text = scene.read_text(encoding="utf-8")
-    title = r"[red]Ball[/nothing] \u001b[31m on"
-    scene.write_text(text.replace("Ball on", title), encoding="utf-8")
-    assert slipstick("check", scene) == 0
-    assert r"[red]Ball[/nothing] \x1b[31m on" in capsys.readouterr().out
-
-
 # ---- failures of a run ------------------------------------------------------------------------
 
 FAILURES = {
@@ -254,18 +230,6 @@ def test_failure_ends_with_its_code_one_message_and_no_files(
     assert errors.count("error: ") == 1
     assert "Traceback" not in errors
     assert os.listdir(scene.parent) == [scene.name]
-
-
-def test_environment_without_a_package_is_to_be_renewed(
-    scene: Path, solver: Any, capsys: pytest.CaptureFixture[str]
-) -> None:
-    solver(ModuleNotFoundError("No module named 'added_since'", name="added_since.inner"))
-    assert slipstick("run", scene, "--output", scene.parent / "out") == 70
-    said = capsys.readouterr().err
-    assert said.count("error: ") == 1
-    assert "'added_since'" in said
-    assert "./run" in said
-    assert "report it" not in said
 
 
 def test_run_reports_progress_and_outcome(

@@ -5,14 +5,11 @@ import re
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
-from types import SimpleNamespace
-from typing import Any
 
 import pytest
 from command import outcome
 from study_cases import Killed, Number, Refusing, Square
 
-from verification.running import cluster
 from verification.running.case_pool import OTHER_CODE, run_cases
 from verification.running.case_store import CaseStore
 from verification.running.cluster import ClusterUnavailable, ClusterWorkers
@@ -20,31 +17,10 @@ from verification.running.cluster import ClusterUnavailable, ClusterWorkers
 ROOT = Path(__file__).resolve().parents[1]
 
 
-def without(name: str) -> Any:
-    raise ModuleNotFoundError(f"No module named '{name}'", name=name)
-
-
 def test_address_that_is_none_is_refused_with_what_one_looks_like() -> None:
     for address in ("localhost:8786", "http://localhost", "", "tcp:/x"):
         with pytest.raises(ClusterUnavailable, match="tcp://host:port or tls://host:port"):
             ClusterWorkers(address)
-
-
-def test_missing_library_is_named_with_the_way_to_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cluster, "importlib", SimpleNamespace(import_module=without))
-    with pytest.raises(ClusterUnavailable, match=r"pip install 'slipstick\[cluster\]'"):
-        ClusterWorkers("tcp://127.0.0.1:1")
-
-
-def test_silent_address_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    def client(*_: Any, **__: Any) -> Any:
-        raise OSError("timed out")
-
-    library = SimpleNamespace(Client=client)
-    loaded = SimpleNamespace(import_module=lambda name: library)
-    monkeypatch.setattr(cluster, "importlib", loaded)
-    with pytest.raises(ClusterUnavailable, match=r"tcp://127.0.0.1:1: timed out"):
-        ClusterWorkers("tcp://127.0.0.1:1")
 
 
 @pytest.mark.parametrize("command", [["verify"], ["maintain", "study", "coated-tractions"]])

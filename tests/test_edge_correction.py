@@ -18,7 +18,7 @@ from contact_scenes import (
 
 import slipstick
 from contact_results.remarks import remarks
-from contact_scene import FlatPunch, HeightMap, Scene, SurfaceDiscretisation
+from contact_scene import HeightMap, Scene, SurfaceDiscretisation
 from semi_analytical import SurfaceGrid, plan, solve
 from semi_analytical.edge_correction.pressure import LEAST_FACTOR, relaxation_factor
 from verification.closed_forms.hertz import PointContact
@@ -206,21 +206,6 @@ def test_a_pressure_that_is_not_smooth_at_its_edge_is_left_as_it_is():
     result = solved(frictionless(PRESS, indenter=rough), "last", grid)
     assert result.steps[-1].edge_change is None
     assert any("edge is rough" in told for told in remarks(result))
-
-
-@pytest.mark.parametrize(
-    ("of", "because"),
-    [
-        (frictionless(PRESS, indenter=FlatPunch(radius=A, material=steel())), "flat punch"),
-        (scene(PRESS, {"twist": 1e-4}), "twist"),
-    ],
-)
-def test_the_plan_says_of_what_edges_are_not_known(of, because):
-    decided = plan(of, edge="last")
-    effect = next(e for e in decided.effects if e.name == "edge correction")
-    assert not effect.on
-    assert because in effect.why
-    assert decided.edge == "off"
 
 
 @pytest.mark.parametrize("eigenvalue", [0.0, -0.5, -0.99, -1.5, -2.0])

@@ -5,7 +5,6 @@ import pytest
 from contact_scenes import (
     INDENTERS,
     LOAD,
-    MU,
     NU,
     PRESS,
     RADIUS,
@@ -17,10 +16,9 @@ from contact_scenes import (
 from fem_scenes import both_laws, elements, end, solved
 
 from contact_scene import Body, IsotropicMaterial, Layer, LoadStep, Paraboloid, Scene
-from contact_scene.solver_errors import ContactNotResolved, UnsupportedScene
+from contact_scene.solver_errors import ContactNotResolved
 from fem_reference import ContactAtZoneEdge, Method, solve
 from fem_reference.expected_radius import expected_radius
-from verification.closed_forms.hertz import PointContact
 
 SMOOTH = scene(PRESS, friction=None)
 
@@ -111,37 +109,10 @@ def test_contact_smaller_than_a_ring_is_refused(friction: float | None, law: Met
     assert 0 < caught.value.last_state.normal_force <= LOAD
 
 
-def test_layers_that_are_too_thick_for_a_mesh_are_refused_by_name() -> None:
-    for ratio in (1e-6, 1e6):
-        with pytest.raises(UnsupportedScene, match="leave the substrate out"):
-            solved(on_film(ratio, 1e12))
-
-
-@both_laws
-def test_same_bits_again(law: Method) -> None:
-    one, two = end(SMOOTH, law=law), end(SMOOTH, law=law)
-    assert np.array_equal(one.pressure, two.pressure)
-    assert one.approach == two.approach
-
-
 # ---- Pressing with friction by finite elements: pressure and radial shear act on each other
 
 
 BODY = IsotropicMaterial(young_modulus=YOUNG, poisson_ratio=NU)
-HERTZ = PointContact.under_load(LOAD, RADIUS, BODY.plane_strain_modulus)
-
-
-def pressed(friction: float | None = MU, increments: int = 20, indenter=RIGID_BALL) -> Scene:
-    steps = {**PRESS, "increments": increments}
-    return scene(steps, indenter=indenter, body=BODY, friction=friction)
-
-
-def test_vanishing_friction_is_no_friction() -> None:
-    smooth, slippery, none = (end(pressed(mu, 4)) for mu in (None, 1e-9, 0.0))
-    assert slippery.approach == pytest.approx(smooth.approach, rel=1e-9)
-    assert none.approach == pytest.approx(smooth.approach, rel=1e-12)
-    assert none.shear_radial is None
-    assert np.max(np.abs(slippery.shear_radial)) <= 1e-9 * HERTZ.peak_pressure
 
 
 @both_laws

@@ -1,7 +1,5 @@
 """`--set` with anything after it: a scene, or one refusal that names the option."""
 
-import time
-import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -54,16 +52,6 @@ def test_refusal_names_the_option_in_one_line(assignment: str) -> None:
     named = [str(problem) for problem in found.value.problems if "--set" in str(problem)]
     assert named
     assert all(line.isprintable() and len(line) < 1000 for line in named)
-
-
-def test_the_last_option_of_a_key_holds() -> None:
-    many = [f"indenter.radius={n} mm" for n in range(1, 200)]
-    assert read_scene_file(SCENE, many).scene.indenter.radius == 0.199  # type: ignore[union-attr]
-
-
-def test_an_array_emptied_before_has_no_entry() -> None:
-    with pytest.raises(SceneError, match="there is no entry 1, expected none: the array is empty"):
-        read_scene_file(SCENE, ["loading=[]", "loading[1].increments=3"])
 
 
 # ---- Scene files: what they mean, whatever the units and wherever the keys come from.
@@ -201,16 +189,3 @@ def test_a_scene_made_in_python_is_checked_for_consistency_too() -> None:
             friction=CoulombFriction(coefficient=0.1),
             loading=(LoadStep(normal_force=1.0, tangential_force=(0.2, 0.0)),),
         )
-
-
-def test_a_long_history_takes_no_more_than_its_share(tmp_path: Path) -> None:
-    head = (SCENES / "hertz.toml").read_text().split("[[loading]]")[0]
-    steps = "".join(f"[[loading]]\nnormal_force = {n}\n" for n in range(1, 20_001))
-    path = tmp_path / "scene.toml"
-    path.write_text(head + steps)
-    start = time.process_time()
-    assert len(load_scene(path).loading) == 20_000
-    parsing = time.process_time()
-    tomllib.loads(head + steps)
-    # Relative to the parser of the standard library: the machine drops out.
-    assert parsing - start < 6 * (time.process_time() - parsing) + 1.0

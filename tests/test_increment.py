@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from contact_scenes import LOAD, PRESS, RIGID_BALL, A, grid, push, scene
+from contact_scenes import LOAD, PRESS, RIGID_BALL, grid, push, scene
 
 from semi_analytical import SurfaceGrid, solve
 from semi_analytical.behind import Behind, further, further_shear
@@ -79,14 +79,6 @@ def test_convolutions_count_what_was_convolved(calls):
         assert increment.convolutions == price * calls.count(kind)
 
 
-def test_fields_are_reported_on_the_whole_window():
-    increment = solve(scene(PRESS, push(0.5)), SurfaceGrid((48, 40), (4 * A, 3 * A)), TOLERANCE)
-    end = increment.steps[-1]
-    assert end.pressure.shape == end.gap.shape == end.in_contact.shape == (48, 40)
-    assert end.shear.shape == end.slip.shape == (2, 48, 40)
-    assert np.all(end.gap[~end.in_contact] > -1e-8 * end.approach)
-
-
 # ---- The surface grid.
 
 
@@ -97,11 +89,6 @@ def test_centres_are_symmetric_and_fill_the_window():
     assert grid.y[-1] + grid.spacing[1] / 2 == pytest.approx(1.0)
 
 
-def test_coarsening_undoes_refining():
-    grid = SurfaceGrid((6, 10), (1.0, 3.0))
-    assert grid.refined().coarsened() == grid
-
-
 @pytest.mark.parametrize(
     ("cells", "window"),
     [((1, 8), (1.0, 1.0)), ((8, 8), (0.0, 1.0)), ((8, 8), (1.0, np.nan)), ((8, 8), (1.0, np.inf))],
@@ -109,11 +96,6 @@ def test_coarsening_undoes_refining():
 def test_impossible_grid_is_refused(cells, window):
     with pytest.raises(ValueError, match="give"):
         SurfaceGrid(cells, window)
-
-
-def test_odd_counts_cannot_be_halved():
-    with pytest.raises(ValueError, match="even"):
-        SurfaceGrid((7, 8), (1.0, 1.0)).coarsened()
 
 
 # ---- The path so far: how far the next increment goes on, and what that spares the shear so

@@ -10,7 +10,6 @@ from numpy.polynomial.legendre import leggauss
 from scipy.integrate import dblquad
 from stack_strategies import HALF_SPACES, stacks
 
-from contact_scene import kept_arrays
 from semi_analytical.frf.stack import Stack
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients, RectangleIntegrals
 from semi_analytical.influence.layered import LayeredCoefficients
@@ -267,66 +266,6 @@ def test_exchanging_x_and_y_exchanges_the_components():
     for one, other in (("zz", "zz"), ("xx", "yy"), ("xy", "xy"), ("zx", "zy")):
         difference = np.abs(getattr(wide, one).T - getattr(tall, other)).max()
         assert difference < 1e-15 * own_cell(wide)
-
-
-def test_rigid_body_has_no_coefficients():
-    with pytest.raises(ValueError, match="rigid"):
-        LayeredCoefficients(Stack(), (1.0, 1.0), (3, 3))
-
-
-STACK = Stack([(2.0, 0.3, 0.5)], (1.0, 0.3))
-
-
-def normal_coefficients(stack=STACK, spacing=(1.0, 1.0), shape=(5, 4)):
-    return LayeredCoefficients(stack, spacing, shape, kept_arrays.remembered).zz
-
-
-@pytest.fixture
-def folder(tmp_path, monkeypatch):
-    monkeypatch.setenv("SLIPSTICK_CACHE_DIR", str(tmp_path / "deep" / "cache"))
-    return tmp_path / "deep" / "cache"
-
-
-@pytest.fixture
-def computations(monkeypatch):
-    """Counts the computations that are done."""
-    from semi_analytical.influence import layered
-
-    count = []
-
-    def counted(*arguments):
-        count.append(1)
-        return original(*arguments)
-
-    original = layered.cell_integrals
-    monkeypatch.setattr(layered, "cell_integrals", counted)
-    return count
-
-
-def test_cache_returns_the_same_bits(folder, computations):
-    first, second = normal_coefficients(), normal_coefficients()
-    np.testing.assert_array_equal(first, second)
-    assert len(computations) == 1
-    second[0, 0] = 0  # what comes from the cache is writable and nobody else's
-
-
-def test_bodies_in_one_cache_do_not_share_entries(folder, computations):
-    layer, other_layer, base, other_base = (2.0, 0.3, 0.5), (2.0, 0.4, 0.5), (1.0, 0.3), (1.0, 0.2)
-    stacks = [
-        Stack([layer], base),
-        Stack([layer], other_base),
-        Stack([other_layer], base),
-        Stack([layer, other_layer], base),
-        Stack([other_layer, layer], base),
-        Stack([layer, layer], base),
-    ]
-    assert len(stacks) == 6
-    for entries, stack in enumerate(stacks, start=1):
-        normal_coefficients(stack)
-        assert len(list(folder.iterdir())) == len(computations) == entries
-    for stack in stacks:
-        fresh = LayeredCoefficients(stack, (1.0, 1.0), (5, 4)).zz
-        np.testing.assert_array_equal(normal_coefficients(stack), fresh)
 
 
 # ---- The closed forms of the influence coefficients are integrals of the point solutions.

@@ -12,7 +12,7 @@ import pytest
 from numpy.typing import NDArray
 
 from contact_scene import kept_arrays
-from contact_scene.kept_arrays import SUFFIX, cache_directory, remembered
+from contact_scene.kept_arrays import SUFFIX, remembered
 from fem_reference.elasticity import compliance
 from semi_analytical.influence import layered
 
@@ -116,15 +116,6 @@ def test_without_a_place_to_write_there_is_no_cache_and_no_complaint(
     assert not caplog.messages
 
 
-def test_failed_write_leaves_nothing_behind(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def fail(*_: object) -> None:
-        raise OSError("no space left on device")
-
-    monkeypatch.setattr(kept_arrays.os, "replace", fail)
-    computed()
-    assert list(folder.iterdir()) == []
-
-
 def test_least_recently_used_make_room_and_other_files_are_spared(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -143,24 +134,6 @@ def test_least_recently_used_make_room_and_other_files_are_spared(
     before = set(folder.iterdir())
     computed("more than a quarter", (60, 60))
     assert set(folder.iterdir()) == before
-
-
-@pytest.mark.parametrize(
-    ("variables", "expected"),
-    [
-        ({"SLIPSTICK_CACHE_DIR": "/a/b"}, "/a/b"),
-        ({"XDG_CACHE_HOME": "/c"}, "/c/slipstick"),
-        ({"XDG_CACHE_HOME": "relative", "HOME": "/d"}, "/d/.cache/slipstick"),
-    ],
-)
-def test_cache_directory_follows_the_environment(
-    monkeypatch: pytest.MonkeyPatch, variables: dict[str, str], expected: str
-) -> None:
-    monkeypatch.delenv("SLIPSTICK_CACHE_DIR", raising=False)
-    monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
-    for name, value in variables.items():
-        monkeypatch.setenv(name, value)
-    assert str(cache_directory()) == expected
 
 
 @pytest.mark.parametrize("cached", [compliance, layered], ids=["compliance", "coefficients"])

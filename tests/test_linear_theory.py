@@ -1,12 +1,10 @@
 """A result of large strains is told as such, whatever is pressed on what; others are not."""
 
-import json
 from math import atan
 from pathlib import Path
 from typing import Any
 
 import pytest
-from command import slipstick
 from hypothesis import given
 from hypothesis import strategies as st
 from scene_texts import STEEL_ON_STEEL
@@ -116,12 +114,6 @@ def test_real_materials_and_sizes_are_plausible(E, R):
     assert implausible(ball(E, R, 1.0)) == ()
 
 
-@pytest.mark.parametrize(("E", "R"), [(1.0, 1.0), (1.0, 46.4), (210.0, 18.0), (210e3, 18.0)])
-def test_scenes_without_units_or_in_their_own_are_left_alone(E, R):
-    dimensionless = SurfaceDiscretisation(window=(3 * R, 3 * R))
-    assert implausible(ball(E, R, 1.0), semi_analytical=dimensionless) == ()
-
-
 COATED = (
     STEEL_ON_STEEL
     + """
@@ -173,18 +165,3 @@ def test_a_usual_mistake_is_told(coated, change, remark):
     assert implausible(sound.scene) == ()
     told = implausible(wrong.scene, semi_analytical=wrong.semi_analytical)
     assert any(remark in one for one in told), told
-
-
-@pytest.mark.parametrize("command", ["plan", "run"])
-def test_whoever_does_not_check_is_told_too(
-    command: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    """Once each, and a run says it again to whoever reads its summary."""
-    changes = ("friction.coefficient=30", "semi_analytical.cells=[16,16]")
-    words = [word for change in changes for word in ("--set", change)]
-    out = ("-o", tmp_path / "out", "--figures", "none", "--no-error") if command == "run" else ()
-    assert slipstick(command, SCENES[2], *words, *out) == 0
-    assert capsys.readouterr().err.count('was "30 per cent" meant?') == 1
-    if out:
-        summary = json.loads((tmp_path / "out" / "summary.json").read_text(encoding="utf-8"))
-        assert any('was "30 per cent" meant?' in remark for remark in summary["remarks"])

@@ -4,10 +4,7 @@ import math
 import os
 import random
 import re
-import shutil
-import signal
 import sys
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -15,7 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from processes import EAGER, begun, ended, results, run
+from processes import run
 
 import radial
 from contact_scene import (
@@ -41,7 +38,6 @@ from verification.running.cold_cache import cold_cache
 
 nightly = [pytest.mark.slow, pytest.mark.timeout(3600)]
 SOLVERS = ("semi-analytical", "fem", "fem-complementarity", "radial")
-QUIET = ("--figures", "none", "--no-error")
 TOLERANCE = 1e-8
 CONTACT = 0.1437e-3  # contact radius of FRETTING between half-spaces [m]
 FRETTING = """[indenter]
@@ -79,7 +75,6 @@ def fretting(layers: str = "", pushes: int = 2, nu: float = 0.3) -> str:
     return FRETTING.format(layers=layers, pushes=pushes, nu=nu)
 
 
-FILM = layer(0.35, 1 / 3)
 ABSURD = {
     f"E1/E2 = {ratio:g}, h/a = {h:g}": fretting(layer(h, ratio))
     for ratio in (1e-6, 1e6, 1e-3, 1e3)
@@ -100,72 +95,6 @@ def test_an_absurd_contact_is_planned_or_refused_soon(
     end = run(tmp_path, "plan", "scene.toml", "--solver", solver)
     assert end.code in {0, 2, 3, 4}, end.said
     assert end.seconds <= 10
-
-
-@pytest.mark.parametrize("threads", [1, 2])
-@pytest.mark.parametrize("solver", [pytest.param(s, marks=nightly) for s in SOLVERS])
-def test_the_same_run_gives_the_same_bytes(solver: str, threads: int, tmp_path: Path) -> None:
-    film = "" if solver == "radial" else FILM  # too little slip for its rings
-    (tmp_path / "scene.toml").write_text(fretting(film))
-    for out, used in (("one", 1), ("other", threads)):
-        shutil.rmtree(tmp_path / "cache", ignore_errors=True)  # its hits are counted
-        run(tmp_path, "run", "scene.toml", "--solver", solver, "-o", out, *QUIET, threads=used)
-    assert results(tmp_path / "one")
-    assert results(tmp_path / "one") == results(tmp_path / "other")
-
-
-@pytest.mark.parametrize("solver", [pytest.param(s, marks=nightly) for s in SOLVERS])
-@pytest.mark.parametrize("seed", range(5))
-def test_a_killed_run_goes_on_to_the_same_bytes(solver: str, seed: int, tmp_path: Path) -> None:
-    chance, words = random.Random(seed), ("run", "scene.toml", "--solver", solver, "-o", "out")
-    (tmp_path / "scene.toml").write_text(fretting("" if solver == "radial" else FILM, pushes=6))
-    run(tmp_path, *words, *QUIET)  # the cache is filled, as it will be for all others
-    shutil.rmtree(tmp_path / "out")
-    run(tmp_path, *words, *QUIET)
-    expected = results(tmp_path / "out")
-    assert expected
-    shutil.rmtree(tmp_path / "out")
-    for _ in range(5):
-        process = begun(tmp_path, *words, *QUIET, program=EAGER)
-        time.sleep(chance.uniform(0.5, 6.0))
-        process.send_signal(signal.SIGKILL)
-        ended(process)
-        shown = results(tmp_path / "out")
-        assert "summary.json" not in shown or shown == expected, "an incomplete result is shown"
-    end = run(tmp_path, *words, *QUIET)
-    assert results(tmp_path / "out") == expected
-    assert "damaged" not in end.said
-    assert {path.name for path in tmp_path.iterdir()} == {"scene.toml", "out", "cache"}
-    assert list((tmp_path / "out").glob(".*")) == []
-
-
-COMMANDS = (
-    *(("run", "scene.toml", "-o", "out", "--solver", solver) for solver in SOLVERS),
-    ("run", "scene.toml", "-o", "out", "--accuracy", "1%"),
-    ("stress", "scene.toml", "-o", "out"),
-    ("challenge", "export", "hertz_point", "-o", "out"),
-    ("table", "ball"),
-    ("plan", "scene.toml", "--accuracy", "1%"),
-    ("verify", "hertz_point", "-o", "out"),
-    ("maintain", "study", "coated-tractions", "-o", "out", "--workers", "1"),
-    ("check", "scene.toml"),
-)
-
-
-@pytest.mark.parametrize("words", [pytest.param(words, marks=nightly) for words in COMMANDS])
-@pytest.mark.parametrize("seed", range(2))
-def test_an_interrupted_command_leaves_nothing_half_done(
-    words: tuple[str, ...], seed: int, tmp_path: Path
-) -> None:
-    (tmp_path / "scene.toml").write_text(fretting("" if "radial" in words else FILM, pushes=20))
-    process = begun(tmp_path, *words)
-    time.sleep(random.Random(f"{seed} {words}").uniform(0.2, 5.0))
-    process.send_signal(signal.SIGINT)
-    end = ended(process)
-    # Before the command has begun it dies of the signal, which a shell calls 130, too.
-    assert end.code in (0, 128 + signal.SIGINT, -signal.SIGINT), end.said
-    assert "Traceback" not in end.said
-    assert [path for path in tmp_path.rglob("*") if ".partial-" in path.name] == []
 
 
 # OUT is a folder beside that of the scene; its height map would be taken if it were read.

@@ -6,32 +6,24 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from functools import cache
-from pathlib import Path
 from typing import Any
 
-import meshio
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
 import radial
-import slipstick
-from contact_results.figures.map_panels import RingsAbove
-from contact_results.files.surface_file import write_surface
-from contact_results.stress.loaded_bodies import state_of_result, state_of_run
-from contact_results.stress.on_disc import stress_on_disc
-from contact_results.surface import Rings, surface_of
+from contact_results.surface import surface_of
 from contact_scene import (
     RIGID,
     Body,
     CoulombFriction,
-    FlatPunch,
     IsotropicMaterial,
     LoadStep,
     Paraboloid,
     Scene,
 )
-from contact_scene.solver_errors import GrossSliding, UnsupportedScene
+from contact_scene.solver_errors import GrossSliding
 from radial.circle import Circle
 from radial.coupling import Coupling
 from radial.ring_layout import laid
@@ -94,13 +86,6 @@ def beside() -> radial.Result:
 
 
 @cache
-def at_points(text: str) -> radial.Result:
-    """A twist that needs no points, by them."""
-    asked = Scene.model_validate_json(text)
-    return radial.solve(asked, plan=replace(radial.plan(asked), circle=Circle.ONE))
-
-
-@cache
 def points(circle: Circle) -> Points:
     asked = scene()
     return laid(Coupling.of(asked), asked.indenter, [RADIUS], 6, 4, circle, FRICTION)
@@ -124,19 +109,6 @@ CALLED_FOR = {
 def test_angles_are_those_that_loads_call_for(name: str) -> None:
     steps, bodies, circle = CALLED_FOR[name]
     assert radial.plan(scene(*steps, **bodies)).circle is circle
-
-
-@pytest.mark.parametrize(
-    ("more", "words"),
-    [
-        ({"friction": CoulombFriction(coefficient=0.0)}, "coefficient of friction is zero"),
-        ({"indenter": FlatPunch(radius=RADIUS, material=RIGID)}, "rim"),
-    ],
-)
-def test_what_points_do_not_have_is_refused_by_name(more: dict[str, Any], words: str) -> None:
-    led = LoadStep(tangential_shift=(1e-6, 0.0)), LoadStep(twist=1e-4)
-    with pytest.raises(UnsupportedScene, match=words):
-        radial.plan(scene(*led, **more))
 
 
 def test_all_around_the_whole_circle_is_the_half_and_its_mirror_image() -> None:
@@ -262,30 +234,3 @@ def test_fields_carry_the_loads_and_obey_coulomb() -> None:
     assert max(step.residuals.friction_cone for step in beside().increments) < 1e-10
     assert end.residuals.torque_equilibrium < 1e-10
     assert surface.along(end.pressure).shape == (2 * len(end.radii),)
-
-
-def test_stress_below_a_turning_push_is_refused_by_name() -> None:
-    with pytest.raises(UnsupportedScene, match="load turns, or there is torsion beside it"):
-        stress_on_disc(state_of_result(turning(), None), depths=[RADIUS])
-
-
-def test_seen_from_above_the_circle_is_whole(tmp_path: Path) -> None:
-    """Maps and the mesh of a run: shear carries the load on either, across the line, too."""
-    result, surface = beside(), surface_of(beside())
-    assert isinstance(surface, Rings)
-    end, area = result.steps[3], 0.0
-    above = RingsAbove.around_contact(result, surface)
-    shear, area = above.vector(end, "shear"), (above.x[1] - above.x[0]) ** 2
-    x, y = np.meshgrid(above.x, above.y, indexing="ij")
-    assert shear is not None
-    # Linear between eight rays, which cuts chords.
-    assert_allclose(np.sum(shear, axis=(1, 2)) * area, end.tangential_force, atol=0.03 * LIMIT)
-    about = np.sum(shear[1] * x - shear[0] * y) * area
-    assert_allclose(about, end.torque, atol=0.01 * TORQUE)
-    slipstick.save(result, tmp_path / "out")
-    again = state_of_run(tmp_path / "out", None).surface
-    assert isinstance(again, Rings)
-    assert again.whole
-    fields = {name: getattr(end, name) for name in ("pressure", "shear_radial")}
-    write_surface(surface, fields, tmp_path / "surface.vtu", "")
-    assert meshio.read(tmp_path / "surface.vtu").points.shape == (end.pressure.size, 3)

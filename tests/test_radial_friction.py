@@ -22,7 +22,7 @@ from contact_scene import (
     Paraboloid,
     Scene,
 )
-from contact_scene.solver_errors import NotConverged, UnsupportedScene
+from contact_scene.solver_errors import NotConverged
 from contact_scene.summary import ContactStatus
 from radial.rings import OUTSIDE, rings_about
 from verification.problems.indentation import STRONG, WEAK, Indentation
@@ -112,13 +112,6 @@ def test_shear_is_within_its_limit_and_energy_is_lost_whatever_the_load_does(
     assert np.min(unloaded.shear_radial) < 0 < np.max(unloaded.shear_radial)
 
 
-def test_held_loads_change_nothing() -> None:
-    history = (LoadStep(normal_force=1e-3, increments=4), LoadStep(normal_force=1e-3, increments=2))
-    loaded, held = radial.solve(scene(*history)).steps
-    assert_allclose(held.approach, loaded.approach, rtol=1e-9)
-    assert_allclose(held.dissipated_energy, loaded.dissipated_energy, rtol=1e-6)
-
-
 def test_a_ball_that_all_but_sticks_is_as_deep_as_one_that_does() -> None:
     """Rings begin to slip one at a time, more of them than Newton's method has steps elsewhere.
     Spence 1968, by superposition of bonded punches: δ = 8.089263338 µm."""
@@ -146,12 +139,6 @@ def test_stated_errors_hold_the_true_ones(one: Indentation) -> None:
         error = errors[name].error
         assert isinstance(error, float)
         assert abs(getattr(end, name) - exact) < error < 0.1 * exact
-
-
-def test_a_map_of_friction_is_refused_by_name() -> None:
-    friction = CoulombFriction.model_validate({"coefficient": {"map": np.eye(4), "spacing": 1.0}})
-    with pytest.raises(UnsupportedScene, match="map"):
-        radial.plan(scene().model_copy(update={"friction": friction}))
 
 
 def test_slip_that_is_narrower_than_rings_is_told_by_its_name() -> None:

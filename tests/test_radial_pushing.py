@@ -132,19 +132,6 @@ def test_stated_errors_cover_the_closed_forms() -> None:
 # ---- laws -------------------------------------------------------------------------------------
 
 
-def test_before_it_is_pushed_a_contact_is_the_one_that_is_only_pressed() -> None:
-    pressed = radial.solve(scene(LoadStep(normal_force=LOAD, increments=16))).steps[0]
-    again = LoadStep(normal_force=LOAD, increments=16)
-    first = radial.solve(scene(again, push(0.1, 1))).steps[0]
-    assert_allclose(first.approach, pressed.approach, rtol=3e-6)
-    assert_allclose(first.contact_radius, pressed.contact_radius, rtol=1e-3)
-    assert_allclose(first.stick_radius, pressed.stick_radius, rtol=0.02)
-    open_ = first.dissipation_uncertainty
-    assert open_ is not None
-    assert_allclose(first.dissipated_energy, pressed.dissipated_energy, rtol=0, atol=open_)
-    assert_allclose(first.elastic_energy, pressed.elastic_energy, rtol=1e-4)
-
-
 def test_a_far_shift_slides_under_all_that_friction_carries() -> None:
     far = LoadStep(tangential_shift=(3 * VIRGIN.sliding_shift, 0.0), increments=8)
     end = rough(scene(PRESS, far, alike=True)).steps[1]
@@ -179,14 +166,6 @@ def test_slip_zone_of_an_earlier_step_is_that_where_a_pressed_contact_returns_to
 
 
 # ---- contacts of few rings --------------------------------------------------------------------
-
-SIDEWAYS = LoadStep(tangential_shift=(1e-6, 0.0), increments=1)
-
-
-def test_an_approach_at_which_no_ring_touches_is_refused_by_name() -> None:
-    asked = scene(LoadStep(approach=1e-4, increments=700), SIDEWAYS)
-    with pytest.raises(UnsupportedScene, match=r"within the first of the rings.*fewer increments"):
-        rough(asked)
 
 
 # ---- a solve that goes on ---------------------------------------------------------------------

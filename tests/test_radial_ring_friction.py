@@ -19,7 +19,7 @@ from contact_scene import (
     Paraboloid,
     Scene,
 )
-from contact_scene.solver_errors import ContactAtZoneEdge, GrossSliding
+from contact_scene.solver_errors import ContactAtZoneEdge
 from radial.circle import Circle
 from radial.coupling import Coupling
 from radial.ring_compliance import ring_compliance
@@ -148,12 +148,6 @@ def test_shear_is_that_of_cattaneo_and_mindlin_all_around() -> None:
     assert np.max(np.abs(across)) < 1e-6 * peak
 
 
-@pytest.mark.parametrize("share", [1.0, -1.2])
-def test_more_than_friction_carries_slides(share: float) -> None:
-    with pytest.raises(GrossSliding, match="friction limit"):
-        after(share)
-
-
 def test_a_contact_beyond_the_rings_is_refused() -> None:
     with pytest.raises(ContactAtZoneEdge, match="last ring"):
         held(alike(), LAW, loaded(2 * LOAD, 0.0), None, TOLERANCE)
@@ -164,12 +158,6 @@ def test_a_prescribed_motion_is_that_of_the_loads() -> None:
     motions = led(by_force.approach, float(by_force.motion[0]))
     by_motion = held(alike(), LAW, motions, after(), TOLERANCE)
     assert_allclose(by_motion.tractions, by_force.tractions, atol=1e-7)
-
-
-def test_a_shift_that_friction_does_not_follow_slides() -> None:
-    far = held(alike(), LAW, led(None, 2 * LIMIT, LOAD), after(), TOLERANCE)
-    assert_allclose(far.forces(alike())[0], LIMIT, rtol=1e-8)
-    assert np.all(far.share > 1)
 
 
 def test_one_angle_says_all_of_what_is_the_same_all_around() -> None:

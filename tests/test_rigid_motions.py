@@ -22,7 +22,6 @@ from contact_scenes import (
 from contact_scene import Ellipsoid, HeightMap, SceneError, SurfaceDiscretisation
 from contact_scene.summary import ContactStatus
 from semi_analytical import (
-    ContactAtWindowEdge,
     ContactNotResolved,
     GrossSliding,
     SurfaceGrid,
@@ -221,14 +220,6 @@ def test_a_twist_without_end_slides_at_the_limit(bodies):
     assert state.stick_area == 0
 
 
-def test_without_friction_coefficient_no_torque_is_carried():
-    with pytest.raises(GrossSliding, match="without friction"):
-        end(PRESS, twist(0.1), friction=0.0)
-    turned = end(PRESS, {"twist": 0.1}, friction=0.0)
-    assert turned.torque == 0
-    assert turned.twist == 0.1
-
-
 # ---- Tilt: where the force acts, the contact is; and what cannot be carried.
 
 
@@ -247,11 +238,6 @@ def test_reciprocity_of_force_and_moment():
     assert by_moment == pytest.approx(by_load, rel=1e-4)
     # The contact passes over few cells: between two of them it rolls by fits and starts.
     assert by_moment == pytest.approx(-M / (LOAD**2 * RADIUS), rel=0.1)
-
-
-def test_a_force_beyond_the_window_asks_for_a_larger_one():
-    with pytest.raises(ContactAtWindowEdge, match="outside the window"):
-        end({**PRESS, **lean(3.0)}, friction=None)
 
 
 def test_a_force_on_the_rim_of_a_punch_tips_it_over():

@@ -1,72 +1,26 @@
 """The page and the overview of a run say what it found, whatever its title."""
 
-import re
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
 from matplotlib.quiver import Quiver
-from matplotlib.text import Text
 from synthetic_result import synthetic_result
 
 from contact_results.figures.figure_files import seen_from_above
 from contact_results.figures.map_panels import RingsAbove
 from contact_results.figures.maps import stick_slip_map
-from contact_results.figures.overview import DOTS_PER_INCH, overview
-from contact_results.figures.run_page import write_page
-from contact_results.figures.style import figure_style, save
-from contact_results.key_numbers import key_numbers, outcome_columns
+from contact_results.figures.style import figure_style
+from contact_results.key_numbers import key_numbers
 from contact_results.number_text import Uncertainty, number_text
-from contact_results.result_files import write_result
 from contact_results.surface import Rings
-from contact_scene.stated_error import ErrorStatus, StatedError
-from slipstick.cli import terminal
-
-HOSTILE = "<script>alert(1)</script><img src=http://example.invalid/x.png> $x_{y$ & \"'"
 
 
 def ended(result: Any, **changes: Any) -> Any:
     last = replace(result.increments[-1], **changes)
     return replace(result, increments=(*result.increments[:-1], last))
-
-
-def hostile() -> Any:
-    result = synthetic_result()
-    return replace(result, scene=result.scene.model_copy(update={"title": HOSTILE}))
-
-
-@pytest.mark.usefixtures("undrawn")
-def test_a_page_holds_all_figures_and_asks_for_nothing(tmp_path: Path) -> None:
-    write_result(hostile(), tmp_path, figures="all")
-    page = (tmp_path / "index.html").read_text(encoding="utf-8")
-    assert page.count("<img") == len(list(tmp_path.glob("*.png")))
-    assert all(source.startswith("data:") for source in re.findall(r'src="([^"]*)', page))
-    assert "<script" not in page
-    links = re.findall(r'href="([^"]*)', page)  # every figure to itself, larger, and back
-    assert sorted(set(links)) == sorted(
-        ["#", *(f"#{path.stem}" for path in tmp_path.glob("*.png"))]
-    )
-    assert sorted(re.findall(r'id="([^"]*)', page)) == sorted(x[1:] for x in set(links) if x[1:])
-    assert "default-src 'none'" in page
-
-
-def test_the_overview_shows_the_title_and_draws_it_whatever_it_is(tmp_path: Path) -> None:
-    place = tmp_path / "overview.png"
-    with figure_style():
-        figure = overview(hostile(), seen_from_above(hostile()), None)
-        assert any("alert(1)" in text.get_text() for text in figure.findobj(Text))
-        save(figure, place, DOTS_PER_INCH)
-    assert place.stat().st_size < 200_000
-
-
-def test_numbers_on_the_page_carry_their_errors(tmp_path: Path) -> None:
-    result = synthetic_result()
-    error = StatedError(error=2e6, parts={"cells": 2e6}, status=ErrorStatus.ESTIMATED)
-    write_page(result, tmp_path, {"peak_pressure": error})
-    assert "3.0000 ± 0.0020 GPa" in (tmp_path / "index.html").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("error", [3.2e-5, 4e-13, 4e-16])
@@ -90,35 +44,6 @@ def test_round_off_beside_the_load_is_nothing(name: str, tiny: float) -> None:
 
 
 # ---- Round-off as nothing, and wide tables in blocks.
-
-
-ROOT = Path(__file__).resolve().parents[1]
-
-
-def test_a_torque_of_round_off_is_zero_on_the_console() -> None:
-    steps = synthetic_result().steps
-    twisted = [replace(step, torque=9.9e-22, twist=1e-3) for step in steps]
-    (torques,) = (texts for name, texts in outcome_columns(twisted).items() if "torque" in name)
-    assert torques == ["0"] * len(steps)
-
-
-@pytest.mark.parametrize("width", [40, 80, 200])
-def test_wide_tables_break_between_columns(
-    width: int, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setattr(terminal, "WIDE", width)
-    columns = {"step": ["1", "2"]} | {
-        f"quantity\n{k}": [f"{k}.{10**9 + k}", "–"] for k in range(20)
-    }
-    terminal.print_table(columns, zip(*columns.values(), strict=True), numbers=True)
-    lines = capsys.readouterr().out.splitlines()
-    assert max(map(len, lines)) <= width
-    shown = [word for line in lines for word in line.split()]
-    for entries in list(columns.values())[1:]:
-        assert shown.count(entries[0]) == 1
-    per_block = (width - 6) // 15  # a name of four letters, columns of up to 13 and gaps of 2
-    blocks = sum(line.split()[:1] == ["step"] for line in lines)
-    assert blocks <= -(-20 // per_block)
 
 
 # ---- Figures of slip show what was computed, seen alike from cells and from rings.

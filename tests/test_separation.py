@@ -162,8 +162,3 @@ def test_increments_before_first_touch_are_empty(solver: str, returns: bool) -> 
 def test_loads_of_separated_bodies_are_refused(step: dict, problem: str) -> None:
     with pytest.raises(SceneError, match=problem):
         scene(PRESS, push(0.5), step)
-
-
-def test_first_step_presses() -> None:
-    with pytest.raises(SceneError, match="above 0 in the first step"):
-        scene({"normal_force": 0.0}, PRESS)

@@ -1,7 +1,7 @@
 """What a shape says of itself is true, and what it does not say no solver assumes."""
 
 import re
-from typing import Any, Literal, get_args
+from typing import Any, get_args
 
 import numpy as np
 import pytest
@@ -13,9 +13,9 @@ from numpy.typing import ArrayLike
 from strategies import SHAPED
 
 import contact_scene
-from contact_scene import RIGID, LoadStep, Paraboloid, Scene, SurfaceDiscretisation
+from contact_scene import Paraboloid, Scene, SurfaceDiscretisation
 from contact_scene.geometry import SHAPES, Gap, Indenter, ShapedBody
-from contact_scene.quantity import FrictionCoefficient, PositiveLength, SlopeAngle
+from contact_scene.quantity import PositiveLength
 from contact_scene.scene_text import shape_text
 from contact_scene.solver_errors import SolverError, UnsupportedScene
 from fem_reference import plan as plan_of_elements
@@ -57,18 +57,6 @@ class Dome(Barrel):
         return np.asarray((np.square(x) + np.square(y)) ** 2 / self.radii[0] ** 3)
 
 
-class Vague(Dome):
-    """Says how far it touches, and not by which power."""
-
-    def contact_at(self, approach: float) -> tuple[float, float]:
-        """Some power of the reach."""
-        return approach, approach
-
-    def contact_under(self, force: float, modulus: float) -> tuple[float, float]:
-        """Some power of the reach."""
-        return force / modulus, force / modulus
-
-
 NEW = (
     Barrel(material=steel(), radii=(RADIUS, 3 * RADIUS)),
     Egg(material=steel(), radius=RADIUS),
@@ -89,19 +77,6 @@ def test_every_shape_is_registered_everywhere() -> None:
     for name, shape in SHAPES.items():
         assert shape.model_fields["shape"].default == name
         assert getattr(contact_scene, shape.__name__) is shape
-
-
-class Washer(Barrel):
-    """With sizes of every kind."""
-
-    shape: Literal["washer"] = "washer"
-    steepness: FrictionCoefficient
-    half_opening: SlopeAngle
-
-
-def test_a_shape_is_told_with_the_unit_of_each_size_whatever_its_name() -> None:
-    told = shape_text(Washer(material=RIGID, radii=(1e-3, 2.0), steepness=4, half_opening=0.5))
-    assert told == "washer, radii (1 mm, 2 m), steepness 4, half opening 500 mrad"
 
 
 @given(ALL, st.floats(1e-9, 0.5), st.floats(0, 2 * np.pi))
@@ -174,13 +149,3 @@ def test_a_shape_that_says_nothing_is_solved_where_its_window_is_given(shape) ->
     window = (6 * A, 6 * A)
     asked = SurfaceDiscretisation(cells=(24, 24), window=window, tolerance=1e-6)
     assert solve_discretised(on(shape), asked).increments[-1].contact_radius > 0
-
-
-@pytest.mark.parametrize("load", [PRESS, {"approach": 1e-6}], ids=["force", "approach"])
-def test_a_reach_to_a_power_that_is_not_said_is_not_known(load) -> None:
-    shape = Vague(material=steel(), radii=(0.1 * RADIUS, RADIUS))
-    asked = on(shape, loading=(LoadStep(**load),))
-    with pytest.raises(UnsupportedScene, match="give contact_radius"):
-        solve_by_elements(asked, elements(4))
-    with pytest.raises(UnsupportedScene, match="give a window"):
-        solve_discretised(asked, SurfaceDiscretisation(cells=(16, 16)))

@@ -1,9 +1,6 @@
 """`slipstick stress` from end to end: from a scene, from a run, and what it refuses."""
 
-import errno
 import json
-import os
-import shutil
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +8,6 @@ import pytest
 from command import outcome, rows
 
 from contact_results.files.mesh_file import read_mesh
-from contact_results.stress import files as stress_files
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -34,11 +30,6 @@ normal_force = "1 kN"
 cells = [32, 32]
 window = ["1.2 mm", "1.2 mm"]
 """
-FILES = {
-    "stress.json", "stress_maxima.csv", "stress_axis.csv", "stress_interfaces.csv",
-    "stress_section.vtu", "stress_surface.vtu", "stress_columns.csv",
-    "stress_section.png", "stress_axis.png", "stress_surface.png",
-}  # fmt: skip
 
 
 @pytest.fixture(scope="module")
@@ -54,35 +45,6 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
         ended = outcome(*arguments, cwd=ROOT)
         assert ended.returncode == 0, ended.stderr
     return directory
-
-
-def test_every_file_is_written(place: Path) -> None:
-    assert {path.name for path in (place / "out").iterdir()} == FILES
-
-
-@pytest.mark.parametrize("before", [False, True], ids=["new", "over another"])
-def test_a_full_disk_leaves_what_was_there(
-    place: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, before: bool
-) -> None:
-    """The tables fit, the tractions do not."""
-
-    def full(surface: object, fields: object, path: Path, *_: object) -> None:
-        path.write_bytes(b"begun")
-        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-
-    monkeypatch.setattr(stress_files, "write_surface", full)
-    out = tmp_path / "out"
-    if before:
-        shutil.copytree(place / "out", out)
-    asked = ("stress", place / "run", "-o", out, "--step", "1", "--no-error", "--figures", "none")
-    ended = outcome(*asked, cwd=ROOT)
-    assert ended.returncode == 4
-    assert f"{out / 'stress_surface.vtu'}: No space left" in ended.stderr
-    assert os.listdir(tmp_path) == (["out"] if before else [])
-    if before:
-        assert set(os.listdir(out)) == FILES
-        for name in FILES:
-            assert (out / name).read_bytes() == (place / "out" / name).read_bytes()
 
 
 def test_maxima_name_both_sides_of_the_interface(place: Path) -> None:

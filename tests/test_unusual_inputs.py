@@ -93,21 +93,6 @@ def test_error_bars_of_a_sampled_ball_hold_its_approach() -> None:
 # Default cells divide the spacing of a map.
 
 
-@pytest.mark.parametrize("shape", [(75, 305), (305, 75), (31, 40), (129, 200)])
-def test_default_cells_divide_the_spacing_of_a_map_alike_along_both_sides(
-    shape: tuple[int, int],
-) -> None:
-    from semi_analytical import discretise
-
-    x, y = ((np.arange(count) - (count - 1) / 2) * 4e-6 for count in shape)
-    heights = np.square(x)[:, None] + np.square(y)
-    rough = HeightMap(material=RIGID, file=heights, spacing=(4e-6, 4e-6))
-    grid = discretise(scene({"normal_force": 1.0}, indenter=rough), SurfaceDiscretisation())
-    factors = np.divide(grid.cells, shape)
-    assert factors[0] == factors[1] == int(factors[0])
-    assert min(grid.cells) >= 128
-
-
 # A degenerate value is the absence of its effect: the same plan, the same bits.
 
 

@@ -2,7 +2,6 @@
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import fem_reference
@@ -11,9 +10,7 @@ from semi_analytical import plan
 from verification.cases.catalogue import CASES, choose
 from verification.cases.fretting import paper_fretting_loop
 from verification.judging.case import Case, Derived, Level
-from verification.judging.refinement import refinement
 from verification.judging.run import SectionRun
-from verification.problems import paper_scene as paper
 from verification.problems.reference import ReferenceKind
 
 SCENES = Path(__file__).resolve().parents[1] / "scenes"
@@ -88,27 +85,3 @@ def test_paper_case_is_the_scene_of_the_repository() -> None:
         assert ours.normal_force == theirs.normal_force
         assert ours.tangential_force == pytest.approx(theirs.tangential_force)
         assert (ours.increments or 1) == (theirs.increments or 1)
-
-
-def test_paper_scene_has_the_printed_contact() -> None:
-    assert f"{paper.HERTZ.contact_radius * 1e3:.3f}" == "0.388"
-    assert f"{paper.HERTZ.peak_pressure * 1e-9:.4f}" == "3.1684"
-    assert paper.NU_ZERO.young_modulus == pytest.approx(2 * paper.CONTACT_MODULUS)
-
-
-def test_refinement_has_five_levels_per_octave_and_hits_the_doublings() -> None:
-    levels = refinement(32, 256)
-    assert set(levels) >= {32, 64, 128, 256}
-    assert len(levels) == 16
-    assert np.all(np.diff(levels) > 0)
-    assert all(n % 2 == 0 for n in levels)
-
-
-def test_unknown_case_is_named() -> None:
-    with pytest.raises(KeyError, match="herz"):
-        choose(Level.QUICK, ["hertz_point", "herz"])
-
-
-def test_choice_keeps_the_order_of_the_catalogue() -> None:
-    names = [case.name for case in choose(Level.QUICK, ["load_paths", "hertz_point"])]
-    assert names == ["hertz_point", "load_paths"]

@@ -47,19 +47,3 @@ def test_unknown_case_is_refused_with_the_known_ones(tmp_path: Path) -> None:
     assert "herz" in ended.stderr
     assert "hertz_point" in ended.stderr
     assert list(tmp_path.iterdir()) == []
-
-
-def test_missing_and_foreign_records_are_refused(tmp_path: Path) -> None:
-    assert outcome("maintain", "report", str(tmp_path), cwd=tmp_path).returncode == 2
-    (tmp_path / RECORD).write_text('{"other": 1}', encoding="utf-8")
-    ended = outcome("maintain", "report", str(tmp_path), cwd=tmp_path)
-    assert ended.returncode == 2
-    assert "not a report that can be used" in ended.stderr
-
-
-def test_unwritable_output_is_refused_before_any_work(tmp_path: Path) -> None:
-    (tmp_path / "file").touch()
-    ended = outcome("verify", "load_paths", "--output", "file/report", cwd=tmp_path)
-    assert ended.returncode == 2
-    assert "cannot write" in ended.stderr
-    assert "load_paths" not in ended.stderr

@@ -1,14 +1,10 @@
 """A killed verification loses no finished case; its report is that of one that was not killed."""
 
 import json
-import os
-import random
 import re
 import shutil
-import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 from typing import Any
 
@@ -58,13 +54,6 @@ def report(directory: Path) -> dict[str, Any]:
     return {key: value for key, value in record.items() if key != "provenance"}
 
 
-def workers_of(process: int) -> list[int]:
-    """Processes that it has started to compute cases."""
-    children = Path(f"/proc/{process}/task").glob("*/children")
-    pids = [int(pid) for path in children for pid in path.read_text().split()]
-    return [pid for pid in pids if b"spawn_main" in Path(f"/proc/{pid}/cmdline").read_bytes()]
-
-
 @pytest.fixture(scope="module")
 def uninterrupted(tmp_path_factory: pytest.TempPathFactory) -> Path:
     directory = tmp_path_factory.mktemp("verify") / "report"
@@ -90,46 +79,6 @@ def test_killed_verification_goes_on_where_it_stopped(uninterrupted: Path, tmp_p
     assert records(tmp_path) | kept == records(tmp_path)
     assert report(tmp_path) == report(uninterrupted)
     assert not (tmp_path / EARLIER).exists()
-
-
-@pytest.mark.slow
-def test_killed_worker_costs_its_case_alone(uninterrupted: Path, tmp_path: Path) -> None:
-    process = started(tmp_path, "--workers", "1")
-    while not (workers := workers_of(process.pid)):
-        time.sleep(0.02)
-    time.sleep(0.5)
-    os.kill(workers[0], signal.SIGKILL)
-    out, log = ended(process)
-    assert process.returncode == 1, log
-    assert "LOST           dissimilar_bodies" in log
-    failures = [line for line in out.splitlines() if line.startswith("FAIL")]
-    assert len(failures) == 1
-    assert "dissimilar_bodies/solved" in failures[0]
-    assert "its worker was killed" in failures[0]
-    others, expected = report(tmp_path)["cases"], report(uninterrupted)["cases"]
-    assert others[1:] == expected[1:]
-
-    process = started(tmp_path)
-    _, log = ended(process)
-    assert process.returncode == 0, log
-    assert log.count("already there") == len(CASES) - 1
-    assert report(tmp_path) == report(uninterrupted)
-
-
-@pytest.mark.slow
-@pytest.mark.timeout(900)
-def test_verification_survives_ten_kills(uninterrupted: Path, tmp_path: Path) -> None:
-    chance = random.Random(11)
-    for _ in range(10):
-        process = started(tmp_path)
-        time.sleep(chance.uniform(0.5, 12))
-        process.send_signal(signal.SIGKILL)
-        ended(process)
-        records(tmp_path)
-    process = started(tmp_path)
-    _, log = ended(process)
-    assert process.returncode == 0, log
-    assert report(tmp_path) == report(uninterrupted)
 
 
 def test_damaged_record_is_named_and_computed_again(uninterrupted: Path, tmp_path: Path) -> None:
