@@ -4,8 +4,6 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from verification.closed_forms.cattaneo_mindlin import PartialSlip
-from verification.closed_forms.ruiz import CycledContact
 from verification.closed_forms.sheared_surface import (
     stress_by_hertz_pressure,
     stress_by_hertz_shear,
@@ -13,8 +11,6 @@ from verification.closed_forms.sheared_surface import (
 )
 
 POISSON_RATIOS = [0.0, 0.3, 0.5]
-# Peak pressure of load and radius 1.
-PEAK = 1.5 / np.pi
 
 
 @pytest.mark.parametrize("nu", POISSON_RATIOS)
@@ -42,20 +38,3 @@ def test_a_sliding_contact_is_most_in_tension_at_its_trailing_edge(nu: float, mu
     assert np.max(stress) == pytest.approx(trailing_edge_tension(2.0, mu, nu), rel=1e-9, abs=1e-12)
     if mu > 0:
         assert x[np.argmax(stress)] == pytest.approx(-1.0, abs=1e-9)
-
-
-def cycled(ratio: float, length: float = 1.0, modulus: float = 1.0) -> CycledContact:
-    force = modulus * length**2
-    end = PartialSlip(force, length, 0.3, 0.25 * modulus, 0.3 * ratio * force)
-    return CycledContact(end, PEAK * modulus)
-
-
-def test_dissipation_per_cycle_is_four_times_friction_times_amplitude() -> None:
-    """Two passes over the range 2 δ with friction τ: 4 F1 per area, summed over the contact."""
-    contact = cycled(0.9)
-    a, c = 1.0, contact.end.stick_radius
-    total = quad(
-        lambda r: float(contact.largest_shear(r) * contact.slip_amplitude(r)) * 2 * np.pi * r,
-        c, a, epsrel=1e-10,
-    )[0]  # fmt: skip
-    assert 4 * total == pytest.approx(4 * contact.end.dissipated_energy, rel=1e-8)

@@ -193,19 +193,3 @@ def test_superposition_of_paraboloids_is_cattaneo(ratio):
 
 
 # --- dimension and range
-
-
-@pytest.mark.parametrize(
-    ("attempt", "message"),
-    [
-        (lambda: cattaneo(1.0001), "gross sliding"),
-        (lambda: cattaneo(float("nan")), "exceeds friction limit"),
-        (lambda: replace(VIRGIN, friction_coefficient=0.0), "friction_coefficient is 0.0"),
-        (lambda: TangentialHistory(cattaneo(0.5)), "without tangential force"),
-        (lambda: TangentialHistory(VIRGIN).loaded_to(-1.1 * LIMIT), "gross sliding"),
-        (lambda: superpose(CONTACTS["cone"], LOAD, 1.1 * LIMIT, MU, 1.0), "gross sliding"),
-    ],
-)
-def test_arguments_outside_the_range_are_refused(attempt, message):
-    with pytest.raises(ValueError, match=message):
-        attempt()

@@ -17,7 +17,7 @@ from coupled_scenes import (
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Paraboloid
 from contact_scene.summary import ContactStatus
-from semi_analytical import GrossSliding, SurfaceGrid, solve
+from semi_analytical import SurfaceGrid, solve
 
 TOLERANCE = 1e-8
 GRID = grid(32)
@@ -72,24 +72,6 @@ def test_swapped_bodies_answer_an_opposite_push_with_the_opposite_shear():
         of_soft.pressure, on_soft.pressure, atol=1e-7 * on_soft.peak_pressure
     )
     assert_equal_shear(of_soft.shear, -on_soft.shear, on_soft.pressure)
-
-
-def test_force_beyond_the_limit_is_gross_sliding_with_the_limit_named():
-    described = scene({"approach": 0.5 * APPROACH, "increments": 2}, push(0.9))
-    with pytest.raises(GrossSliding, match=r"90 N exceeds the friction limit 4\d\.\d+ N"):
-        solve(described, GRID, TOLERANCE)
-
-
-def test_force_at_the_limit_slips_all_over_with_the_shift_undefined():
-    end = last(scene(press(), push(0.9), push(1.0, increments=1)), tolerance=TOLERANCE)
-    assert end.status is ContactStatus.GROSS_SLIDING
-    assert end.tangential_shift is None
-    assert end.dissipated_energy is None
-    np.testing.assert_allclose(end.shear[0], MU * end.pressure, atol=1e-12 * end.peak_pressure)
-    assert not np.any(end.shear[1])
-    assert end.residuals.worst <= TOLERANCE
-    # The shear pulls the pressure with it: full slip is not the state of pressing.
-    assert np.max(np.abs(end.pressure - end.pressure[::-1])) > 1e-2 * end.peak_pressure
 
 
 def test_status_tells_partial_slip_from_no_stick_area_from_gross_sliding():

@@ -13,7 +13,6 @@ import slipstick
 from contact_results.directory.file_names import FIELDS
 from contact_results.files.field_file import write_fields
 from contact_results.result_files import write_result
-from contact_results.stress.loaded_bodies import state_of_result, state_of_run
 from contact_scene.increment import SCALARS
 from semi_analytical import solve
 
@@ -70,17 +69,6 @@ def test_one_increment_is_found_or_refused(directories: tuple[Path, Path]) -> No
         assert ends.increments.at("approach", row) == every.increments.at("approach", row)
     with pytest.raises(KeyError, match=r"increment 12 is not one of them.*--all-fields"):
         ends.increments.at("shear", int(ENDS[1]) - 1)
-
-
-@pytest.mark.parametrize("step", [1, 2, 4, None])
-def test_stress_is_of_the_same_tractions(
-    result: Any, directories: tuple[Path, Path], step: int | None
-) -> None:
-    expected, found = state_of_result(result, step), state_of_run(directories[1], step)
-    assert found.step == expected.step
-    assert set(found.tractions) == set(expected.tractions)
-    for name, field in expected.tractions.items():
-        assert np.array_equal(found.tractions[name], field)
 
 
 def test_fields_that_stay_are_those_of_every_increment(tmp_path):

@@ -1,7 +1,6 @@
 """Indenters: the gap at first touch."""
 
 from decimal import Decimal, localcontext
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,6 @@ from numpy.typing import NDArray
 
 from contact_scene import (
     RIGID,
-    ArrayFile,
     Cone,
     Ellipsoid,
     FlatPunch,
@@ -90,23 +88,3 @@ def test_a_window_beyond_the_height_map_is_refused_with_both_lengths() -> None:
             shape.initial_gap(x, 0.0)
     with pytest.raises(ValueError, match=r"covers \|y\| <= 0.0045 .* asked for \|y\| = nan"):
         shape.initial_gap(0.0, np.nan)
-
-
-def test_height_maps_are_equal_by_content(tmp_path: Path) -> None:
-    np.save(tmp_path / "a.npy", heights())
-    np.save(tmp_path / "b.npy", heights())
-    a, b = (HeightMap(material=RIGID, file=tmp_path / f"{n}.npy", spacing=1.0) for n in "ab")
-    other = HeightMap(material=RIGID, file=heights(seed=2), spacing=1.0)
-    assert a == b
-    assert hash(a) == hash(b)
-    assert a != other
-
-
-def test_an_array_handed_over_is_copied_and_read_only() -> None:
-    values = heights()
-    shape = HeightMap(material=RIGID, file=values, spacing=1.0)
-    assert isinstance(shape.file, ArrayFile)
-    values[0, 0] = 99.0
-    assert shape.file.values[0, 0] != 99.0
-    with pytest.raises(ValueError, match="read-only"):
-        shape.file.values[0, 0] = 1.0

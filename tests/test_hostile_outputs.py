@@ -146,11 +146,3 @@ def test_a_full_disk_ends_the_command_and_leaves_nothing(
     assert ended.returncode == 4, ended.stderr
     assert "File too large" in ended.stderr
     assert everything(place) == before
-
-
-@pytest.mark.parametrize("words", COMMANDS.values(), ids=COMMANDS)
-def test_the_same_output_twice_is_replaced_or_refused(words: tuple[str, ...], place: Path) -> None:
-    first = outcome(*words, "out", cwd=place)
-    assert first.returncode in (0, 1), first.stderr
-    again = outcome(*words, "out", cwd=place)
-    assert again.returncode in (first.returncode, 2), again.stderr

@@ -10,8 +10,7 @@ from pathlib import Path
 import pytest
 
 from contact_results.one_thread import ONE, VARIABLES
-from verification.cases.catalogue import CASES, MODULE_OF, case_of
-from verification.judging.case import Level
+from verification.cases.catalogue import CASES, MODULE_OF
 
 ROOT = Path(__file__).resolve().parents[1]
 # What a command has loaded when its first case goes to a worker.
@@ -93,9 +92,3 @@ def test_every_function_that_makes_a_case_is_listed_under_its_module() -> None:
     for name in CASES:
         listed.setdefault(MODULE_OF.get(name, name), set()).add(name)
     assert made == listed
-
-
-@pytest.mark.parametrize("name", ["hertz", "Hertz_point", "catalogue", "hertz_point.json"])
-def test_what_is_not_listed_is_no_case(name: str) -> None:
-    with pytest.raises(KeyError, match=name):
-        case_of(name, Level.QUICK)

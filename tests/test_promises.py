@@ -3,7 +3,6 @@
 import math
 import os
 import random
-import re
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -263,11 +262,3 @@ def test_no_direction_and_no_unit_counts(way: Any, seed: int) -> None:
         assert found == pytest.approx(length * size * line, abs=within * abs(size) * length)
     pressure = np.abs(here.pressure / stress - there.pressure)
     assert np.max(pressure) <= within * np.max(there.pressure)
-
-
-def test_absurd_contacts_are_read(tmp_path: Path) -> None:
-    assert len(ABSURD) == 19
-    for text in ABSURD.values():
-        (tmp_path / "scene.toml").write_text(text)
-        read_scene_file(tmp_path / "scene.toml")
-    assert len(re.findall(r"\[\[body.layers\]\]", ABSURD["50 layers"])) == 50

@@ -50,10 +50,6 @@ def test_waves_that_the_cells_do_not_see_are_told_by_what_they_take_from_the_pea
     assert missed > 0.03
 
 
-def test_a_smooth_map_may_be_thinned():
-    assert told(0.0, 1.0, 64)[0] is None
-
-
 # ---- What is resolved of a result is counted in cells, whatever the sizes, loads and materi
 
 

@@ -48,16 +48,5 @@ def test_tests_run_on_every_core_unless_a_file_or_n_is_named(
     assert said == ["-m", "pytest", *(SPREAD.split() if spread else []), *options.split()]
 
 
-def test_what_is_compiled_is_kept_whatever_the_environment_says(clone: Path) -> None:
-    python = clone / ".venv" / "bin" / "python"
-    python.write_text(PYTHON.replace('"$@"', "${PYTHONDONTWRITEBYTECODE-kept}"), encoding="utf-8")
-    said = subprocess.run(
-        ["bash", clone / "run", "test"],
-        env=os.environ | {"PYTHON": str(python), "PYTHONDONTWRITEBYTECODE": "1"},
-        capture_output=True, text=True, check=True,
-    ).stdout  # fmt: skip
-    assert said == "kept\n"
-
-
 def test_files_that_begin_first_are_there() -> None:
     assert {*LONGEST} <= {path.stem for path in (ROOT / "tests").glob("test_*.py")}

@@ -9,7 +9,6 @@ from command import rows, slipstick
 from conftest import leave_figures_undrawn
 from fem_scenes import solved
 
-from contact_results.directory.file_names import SUMMARY
 from contact_results.result_files import write_result
 from contact_scene import (
     Body,
@@ -20,9 +19,7 @@ from contact_scene import (
     Paraboloid,
     Scene,
 )
-from contact_scene.summary import load_summary
 from fem_reference import Result
-from verification.problems.layered_scene import coated, exact_contact, film
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 FILM = Layer(thickness=0.2e-3, material=IsotropicMaterial(young_modulus=4e11, poisson_ratio=0.2))
@@ -131,37 +128,3 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
         asked = ("-o", directory / solver, "--solver", solver, "--figures", "none")
         assert slipstick("run", directory / "scene.toml", *asked) == 0
     return directory
-
-
-@pytest.mark.parametrize(
-    ("solver", "name"),
-    [
-        ("fem", "fem_reference.penalty"),
-        ("fem-complementarity", "fem_reference.complementarity"),
-    ],
-)
-def test_run_names_its_solver(place: Path, solver: str, name: str) -> None:
-    summary = load_summary((place / solver / SUMMARY).read_text(encoding="utf-8"))
-    assert summary.solver == name
-    bodies = coated(Layer(thickness=0.2e-3, material=film(2.0, 1.0).material))
-    assert summary.steps[-1].approach == pytest.approx(exact_contact(bodies).approach, rel=0.01)
-    assert (summary.steps[-1].stick_radius or 0.0) < summary.steps[-1].contact_radius
-
-
-REFUSED = {
-    "a step names a moment": ("run", "--set", "loading[1].moment=[0.1,0]"),
-    "--volume out": ("stress", "--volume"),
-}
-
-
-@pytest.mark.parametrize("words", REFUSED)
-def test_what_finite_elements_do_not_do_is_refused(
-    place: Path, words: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    command, *options = REFUSED[words]
-    target = place / "refused"
-    code = slipstick(command, place / "scene.toml", "-o", target, "--solver", "fem", *options)
-    assert code == 2
-    said = capsys.readouterr().err
-    assert words in " ".join(said.replace("│", " ").split())
-    assert not target.exists()

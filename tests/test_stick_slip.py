@@ -130,13 +130,6 @@ def test_status_names_how_the_load_is_carried(x, status):
     assert solved(PRESS, push(x), *([push(0.1)] if x == 0 else [])).steps[1].status is status
 
 
-def test_at_the_friction_limit_the_traction_is_known_and_the_shift_is_not():
-    increment = solved(PRESS, push(0.6, 0.8)).steps[-1]
-    assert increment.tangential_shift is None
-    assert increment.dissipated_energy is None
-    np.testing.assert_allclose(increment.shear[0], 0.6 * MU * increment.pressure, rtol=1e-12)
-
-
 # A map that varies, if only in its last digits: what it carries is known once it is solved.
 NEARLY_ONE = 1 + 1e-12 * np.add.outer(np.arange(CELLS), np.arange(CELLS))
 
@@ -170,11 +163,3 @@ def test_a_slide_that_turns_slides_again_once_shear_has_turned_too(held: dict[st
         ContactStatus.NO_STICK_AREA_LEFT,
         ContactStatus.GROSS_SLIDING,
     ]
-
-
-def test_slip_opposes_shear():
-    increment = solved(PRESS, push(0.6)).steps[-1]
-    slips = increment.in_contact & ~increment.in_stick
-    against = -np.sum(increment.shear * increment.slip, axis=0)[slips]
-    product = (np.hypot(*increment.shear) * np.hypot(*increment.slip))[slips]
-    np.testing.assert_allclose(against, product, atol=1e-6 * np.max(product))

@@ -24,17 +24,6 @@ def test_names_are_unique_and_fit_for_commands(level: Level) -> None:
     assert all(name.isidentifier() and name.islower() for name in CASES)
 
 
-@pytest.mark.parametrize("level", Level)
-def test_no_two_verdicts_of_a_case_have_one_name(level: Level) -> None:
-    assert choose(level)
-    for case in choose(level):
-        named = [(quantity.name, quantity.run) for quantity in case.quantities]
-        named += [(check.name, check.subject) for check in case.checks]
-        named += [(comparison.name, " | ".join(comparison.runs)) for comparison in case.comparisons]
-        named += [(order.name, "") for order in case.orders]
-        assert len(set(named)) == len(named), case.name
-
-
 @pytest.mark.parametrize("case", QUICK.values(), ids=QUICK)
 def test_labels_and_verdicts_of_a_case_are_unambiguous(case: Case) -> None:
     labels = [run.label for run in case.runs]

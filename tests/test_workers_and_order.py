@@ -89,44 +89,6 @@ def test_workers_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
         time.sleep(0.05)
 
 
-ORPHAN = """
-import sys
-from itertools import count
-from pathlib import Path
-from study_cases import Number, Square
-from verification.running.case_store import CaseStore
-store = CaseStore(Path(sys.argv[1]), Number)
-for number in count():
-    for of in range(6):
-        store.save(Square(float(of)), Number(value=float(of * of), process=0))
-    if number == 0:
-        print("begun", flush=True)
-"""
-
-
-def test_resuming_beside_live_orphans_gives_whole_records(tmp_path: Path) -> None:
-    """Two processes that nobody has stopped go on writing the very records that are read."""
-    store, cases = CaseStore(tmp_path, Number), [Square(float(of)) for of in range(6)]
-    orphans = [python(ORPHAN, str(tmp_path)) for _ in range(2)]
-    try:
-        for orphan in orphans:
-            assert orphan.stdout is not None
-            assert orphan.stdout.readline() == "begun\n"
-        for _ in range(20):
-            ends = run_cases(cases, store, 1, lambda end: None)
-            assert all(end.stored and not end.damaged for end in ends)
-        ends = run_cases(cases, store, 1, lambda end: None, fresh=True)
-        assert [end.lost for end in ends] == [None] * len(cases)
-    finally:
-        for orphan in orphans:
-            orphan.kill()
-            orphan.communicate()
-    for case in cases:
-        found = store.load(case)
-        assert isinstance(found, Number)
-        assert found.value == case.of**2
-
-
 def test_a_record_that_is_half_written_would_be_seen(tmp_path: Path) -> None:
     store = CaseStore(tmp_path, Number)
     store.save(Square(2.0), Number(value=4.0, process=0))
