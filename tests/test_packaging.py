@@ -75,7 +75,6 @@ def test_the_wheel_runs_a_scene_away_from_the_source(built: Path, tmp_path: Path
         wheel.extractall(packages)
     lent = [path for path in sys.path if path.endswith("-packages")]
     (packages / "lent.pth").write_text("\n".join(lent), encoding="utf-8")
-    shutil.copy(ROOT / "scenes" / "coated_ball.toml", tmp_path)
 
     def python(*arguments: str) -> str:
         command = [tmp_path / "bare" / "bin" / "python", "-P", *arguments]
@@ -88,6 +87,8 @@ def test_the_wheel_runs_a_scene_away_from_the_source(built: Path, tmp_path: Path
     where = "import slipstick, semi_analytical as s; print(slipstick.__file__, s.__file__)"
     for file in python("-c", where).split():
         assert Path(file).is_relative_to(packages)
+    scene = python("-m", "slipstick", "example", "coated_ball")
+    (tmp_path / "coated_ball.toml").write_text(scene, encoding="utf-8")
     python("-m", "slipstick", "run", "coated_ball.toml", "--output", "out")
     python("-m", "slipstick", "verify", "hertz_point", "--output", "report")
     summary = json.loads((tmp_path / "out" / "summary.json").read_text(encoding="utf-8"))

@@ -82,6 +82,7 @@ def _commands(summaries: dict[str, str]) -> dict[str, LazyCommand]:
 
 COMMANDS = _commands(
     {
+        "example": "Print a scene file that comes with the program.",
         "check": "Validate a scene file and say what it describes.",
         "plan": "Say which effects a scene needs, on which grid, and how long a run would take.",
         "run": "Solve a scene and write its results, tables and pictures.",

@@ -1,0 +1,31 @@
+"""`slipstick example`: print a scene file that comes with the program."""
+
+from importlib.resources import files
+from typing import Annotated
+
+import typer
+
+
+def example(
+    name: Annotated[
+        str | None,
+        typer.Argument(
+            help="Name of the scene. Without a name, the names are listed.", show_default=False
+        ),
+    ] = None,
+) -> None:
+    """Print an example scene, as in `slipstick example coated_ball > scene.toml`."""
+    scenes = {
+        file.name.removesuffix(".toml"): file.read_text(encoding="utf-8")
+        for file in sorted((files("slipstick") / "scenes").iterdir(), key=lambda file: file.name)
+    }
+    if name is None:
+        for each, text in scenes.items():
+            title = text.splitlines()[0].partition("=")[2].strip(' "')
+            typer.echo(f"{each:15} {title}")
+    elif name in scenes:
+        typer.echo(scenes[name], nl=False)
+    else:
+        from slipstick.cli.options import unknown_names
+
+        raise typer.BadParameter(unknown_names("example", [name], scenes, "slipstick example"))
