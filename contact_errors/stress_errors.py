@@ -17,7 +17,7 @@ shear, and has no such place unless it is found there.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from math import sqrt
 from typing import Any
@@ -42,6 +42,7 @@ from contact_results.stress.on_section import stress_on_section
 from contact_results.stress.points import StressField, StressPoints
 from contact_scene import Body
 from contact_scene.accuracy import LARGEST_TENSION
+from contact_scene.solver_errors import UnsupportedScene
 from contact_scene.stated_error import Part, StatedError, StatedErrors
 
 Field = NDArray[np.float64]
@@ -73,6 +74,32 @@ def largest_tensile_stress(
     smooth = state.pressed is not None or found.depth >= NEAR * _side(state)
     order = SMOOTH if smooth else EDGE if _is_fitted(field) else ROOT
     return abs(found.value), error, order
+
+
+def largest_stresses(
+    result: object, errors: StatedErrors | None, names: Collection[str]
+) -> Mapping[str, tuple[float, StatedError | None]]:
+    """Compute largest stresses of the body at the end of the last load step.
+
+    Returns values [force/length^2] and errors. Raises UnsupportedScene for a rigid body.
+
+    errors  of the result; None where they were left out
+    names   MEASURE@REGION; an interface by its number, for the side with the larger value
+    """
+    state = state_of_result(result, None, errors)  # type: ignore[arg-type]
+    if not state.body.deforms:
+        raise UnsupportedScene("the body is rigid and has no stress; leave the stresses out")
+    field = _field(state)
+    largest: dict[str, Extreme] = {}
+    for each in sorted(extremes(field, state.body), key=lambda extreme: extreme.value):
+        words = each.region.split()
+        region = words[1] if words[0] == "interface" else each.region
+        if (name := f"{each.measure}@{region}") in names:
+            largest[name] = each
+    stated: Sequence[StatedError | None] = [None] * len(largest)
+    if errors is not None:
+        stated = stress_errors(state, field, list(largest.values()))
+    return {name: (largest[name].value, error) for name, error in zip(largest, stated, strict=True)}
 
 
 def _field(state: LoadedBodies, *, indenter: bool = False, depths: Any = None) -> StressField:

@@ -162,7 +162,9 @@ ORDERS = {
         *("answer", "answer_files", "field_tables", "reading"),
         *("coverage", "verdicts", "judgement", "door", "named_solver"),
     ),
-    "slipstick": (*("solvers", "solving", "stored_run", "tables", "cli", "__main__"),),
+    "slipstick": (
+        *("solvers", "solving", "stored_run", "tables", "sweep", "sweep_chart", "cli", "__main__"),
+    ),
     # Its floors: what judges stands on what is known, what is shown on what was judged.
     "verification": (
         *(

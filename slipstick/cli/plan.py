@@ -57,13 +57,13 @@ def plan(
     print_pairs(chosen.work(contents.scene, fineness, decided))
     if reasons := chosen.reasons(decided):
         print_table(("step", "increments", "why"), reasons)
-    if solver is not SolverName.RADIAL and (how := _by_radii(contents.scene)):
+    if solver is not SolverName.RADIAL and (how := by_radii(contents.scene)):
         print_pairs([("radial", f"--solver radial would do: {how}")])
     if accuracy is not None:
         _print_prices(accuracy, chosen, contents)
 
 
-def _by_radii(scene: "Scene") -> str | None:
+def by_radii(scene: "Scene") -> str | None:
     """What one dimension makes of a scene; None where it calls for more."""
     from contact_scene.solver_errors import UnsupportedScene
     from radial.circle import Circle

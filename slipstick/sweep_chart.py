@@ -1,0 +1,113 @@
+"""Results of a parameter sweep: curves with error bars, and maps of two keys."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.ticker import NullLocator
+from numpy.typing import NDArray
+
+from contact_results.directory.atomic_file import atomic_file
+from contact_results.figures import style
+from contact_scene.engineering_units import EngineeringUnit, engineering_unit
+from slipstick.sweep import Variation
+
+PERCENTILES = (5.0, 50.0, 95.0)
+MAX_KEYS, MAX_TICKS = 2, 8
+
+
+@dataclass(frozen=True, eq=False)
+class SweptQuantity:
+    """A number at every point of a sweep; NaN where there is none.
+
+    values, errors  (..., sample), an index for every key and one for the sample [unit]
+    """
+
+    name: str
+    unit: str
+    values: NDArray[np.float64]
+    errors: NDArray[np.float64]
+
+    @property
+    def suited(self) -> EngineeringUnit:
+        """The unit that suits the values."""
+        known = np.abs(self.values[np.isfinite(self.values)])
+        return engineering_unit(float(np.max(known, initial=0.0)), self.unit)
+
+    @property
+    def in_order(self) -> SweptQuantity:
+        """The values of a sample (n, 1) from the smallest to the largest."""
+        order = np.argsort(self.values)[:, None]
+        return replace(self, values=self.values[order], errors=self.errors[order])
+
+    @property
+    def percentiles(self) -> NDArray[np.float64]:
+        """Percentiles of the sample, their lower and their upper bounds (3, percentile, ...).
+
+        A percentile is monotonic in every value. The percentiles of value - error and
+        value + error therefore bound it. Unknown errors give NaN. The unit is the suited one.
+        """
+        values, errors = self.values / self.suited.size, self.errors / self.suited.size
+        shifted, known = np.stack([values, values - errors, values + errors]), np.isfinite(values)
+        found = np.full((3, len(PERCENTILES), *known.shape[:-1]), np.nan)
+        for at in np.ndindex(known.shape[:-1]):
+            if np.any(known[at]):
+                sample = shifted[(slice(None), *at)][:, known[at]]
+                found[(..., *at)] = np.percentile(sample, PERCENTILES, axis=1, method="hazen").T
+        return found
+
+
+def write_sweep_chart(
+    keys: Sequence[Variation], quantities: Sequence[SweptQuantity], path: Path, title: str
+) -> None:
+    """Draw one panel per quantity: a curve for one key, a map for two, a distribution for none."""
+    if not keys:
+        quantities = [quantity.in_order for quantity in quantities]
+        shares = 100 * (np.arange(len(quantities[0].values)) + 0.5) / len(quantities[0].values)
+        keys = [Variation("part of the sample below", "%", tuple(shares.tolist()))]
+    with style.figure_style(), atomic_file(path) as temporary:
+        figure = style.new_figure(5.2, 0.4 + 2.9 * len(quantities))
+        figure.suptitle(title, fontsize=style.STYLE["axes.titlesize"])
+        axes = figure.subplots(len(quantities), squeeze=False)[:, 0]
+        for ax, quantity in zip(axes, quantities, strict=True):
+            (_draw_curve, _draw_map)[len(keys) - 1](ax, quantity, *keys)
+            for key, axis in zip(keys, "xy", strict=False):
+                _label(ax, key, axis)
+        style.save(figure, temporary)
+
+
+def _draw_curve(ax: Any, quantity: SweptQuantity, key: Variation) -> None:
+    """Values, or medians and ranges of samples, with numerical errors."""
+    (lower, middle, upper), (_, low, _), (_, high, _) = quantity.percentiles
+    bars = np.nan_to_num([middle - low, high - middle])
+    ax.errorbar(key.values, middle, bars, marker=".", capsize=3, **style.line(0))
+    if quantity.values.shape[-1] > 1:
+        label = f"{PERCENTILES[0]:g} to {PERCENTILES[-1]:g} % of the sample"
+        ax.fill_between(key.values, lower, upper, color=style.STICK_COLOUR, alpha=0.2, label=label)
+        ax.legend(loc="best")
+    ax.set_ylabel(quantity.suited.labelled(quantity.name))
+
+
+def _draw_map(ax: Any, quantity: SweptQuantity, across: Variation, upward: Variation) -> None:
+    """Values, or medians of samples."""
+    middle, low, high = quantity.percentiles[:, 1]
+    image = ax.pcolormesh(
+        across.values, upward.values, middle.T, shading="nearest", cmap=style.MAGNITUDE_MAP
+    )
+    ax.figure.colorbar(image, ax=ax, label=quantity.suited.labelled(quantity.name))
+    largest = np.max(np.nan_to_num(high - low)) / 2
+    ax.set_title(f"largest numerical error: {largest:.2g} {quantity.suited.name}")
+
+
+def _label(ax: Any, key: Variation, axis: str) -> None:
+    """Label an axis; a logarithmic one has its ticks at values of the key."""
+    ax.set(**{f"{axis}label": key.label})
+    if key.is_log:
+        ax.set(**{f"{axis}scale": "log"})
+        shown = key.values[:: -(-len(key.values) // MAX_TICKS)]
+        ax.set(**{f"{axis}ticks": shown, f"{axis}ticklabels": [f"{v:.3g}" for v in shown]})
+        getattr(ax, f"{axis}axis").set_minor_locator(NullLocator())

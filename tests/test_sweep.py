@@ -1,0 +1,149 @@
+"""`slipstick sweep`: spaced keys, samples of distributions, resuming, and refusals."""
+
+import json
+import shlex
+from pathlib import Path
+
+import numpy as np
+import pytest
+from command import outcome, rows
+
+from slipstick.sweep import Variation
+from slipstick.sweep_chart import SweptQuantity
+
+HERTZ = """
+title = "steel ball"
+[indenter]
+shape = "paraboloid"
+radius = "18 mm"
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+[body]
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+[[loading]]
+normal_force = "1 kN"
+"""
+MODULUS = 210e9 / 0.91 / 2
+RADIUS = "indenter.radius [mm]"
+
+
+def peak(radius: float, force: float) -> float:
+    return float((6 * force * MODULUS**2 / (np.pi**3 * radius**2)) ** (1 / 3))
+
+
+@pytest.fixture
+def scene(tmp_path: Path) -> Path:
+    path = tmp_path / "ball.toml"
+    path.write_text(HERTZ, encoding="utf-8")
+    return path
+
+
+def sweep(scene: Path, *arguments: object, out: str = "out"):
+    return outcome("sweep", scene, "-o", out, *arguments, cwd=scene.parent)
+
+
+@pytest.mark.parametrize(
+    ("text", "values", "unit"),
+    [
+        ("a=1..64 um log 4", (1, 4, 16, 64), "um"),
+        ("a=.1...3 3", (0.1, 0.2, 0.3), ""),
+        ("a.b[2].c=-1..1 N mm 2", (-1, 1), "N mm"),
+        ("a=1e-3..1 log 4", (1e-3, 1e-2, 0.1, 1), ""),
+        ("a=normal(4,0.2) um 1", (4,), "um"),
+        ("a=normal(0, 1) N/m^2 2", (-0.674489750196, 0.674489750196), "N/m^2"),
+    ],
+)
+def test_a_variation_has_its_values_and_its_unit(text, values, unit) -> None:
+    found = Variation.of(text)
+    assert (found.values, found.unit) == (pytest.approx(values, rel=1e-11), unit)
+
+
+def test_a_row_has_value_error_and_a_scene_that_gives_it_again(scene: Path) -> None:
+    varied = (
+        "--vary",
+        "indenter.radius=9..36 mm log 3",
+        "--vary",
+        "loading[1].normal_force=1..2 kN 2",
+    )
+    wanted = ("--get", "peak_pressure,von_mises@body", "--solver", "radial")
+    ended = sweep(scene, *varied, *wanted)
+    assert ended.returncode == 0, ended.stderr
+    found = rows(scene.parent / "out/sweep.csv")
+    assert len(found) == 6
+    for row in found:
+        exact = peak(1e-3 * float(row[RADIUS]), 1e3 * float(row["loading[1].normal_force [kN]"]))
+        error = abs(float(row["peak_pressure [Pa]"]) - exact)
+        assert error <= float(row["peak_pressure error [Pa]"]) + 1e-14 * exact
+        assert float(row["von_mises@body [Pa]"]) == pytest.approx(0.62 * exact, rel=2e-3)
+    outcome("run", *shlex.split(found[4]["scene"]), "-o", "again", cwd=scene.parent)
+    again = json.loads((scene.parent / "again/summary.json").read_text(encoding="utf-8"))
+    assert again["steps"][-1]["peak_pressure"] == float(found[4]["peak_pressure [Pa]"])
+    assert (scene.parent / "out/sweep.png").stat().st_size > 5000
+
+    before = (scene.parent / "out/sweep.csv").read_bytes()
+    resumed = sweep(scene, *varied, *wanted)
+    assert resumed.stderr.count("already there") == 6
+    assert (scene.parent / "out/sweep.csv").read_bytes() == before
+    scene.write_text(HERTZ.replace("0.3 }\n[body]", "0.2 }\n[body]"), encoding="utf-8")
+    assert "already there" not in sweep(scene, *varied, *wanted).stderr
+
+
+def test_percentiles_of_a_monotonic_result_are_its_values_at_those_of_the_key(scene: Path) -> None:
+    varied = ("--vary", "indenter.radius=normal(18,1) mm 40")
+    ended = sweep(scene, *varied, "--solver", "radial", "--workers", 1)
+    assert ended.returncode == 0, ended.stderr
+    line = next(line for line in ended.stdout.splitlines() if "peak_pressure (GPa)" in line)
+    middle = peak(18e-3, 1e3) / 1e9
+    shown = [float(text) for text in line.split("(GPa)")[1].split() if text[0].isdigit()][::2]
+    exact = [middle * (1 + z / 18) ** (-2 / 3) for z in (1.6448536, 0, -1.6448536)]
+    assert shown == pytest.approx(exact, rel=1e-3)
+
+
+def test_errors_bound_the_percentiles_of_every_value_within_them() -> None:
+    draw = np.random.default_rng(1)
+    values, errors = draw.normal(size=(2, 50)), draw.uniform(0, 0.3, size=(2, 50))
+    middle, low, high = SweptQuantity("", "", values, errors).percentiles
+    moved = SweptQuantity("", "", values + errors * draw.uniform(-1, 1, (2, 50)), errors)
+    assert np.all(low < middle)
+    assert np.all(middle < high)
+    assert np.all((low <= moved.percentiles[0]) & (moved.percentiles[0] <= high))
+
+
+def test_a_point_without_answer_leaves_its_reason(scene: Path) -> None:
+    text = HERTZ + '[semi_analytical]\ncells = [16, 16]\nwindow = ["1 mm", "1 mm"]\n'
+    scene.write_text(text, encoding="utf-8")
+    ended = sweep(scene, "--vary", "indenter.radius=9..90 mm 2", "--get", "approach")
+    assert ended.returncode == 3
+    fits, cut_off = rows(scene.parent / "out/sweep.csv")
+    assert "window" in cut_off["refused"]
+    assert not cut_off["approach [m]"]
+    assert not fits["refused"]
+    assert float(fits["approach [m]"]) > 0
+    assert "--solver radial would do" in ended.stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("--vary", "indenter.radius=18 mm"), "got --vary indenter.radius=18 mm, expected KEY="),
+        (("--vary", "indenter.radius=0..9 mm log 3"), "log takes positive a and b"),
+        (
+            ("--vary", "indenter.radius=1..9 mm 0"),
+            "got --vary indenter.radius=1..9 mm 0, expected KEY=",
+        ),
+        (("--vary", "a=normal(1,-2) 3"), "got --vary a=normal(1,-2) 3, expected KEY="),
+        (("--vary", "a=normal(1,2) 3", "--vary", "b=normal(1,2) 4"), "differ in N"),
+        (("--vary", "a=1..2 3", "--vary", "a=1..2 3"), "a key is named twice"),
+        (("--vary", "indenter.radius=-1..9 mm 3"), "expected a positive length"),
+        (
+            ("--vary", "indenter.radius=1..9 mm 999", "--vary", "a=1..2 999"),
+            "expected at most 99999",
+        ),
+        (("--vary", "indenter.radius=8..9 mm 2", "--get", "peak_presure"), "mean peak_pressure?"),
+        (("--vary", "indenter.radius=8..9 mm 2", "--get", "max_shear@1"), "no quantity is called"),
+    ],
+)
+def test_a_sweep_that_cannot_be_made_says_why(scene: Path, arguments, message) -> None:
+    ended = sweep(scene, *arguments)
+    assert ended.returncode == 2
+    assert message in " ".join(ended.stderr.replace("│", " ").split())
+    assert not (scene.parent / "out").exists()
