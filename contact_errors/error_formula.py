@@ -57,7 +57,7 @@ AT_EDGES, PEAK = frozenset({"slip_amplitude", "ruiz_f1", "ruiz_f2"}), "peak_pres
 OF_SLIP = frozenset(
     {
         *("tangential_shift", "tangential_force", "twist", "torque", "dissipated_energy"),
-        *("energy_per_cycle", "input_work", *AT_EDGES),
+        *("actuator_shift", "energy_per_cycle", "input_work", *AT_EDGES),
     }
 )
 
@@ -181,7 +181,7 @@ class SolvedRun:
         """Stated errors at the end of each step."""
         before: dict[str, dict[Part, Numbers]] = {}
         for step, ramp in enumerate(self.scene.load_path()):
-            exact = prescribed(ramp)
+            exact = prescribed(ramp, self.scene.rig)
             yield {
                 name: EXACT if name in exact else self._error(step, name, before)
                 for name in self.values[step]

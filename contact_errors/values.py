@@ -12,6 +12,7 @@ from contact_scene import LoadRamp
 from contact_scene.increment import SCALARS, State
 from contact_scene.load_path import ControlKind
 from contact_scene.reported import reported
+from contact_scene.rig import Rig, prescribed_motions
 
 if TYPE_CHECKING:
     from contact_results.cycles import FrettingCycle
@@ -39,11 +40,13 @@ def values_of(result: Result, cycles: Sequence[FrettingCycle]) -> tuple[Values, 
     )
 
 
-def prescribed(ramp: LoadRamp) -> frozenset[str]:
-    """Return the names of the scalars that the load step prescribes at its end."""
+def prescribed(ramp: LoadRamp, rig: Rig | None) -> frozenset[str]:
+    """Return the names of the scalars that the load step prescribes at its end: with a rig the
+    motions of the actuator."""
+    approach, shift = prescribed_motions(rig)
     controls = (
-        (ramp.normal.kind, "normal_force", "approach"),
-        (ramp.tangential.kind, "tangential_force", "tangential_shift"),
+        (ramp.normal.kind, "normal_force", approach),
+        (ramp.tangential.kind, "tangential_force", shift),
         (ramp.twisting.kind, "torque", "twist"),
         (ramp.tilting.kind, "moment", "tilt"),
     )

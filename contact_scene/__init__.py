@@ -18,6 +18,7 @@ from contact_scene.load_path import ControlKind, LoadRamp, ScalarControl, Vector
 from contact_scene.loading import LoadStep
 from contact_scene.material import RIGID, IsotropicMaterial, Rigid
 from contact_scene.problem import Problem, SceneError
+from contact_scene.rig import Rig
 from contact_scene.scene import Scene
 from contact_scene.scene_file import load_scene, read_scene_file
 
@@ -40,6 +41,7 @@ __all__ = [
     "Paraboloid",
     "Problem",
     "RadialDiscretisation",
+    "Rig",
     "Rigid",
     "ScalarControl",
     "Scene",

@@ -9,12 +9,14 @@ from contact_scene.geometry import Sphere
 from contact_scene.load_path import ControlKind, LoadRamp
 from contact_scene.material import IsotropicMaterial
 from contact_scene.pair import contact_modulus
+from contact_scene.rig import compliances
 from contact_scene.scene import Scene
 from contact_scene.solver_errors import UnsupportedScene
 
 # atanh(x) with x atanh(x) = 1: at an approach of R the contact of a rigid sphere has the radius xR
 # and the force atanh(x) E* R^2 (Sneddon 1965).
 _AT_EQUATOR = 1.19967864
+BISECTIONS = 60  # to round-off
 
 
 def refuse_equator(scene: Scene) -> None:
@@ -28,6 +30,8 @@ def refuse_equator(scene: Scene) -> None:
         end, by_force = ramp.normal.end, ramp.normal.kind is ControlKind.FORCE
         if by_force and layered:
             continue
+        if not by_force:
+            end = contact_approach(scene, end, contact_modulus(scene))
         most = _AT_EQUATOR * contact_modulus(scene) * R**2 if by_force else R
         if end >= most:
             load, unit = ("normal force", "N") if by_force else ("approach", "m")
@@ -36,6 +40,25 @@ def refuse_equator(scene: Scene) -> None:
                 f"{unit}, and {most:.4g} {unit} press it in by its radius; take less, or a "
                 "paraboloid"
             )
+
+
+def contact_approach(scene: Scene, approach: float, modulus: float) -> float:
+    """Approach of the bodies where that of the actuator is given, by half-spaces [length].
+
+    modulus  E* [force/length^2]
+    """
+    down, indenter = compliances(scene.rig)[0], scene.indenter
+    at, under = indenter.contact_at(1.0), indenter.contact_under(1.0, modulus)
+    k = indenter.gap_exponent
+    if not down or at is None or under is None or k is None:
+        return approach
+    stiffness = math.prod(at) ** ((k + 1) / (2 * k)) / math.sqrt(math.prod(under))
+    low, high = 0.0, approach
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (low + high)
+        beyond = middle + down * stiffness * middle ** ((k + 1) / k) > approach
+        low, high = (low, middle) if beyond else (middle, high)
+    return high
 
 
 @dataclass(frozen=True)
@@ -52,6 +75,11 @@ class ExpectedContact:
     radius: float
     strain: float
 
+    @property
+    def stiffness(self) -> float:
+        """Along the normal, and up to 30 % more than along the surface [force/length]."""
+        return 2 * self.modulus * self.radius
+
 
 def expected_contacts(scene: Scene) -> Iterator[ExpectedContact]:
     """That of every step of which it is known."""
@@ -65,13 +93,13 @@ def expected_contacts(scene: Scene) -> Iterator[ExpectedContact]:
             power = (
                 scene.indenter.contact_under(end, modulus)
                 if by_force
-                else scene.indenter.contact_at(end)
+                else scene.indenter.contact_at(contact_approach(scene, end, modulus))
             )
             return math.nan if power is None else math.prod(power) ** (0.5 / (k + by_force))
 
         modulus = _modulus_within(scene, radius(outermost)) or outermost
         if (a := radius(modulus)) > 0:
-            force = end if by_force else modulus * a * end
+            force = end if by_force else modulus * a * contact_approach(scene, end, modulus)
             strain = force / (math.pi * a**2) / modulus
             # Below a cone strains do not depend on the load.
             yield ExpectedContact(ramp, modulus, a, 0.0 if k == 1 else strain)

@@ -61,6 +61,20 @@ class State:
             key=True,
         ),
     ] = None
+    actuator_approach: Annotated[
+        float | None,
+        Reported("m", "Approach of the actuator; null without a normal spring.", key=True),
+    ] = None
+    actuator_shift: Annotated[
+        Vector | None,
+        Reported(
+            "m",
+            "Tangential shift of the actuator, tangential_shift + force/stiffness; null without a "
+            "tangential spring and where tangential_shift is.",
+            Kind.VECTOR,
+            key=True,
+        ),
+    ] = None
     torque: Annotated[
         float | None, Reported("N m", "Torque about z; null where nothing twists.", key=True)
     ] = None
@@ -125,16 +139,17 @@ class State:
         float | None,
         Reported(
             "J",
-            "Energy stored in both bodies; null for a solver that does not keep the account.",
+            "Energy stored in both bodies, without springs of a rig; null for a solver that does "
+            "not keep the account.",
         ),
     ] = None
     input_work: Annotated[
         float | None,
         Reported(
             "J",
-            "Work of forces and moments since the start of the history: elastic_energy + "
-            "dissipated_energy (finite elements that state no elastic energy: the trapezoidal "
-            "sum); null where a motion is undefined, at the friction limit under "
+            "Work of forces and moments on the bodies since the start of the history: "
+            "elastic_energy + dissipated_energy (finite elements that state no elastic energy: "
+            "the trapezoidal sum); null where a motion is undefined, at the friction limit under "
             "force control.",
         ),
     ] = None

@@ -40,13 +40,14 @@ class LoadStep(Description):
 
     approach: PressingLength | None = None
     """Approach at the end of the step, counted from first touch [length]; 0 separates the
-    bodies."""
+    bodies. With a normal spring in [rig]: that of the actuator."""
 
     tangential_force: tuple[Force, Force] | None = None
     """Tangential force (Tx, Ty) at the end of the step [force]."""
 
     tangential_shift: tuple[Length, Length] | None = None
-    """Tangential shift (x, y) at the end of the step [length]."""
+    """Tangential shift (x, y) at the end of the step [length]. With a tangential spring in [rig]:
+    that of the actuator."""
 
     torque: Moment | None = None
     """Torque about z at the end of the step [force length]."""

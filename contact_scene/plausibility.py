@@ -7,7 +7,7 @@ as valid as anything else. Nothing here is an error: remarks are for whoever wro
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from itertools import chain, pairwise
+from itertools import chain, pairwise, product
 
 import numpy as np
 from pydantic import BaseModel
@@ -21,6 +21,7 @@ from contact_scene.load_path import ControlKind
 from contact_scene.material import IsotropicMaterial
 from contact_scene.problem import Path, dotted
 from contact_scene.quantity import WithUnit
+from contact_scene.rig import compliances
 from contact_scene.scene import Scene
 
 
@@ -70,6 +71,12 @@ _STIFF = 2e10  # Pa: metals and ceramics, whose mean pressure is limited by thei
 # Mean pressure over E* that only the hardest ceramics and diamond bear: hardness is 0.01 to 0.04 of
 # the modulus in steels, 0.05 in ceramics, 0.1 in diamond.
 _HARD = 0.05
+# Stiffness of a rig over that of the contact from which on the force is nearly prescribed.
+_SOFT = 1e-3
+SPRINGS = (
+    ("normal_stiffness", "approach", "normal_force"),
+    ("tangential_stiffness", "tangential_shift", "tangential_force"),
+)
 # Contact radii beyond which nothing shows of what is below a layer, and those that a layer has
 # where nothing shows of it; softer and stiffer ones by so much the less.
 _DEEP, _THIN = 20.0, 1e-4
@@ -97,7 +104,8 @@ def unlikely(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
         *_measured(scene),
         *_too_small(scene, pressed, fineness),
         *_of_no_effect(scene, pressed),
-        *_far(pressed),
+        *(_far(pressed) if compliances(scene.rig)[1] == 0 else ()),
+        *_soft(scene, pressed),
         *_yielding(pressed),
     )
 
@@ -232,6 +240,21 @@ def _far(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
                     "theory of small displacements has ended"
                 )
                 return
+
+
+def _soft(scene: Scene, pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
+    """On springs of a rig through which a displacement is as good as a force."""
+    pairs = zip(SPRINGS, compliances(scene.rig), strict=True)
+    for end, ((key, name, force), compliance) in product(pressed, pairs):
+        control = end.ramp.normal if force == "normal_force" else end.ramp.tangential
+        if control.kind is ControlKind.DISPLACEMENT and compliance * end.stiffness > 1 / _SOFT:
+            yield (
+                f"rig.{key}: {quantity(1 / compliance, 'N/m')} is less than {_SOFT:g} of the "
+                f"stiffness of the contact of about {quantity(end.stiffness, 'N/m', 2)}: {name} "
+                f"prescribes nearly a force, at a higher cost and with more round-off; prescribe "
+                f"{force} instead"
+            )
+            return
 
 
 def _yielding(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:

@@ -24,6 +24,7 @@ from contact_scene.units import (
     PURE_NUMBER,
     ROTATION,
     SHARE,
+    STIFFNESS,
     Kind,
     UnknownUnit,
 )
@@ -220,6 +221,7 @@ Rotation = Annotated[
         at_most=_MOST_ROTATION,
     ),
 ]
+PositiveStiffness = Annotated[float, Quantity(STIFFNESS, "a positive stiffness", above=0.0)]
 PositivePressure = Annotated[float, Quantity(PRESSURE, "a positive pressure", above=0.0)]
 SlopeAngle = Annotated[
     float,

@@ -14,6 +14,7 @@ from contact_scene.geometry import Indenter
 from contact_scene.load_path import LoadRamp, load_path
 from contact_scene.loading import MOST_STEPS, LoadStep
 from contact_scene.problem import SceneError
+from contact_scene.rig import Rig
 
 
 class Scene(Description):
@@ -33,6 +34,9 @@ class Scene(Description):
 
     friction: CoulombFriction | None = None
     """Friction between the two; absent: frictionless."""
+
+    rig: Rig | None = None
+    """Springs between the actuator and the indenter; absent: none."""
 
     loading: tuple[LoadStep, ...] = Field(min_length=1, max_length=MOST_STEPS)
     """Loading steps in order, each ramping linearly from the state before."""

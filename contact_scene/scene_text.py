@@ -33,6 +33,8 @@ def describe(
     yield "indenter", _joined(scene.indenter)
     yield "body", _joined(scene.body)
     yield "friction", "none" if scene.friction is None else _joined(scene.friction)
+    if scene.rig is not None:
+        yield "rig", _joined(scene.rig)
     for number, step in enumerate(scene.loading[:MOST_STEPS_SHOWN], 1):
         yield f"step {number}", _joined(step)
     if len(scene.loading) > MOST_STEPS_SHOWN:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from contact_scene.height_map import lowest_point
 from contact_scene.load_path import Control, ControlKind, LoadRamp
 from contact_scene.residuals import Residuals
+from contact_scene.rig import MOTIONS
 from contact_scene.summary import ContactStatus
 
 Field = NDArray[np.float64]
@@ -33,6 +34,7 @@ _KEPT = _PLACES | frozenset(
 # What goes on after a return to contact, by the value at separation that it goes on from.
 _CONTINUED = {
     **{name: name for name in ("tangential_shift", "twist", "input_work", "unresolved_work")},
+    "actuator_shift": "actuator_shift",
     **{name: name for name in ("dissipated_energy", "dissipation_uncertainty", "slip_distance")},
     **{"dissipation": "dissipation", "dissipation_before": "dissipation"},
 }
@@ -69,6 +71,9 @@ def separated(
         lowest = float(np.min(gap)) + (lowest_point(gap)[0] if smooth else 0.0)
     dissipated = before.dissipated_energy or 0.0
     found |= {"gap": gap - lowest, "approach": lowest, "status": ContactStatus.SEPARATED}
+    for name, (actuator, _) in MOTIONS.items():
+        if getattr(before, actuator) is not None:
+            found[actuator] = found[name]
     found |= {"elastic_energy": 0.0, "input_work": None, "unresolved_work": None, **place}
     for name, source in (("slip_before", "slip"), ("dissipation_before", "dissipation")):
         if name in found:

@@ -40,8 +40,9 @@ class Kind:
 
 def _table(**factors: str) -> Mapping[str, Decimal]:
     table = {unit: Decimal(factor) for unit, factor in factors.items()}
-    for unit in [unit for unit in table if unit.startswith("u")]:
-        table["µ" + unit[1:]] = table["μ" + unit[1:]] = table[unit]  # micro sign, Greek mu
+    for unit in [unit for unit in table if unit.startswith("u") or "/u" in unit]:
+        for micro in "µμ":  # micro sign, Greek mu
+            table[unit.replace("u", micro)] = table[unit]
     return MappingProxyType(table)
 
 
@@ -57,6 +58,11 @@ MOMENT = Kind(
         **{"N m": "1", "N mm": "1e-3", "uN m": "1e-6", "mN m": "1e-3", "kN m": "1e3"},
         **{"Nm": "1", "Nmm": "1e-3", "uNm": "1e-6", "mNm": "1e-3", "kNm": "1e3"},
     ),
+)
+STIFFNESS = Kind(
+    "N/m",
+    '"50 N/um"',
+    _table(**{"N/m": "1", "N/mm": "1e3", "mN/um": "1e3", "N/um": "1e6", "kN/mm": "1e6"}),
 )
 PRESSURE = Kind("Pa", '"210 GPa"', _table(Pa="1", kPa="1e3", MPa="1e6", GPa="1e9", TPa="1e12"))
 _ANGLES = {"rad": Decimal(1), "mrad": Decimal("1e-3"), "deg": _DEGREE, "°": _DEGREE}

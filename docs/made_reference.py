@@ -20,6 +20,7 @@ from contact_scene.geometry import SHAPES
 from contact_scene.increment import Counters, Quality, State
 from contact_scene.quantity import Quantity
 from contact_scene.reported import reported
+from contact_scene.rig import Rig
 from contact_scene.ring_increment import RingIncrement
 from contact_scene.summary import Closed
 from semi_analytical.fields import Increment
@@ -34,6 +35,7 @@ TABLES: dict[str, type[BaseModel]] = {
     "material = { … }": IsotropicMaterial,
     "[friction]": CoulombFriction,
     "coefficient = { … }, a map": FrictionMap,
+    "[rig]": Rig,
     "[[loading]], one per step": LoadStep,
     "[semi_analytical]": SurfaceDiscretisation,
     "[fem_reference]": FiniteElementDiscretisation,

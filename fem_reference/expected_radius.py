@@ -13,6 +13,7 @@ from contact_scene import (
     LoadStep,
     Scene,
 )
+from contact_scene.expected_contact import contact_approach
 from contact_scene.scene_text import shape_text
 from contact_scene.solver_errors import ContactAtZoneEdge, UnsupportedScene
 from fem_reference.contact.method import ContactMethod
@@ -89,11 +90,11 @@ def _half_space_radius(scene: Scene, ramp: LoadRamp) -> float:
     indenter, end, exponent = scene.indenter, ramp.normal.end, scene.indenter.gap_exponent
     if indenter.rim is not None:
         return indenter.rim
+    modulus = 1 / (_softness(scene.body) + _softness(indenter))
     if ramp.normal.kind is ControlKind.FORCE:
-        modulus = 1 / (_softness(scene.body) + _softness(indenter))
         power, more = indenter.contact_under(end, modulus), 1
     else:
-        power, more = indenter.contact_at(end), 0
+        power, more = indenter.contact_at(contact_approach(scene, end, modulus)), 0
     if power is None or exponent is None:
         raise UnsupportedScene(
             f"how large the contact will be is not known beforehand of this indenter "

@@ -10,6 +10,7 @@ from contact_scene import LoadRamp, Scene
 from contact_scene.array_types import Field
 from contact_scene.load_path import ScalarControl
 from contact_scene.march import Reached, marked_increments
+from contact_scene.rig import of_contact
 from contact_scene.standing import Mark, Standing
 from fem_reference.contact.method import ContactMethod
 from fem_reference.contact.point_state import PointState
@@ -73,6 +74,7 @@ class _Solver:
         """As the method reports it, with the account of energy carried on."""
         increment = self.method.increment(reached.state, reached.place)
         increment = replace(increment, halvings=reached.halvings)
+        increment = of_contact(increment, self.scene.rig)
         return accounted(self.scene, self.method.plan, last, increment)
 
     def _along(self, ramp: LoadRamp) -> ScalarControl | None:

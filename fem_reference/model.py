@@ -12,9 +12,10 @@ from contact_scene import (
 )
 from contact_scene.array_types import Field
 from contact_scene.friction import FRICTIONLESS, CoulombFriction
+from contact_scene.rig import compliances
 from fem_reference.elasticity.compliance import NodalCompliance, composite
 from fem_reference.elasticity.hat_functions import Hats, hats_on
-from fem_reference.elasticity.motion import TORSION, Motion, motion
+from fem_reference.elasticity.motion import PRESSING, SHEARING, TORSION, Motion, motion
 from fem_reference.mesh.section_mesh import SectionMesh, section_mesh
 from fem_reference.scales import Scales
 
@@ -111,12 +112,18 @@ class ContactModel:
             if name not in self.settled:
                 self.factorizations += condensed.factorizations
                 self.settled.add(name)
+            matrix = condensed.matrix / (self.scales.modulus * self.scales.length)
             self._compliances[of] = replace(
-                condensed,
-                radii=self.radii,
-                matrix=condensed.matrix / (self.scales.modulus * self.scales.length),
+                condensed, radii=self.radii, matrix=matrix + self._springs(of)[:, None, :, None]
             )
         return self._compliances[of]
+
+    def _springs(self, of: Motion) -> Field:
+        """Displacement of all nodes by the springs of a rig, per nodal force (c, c)
+        [length/force]."""
+        down, along = compliances(self.scene.rig)
+        compliance = {PRESSING: down, SHEARING: along}.get(of, 0.0)
+        return np.asarray(compliance * np.multiply.outer(of.on_axis, of.resultant))
 
 
 def _section(body: Body, discretisation: FiniteElementDiscretisation) -> SectionMesh | None:

@@ -19,6 +19,7 @@ from radial.plan import Plan
 LED_TO = (
     *("normal_force", "approach", "contact_radius", "tangential_force", "tangential_shift"),
     *("torque", "twist", "dissipated_energy", "elastic_energy"),
+    *("actuator_approach", "actuator_shift"),
 )
 
 

@@ -14,18 +14,20 @@ from contact_scene.march import Reached, marked_increments
 from contact_scene.normal_form import normal_form
 from contact_scene.one_thread import one_thread
 from contact_scene.residuals import Residuals
+from contact_scene.rig import of_contact
 from contact_scene.standing import Keeper, Standing
 from radial.bodies import Bodies
 from radial.fields import Increment, Result
 from radial.memory import refuse_if_too_large
 from radial.plan import Plan
 from radial.plan import plan as plan_of
-from radial.pressing import Pressed, Target, pressed
+from radial.pressing import Pressed, pressed
 from radial.shown import (
     largest_targets,
     refuse_no_disc,
     refuse_round_off,
     shown_radii,
+    target,
     undeformed_gap,
 )
 from radial.surface import displacement, largest_pressure, pressure
@@ -149,7 +151,7 @@ class _Solver:
     def of(cls, scene: Scene, asked: RadialDiscretisation, fineness: int) -> _Solver:
         bodies = Bodies.of(scene)
         largest = tuple(
-            pressed(bodies, scene.indenter, target, fineness) for target in largest_targets(scene)
+            pressed(bodies, scene.indenter, led, fineness) for led in largest_targets(scene)
         )
         rings = shown_radii(asked.rings, largest, scene.indenter.rim)
         return cls(scene, bodies, asked.tolerance, fineness, rings, largest)
@@ -163,11 +165,11 @@ class _Solver:
     ) -> Pressed:
         """The contact at a fraction of the ramp."""
         reached = (start.normal_force, start.approach) if start else (0.0, 0.0)
-        target = Target(*ramp.normal.led(fraction, reached))
+        led = target(self.scene, *ramp.normal.led(fraction, reached))
         for found in self.largest:
-            if found.target == target:
+            if found.target == led:
                 return found
-        return pressed(self.bodies, self.scene.indenter, target, self.fineness)
+        return pressed(self.bodies, self.scene.indenter, led, self.fineness)
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Array:
         """See `contact_scene.march.Solver`."""
@@ -194,8 +196,9 @@ class _Solver:
         residuals.require(self.tolerance, "the contact radius", state.tried)
         worked = 0.0 if last is None else last.trapezoidal_work or 0.0
         begun = (0.0, 0.0) if last is None else (last.normal_force, last.approach)
-        worked += 0.5 * (begun[0] + state.normal_force) * (state.approach - begun[1])
-        return Increment(
+        approach = state.approach - state.target.spring * state.normal_force
+        worked += 0.5 * (begun[0] + state.normal_force) * (approach - begun[1])
+        increment = Increment(
             step=reached.place.step,
             index=reached.place.index,
             increments_in_step=reached.place.increments_in_step,
@@ -213,3 +216,4 @@ class _Solver:
             pressure=p,
             gap=gap,
         )
+        return of_contact(increment, self.scene.rig)

@@ -38,10 +38,14 @@ class Loaded(Protocol):
 
 @dataclass(frozen=True)
 class Target:
-    """Either the normal force [force] or the approach [length]."""
+    """Either the normal force [force] or the approach [length].
+
+    spring  compliance of a rig's normal spring, of whose other end the approach is [length/force]
+    """
 
     force: float | None
     approach: float | None
+    spring: float = 0.0
 
     def missed(self, contact: Loaded) -> float:
         """Logarithm of what a contact has over what is asked; raises UnsupportedScene where a
@@ -49,7 +53,7 @@ class Target:
         has, asked = contact.load, self.force
         if asked is None:
             assert self.approach is not None
-            has, asked = contact.approach, self.approach
+            has, asked = self.moved(contact), self.approach
         if not (has > 0 and isfinite(has)):
             raise UnsupportedScene(
                 f"no contact of radius {contact.radius:.3g} m carries the load: it goes on to the "
@@ -62,7 +66,11 @@ class Target:
         if self.force is not None:
             return self.force > contact.load
         assert self.approach is not None
-        return self.approach > contact.approach
+        return self.approach > self.moved(contact)
+
+    def moved(self, contact: Loaded) -> float:
+        """Approach of the far end of the spring [length]."""
+        return contact.approach + self.spring * contact.load
 
 
 @dataclass(frozen=True)
@@ -82,7 +90,7 @@ class Pressed:
     def approach(self) -> float:
         """As it was asked for, or what came out [length]."""
         asked = self.target.approach
-        return self.contact.approach if asked is None else asked
+        return self.target.moved(self.contact) if asked is None else asked
 
 
 def pressed(bodies: Bodies, indenter: ShapedBody, target: Target, fineness: int = 1) -> Pressed:
@@ -121,13 +129,16 @@ def _to_the_rim(
 
     whole  as it just reaches the rim
     """
-    if target.approach is not None:
-        return disc(bodies, indenter, whole.radius, target.approach, fineness)
-    assert target.force is not None
-    missing = target.force - whole.load
-    further = missing / (2 * bodies.modulus * whole.radius)
+    if target.force is not None:
+        missing = target.force - whole.load
+        further = missing / (2 * bodies.modulus * whole.radius)
+    else:
+        assert target.approach is not None
+        missing = further = target.approach - target.moved(whole)
     probe = disc(bodies, indenter, whole.radius, whole.approach + further, fineness)
-    further *= missing / (probe.load - whole.load)
+    by_force = target.force is not None
+    has = probe.load - whole.load if by_force else target.moved(probe) - target.moved(whole)
+    further *= missing / has
     return disc(bodies, indenter, whole.radius, whole.approach + further, fineness)
 
 

@@ -11,6 +11,7 @@ from contact_scene import CoulombFriction, LoadRamp, RadialDiscretisation, Scene
 from contact_scene.array_types import Array
 from contact_scene.march import Reached
 from contact_scene.pair import coupling
+from contact_scene.rig import compliances, of_contact
 from contact_scene.solver_errors import NotConverged, UnsupportedScene
 from contact_scene.summary import ContactStatus
 from radial.bodies import Bodies
@@ -24,7 +25,7 @@ from radial.ring_friction import MOST_STEPS, held
 from radial.ring_layout import laid
 from radial.ring_points import Points
 from radial.ring_state import ABOUT, DOWN, Loads
-from radial.shown import largest_targets, targets, undeformed_gap
+from radial.shown import largest_targets, target, targets, undeformed_gap
 from radial.surface import pressure
 
 Pair = tuple[float, float]
@@ -73,18 +74,20 @@ class Pushing:
         count, highest = plan.rings, round(plan.highest * around)
         both = Coupling.of(scene)
 
-        def smooth(target: Target) -> float:
+        def smooth(led: Target) -> float:
             """The radius without friction."""
-            return pressed(both.bodies, scene.indenter, target).contact.radius
+            return pressed(both.bodies, scene.indenter, led).contact.radius
 
         largest = max(map(smooth, largest_targets(scene)))
         # Contacts within the first ring would have no radius at all.
-        ends = {smooth(target) for target in set(targets(scene))}
+        ends = {smooth(led) for led in set(targets(scene))}
         edges = [largest, *(edge for edge in sorted(ends) if edge * count < NARROW * largest)]
 
         def at(circle: Circle) -> Pushing:
             harmonics = 0 if circle is Circle.ONE else highest
-            points = laid(both, scene.indenter, edges, count, harmonics, circle, friction.largest)
+            points = laid(
+                both, scene.indenter, edges, count, harmonics, circle, friction.largest, scene.rig
+            )
             return cls(scene, friction, plan.direction, plan.twists, asked.tolerance, points)
 
         for _ in range(SETTLED):
@@ -179,8 +182,8 @@ class Pushing:
 
     def _pressed(self, loads: Loads) -> Pressed:
         """The contact without friction."""
-        target = Target(loads.forces[DOWN], loads.motions[DOWN])
-        return pressed(Bodies.of(self.scene), self.scene.indenter, target)
+        led = target(self.scene, loads.forces[DOWN], loads.motions[DOWN])
+        return pressed(Bodies.of(self.scene), self.scene.indenter, led)
 
     def _without_friction(self, points: Points, loads: Loads) -> Array:
         """Tractions and motion without friction: far fewer steps lead on from them than from a
@@ -220,11 +223,15 @@ class Pushing:
         depth = end.approach * points.areas
         u_z = (points.compliance @ end.tractions)[2 * len(points.areas) :]
         gap = np.where(end.pressure > 0, 0.0, (u_z + points.bare - depth) / points.areas)
+        force = self._vector(state.forces)
+        down, along = compliances(self.scene.rig)
+        in_springs = down * state.forces[DOWN] ** 2 + along * float(np.dot(force, force))
+        stored = end.energy - 0.5 * in_springs
         share = np.where(np.isfinite(end.share), end.share, 2.0)
         p, gap = np.maximum(p, 0.0), np.maximum(self._scalar(points, gap), 0.0)
         if turned:
             q_r, q_t = self._admissible(points, np.stack([q_r, q_t]), self.friction.limit(p))
-        return Increment(
+        increment = Increment(
             step=reached.place.step,
             index=reached.place.index,
             increments_in_step=reached.place.increments_in_step,
@@ -243,8 +250,8 @@ class Pushing:
             twist=state.motions[ABOUT] if self.twists else None,
             dissipated_energy=state.lost,
             dissipation_uncertainty=state.uncertain,
-            elastic_energy=end.energy,
-            input_work=end.energy + state.lost,
+            elastic_energy=stored,
+            input_work=stored + state.lost,
             unresolved_work=state.worked - end.energy - state.lost,
             radii=points.radii,
             angles=points.shown_angles if turned else None,
@@ -256,6 +263,7 @@ class Pushing:
             slip_circumferential=s_t if turned or self.twists else None,
             in_stick=(self._scalar(points, share) < 1) & (p > 0),
         )
+        return of_contact(increment, self.scene.rig)
 
     def _refuse_narrow(self, state: Pushed, step: int) -> None:
         """Raises UnsupportedScene where pressing leaves an annulus of slip that rings do not see:

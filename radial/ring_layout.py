@@ -8,6 +8,7 @@ import numpy as np
 
 from contact_scene.array_types import Array
 from contact_scene.geometry import ShapedBody
+from contact_scene.rig import Rig, compliances
 from radial.circle import Circle
 from radial.coupling import Coupling
 from radial.quadrature import unit_gauss
@@ -53,12 +54,14 @@ def laid(
     highest: int,
     circle: Circle,
     friction: float,
+    rig: Rig | None = None,
 ) -> Points:
     """Points for contacts of these radii [length].
 
     count    of rings inside the largest
     highest  harmonic, and angles on a half circle
     friction  µ
+    rig       springs that displace all points alike
     """
     edge = max(edges)
     over = places(count, REACH + BY_FRICTION * friction, [other / edge for other in edges])
@@ -74,5 +77,11 @@ def laid(
         part = field * length * weights
         return np.append(part @ (1 - v), 0.0) + np.append(0.0, part @ v)
 
-    gap = integral(r * indenter.initial_gap(r, 0.0))
-    return Points(radii, energies, integral(r), integral(r * r), gap, circle)
+    gap, areas = integral(r * indenter.initial_gap(r, 0.0)), integral(r)
+    down, along = compliances(rig)
+    by_all = np.pi * np.multiply.outer(areas, areas)
+    energies[0, 2, 2] += 2 * down * by_all
+    if highest:
+        signs = np.array([[1.0, -1.0], [-1.0, 1.0]])  # u_r = cos θ and u_θ = -sin θ of a shift
+        energies[1, :2, :2] += along * np.multiply.outer(signs, by_all)
+    return Points(radii, energies, areas, integral(r * r), gap, circle)

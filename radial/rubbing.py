@@ -14,6 +14,7 @@ from contact_scene import CoulombFriction, LoadRamp, RadialDiscretisation, Scene
 from contact_scene.array_types import Array
 from contact_scene.march import Reached
 from contact_scene.residuals import Residuals
+from contact_scene.rig import of_contact
 from contact_scene.solver_errors import NotConverged
 from contact_scene.summary import ContactStatus
 from radial.coupling import Coupling
@@ -28,6 +29,7 @@ from radial.shown import (
     shown_radii,
     undeformed_gap,
 )
+from radial.shown import target as target_of
 from radial.stick_slip import Rubbed, Signs, rubbed
 from radial.surface import displacement, pressure
 
@@ -80,7 +82,7 @@ class Rubbing:
     ) -> Sheared:
         """The contact at a fraction of the ramp; raises NotConverged."""
         reached = (start.normal_force, start.approach) if start else (0.0, 0.0)
-        target = Target(*ramp.normal.led(fraction, reached))
+        target = target_of(self.scene, *ramp.normal.led(fraction, reached))
         radius, tried = self._first_radius(target, before)
         begun = before.end.radius if before else FIRST * radius
         for passed in _on_the_way(begun, radius, GROWTH ** (1 / self.fineness)):
@@ -198,7 +200,7 @@ class Rubbing:
         gap[apart] += displacement(end.contact, x[apart]) + raised(r[apart])
         sticks = np.asarray(state.at(np.abs(end.sliding), r) < 0.5) & (x < 1)
         stored = end.elastic_energy(bare[: n + 1])
-        return Increment(
+        increment = Increment(
             step=reached.place.step,
             index=reached.place.index,
             increments_in_step=reached.place.increments_in_step,
@@ -225,6 +227,7 @@ class Rubbing:
             slip_radial=state.slip,
             in_stick=sticks,
         )
+        return of_contact(increment, self.scene.rig)
 
     def _shear(self, state: Sheared, p: Array, r: Array) -> Array:
         """At the rings: where it is the limit, that of the pressure there, which hats cut short."""

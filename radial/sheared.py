@@ -52,7 +52,8 @@ class Sheared:
     @property
     def approach(self) -> float:
         """As it was asked for, or what came out [length]."""
-        return self.end.approach if self.target.approach is None else self.target.approach
+        asked = self.target.approach
+        return self.target.moved(self.end) if asked is None else asked
 
     def at(self, field: Array, r: Array) -> Array:
         """A field of the nodes at radii r, zero outside of the contact."""

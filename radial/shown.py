@@ -9,6 +9,7 @@ import numpy as np
 
 from contact_scene import ControlKind, Scene
 from contact_scene.array_types import Array
+from contact_scene.rig import compliances
 from contact_scene.solver_errors import UnsupportedScene
 from radial.disc import Disc
 from radial.fields import Increment
@@ -27,7 +28,7 @@ def largest_targets(scene: Scene) -> Iterator[Target]:
         ends = [ramp.normal.end for ramp in scene.load_path() if ramp.normal.kind is kind]
         if any(ends):
             force = kind is ControlKind.FORCE
-            yield Target(max(ends) if force else None, None if force else max(ends))
+            yield target(scene, max(ends) if force else None, None if force else max(ends))
 
 
 def targets(scene: Scene) -> Iterator[Target]:
@@ -35,7 +36,13 @@ def targets(scene: Scene) -> Iterator[Target]:
     for ramp in scene.load_path():
         force = ramp.normal.kind is ControlKind.FORCE
         if ramp.normal.end:
-            yield Target(ramp.normal.end if force else None, None if force else ramp.normal.end)
+            end = ramp.normal.end
+            yield target(scene, end if force else None, None if force else end)
+
+
+def target(scene: Scene, force: float | None, approach: float | None) -> Target:
+    """What a scene prescribes: a force, or an approach with the normal spring of its rig."""
+    return Target(force, approach, compliances(scene.rig)[0])
 
 
 def shown_radii(count: int, largest: Sequence[Pressed], rim: float | None) -> Array:

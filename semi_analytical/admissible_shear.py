@@ -6,7 +6,7 @@ shift (see multipliers.py).
 """
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -149,6 +149,83 @@ class FixedShift:
         return np.zeros((2, *bound.shape)), self.shift
 
 
+@dataclass(frozen=True)
+class SprungShift(FixedShift):
+    """Displacement control through a spring: the shift of the actuator, shape (2,) [length].
+
+    The spring is part of the compliance. `nearest` returns the shear that carries the force in the
+    spring after the step, not before: without that, a soft spring turns every change of the shift
+    into slip of all cells. Its motion is that of the contact.
+
+    compliance  displacement by the spring per sum of the shear [length^3/force]
+    summed      see `ShearSum`
+    """
+
+    compliance: float
+    summed: tuple[bool, bool] = (True, True)
+
+    def extension(self, q: VectorField) -> Vector:
+        """Extension of the spring under a shear (2,) [length]."""
+        return np.asarray(self.compliance * np.sum(q, axis=(1, 2)) * self.summed)
+
+    def nearest(
+        self, y: VectorField, bound: Field, gamma: float, motion: Vector
+    ) -> tuple[VectorField, Vector]:
+        """P(y + λ) with λ/γ the motion of the contact: Σq + λ/(γc) = δ*/c."""
+        c = self.compliance
+        total = self.shift * self.summed / c
+        stiffness = 1 / (gamma * c)
+        q, multiplier = project(y, bound, total, gamma * motion, self.summed, stiffness)
+        return q, multiplier / gamma
+
+    def admissible(self, q: VectorField, bound: Field) -> VectorField:
+        """On the discs, with the same sum where friction can carry it: a soft spring would turn a
+        change of the sum into a large motion."""
+        total = np.sum(q, axis=(1, 2)) * self.summed
+        if np.hypot(*total) >= np.sum(bound) * (1 - AT_LIMIT):
+            return project_on_discs(q, bound)
+        return project(q, bound, total, summed=self.summed)[0]
+
+
+class NaturalShear(NamedTuple):
+    """The natural map at a shear q: z = q + γ (ω + c - u), its projection P(z), the slip ω + c - u,
+    the motion ω of the load, and Σ|q - P(z)| over the sum of the bound."""
+
+    z: VectorField
+    projected: VectorField
+    slipped: VectorField
+    motion: Vector
+    error: float
+
+
+def natural_shear(
+    load: TangentialLoad,
+    q: VectorField,
+    apart: VectorField,
+    bound: Field,
+    gamma: float,
+    motion: Vector,
+) -> NaturalShear:
+    """Evaluate the natural map. With a spring z has the motion of the contact after the step, the
+    slip that of the present extension; in a solution they are equal.
+
+    apart   c - u (2, nx, ny) [length]
+    motion  first guess
+    """
+    if isinstance(load, SprungShift):
+        extension = load.extension(q)
+        y = q + gamma * (apart + everywhere(extension))
+        projected, reached = load.nearest(y, bound, gamma, load.shift - extension)
+        z, motion = y + gamma * everywhere(reached), load.shift
+        slipped = apart + everywhere(motion)
+    else:
+        projected, motion = load.nearest(q + gamma * apart, bound, gamma, motion)
+        slipped = apart + load.rigid(motion)
+        z = q + gamma * slipped
+    error = float(np.sum(magnitude(projected - q)) / np.sum(bound))
+    return NaturalShear(z, projected, slipped, motion, error)
+
+
 def magnitude(v: VectorField) -> Field:
     """Length of the vectors (2, ...), shape (...)."""
     return np.sqrt(v[0] * v[0] + v[1] * v[1])
@@ -171,6 +248,7 @@ def project(
     total: Vector,
     guess: Vector | None = None,
     summed: tuple[bool, bool] = (True, True),
+    stiffness: float = 0.0,
 ) -> tuple[VectorField, Vector]:
     """The nearest shear with |q| <= bound and Σq = total, and the multiplier λ of the sum.
 
@@ -178,12 +256,15 @@ def project(
     bound  friction limit µp (nx, ny); |total| must be less than its sum
     guess  where to start the search for λ
     summed  components that have a sum; λ is zero of others
+    stiffness  of a spring, over γ: Σq + stiffness λ = total
     """
     if guess is None:
         open_cells = bound > 0
         excess = np.sum(y, axis=(1, 2), where=open_cells) - total
         guess = -excess / np.count_nonzero(open_cells) * summed
-    shifted, multiplier = find_multiplier(lambda m: _Shifted.by(m, y, bound, total, summed), guess)
+    shifted, multiplier = find_multiplier(
+        lambda m: _Shifted.by(m, y, bound, total, summed, stiffness), guess
+    )
     return shifted.q, multiplier
 
 
@@ -194,8 +275,10 @@ class _Shifted:
     z, length  y + λ (2, nx, ny) and its length (nx, ny)
     outside    where that is longer than the bound
     scale, q   factor of the cut (nx, ny), and q = scale z
-    defect     Σq - total (2,), the gradient of the dual function of λ; zero of what has no sum
-    summed       components that have a sum
+    defect     Σq + stiffness λ - total (2,), the gradient of the dual function of λ; zero of what
+               has no sum
+    summed     components that have a sum
+    stiffness  see `project`
     capacity   sum of the bound
     """
 
@@ -206,6 +289,7 @@ class _Shifted:
     q: VectorField
     defect: Vector
     summed: tuple[bool, bool]
+    stiffness: float
     capacity: float
 
     @classmethod
@@ -216,6 +300,7 @@ class _Shifted:
         bound: Field,
         total: Vector,
         summed: tuple[bool, bool],
+        stiffness: float,
     ) -> "_Shifted":
         """Shift `y` by a multiplier and cut it off."""
         z = y + everywhere(multiplier)
@@ -223,8 +308,8 @@ class _Shifted:
         outside = length > bound
         scale = np.where(outside, bound / np.where(outside, length, 1.0), 1.0) * (bound > 0)
         q = z * scale
-        defect = (np.sum(q, axis=(1, 2)) - total) * summed
-        return cls(z, length, outside, scale, q, defect, summed, float(np.sum(bound)))
+        defect = (np.sum(q, axis=(1, 2)) + stiffness * multiplier - total) * summed
+        return cls(z, length, outside, scale, q, defect, summed, stiffness, float(np.sum(bound)))
 
     @property
     def strength(self) -> float:
@@ -233,7 +318,8 @@ class _Shifted:
 
     def settled(self, multiplier: Vector) -> bool:
         """Whether the defect is round-off, of the sum or of the multiplier."""
-        blur = MULTIPLIER_ROUND_OFF * np.sum(self.scale) * np.sum(np.abs(multiplier))
+        answer = np.sum(self.scale) + self.stiffness
+        blur = MULTIPLIER_ROUND_OFF * answer * np.sum(np.abs(multiplier))
         return bool(np.sum(np.abs(self.defect)) <= ROUND_OFF * self.strength + blur)
 
     def newton_step(self) -> Vector:
@@ -247,5 +333,6 @@ class _Shifted:
         xx, yy = np.sum(self.scale - w * x * x), np.sum(self.scale - w * y * y)
         xy = -np.sum(w * x * y) if all(self.summed) else 0.0
         damping = 1e-3 * (xx + yy) * np.sum(np.abs(self.defect)) / self.capacity
+        damping += self.stiffness
         matrix = np.array([[xx + damping, xy], [xy, yy + damping]])
         return -np.linalg.solve(matrix, self.defect)

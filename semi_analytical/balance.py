@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from semi_analytical.admissible_shear import everywhere
 from semi_analytical.energy import NOTHING_YET, Configuration, after_increment
 from semi_analytical.increment import State
 from semi_analytical.model import ContactModel
@@ -33,10 +34,12 @@ def balanced(
 
 def configuration(model: ContactModel, state: State) -> Configuration:
     """Collect tractions, displacements and loads of a state for the energy balance; without shear
-    its tangential fields are empty."""
+    its tangential fields are empty. The springs of a rig are no part of the bodies."""
     pressing, sheared = state.pressing, state.sheared
-    pressure, displacement = pressing.pressure, pressing.displacement
-    gap = model.gap + displacement - pressing.closure(model)
+    pressure, (down, along) = pressing.pressure, model.springs
+    gap = model.gap + pressing.displacement - pressing.closure(model)
+    spring = down * float(np.sum(pressure))
+    displacement, approach = pressing.displacement - spring, pressing.approach - spring
     force = state.target.force
     normal = state.normal_force if force is None else force
     if sheared is None:
@@ -51,14 +54,15 @@ def configuration(model: ContactModel, state: State) -> Configuration:
             slipped=nothing,
             touching=nothing[0],
             forces=np.array([normal, *(state.moment or ())]),
-            motions=np.array([pressing.approach, *(pressing.tilt or ())]),
+            motions=np.array([approach, *(pressing.tilt or ())]),
         )
     shift = sheared.shift
+    extension = along * model.domain.resultant(sheared.shear)
     slipped = motions = None
     if shift is not None:
         slipped = sheared.displacement - rigid(model, sheared.motion)
         motions = np.array(
-            [pressing.approach, *shift, *(pressing.tilt or ()), *_some(sheared.twist)]
+            [approach, *(shift - extension), *(pressing.tilt or ()), *_some(sheared.twist)]
         )
     moments = *(state.moment or ()), *_some(sheared.torque)
     return Configuration(
@@ -67,7 +71,7 @@ def configuration(model: ContactModel, state: State) -> Configuration:
         gap=gap,
         shear=sheared.shear,
         friction_limit=model.friction_limit(sheared.pressure),
-        tangential_displacement=sheared.displacement,
+        tangential_displacement=sheared.displacement - everywhere(extension),
         slipped=slipped,
         touching=sheared.touching,
         forces=np.array([normal, *sheared.force, *moments]),

@@ -140,7 +140,9 @@ def _problem(
         friction_slope=partial(model.friction_slope, first=box.first),
         target=target[(..., *box.slices)],
         normal_load=normal.on(model, box),
-        tangential_load=tangential.on(model.grid.cell_area, rotation, model.domain),
+        tangential_load=tangential.on(
+            model.grid.cell_area, rotation, model.domain, model.springs[1]
+        ),
         self_compliance=model.self_compliance,
         domain=model.domain,
     )

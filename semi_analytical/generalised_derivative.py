@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.array_types import Field, Indices, Mask, Vector, VectorField
-from semi_analytical.admissible_shear import magnitude
+from semi_analytical.admissible_shear import magnitude, natural_shear
 from semi_analytical.coupled_problem import CoupledProblem
 
 Tractions = NDArray[np.float64]
@@ -82,25 +82,22 @@ class Natural:
         pushed = p - gamma * gap
         contact = pushed > 0
         bound = problem.friction_limit(np.maximum(p, 0.0))
-        slipped = problem.target - point.displacements[:2]
-        load = problem.tangential_load
-        projected, motion = load.nearest(q + gamma * slipped, bound, gamma, point.motion)
-        slipped += load.rigid(motion)
-        z = q + gamma * slipped
-        length = magnitude(z)
+        apart = problem.target - point.displacements[:2]
+        shear = natural_shear(problem.tangential_load, q, apart, bound, gamma, point.motion)
+        length = magnitude(shear.z)
         missing = np.sum(np.abs(p - np.where(contact, pushed, 0.0)))
         return cls(
             pressure=p,
             gap=gap,
             bound=bound,
-            z=z,
+            z=shear.z,
             length=length,
-            motion=motion,
+            motion=shear.motion,
             contact=contact,
             slip=contact & (length > bound),
-            slipped=slipped,
+            slipped=shear.slipped,
             pressed=float(missing / np.sum(np.abs(p))),
-            sheared=float(np.sum(magnitude(q - projected)) / np.sum(bound)),
+            sheared=shear.error,
         )
 
     @property

@@ -9,6 +9,7 @@ import numpy as np
 from contact_scene import LoadRamp
 from contact_scene.array_types import Field
 from contact_scene.march import Reached, marked_increments
+from contact_scene.rig import of_contact
 from contact_scene.standing import Mark, Standing
 from semi_analytical.balance import balanced
 from semi_analytical.edge.corrected import Corrected, EdgeReport
@@ -139,7 +140,8 @@ class _Solver:
 
     def report(self, reached: Reached[State], last: Increment | None) -> Increment:
         """The state, with what the increment has changed and cost."""
-        return _increment(self.model, last, reached)
+        increment = _increment(self.model, last, reached)
+        return of_contact(increment, self.model.scene.rig)
 
 
 def _increment(model: ContactModel, last: Increment | None, reached: Reached[State]) -> Increment:

@@ -7,6 +7,7 @@ import numpy as np
 from contact_scene import CoulombFriction, Scene
 from contact_scene.array_types import Field
 from contact_scene.friction import FRICTIONLESS
+from contact_scene.rig import compliances
 from contact_scene.solver_errors import UnsupportedScene
 from semi_analytical.bearing import modulus_of
 from semi_analytical.grid import SurfaceGrid
@@ -81,9 +82,17 @@ class ContactModel:
     def coefficients(self) -> InfluenceCoefficients:
         """Influence coefficients at all offsets that an operator on this grid reads."""
         offsets = offsets_for(self.window.cells)
+        scene = self.scene
         return influence_coefficients(
-            self.scene.body, self.scene.indenter, self.grid.spacing, offsets
+            scene.body, scene.indenter, self.grid.spacing, offsets, scene.rig
         )
+
+    @property
+    def springs(self) -> tuple[float, float]:
+        """Displacement by the springs of a rig along the normal and along the surface, per sum of
+        the tractions on the domain [length^3/force]."""
+        down, along = compliances(self.scene.rig)
+        return down * self.grid.cell_area, along * self.grid.cell_area
 
     @cached_property
     def arms(self) -> Field:
@@ -106,7 +115,9 @@ class ContactModel:
     def bearing_modulus(self) -> float:
         """E* for a contact half as wide as the window [force/length^2]."""
         nx, ny = self.window.cells
-        return modulus_of(self.coefficients.zz[: nx // 4 + 1, : ny // 4 + 1], self.grid.spacing)
+        spring = self.springs[0] / self.domain.images
+        zz = self.coefficients.zz[: nx // 4 + 1, : ny // 4 + 1] - spring
+        return modulus_of(zz, self.grid.spacing)
 
     def operator(self, shape: Pair) -> DisplacementOperator:
         """Return the operator on a box of cells. Those on the domain and on one more shape are

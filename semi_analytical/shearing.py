@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from contact_scene.array_types import Field, Mask, Vector, VectorField
-from semi_analytical.admissible_shear import FixedShift, ShearSum, TangentialLoad
+from semi_analytical.admissible_shear import FixedShift, ShearSum, SprungShift, TangentialLoad
 from semi_analytical.box import box_around
 from semi_analytical.linearised_shear import Point
 from semi_analytical.model import ContactModel
@@ -42,12 +42,17 @@ class TangentialTarget:
     torsion: Torsion | None = None
 
     def on(
-        self, cell_area: float, rotation: VectorField | None, domain: ReducedDomain = WINDOW
+        self,
+        cell_area: float,
+        rotation: VectorField | None,
+        domain: ReducedDomain = WINDOW,
+        spring: float = 0.0,
     ) -> TangentialLoad:
         """The load as the solver sees it on cells of this area.
 
         rotation  (-y, x) of the cells (2, nx, ny) [length]; None where nothing twists
         domain    that the cells are of
+        spring    displacement by a rig's spring per sum of the shear [length^3/force]
         """
         total = None if self.force is None else self.force / cell_area
         if self.torsion is not None and self.torsion.torque is not None:
@@ -61,6 +66,8 @@ class TangentialTarget:
         if total is not None:
             return ShearSum(total, domain.summed)
         assert self.shift is not None
+        if spring and any(domain.summed):
+            return SprungShift(self.shift, spring, domain.summed)
         return FixedShift(self.shift)
 
 
@@ -90,7 +97,7 @@ def shear(
         operator.shear_inverse,
         bound[box.slices],
         target[inside],
-        load.on(model.grid.cell_area, rotation, model.domain),
+        load.on(model.grid.cell_area, rotation, model.domain, model.springs[1]),
         Point(start.shear[inside], start.displacement[inside]),
         motion,
         model.self_compliance,

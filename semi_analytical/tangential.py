@@ -15,7 +15,7 @@ import numpy as np
 from contact_scene.array_types import Field, Mask, Vector, VectorField
 from contact_scene.residuals import worst
 from contact_scene.solver_errors import NotConverged
-from semi_analytical.admissible_shear import TangentialLoad, magnitude
+from semi_analytical.admissible_shear import NaturalShear, TangentialLoad, magnitude, natural_shear
 from semi_analytical.linearised_shear import LinearisedShear, Point
 from semi_analytical.residuals import slip_direction
 from semi_analytical.shear_zones import Map, ShearZones
@@ -60,25 +60,11 @@ class _Problem:
     load: TangentialLoad
     self_compliance: float
 
-    def natural(self, point: Point, motion: Vector) -> "_Natural":
+    def natural(self, point: Point, motion: Vector) -> NaturalShear:
         """The natural map q -> P(q + γ (ω + c - u)), whose fixed points solve the problem."""
+        apart = self.target - point.displacement
         gamma = 1 / self.self_compliance
-        q, slipped = point.shear, self.target - point.displacement
-        projected, motion = self.load.nearest(q + gamma * slipped, self.bound, gamma, motion)
-        slipped += self.load.rigid(motion)
-        error = np.sum(magnitude(projected - q)) / np.sum(self.bound)
-        return _Natural(q + gamma * slipped, projected, slipped, motion, float(error))
-
-
-@dataclass(frozen=True)
-class _Natural:
-    """The map at a point: z, its projection, ω + c - u, ω, and how far the point is from P(z)."""
-
-    z: VectorField
-    projected: VectorField
-    slipped: VectorField
-    motion: Vector
-    error: float
+        return natural_shear(self.load, point.shear, apart, self.bound, gamma, motion)
 
 
 def solve_tangential(
@@ -150,7 +136,7 @@ def solve_tangential(
 
 def _toward(
     problem: _Problem, taken: tuple[Point, float] | None, newton: Point, motion: Vector
-) -> tuple[Point, _Natural]:
+) -> tuple[Point, NaturalShear]:
     """To the Newton answer, or only part of the way, or down the gradient: always downhill.
 
     Near the solution energies differ by less than round-off; only there is the Newton answer also

@@ -78,6 +78,7 @@ class EdgeOperators:
             model.scene.indenter,
             (dx / PARTS, dy / PARTS),
             (PART_OFFSETS, PART_OFFSETS),
+            model.scene.rig,
         )
         return {name: EdgeKernels(name, model.coefficients, parts) for name in PARITY}
 

@@ -2,6 +2,7 @@
 
 from contact_scene import Body, IsotropicMaterial
 from contact_scene.kept_arrays import remembered
+from contact_scene.rig import Rig, compliances
 from semi_analytical.frf.stack import stack_of
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients, RectangleIntegrals
 from semi_analytical.influence.coefficients import Composite, InfluenceCoefficients
@@ -9,16 +10,25 @@ from semi_analytical.influence.layered import LayeredCoefficients
 
 
 def influence_coefficients(
-    lower: Body, upper: Body, spacing: tuple[float, float], offsets: tuple[int, int]
+    lower: Body,
+    upper: Body,
+    spacing: tuple[float, float],
+    offsets: tuple[int, int],
+    rig: Rig | None = None,
 ) -> InfluenceCoefficients:
     """Relative displacement of the two bodies; a rigid one contributes nothing.
 
     spacing  cell sides [length]
     offsets  number of offsets along x and y, the zero offset included
+    rig      springs that displace all cells alike: by their compliance times the area of the cell
     """
     integrals = RectangleIntegrals(*spacing, offsets)
+    down, along = (spacing[0] * spacing[1] * c for c in compliances(rig))
     return Composite(
-        _of_body(lower, spacing, integrals, offsets), _of_body(upper, spacing, integrals, offsets)
+        _of_body(lower, spacing, integrals, offsets),
+        _of_body(upper, spacing, integrals, offsets),
+        along,
+        down,
     )
 
 

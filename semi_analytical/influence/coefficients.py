@@ -51,10 +51,13 @@ class Composite:
     terms change sign, all others add (F = F1 + J F2 J, J = diag(1, 1, -1)).
 
     lower, upper  the deformable bodies below and above the contact plane, at most one each
+    along, down   displacement by a rig's springs, the same at all offsets [length^3/force]
     """
 
     lower: tuple[InfluenceCoefficients, ...]
     upper: tuple[InfluenceCoefficients, ...]
+    along: float = 0.0
+    down: float = 0.0
 
     def _added(self, component: str) -> Field:
         return _total(self.lower + self.upper, component)
@@ -69,17 +72,17 @@ class Composite:
     @cached_property
     def zz(self) -> Field:
         """u_z by pressure."""
-        return self._added("zz")
+        return self._added("zz") + self.down
 
     @cached_property
     def xx(self) -> Field:
         """u_x by q_x."""
-        return self._added("xx")
+        return self._added("xx") + self.along
 
     @cached_property
     def yy(self) -> Field:
         """u_y by q_y."""
-        return self._added("yy")
+        return self._added("yy") + self.along
 
     @cached_property
     def xy(self) -> Field:

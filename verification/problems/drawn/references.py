@@ -104,7 +104,7 @@ class Posed:
             shared = name == ENERGY and closes(self.forces)
             endless = name == PEAK and infinite
             still = name in LED and not any(sizes[:step])
-            given = name in prescribed(path[step - 1])
+            given = name in prescribed(path[step - 1], None)
             if not (repeated or shared or endless or still or given or value in seen):
                 kept.append(truth)
                 seen.add(value)

@@ -1,0 +1,132 @@
+"""Series springs of a rig: the law of springs in series, in all solvers, and its energies."""
+
+import pytest
+
+import fem_reference
+import radial
+import semi_analytical
+from contact_scene import (
+    FiniteElementDiscretisation,
+    IsotropicMaterial,
+    RadialDiscretisation,
+    Scene,
+)
+from contact_scene.increment import numbers
+from contact_scene.plausibility import unlikely
+from semi_analytical.grid import SurfaceGrid
+from semi_analytical.plan import plan
+
+STIFFNESS = 179.167756e6  # of the contact [N/m]
+SHIFT, FORCE = 0.626373e-6, 87.362685  # half ranges of the loop
+TOLERANCE = 1e-10
+SAME = IsotropicMaterial(young_modulus=461.538461538e9, poisson_ratio=0.0)
+STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
+
+
+def scene(*loading, rig=None, body=SAME):
+    return Scene(
+        indenter={"shape": "paraboloid", "radius": "18 mm", "material": SAME},
+        body={"material": body},
+        friction={"coefficient": 0.1},
+        rig=rig,
+        loading=loading,
+    )
+
+
+def on_cells(contact, cells=32):
+    grid = SurfaceGrid((cells, cells), (1.2e-3, 1.2e-3))
+    return semi_analytical.solve(contact, grid, TOLERANCE, plan=plan(contact))
+
+
+def on_elements(contact):
+    fine = FiniteElementDiscretisation(
+        elements_per_radius=8, tolerance=TOLERANCE, contact_radius="0.4 mm"
+    )
+    return fem_reference.solve(contact, fine)
+
+
+def on_rings(contact):
+    return radial.solve(contact, RadialDiscretisation(tolerance=1e-9))
+
+
+SOLVERS = pytest.mark.parametrize("solve", [on_cells, on_elements, on_rings])
+
+
+def steps(shifts):
+    return [{"tangential_shift": (float(shift), 0.0), "increments": 4} for shift in shifts]
+
+
+def loop(stiffness, press):
+    largest = SHIFT + (FORCE / stiffness if stiffness else 0.0)
+    rig = {"tangential_stiffness": stiffness} if stiffness else None
+    return scene(press, *steps((largest, -largest, largest)), rig=rig)
+
+
+@SOLVERS
+def test_a_contact_behind_a_spring_is_the_contact_at_its_own_shift(solve):
+    press = {"normal_force": "1 kN"}
+    through = solve(loop(50e6, press)).steps
+    alone = solve(scene(press, *steps(end.tangential_shift[0] for end in through[1:]))).steps
+    assert len(through) == len(alone) == 4
+    for end, same in zip(through[1:], alone[1:], strict=True):
+        force, shift = end.tangential_force[0], end.tangential_shift[0]
+        assert end.actuator_shift[0] == pytest.approx(shift + force / 50e6, rel=1e-12)
+        assert end.actuator_approach is None
+        for name in ("tangential_force_x", "elastic_energy", "input_work", "dissipated_energy"):
+            found, known = numbers(end)[name], numbers(same)[name]
+            assert found == pytest.approx(known, rel=1e-9), name
+        assert end.energy_imbalance is None or end.energy_imbalance < 1e-9
+
+
+@SOLVERS
+@pytest.mark.parametrize("body", [SAME, STEEL])
+def test_a_contact_below_a_normal_spring_is_the_contact_at_its_own_approach(solve, body):
+    rig = {"normal_stiffness": "40 N/um"}
+    through = solve(scene({"approach": "30 um", "increments": 1}, rig=rig, body=body)).steps[-1]
+    alone = solve(scene({"approach": through.approach, "increments": 1}, body=body)).steps[-1]
+    # Coupled bodies pass the increment by radii, which the spring changes by round-off.
+    assert through.normal_force == pytest.approx(alone.normal_force, rel=1e-7)
+    for name in ("elastic_energy", "input_work"):
+        found, known = numbers(through)[name], numbers(alone)[name]
+        assert (found is None) == (known is None)
+        assert found is None or found == pytest.approx(known, rel=1e-6), name
+    own = through.approach + through.normal_force / 40e6
+    assert through.actuator_approach == pytest.approx(own, rel=1e-9)
+
+
+def test_soft_springs_cost_hardly_more_than_a_rigid_rig():
+    """Convolutions of a loop in 12 increments on 64 cells; without the force in the spring after
+    the step, springs of a hundredth of the contact stiffness take twice as many and halvings."""
+    press = {"normal_force": "1 kN"}
+    rigid, *soft = (
+        on_cells(loop(part and part * STIFFNESS, press), 64) for part in (None, 1e4, 1.0, 0.1, 0.01)
+    )
+    work, *works = (sum(i.convolutions for i in found.increments) for found in (rigid, *soft))
+    assert max(works) < 1.4 * work
+    assert works[0] == pytest.approx(work, rel=0.05)
+    assert not any(i.halvings for found in soft for i in found.increments)
+    for found in soft:
+        assert found.steps[-1].tangential_force[0] == pytest.approx(FORCE, rel=2e-4)
+
+
+def test_separated_bodies_have_the_position_of_the_actuator():
+    apart = scene(
+        {"normal_force": "1 kN"},
+        {"tangential_shift": ("1 um", 0), "increments": 1},
+        {"normal_force": 0, "tangential_shift": (0, 0), "increments": 2},
+        rig={"tangential_stiffness": "50 N/um", "normal_stiffness": "90 N/um"},
+    )
+    last = on_cells(apart).steps[-1]
+    assert tuple(last.actuator_shift) == tuple(last.tangential_shift) == (0, 0)
+    assert last.actuator_approach == last.approach == 0
+
+
+def test_a_rig_without_springs_is_refused_and_a_very_soft_one_advised_against():
+    press = {"normal_force": "1 kN"}
+    with pytest.raises(ValueError, match="tangential_stiffness or normal_stiffness"):
+        scene(press, rig={})
+    with pytest.raises(ValueError, match=r'a positive stiffness such as "50 N/um"'):
+        scene(press, rig={"normal_stiffness": "5 N"})
+    assert not unlikely(loop(2e-3 * STIFFNESS, press))
+    (advice,) = unlikely(loop(5e-4 * STIFFNESS, press))
+    assert "prescribe tangential_force" in advice
