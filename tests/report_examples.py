@@ -31,7 +31,7 @@ def verdict(name: str, value: float, reference: float, run: str = "run") -> Verd
     """A verdict that allows 1 %."""
     error = abs(value - reference) / abs(reference)
     return Verdict(
-        name=name, run=run, runs=(run,), quantity=name, meaning="what it is", unit="m",
+        name=name, run=run, runs=(run,), meaning="what it is", unit="m",
         value=value, reference=reference,
         reference_kind="closed form", source="somebody", reference_uncertainty=reference * 1e-6,
         error=error, allowed=0.01, scale=abs(reference), scale_name="the reference",

@@ -1,43 +1,22 @@
 """How charts are drawn: labels of logarithmic axes, points that are seen, series told apart."""
 
-import math
 import re
 from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 import verification.report
 from contact_results.figures import style
 from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.report.drawing import draw
-from verification.report.log_ticks import MOST, log_ticks
 from verification.report.svg import inline_svg
-from verification.report.thinned import FINENESS, thinned
 
 UNIT = ((0.0, 1.0), (0.0, 1.0))
 STYLES = Path(verification.report.__file__).parent / "templates" / "style.css"
 TEXT, GRAPHICS = 4.5, 3.0  # contrasts that WCAG 2.1 asks for, AA
 INKS = ("ink", "soft", "link", "pass", "fail", "inconclusive")
 LINES = ("reference", *(f"series-{n}" for n in range(1, 7)))
-
-
-@given(st.floats(-12, 9), st.floats(0.02, 15))
-def test_a_logarithmic_axis_has_labels_and_not_too_many(low: float, decades: float) -> None:
-    first, last = 10**low, 10 ** (low + decades)
-    ticks = log_ticks(first, last)
-    assert 2 <= len(ticks) <= MOST
-    assert all(first <= tick <= last for tick in ticks)
-    assert ticks == sorted(set(ticks))
-    assert len(ticks) > 2 or last < 4 * first or decades > MOST
-
-
-def test_labels_are_round() -> None:
-    assert log_ticks(0.003, 0.2) == [0.003, 0.01, 0.03, 0.1]
-    assert log_ticks(1e-6, 0.02) == [1e-6, 1e-5, 1e-4, 1e-3, 1e-2]
-    assert log_ticks(1e-12, 1.0) == pytest.approx([1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1])
 
 
 @pytest.mark.parametrize("letters", [10, 35, 70])
@@ -65,27 +44,6 @@ def test_both_axes_of_a_logarithmic_chart_are_labelled() -> None:
         figure.draw_without_rendering()
     for axis in (figure.axes[0].xaxis, figure.axes[0].yaxis):
         assert len([label for label in axis.get_ticklabels() if label.get_text()]) >= 3
-
-
-@given(st.lists(st.floats(0, 1), min_size=3, max_size=60))
-def test_points_are_dropped_only_where_nobody_sees_it(values: list[float]) -> None:
-    y = np.array(values)
-    x = np.linspace(0, 1, len(y))
-    few_x, few_y = thinned(x, y, UNIT, (False, False))
-    assert (few_x[0], few_x[-1]) == (0, 1)
-    assert set(few_x) <= set(x)
-    # The line drawn is nowhere further from the points than its distance perpendicular to it.
-    steepest = np.max(np.abs(np.diff(few_y) / np.diff(few_x)))
-    allowed = FINENESS * math.hypot(1, steepest) * (1 + 1e-9)
-    assert np.max(np.abs(np.interp(x, few_x, few_y) - y)) <= allowed
-
-
-def test_straight_lines_need_their_ends_alone_on_either_kind_of_axis() -> None:
-    x = np.geomspace(1e-3, 1, 400)
-    assert len(thinned(x, 3 * x, UNIT, (False, False))[0]) == 2
-    spans = ((1e-3, 1.0), (1e-6, 1.0))
-    assert len(thinned(x, x**2, spans, (True, True))[0]) == 2
-    assert len(thinned(x, x**2, UNIT, (False, False))[0]) > 10
 
 
 def test_a_smooth_curve_is_drawn_with_far_fewer_points_than_it_has() -> None:

@@ -5,22 +5,17 @@ import re
 from pathlib import Path
 
 import pytest
-from report_examples import case, chart, report_of, run_record, study, verdict
+from report_examples import case, report_of, run_record, study, verdict
 
-from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.exhibits.picture import Picture
 from verification.judging.change import Change, ChangeKind, Origin
 from verification.judging.outcome import (
     RESIDUAL,
     CaseOutcome,
-    OrderRecord,
-    RefinedErrors,
     Verdict,
 )
 from verification.report.changes import moved_rows, worse_rows
-from verification.report.closing import closing_sentences, line_of
 from verification.report.files import (
-    APPENDICES,
     EARLIER,
     PACKED,
     PAGE,
@@ -31,12 +26,8 @@ from verification.report.files import (
     set_aside_report,
     write_report,
 )
-from verification.report.front import LOOP, front_charts
-from verification.report.page import render_page, render_sheets
-from verification.report.prices import amount, cost_sentence
-from verification.report.stability_map import ENDS, VIEW, legend, stability_map
-from verification.running.report_record import Report, dump_report, load_report
-from verification.solver import Solver
+from verification.report.page import line_of, render_page, render_sheets
+from verification.running.report_record import dump_report, load_report
 
 
 def judged(*verdicts: Verdict, name: str = "one") -> CaseOutcome:
@@ -85,36 +76,6 @@ def test_a_line_names_the_quantity_nearest_to_its_limit() -> None:
     assert line_of(judged(near, wrong)).startswith("1 of 2 verdicts passed; energy uses 200 %")
 
 
-def test_closing_sentences_say_what_the_numbers_say() -> None:
-    near = verdict("radius", 1.009, 1.0)
-    first, second = closing_sentences(judged(near, verdict("approach", 1.001, 1.0)))
-    assert first.startswith("All its 2 judged numbers are within what is allowed")
-    assert "off by 0.9 % of the reference, 90 % of what is allowed" in first
-    assert second == "Its solve took 18 convolutions, with a residual of 1e-9 at most."
-    wrong = verdict("energy", 1.02, 1.0)
-    first, _ = closing_sentences(judged(near, wrong))
-    assert first.startswith("1 of its 2 numbers are not within what is allowed")
-    assert "off by 2 % of the reference, 200 % of what is allowed" in first
-
-
-def test_closing_sentences_tell_what_refining_did_where_it_did_something() -> None:
-    fine = verdict("radius", 1.001, 1.0)
-    followed = RefinedErrors(per_radius=(8.0, 64.0), errors=(0.05, 0.001))
-    (_, told) = closing_sentences(judged(fine.model_copy(update={"refined": followed})))
-    assert told.startswith("From 8 to 64 cells per contact radius")
-    assert told.endswith("falls from 5 % to 0.1 %.")
-    worse = RefinedErrors(per_radius=(8.0, 64.0), errors=(0.001, 0.05))
-    (_, told) = closing_sentences(judged(fine.model_copy(update={"refined": worse})))
-    assert "falls" not in told
-    rate = verdict("order_of_pressure", 1.002, 1.0).model_copy(update={
-        "tolerance_kind": "order", "interval": 0.05,
-        "order": OrderRecord(of="pressure", solver=Solver.CELLS, refined="mesh",
-                             sizes=(1.0, 0.5, 0.25), errors=(0.4, 0.2, 0.1)),
-    })  # fmt: skip
-    (_, told) = closing_sentences(judged(rate))
-    assert told.startswith("Over 3 levels of the mesh the error of pressure falls with order 1.00")
-
-
 def test_the_front_shows_what_is_worse_and_the_table_only_what_moved() -> None:
     def compared(name: str, kind: ChangeKind) -> Verdict:
         was = Change(kind=kind, recorded=kind is not ChangeKind.NEW, was=1.0, moved=0.2, since="x")
@@ -133,76 +94,6 @@ def test_the_front_shows_what_is_worse_and_the_table_only_what_moved() -> None:
     assert "one/moved" not in header
     calm = render_page(report_of((judged(compared("still", ChangeKind.UNCHANGED)),)))
     assert "nothing is worse" in calm.split("</header>")[0]
-
-
-def mapped(**ends: tuple[float, float]) -> Report:
-    """A stability map of 2 by 2 places with efforts 10, 100, 100* and 12k, and these ends."""
-    at = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)]
-    notes = [(*place, text) for place, text in zip(at, ("10", "100", "100*", "12k"), strict=True)]
-    series = {kind: number for number, kind in ENDS.items()}
-    curves = tuple(
-        curve("any word", [x], [y], Look.TILES, series[kind]) for kind, (x, y) in ends.items()
-    )
-    panel = Panel(x_label="E1/E2", y_label="h/a", curves=curves, notes=tuple(notes),
-                  x_places=("1", "2"), y_places=("low", "high"))  # fmt: skip
-    record = study("stability")
-    drawn = Chart(name=VIEW, title="Map", caption="c", rows=((panel,),))
-    conclusion = record.conclusion.model_copy(update={"charts": (drawn,)})
-    return report_of((), (record.model_copy(update={"conclusion": conclusion}),))
-
-
-def test_the_map_tells_how_much_dearer_than_usual_a_place_is_and_how_it_ended() -> None:
-    found = stability_map(mapped(refused=(0.0, 0.0)))
-    assert found is not None
-    (high, top), (low, bottom) = found.rows
-    assert (high, low) == ("high", "low")
-    kinds = [[place and (place.kind, place.text) for place in row] for row in (top, bottom)]
-    assert kinds == [
-        [("effort-0", "1 ×"), ("effort-3", "1.2e2 ×")],
-        [("refused", "refused"), ("effort-0", "1 ×")],
-    ]
-    assert {kind for kind, _ in legend()} >= {"effort-0", "effort-3", *ENDS.values()}
-    page = render_page(mapped(refused=(0.0, 0.0)))
-    style = page[: page.index("</style>")]
-    for kind, meaning in legend():
-        assert f".{kind.replace(' ', '-')} {{ background" in style
-        assert meaning in page
-    assert stability_map(report_of(())) is None
-
-
-def test_the_front_shows_the_charts_that_there_are() -> None:
-    loop = case("loop", {}, run_record(64, None)).model_copy(update={"charts": (chart(LOOP),)})
-    cost = study("work-precision")
-    report = report_of((loop,), (cost,))
-    assert [one.name for one in front_charts(report)] == [LOOP, cost.conclusion.charts[0].name]
-    assert front_charts(report_of(())) == ()
-
-
-def test_a_study_without_prices_has_no_sentence_of_them() -> None:
-    assert cost_sentence(study("work-precision")) == ""
-
-
-@pytest.mark.parametrize(
-    ("cost", "unit", "text"),
-    [
-        (138.2, "Mop", "138 million operations"),
-        (5883.0, "Mop", "5.88 billion operations"),
-        (0.1612, "s", "0.16 s"),
-    ],
-)
-def test_a_cost_in_a_sentence_has_words_for_its_unit(cost: float, unit: str, text: str) -> None:
-    assert amount(cost, unit) == text
-
-
-@pytest.mark.parametrize("level", ["quick", "full"])
-def test_studies_have_pages_beside_a_full_report_and_none_of_an_earlier_one_stays(
-    level: str, tmp_path: Path
-) -> None:
-    report = report_of((), (study("stability"),)).model_copy(update={"level": level})
-    (tmp_path / APPENDICES["mutants"]).write_text("of an earlier report")
-    write_report(report, tmp_path)
-    there = {path.name for path in tmp_path.iterdir()} & {*APPENDICES.values()}
-    assert there == ({APPENDICES["stability"]} if level == "full" else set())
 
 
 def test_a_packed_record_is_read_drawn_from_and_left_as_it_is(tmp_path: Path) -> None:

@@ -15,30 +15,20 @@ from report_examples import (
 )
 
 from verification.exhibits.table import Table
-from verification.judging.outcome import CaseOutcome, OrderRecord, Status
-from verification.problems.reference import ReferenceKind
-from verification.report.answers import answers
-from verification.report.both_solvers import both_solvers_charts, furthest_apart, shared_references
-from verification.report.columns import alignment, heading
-from verification.report.compact_svg import compact
-from verification.report.counts import counts_text
-from verification.report.extent import extent
-from verification.report.features import features
-from verification.report.page import render_page
-from verification.report.prices import price_table, telling_chart
-from verification.report.sections import TITLES, stored_records, study_section
-from verification.report.summary_text import render_summary
+from verification.judging.outcome import Status
+from verification.report.files import SHEETS
+from verification.report.page import MOST_CHARTS, alignment, heading, render_page
+from verification.report.sections import TITLES, features, stored_records, study_section
+from verification.report.summary_text import counts_text, render_summary
+from verification.report.svg import compact
 from verification.running.record import StudyRecord, dump_study
 from verification.running.report_record import Report
-from verification.running.row import Row
-from verification.running.study import Conclusion, Statement
-from verification.solver import Method, Solver
+from verification.running.study import Statement
 from verification.studies.catalogue import STUDIES
-from verification.studies.work_precision.price_rows import Reached
 
 ROOT = Path(__file__).resolve().parents[1]
 SECTIONS = (
-    "verdict", "pictures", "baseline", "answers", "cases", "solvers", "paper", "cost",
+    "verdict", "pictures", "baseline", "cases", "paper", "cost",
     "stability", "defects", "omissions", "provenance",
 )  # fmt: skip
 
@@ -58,123 +48,6 @@ def test_sections_come_in_their_order_and_the_contents_lead_to_each() -> None:
     assert page.index("</header>") < page.index("<nav")  # on a phone the verdict comes first
     contents = page[page.index("<nav") : page.index("</nav>")]
     assert tuple(re.findall(r'<li><a href="#(\w+)">(?!<span)', contents)) == SECTIONS
-
-
-def test_three_kinds_of_verdict_are_counted_apart() -> None:
-    good = case("one", {"approach": (1e-6, 1e-6), "radius": (2e-6, 1e-6)}, run_record(64, None))
-    rate = verdict("rate", 2.0, 2.0).model_copy(update={"tolerance_kind": "order"})
-    page = render_page(report_of((good.model_copy(update={"verdicts": (*good.verdicts, rate)}),)))
-    table = page[page.index("Three kinds of verdict") :]
-    rows = re.findall(r'<tr><th scope="row">([\w ]+)</th>(.*)</tr>', table)[:2]
-    assert [(name, re.findall(r"\d+", cells)) for name, cells in rows] == [
-        ("against a reference", ["1", "1", "0"]),
-        ("order of convergence", ["1", "0", "0"]),
-    ]
-
-
-def test_rows_of_both_solvers_have_names_of_their_own_and_a_chart_per_kind() -> None:
-    def with_runs(name: str, cells: int | None, values: dict[str, float]) -> CaseOutcome:
-        runs, verdicts = [], []
-        for k, (what, reference) in enumerate(values.items()):
-            label = f"E1/E2 = {k}, {cells}x{cells}" if cells else f"E1/E2 = {k}"
-            runs.append(
-                run_record(cells, None if cells else 64).model_copy(
-                    update={"label": label, "problem": f"E1/E2 = {k}"}
-                )
-            )
-            word = what.partition(" ")[0]
-            verdicts.append(verdict(word, 1.001 * reference, reference, label))
-        one = case(name, {}, run_record(64, None), drawn=False)
-        return one.model_copy(update={"runs": tuple(runs), "verdicts": tuple(verdicts)})
-
-    values = {"approach a": 1e-6, "approach b": 2e-6, "contact_radius": 3e-6, "energy": 4e-6}
-    outcomes = (with_runs("coated", 256, values), with_runs("again", 256, values),
-                with_runs("fem_coated", None, values))  # fmt: skip
-    charts = both_solvers_charts(shared_references(report_of(outcomes)))
-    places = [chart.rows[0][0].y_places for chart in charts]
-    assert places == [
-        ("coated, E1/E2 = 1", "coated, E1/E2 = 0"),
-        ("contact, coated, E1/E2 = 2",),
-        ("energy, coated, E1/E2 = 3",),
-    ]
-    assert len({chart.name for chart in charts}) == len(charts)
-
-
-def test_values_of_different_references_are_not_compared() -> None:
-    one = case("hertz_point", {"approach": (1e-6, 1e-6)}, run_record(64, None))
-    other = case("fem_hertz", {"approach": (2e-6, 2e-6)}, run_record(None, 32))
-    assert shared_references(report_of((one, other))) == ()
-
-
-def test_springs_are_left_to_their_own_study() -> None:
-    elements = run_record(None, 32)
-    springs = elements.model_copy(update={"method": Method.PENALTY})
-    for run, shared in ((elements, 1), (springs, 0)):
-        one = case("hertz_point", {"approach": (1e-6, 1e-6)}, run_record(64, None))
-        other = case("any_name", {"approach": (1e-6, 1e-6)}, run)
-        assert len(shared_references(report_of((one, other)))) == shared
-
-
-def test_a_study_answers_its_question_in_its_own_words() -> None:
-    report = report_of((), (study("coated-tractions", "No, for a reason."),))
-    (sliding, cost, both) = answers(report)
-    assert sliding.sentences == ("No, for a reason.",)
-    assert sliding.chart is not None
-    assert sliding.missing is None
-    assert cost.sentences == both.sentences == ()
-    assert cost.missing is not None
-    assert both.missing is None
-
-
-def priced(*rows: Row) -> StudyRecord:
-    """A study of what accuracy costs, with a diagram for every quantity."""
-    charts = tuple(chart(str(name), "Diagram") for name in dict.fromkeys(
-        row.parameters["chart"] for row in rows
-    ))  # fmt: skip
-    return study("work-precision", "It depends.").model_copy(
-        update={"conclusion": Conclusion(
-            statements=(Statement(claim="c", outcome=Status.PASS, measured="m"),),
-            answer="It depends.", rows=rows, charts=charts,
-        )}
-    )  # fmt: skip
-
-
-def prices(title: str, **costs: float | None) -> tuple[Row, ...]:
-    """What a quantity costs to 1 % and to 0.1 %, by method: 1 s, and this."""
-    return tuple(
-        Row(
-            parameters={"title": title, "method": method, "target": target,
-                        "chart": f"chart of {title}"},
-            measures={"cost": cost}, units={"cost": "s"},
-            words={"reached": Reached.NOT if cost is None else Reached.TRIED, "setting": "8 x 8"},
-        )
-        for method, asked in costs.items() for target, cost in ((0.01, 1.0), (0.001, asked))
-    )  # fmt: skip
-
-
-def test_what_an_accuracy_costs_is_one_table_of_quantities_and_methods() -> None:
-    record = priced(
-        *prices("Hertz: pressure, L2", cells=None, elements=None),
-        *prices("Hertz: radius", cells=9.0, elements=None),
-        *prices("Hertz: approach", cells=2.0, sampled=3.0),
-    )
-    (answer,) = [a for a in answers(report_of((), (record,))) if "cost" in a.question]
-    assert answer.table is not None
-    assert answer.table.columns == ("quantity", "cells", "elements", "sampled")
-    assert answer.table.rows == (
-        ("Hertz: pressure, L2", "–", "–", ""),
-        ("Hertz: radius", "9 s", "–", ""),
-        ("Hertz: approach", "2 s", "", "3 s"),
-    )
-    # The chart is of the quantity that most methods get there.
-    assert answer.chart is not None
-    assert answer.chart.name == "chart of Hertz: approach"
-
-
-def test_a_study_without_prices_has_no_table_of_them() -> None:
-    conclusion = study("work-precision").conclusion
-    assert price_table(conclusion, "") is None
-    assert telling_chart(conclusion) == conclusion.charts[0]
 
 
 def test_numbers_stand_to_the_right_and_words_to_the_left() -> None:
@@ -209,35 +82,6 @@ def test_every_table_that_is_made_says_the_units_of_its_numbers() -> None:
     assert silent == []
 
 
-def test_the_places_where_solvers_are_furthest_apart_come_first() -> None:
-    near = case("hertz_point", {"approach": (1e-6, 1e-6), "radius": (2.1e-6, 2e-6)},
-                run_record(64, None))  # fmt: skip
-    far = case("fem_hertz", {"approach": (1.001e-6, 1e-6), "radius": (1.9e-6, 2e-6)},
-               run_record(None, 32))  # fmt: skip
-    report = report_of((near, far))
-    table = furthest_apart(shared_references(report))
-    assert table.title in render_page(report)
-    assert [row[0] for row in table.rows] == [
-        "radius, hertz point",
-        "approach, hertz point",
-    ]
-    assert table.rows[0][1:4] == ("10 %", "5 %", "5 %")
-
-
-def test_a_solver_against_itself_is_no_comparison_of_solvers() -> None:
-    one = case("cross_check", {"difference": (1.001, 1.0), "own_error": (1.009, 1.0)},
-               run_record(64, None))  # fmt: skip
-    kinds = (ReferenceKind.OTHER_SOLVER, ReferenceKind.OWN_REFINEMENT)
-    verdicts = tuple(
-        v.model_copy(update={"reference_kind": kind})
-        for v, kind in zip(one.verdicts, kinds, strict=True)
-    )
-    report = report_of((one.model_copy(update={"verdicts": verdicts}),))
-    text = " ".join(answers(report)[2].sentences)
-    assert "Compared with each other in 1 numbers" in text
-    assert "(10 % of it)" in text
-
-
 def test_promises_lead_the_page_with_figures_or_with_the_command_that_finds_them() -> None:
     planned, forced = (
         run_record(48, None).model_copy(
@@ -248,7 +92,7 @@ def test_promises_lead_the_page_with_figures_or_with_the_command_that_finds_them
     same = case("forced_effects", {"ball": (1.0, 1.0)}, planned)
     report = report_of((same.model_copy(update={"runs": (planned, forced)}),),
                        (study("stability", level="full"),))  # fmt: skip
-    plan, cost, stable, stated = features(report)
+    plan, cost, stable, stated = features(report, SHEETS)
     assert "2.5 to 2.5 times the convolutions" in plan.figures
     assert cost.status is None
     assert "slipstick maintain study work-precision" in cost.figures
@@ -257,18 +101,6 @@ def test_promises_lead_the_page_with_figures_or_with_the_command_that_finds_them
     for feature in (plan, cost, stable, stated):
         assert f'<a href="{feature.address}">{feature.promise}</a>' in header
         assert feature.figures in header
-
-
-def test_a_promise_is_told_in_a_line_also_by_a_study_without_an_answer() -> None:
-    record = study("stability")
-    claims = tuple(
-        Statement(claim=f"claim {n}", outcome=outcome, measured="words " * 40)
-        for n, outcome in enumerate((Status.PASS, Status.PASS, Status.FAIL, None))
-    )
-    conclusion = record.conclusion.model_copy(update={"statements": claims})
-    told = record.model_copy(update={"conclusion": conclusion})
-    (*_, stable, _) = features(report_of((), (told,)))
-    assert stable.figures == "2 of its 3 judged claims hold (level quick)"
 
 
 @pytest.mark.parametrize("number", [0, 1, 2])
@@ -290,24 +122,6 @@ def test_headline_names_studies_that_are_inconclusive(number: int) -> None:
     assert f"{counts_text(report)}, in 0 cases." in render_summary(report)
 
 
-def test_observed_orders_stand_in_one_table_with_expectation_and_reason() -> None:
-    rate = verdict("order_of_pressure", 1.02, 1.0).model_copy(update={
-        "tolerance_kind": "order", "interval": 0.13, "source": "the square-root edge",
-        "order": OrderRecord(
-            of="pressure", solver=Solver.CELLS, refined="mesh", sizes=(), errors=()
-        ),
-    })  # fmt: skip
-    one = case("one", {"approach": (1e-6, 1e-6)}, run_record(64, None))
-    page = render_page(report_of((one.model_copy(update={"verdicts": (rate,)}),)))
-    table = page[page.index("Orders of convergence, with") :].split("</table>")[0]
-    (row,) = re.findall(r"<tr><th scope=\"row\">.*</tr>", table)
-    cells = [re.sub(r"<[^>]*>", "", cell) for cell in re.findall(r"<t[hd].*?</t[hd]>", row)]
-    assert cells[:5] == ["pressurewhat it is", "semi-analytical", "mesh", "1.02 ± 0.13", "1"]
-    assert cells[6:] == ["the square-root edge", "one"]
-    gaps = page[page.index("whose order is not judged here") :].split("</table>")[0]
-    assert gaps.count("<tr>") > 2  # one order alone leaves others open
-
-
 def test_a_quick_page_stays_small_and_says_what_it_leaves_out() -> None:
     charts = tuple(chart(f"map_{n}", f"View {n}") for n in range(14))
     cells = Table(title="Cells", columns=("cell", "residual"), rows=(("a", "1e-9"),) * 300)
@@ -315,15 +129,14 @@ def test_a_quick_page_stays_small_and_says_what_it_leaves_out() -> None:
     conclusion = large.conclusion.model_copy(update={"charts": charts, "tables": (cells,)})
     report = report_of((), (large.model_copy(update={"conclusion": conclusion}),))
     quick = render_page(report)
-    shown = extent("quick").charts
+    shown = MOST_CHARTS
     assert quick.count("<svg") == shown < 14
     assert f"{14 - shown} more diagrams" in quick
     assert "View 12; View 13" in quick
     assert "Cells: 300 rows" in quick
     full = render_page(report.model_copy(update={"level": "full"}))
-    assert full.count("<svg") == extent("full").charts
+    assert full.count("<svg") == 14
     assert full.count("1e-9") == 300
-    assert 'href="study-seeded-defects.html"' in full
 
 
 def test_what_is_inconclusive_leads_the_page() -> None:

@@ -149,7 +149,7 @@ def test_the_summary_says_what_its_verdicts_would_miss() -> None:
 def test_a_page_of_chosen_cases_leaves_out_what_is_known_of_the_whole() -> None:
     whole = report_of(three_cases().cases)
     chosen = chosen_of(whole.cases[:1]).model_copy(update={"studies": ()})
-    for section in ("stability", "defects", "paper", "answers"):
+    for section in ("stability", "defects", "paper"):
         assert f'id="{section}"' in render_page(whole)
         assert f'id="{section}"' not in render_page(chosen)
 

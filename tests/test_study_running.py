@@ -17,7 +17,7 @@ from study_cases import Dying, Killed, Number, Refusing, Square, Timed
 from contact_results.one_thread import VARIABLES
 from slipstick.cli.study import _studied
 from verification.judging.case import Level
-from verification.report.study_files import set_aside_study, write_study
+from verification.report.files import set_aside, write_study
 from verification.running.case_pool import KILLED, Answer, CaseEnd, run_cases
 from verification.running.case_store import CaseStore, DamagedRecord, content_hash
 from verification.running.local_workers import LocalWorkers
@@ -200,7 +200,7 @@ def test_killed_study_goes_on_where_it_stopped(
     assert now | kept == now
 
 
-def test_study_leaves_page_record_figures_and_tables(
+def test_study_leaves_page_record_and_tables(
     killed_and_resumed: tuple[Path, dict[str, int]],
 ) -> None:
     out, _ = killed_and_resumed
@@ -208,11 +208,7 @@ def test_study_leaves_page_record_figures_and_tables(
     assert "self-equilibrating shear" in page
     assert "<script" not in page
     assert 'http-equiv="Content-Security-Policy"' in page
-    names = {path.name for path in (out / "figures").iterdir()}
-    assert names == {
-        f"{figure}.{kind}"
-        for figure in ("figure_3_pressure", "figure_4_shear") for kind in ("png", "svg")
-    }  # fmt: skip
+    assert page.count("<svg") == 2
     with (out / "parts.csv").open(encoding="utf-8") as file:
         places = [line for line in csv.DictReader(file) if line["x_over_aH"]]
     assert len(places) == 4 * 2 * 3 * 4 * 131
@@ -264,7 +260,7 @@ def test_earlier_study_waits_aside_until_the_new_one_is_whole(tmp_path: Path) ->
     directory = tmp_path / "stability"
     (directory / "of_mine.txt").touch()
     for _ in range(2):  # the second call finds what a killed study has left
-        set_aside_study(directory)
+        set_aside(directory)
         assert stored_studies(tmp_path) == ()
         assert not (directory / "index.html").exists()
         assert stored_studies(directory) == (record,)  # in `earlier`

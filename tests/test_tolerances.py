@@ -33,7 +33,7 @@ from verification.regression.tolerances import (
     read_tolerances,
     text_of,
 )
-from verification.report.counts import counts_text, uncovered_lines
+from verification.report.summary_text import counts_text, uncovered_lines
 from verification.running.report_record import Provenance, Report, count, load_report
 
 COMMIT = "1a2b3c4d5e6f708192a3b4c5d6e7f8091a2b3c4d"

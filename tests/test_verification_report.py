@@ -151,7 +151,8 @@ def test_strips_say_what_they_are_a_difference_of(report: Report) -> None:
     assert all(below == f"Δ{above}" for above, below in strips)
 
 
-def test_verdicts_are_told_by_word_and_sign(page: str) -> None:
+def test_verdicts_are_told_by_word_and_sign(pages: dict[str, str]) -> None:
+    page = pages[SHEETS]
     text = re.sub(r"<[^>]*>", "", page[page.index("<body ") :])
     assert "✓ pass" in text
 

@@ -139,8 +139,7 @@ def _studied(
 ) -> StudyRecord:
     from contact_results.directory.sole_use import in_sole_use
     from slipstick.cli.case_progress import case_progress, how_it_ended, resume_hint
-    from verification.report.files import refuse_if_unwritable
-    from verification.report.study_files import CASES, set_aside_study, write_study
+    from verification.report.files import CASES, refuse_if_unwritable, set_aside, write_study
     from verification.running.case_pool import run_cases
     from verification.running.case_store import CaseStore
     from verification.running.provenance import provenance
@@ -151,7 +150,7 @@ def _studied(
     refuse_if_unwritable(directory)
     with in_sole_use(directory):
         cases = study.cases(settings)
-        set_aside_study(directory)
+        set_aside(directory)
         store = CaseStore(directory / CASES)
         with (
             case_progress({case.name: 1 for case in cases}, how_it_ended) as observe,
@@ -239,7 +238,7 @@ def _command(
 
 def _print_outcome(record: StudyRecord, directory: Path) -> None:
     from verification.judging.status_words import SYMBOLS, WORDS
-    from verification.report.study_files import PAGE
+    from verification.report.files import PAGE
 
     for lost in record.lost:
         typer.echo(f"LOST {lost.name}: {lost.reason}")

@@ -233,9 +233,8 @@ def _print_outcome(report: Report, directory: Path) -> None:
     from verification.judging.change import ChangeKind
     from verification.judging.status_words import SYMBOLS, WORDS
     from verification.report.changes import change_rows, changes_text
-    from verification.report.counts import counts_text, uncovered_lines
     from verification.report.files import PAGE
-    from verification.report.summary_text import failure_lines
+    from verification.report.summary_text import counts_text, failure_lines, uncovered_lines
 
     for line in failure_lines(report):
         typer.echo(line)

@@ -177,7 +177,7 @@ def coated_paraboloid(
                 "Pressure next to y = 0 under a coating of E1/E2 = 2",
                 f"Computed pressure on {cells_label(cells[-1])} cells over the semi-closed one, "
                 "and their difference, in units of the peak pressure without coating.",
-                "p / p_H", HERTZ.peak_pressure, replace(PRESSURE, profile="coated"),
+                "p / p_H", HERTZ.peak_pressure, PRESSURE,
             ),
             convergence(
                 followed, orders, "coated_convergence",
@@ -542,7 +542,7 @@ def fem_coated(
                 one, f"fem_coated_{number}", f"Pressure over the radius, {name}",
                 "Pressure by finite elements over the semi-closed solution, and their difference.",
                 "p / p_H", HERTZ.peak_pressure,
-                replace(PRESSURE, profile="coated" if row["E1_over_E2"] == STUDIED else ""),
+                PRESSURE,
             )
             for number, (row, name, one) in enumerate(zip(rows, names, ladders, strict=True), 1)
         ),

@@ -32,7 +32,7 @@ from verification.cases.points_run import PointsRun
 from verification.closed_forms.coated_indentation import LayeredIndentation
 from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.exhibits.numbers import plain
-from verification.exhibits.table import APART_EVERYWHERE, NONE, Table
+from verification.exhibits.table import NONE, Table
 from verification.judging.case import Case, Comparison, Finding, Level
 from verification.judging.ladder import cells_label
 from verification.judging.run import (
@@ -615,7 +615,6 @@ def everywhere(lines: Mapping[float, Line]) -> Table:
         left.append(apart[at])
     load, _, most, place, why = rows[int(np.argmax(left))]
     return Table(
-        name=APART_EVERYWHERE,
         title="Both solvers everywhere, also where they are not compared",
         columns=(
             "load", "largest difference of q_x on y = 0 over µp_H, compared", "left out",

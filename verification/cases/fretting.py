@@ -318,13 +318,8 @@ OF_LOOP = (
 )
 
 
-def _loop_profile(
-    of: Ladder, step: int, name: str, when: str, caption: str, profile: str = ""
-) -> Drawing:
-    """The shear at the end of a step of the loop.
-
-    profile  by which a page finds it drawn by both solvers
-    """
+def _loop_profile(of: Ladder, step: int, name: str, when: str, caption: str) -> Drawing:
+    """Draw the shear at the end of a step of the loop."""
 
     def draw(results: Mapping[str, Any]) -> Chart:
         result = results[of.judged.run.label]
@@ -335,7 +330,7 @@ def _loop_profile(
         r = np.linspace(0.0, a, 120)
         labels = ProfileLabels(name, f"Shear over the radius, {when}", caption, "q / µp₀", "r / a")
         known = (r, exact.shear(r))
-        return radial_chart(labels, a, limit, end, end.shear_along_load, known, profile)
+        return radial_chart(labels, a, limit, end, end.shear_along_load, known)
 
     return draw
 
@@ -411,7 +406,7 @@ def fem_partial_slip(
                 _loop_profile(
                     mesh, step, f"fem_partial_slip_{name}", name,
                     f"Shear by finite elements over the closed form at {force} µW, and their "
-                    "difference.", "cattaneo_mindlin" if step == LOADED else "",
+                    "difference.",
                 )
                 for step, name, force in (
                     (LOADED, "loaded", "0.9"), (LOADED + 1, "reversed", "-0.9"),

@@ -57,7 +57,6 @@ from verification.problems.problem import Problem
 from verification.problems.reference import ROUNDING, Reference, ReferenceKind
 from verification.problems.shifted_grid import UNLIKE
 
-SHARP = replace(PRESSURE, profile="hertz")
 ROWS = (
     Within(PEAK_PRESSURE, {128: 1.5e-4, 256: 4e-5}, ASKED),
     Within(APPROACH, {128: 5e-5, 256: 5e-5}, ASKED, name="required_approach"),
@@ -117,7 +116,7 @@ def hertz_point(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> Case:
                 grids, "hertz_profile", "Pressure next to y = 0",
                 f"Computed pressure on {grids.judged.run.label} cells over Hertz's, and their "
                 "difference: it is confined to the cells at the edge of the contact.",
-                "p / p₀", HERTZ.peak_pressure, SHARP,
+                "p / p₀", HERTZ.peak_pressure, PRESSURE,
             ),
             convergence(
                 grids, ROWS, "hertz_convergence", "Convergence of the Hertz contact",
@@ -439,7 +438,7 @@ def fem_hertz(
                 meshes, "fem_hertz_profile", "Pressure over the radius",
                 "Pressure by finite elements over Hertz's, and their difference: a ripple of the "
                 "last elements at the edge.",
-                "p / p₀", HERTZ.peak_pressure, SHARP,
+                "p / p₀", HERTZ.peak_pressure, PRESSURE,
             ),
             convergence(
                 meshes, ON_MESHES, "fem_hertz_convergence", "Convergence of the finite elements",

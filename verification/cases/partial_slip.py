@@ -144,7 +144,7 @@ def cattaneo_mindlin(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> C
                 "the closed form, and their difference: it sits at the border of the stick zone "
                 "and at the edge of the contact.",
                 "qₓ / µp₀", FRICTION * HERTZ.peak_pressure,
-                *shears_along_x(STOPS, {LOOPED: "cattaneo_mindlin"}),
+                *shears_along_x(STOPS),
             ),
             convergence(
                 grids, (replace(order, what=SHEARS[STOPS[LOOPED]]),), "cattaneo_convergence",
@@ -167,15 +167,11 @@ def cattaneo_mindlin(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> C
     )  # fmt: skip
 
 
-def shears_along_x(stops: dict[int, float], profiles: dict[int, str]) -> list[Drawn]:
-    """The shear at the end of every step, beside the exact one.
-
-    profiles  by step: name by which a page finds the shear drawn by both solvers
-    """
+def shears_along_x(stops: dict[int, float]) -> list[Drawn]:
+    """Return the shear at the end of every step, beside the exact one."""
     return [
         Drawn(
-            lambda end: shear_of(end)[0], lambda exact: exact.shear, f"{part:g} µW", step,
-            profiles.get(step, ""),
+            lambda end: shear_of(end)[0], lambda exact: exact.shear, f"{part:g} µW", step
         )
         for step, part in stops.items()
     ]  # fmt: skip
@@ -250,7 +246,7 @@ def sheared_cone(level: Level = Level.QUICK) -> Case:
                 "Computed shear under the cone over the superposition of two pressures, in units "
                 "of µ times the mean pressure, and their difference. The infinite peaks at the "
                 "apex cancel.",
-                "qₓ / (µ mean p)", FRICTION * mean_pressure(CONE), *shears_along_x(stops, {}),
+                "qₓ / (µ mean p)", FRICTION * mean_pressure(CONE), *shears_along_x(stops),
             ),
         ),
     )  # fmt: skip

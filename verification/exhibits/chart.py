@@ -4,7 +4,6 @@ from collections.abc import Iterable
 from enum import StrEnum
 
 from contact_scene.description import Description
-from verification.solver import Solver
 
 DIGITS = 6  # of a plotted number: far finer than a pixel, and equal on every machine
 
@@ -32,11 +31,6 @@ class Curve(Description):
     y: tuple[float, ...]
     look: Look = Look.COMPUTED
     series: int = 0
-    profile: str = ""
-    """Name of a profile that both solvers draw, with its reference and what differs from it."""
-
-    solver: Solver | None = None
-    """Whose profile it is, or is the reference of."""
 
 
 class Panel(Description):
@@ -75,14 +69,9 @@ def curve(
     y: Iterable[float],
     look: Look = Look.COMPUTED,
     series: int = 0,
-    profile: str = "",
-    solver: Solver | None = None,
 ) -> Curve:
     """A curve of rounded numbers."""
-    return Curve(
-        label=label, x=_rounded(x), y=_rounded(y), look=look, series=series, profile=profile,
-        solver=solver,
-    )  # fmt: skip
+    return Curve(label=label, x=_rounded(x), y=_rounded(y), look=look, series=series)
 
 
 def _rounded(values: Iterable[float]) -> tuple[float, ...]:

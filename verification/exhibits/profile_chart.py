@@ -7,8 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semi_analytical.grid import SurfaceGrid
-from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
-from verification.solver import Solver
+from verification.exhibits.chart import Chart, Look, Panel, curve
 
 Field = NDArray[np.float64]
 SHOWN = 1.15  # contact radii to each side of the axis
@@ -54,19 +53,11 @@ class Section:
 
 @dataclass(frozen=True)
 class Profile:
-    """A computed profile and the exact one at the same points, both made dimensionless.
-
-    name  of a profile that finite elements draw too
-    """
+    """A computed profile and the exact one at the same points, both made dimensionless."""
 
     label: str
     computed: Field
     exact: Field
-    name: str = ""
-
-    def curve(self, label: str, x: Field, y: Field, look: Look, series: int) -> Curve:
-        """A curve of it."""
-        return curve(label, x, y, look, series, self.name, Solver.CELLS)
 
 
 @dataclass(frozen=True)
@@ -94,12 +85,12 @@ def profile_chart(
     """
     x = section.x / (section.radius if scale is None else scale)
     exact = [
-        p.curve("closed form" if n == 0 else "", x, p.exact, Look.REFERENCE, 0)
+        curve("closed form" if n == 0 else "", x, p.exact, Look.REFERENCE, 0)
         for n, p in enumerate(profiles)
     ]
-    computed = [p.curve(p.label, x, p.computed, Look.COMPUTED, n) for n, p in enumerate(profiles)]
+    computed = [curve(p.label, x, p.computed, Look.COMPUTED, n) for n, p in enumerate(profiles)]
     difference = [
-        p.curve("", x, p.computed - p.exact, Look.COMPUTED, n) for n, p in enumerate(profiles)
+        curve("", x, p.computed - p.exact, Look.COMPUTED, n) for n, p in enumerate(profiles)
     ]
     above = Panel(x_label="", y_label=labels.y_label, curves=(*exact, *computed), height=2.6)
     below = Panel(x_label=labels.x_label, y_label=labels.difference_label, curves=tuple(difference))

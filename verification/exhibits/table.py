@@ -7,7 +7,6 @@ from contact_scene.description import Description
 
 T = TypeVar("T")
 NONE: Mapping[str, str] = {}  # units: every number is a count or a ratio
-APART_EVERYWHERE = "apart_everywhere"  # name of a table of what a comparison leaves out
 
 
 class Table(Description):

@@ -54,9 +54,6 @@ class Quantity:
 
     scale       what an error is divided by; None: the reference's absolute value
     scale_name  what the error is relative to, in words
-    quantity    what is measured, where the name says more than that; by it numbers of different
-                cases and solvers are found to be of one kind
-    at          the load that it is measured at, over its limit, where that tells quantities apart
     scalar      registered scalar, component and load step, whose stated error is judged, too; None
                 for other numbers
     """
@@ -70,8 +67,6 @@ class Quantity:
     tolerance: Required | Derived
     scale: float | None = None
     scale_name: str = "the reference"
-    quantity: str = ""
-    at: float | None = None
     scalar: tuple[str, int, int] | None = None
 
 

@@ -193,8 +193,6 @@ def _quantity(
         tolerance=tolerance,
         scale=what.scale(problem),
         scale_name=what.scale_name,
-        quantity=what.name,
-        at=what.part,
         scalar=None if what.scalar is None else (*what.scalar, what.step),
     )
 

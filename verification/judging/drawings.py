@@ -27,14 +27,12 @@ class Drawn:
     """A field at the end of a step.
 
     found, exact  from the end of the step, and of the exact answer as a function of r
-    profile       by which a page finds it drawn by both solvers
     """
 
     found: Callable[[Any], Field]
     exact: Callable[[Any], Callable[[Field], Field]]
     label: str = "computed"
     step: int = -1
-    profile: str = ""
 
 
 PRESSURE = Drawn(lambda end: end.pressure, lambda exact: exact.pressure)
@@ -64,7 +62,6 @@ def profile(
                     section.of(one.found(result.steps[one.step])) / unit,
                     problem.on_surface(one.exact(problem.ends[one.step]), section.x, section.y)
                     / unit,
-                    one.profile,
                 )
                 for one in fields
             ]
@@ -75,7 +72,12 @@ def profile(
         exact = one.exact(answer)(r)
         labels = ProfileLabels(name, title, caption, y_label, "r / a")
         return radial_chart(
-            labels, problem.radius, unit, end, one.found(end), (r, exact), one.profile
+            labels,
+            problem.radius,
+            unit,
+            end,
+            one.found(end),
+            (r, exact),
         )
 
     return draw

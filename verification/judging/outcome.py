@@ -53,16 +53,6 @@ class OrderRecord(Description):
     """Error on each level, or change from it to the next."""
 
 
-class RefinedErrors(Description):
-    """Errors of one value on runs of several finenesses, coarse to fine."""
-
-    per_radius: tuple[float, ...]
-    """Cells or elements per contact radius."""
-
-    errors: tuple[float, ...]
-    """Relative to the reference, run by run."""
-
-
 class Verdict(Description):
     """One judged quantity. Errors are relative to `scale_name`; numbers that are not finite are
     null and fail."""
@@ -73,13 +63,6 @@ class Verdict(Description):
 
     runs: tuple[str, ...] = ()
     """Labels of the runs that it was measured on, or that an order was read off."""
-
-    quantity: str = ""
-    """What was measured: the same name wherever it is the same, whatever body, run and tolerance
-    are. Empty for what is no quantity of a contact, and in older records."""
-
-    at: float | None = None
-    """The load that it was measured at, over its limit, where that tells quantities apart."""
 
     meaning: str
     unit: str
@@ -121,9 +104,6 @@ class Verdict(Description):
     covered: bool | None = None
     """Whether |value - reference| is within the stated error and the uncertainty of the reference;
     null without a stated error."""
-
-    refined: RefinedErrors | None = None
-    """The same value on coarser and finer runs; null where its case has too few of them."""
 
     regression: Change | None = None
     """Against the recorded value; null if the case has no baseline of this level."""

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.exhibits.profile_chart import ProfileLabels
 from verification.observed.ring_errors import SHOWN, at_radii
-from verification.solver import Solver
 
 if TYPE_CHECKING:
     from fem_reference import Increment
@@ -25,13 +24,11 @@ def radial_chart(
     increment: Increment,
     traction: Field,
     exact: tuple[Field, Field],
-    profile: str,
 ) -> Chart:
     """A traction over the radius with what it should be in grey, and their difference below.
 
     radius  that r is divided by; scale what the traction is divided by
     exact   radii and values of the reference
-    profile by which a page finds it drawn by both solvers
     """
     shown = increment.radii <= SHOWN * radius
     r, found = increment.radii[shown] / radius, traction[shown] / scale
@@ -41,15 +38,15 @@ def radial_chart(
         x_label="",
         y_label=labels.y_label,
         curves=(
-            curve("reference", known_r, known, Look.REFERENCE, 0, profile, Solver.ELEMENTS),
-            curve("finite elements", r, found, Look.COMPUTED, 0, profile, Solver.ELEMENTS),
+            curve("reference", known_r, known, Look.REFERENCE),
+            curve("finite elements", r, found, Look.COMPUTED),
         ),
         height=2.6,
     )
     below = Panel(
         x_label=labels.x_label,
         y_label=labels.difference_label,
-        curves=(curve("", known_r, difference, Look.COMPUTED, 0, profile, Solver.ELEMENTS),),
+        curves=(curve("", known_r, difference, Look.COMPUTED),),
     )
     return Chart(
         name=labels.name, title=labels.title, caption=labels.caption, rows=((above,), (below,))

@@ -24,7 +24,6 @@ from verification.judging.outcome import (
     Verdict,
     order_status,
 )
-from verification.judging.refined_errors import refined_errors
 from verification.judging.run import AnyRun
 from verification.problems.reference import Reference, ReferenceKind, identity
 from verification.quantities import largest_residual
@@ -55,9 +54,6 @@ def judge_quantity(
             "stated_error": stated,
             "covered": covered,
             "runs": (quantity.run,),
-            "quantity": quantity.quantity or quantity.name,
-            "at": quantity.at,
-            "refined": refined_errors(quantity, case, results),
         }
     )
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, NullFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from numpy.typing import NDArray
 
 from contact_results.figures import style
 from verification.exhibits.chart import Chart, Curve, Look, Panel
 from verification.exhibits.numbers import plain
-from verification.report.log_ticks import LogTicks
-from verification.report.thinned import thinned
 
 WIDTH = 6.6
 HEIGHT_PER_UNIT = 1.5
@@ -27,7 +27,9 @@ LONGEST_BESIDE = 30  # letters of a legend's text beside the plot
 LONGEST_OF_TWO = 45  # and of two side by side below it
 LEGEND_LINE = 0.19  # inches
 MARKERS = ("o", "s", "^", "D", "v", "P")
-FEW_TICKS = 6  # beside long names
+MOST_TICKS, FEW_TICKS = 8, 6  # the latter beside long names
+FEW_DECADES = 2.5  # with labels between powers of ten
+FLATNESS = 1e-3  # of either side of a panel: half a pixel of 500
 MANY_PLACES = 12  # along y: the legend then stands at the top, where reading begins
 LINES = (
     Look.COMPUTED,
@@ -58,20 +60,26 @@ def draw(chart: Chart) -> Figure:
 def _draw_panel(ax: Any, panel: Panel) -> None:
     ax.patch.set_visible(False)
     if panel.logarithmic:
-        _scale_by_decades(ax, both=not panel.y_places)
+        ax.set_xscale("log")
+        ax.set_yscale("linear" if panel.y_places else "log")
     elif any(min(c.y, default=0) < 0 < max(c.y, default=0) for c in panel.curves):
         ax.axhline(0.0, color=INK, linewidth=0.5)
     for curve in panel.curves:
         if curve.look is Look.BAND:
             ax.fill(curve.x, curve.y, **look_of(curve))
         else:
-            ax.plot(*_points(curve, panel), label=curve.label or None, **look_of(curve))
+            ax.plot(curve.x, curve.y, label=curve.label or None, **look_of(curve))
     if not panel.curves:  # numbers would measure nothing
         ax.set_yticks([])
     for x, y, text in panel.notes:
         ax.annotate(text, (x, y), xytext=(0, 6 if y >= 0 else -14), textcoords="offset points",
                     ha="center", color=INK)  # fmt: skip
     ax.margins(x=0.05 if panel.y_places else 0.02, y=0.12)
+    if panel.logarithmic:
+        _label_decades(ax, FEW_TICKS if panel.y_places else MOST_TICKS)
+    for line, one in zip(ax.lines[-len(panel.curves) :], panel.curves, strict=False):
+        if one.look in LINES:
+            line.set_data(*thinned(line.get_xydata(), ax.transScale + ax.transLimits).T)
     if panel.x_places:
         ax.set_xticks(range(len(panel.x_places)), panel.x_places)
         ax.set_xlim(-0.5, len(panel.x_places) - 0.5)
@@ -87,32 +95,39 @@ def _draw_panel(ax: Any, panel: Panel) -> None:
     _legend(ax, panel)
 
 
-def _scale_by_decades(ax: Any, *, both: bool) -> None:
-    """Along x, and along y if both axes are of numbers."""
-    ax.set_xscale("log")
-    if both:
-        ax.set_yscale("log")
-    for axis in (ax.xaxis, ax.yaxis) if both else (ax.xaxis,):
-        axis.set_major_locator(LogTicks() if both else LogTicks(FEW_TICKS))
-        axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
-        axis.set_minor_formatter(NullFormatter())
+def _label_decades(ax: Any, most: int) -> None:
+    """Label powers of ten, and parts of a decade where the axis has few of them."""
+    for axis in (ax.xaxis, ax.yaxis):
+        if axis.get_scale() == "log":
+            low, high = axis.get_view_interval()
+            parts = (1.0, 2.0, 5.0) if np.log10(high / low) < FEW_DECADES else (1.0,)
+            axis.set_major_locator(LogLocator(subs=parts, numticks=most))
+            axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
+            axis.set_minor_formatter(NullFormatter())
     ax.grid(True, color=GRID_COLOUR, linewidth=0.6)
 
 
-def _points(curve: Curve, panel: Panel) -> tuple[Sequence[float], Sequence[float]]:
-    """Of a curve, without those that nobody could see."""
-    if curve.look not in LINES:
-        return curve.x, curve.y
-    spans = tuple(
-        (min(values, default=0.0), max(values, default=0.0))
-        for values in (
-            [value for one in panel.curves for value in one.x],
-            [value for one in panel.curves for value in one.y],
-        )
-    )
-    logarithmic = panel.logarithmic, panel.logarithmic and not panel.y_places
-    x, y = thinned(curve.x, curve.y, (spans[0], spans[1]), logarithmic)
-    return x.tolist(), y.tolist()
+def thinned(points: NDArray[np.float64], to_axes: Any) -> NDArray[np.float64]:
+    """Drop points on the line between their neighbours (Ramer 1972; Douglas and Peucker 1973).
+
+    points   (n, 2) in the units of the data
+    to_axes  transform to parts of the panel's sides
+    """
+    places = to_axes.transform(points)
+    if len(points) < 3 or not np.isfinite(places).all():
+        return points
+    kept, open_parts = {0, len(points) - 1}, [(0, len(points) - 1)]
+    while open_parts:
+        first, last = open_parts.pop()
+        between, along = places[first + 1 : last] - places[first], places[last] - places[first]
+        if len(between):
+            part = np.clip(between @ along / max(along @ along, 1e-300), 0.0, 1.0)
+            apart = np.hypot(*(between - part[:, None] * along).T)
+            if apart.max() > FLATNESS:
+                worst = first + 1 + int(np.argmax(apart))
+                kept.add(worst)
+                open_parts += [(first, worst), (worst, last)]
+    return points[sorted(kept)]
 
 
 def look_of(curve: Curve) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""The files of a report, each written whole or not at all; `report.json` comes last."""
+"""The files of a report and of a study, each written whole or not at all; the record comes last."""
 
 from __future__ import annotations
 
@@ -12,19 +12,20 @@ from contact_results.directory.atomic_file import atomic_file
 from contact_results.directory.directory_lock import acquire, release
 from contact_results.directory.refusal import OutputRefused
 from contact_results.directory.stop_signals import stop_signals_held
-from verification.report.extent import extent
-from verification.report.sections import TITLES
+from verification.running.record import StudyRecord, dump_study
 from verification.running.report_record import PACKED_SUFFIX, Report, dump_report
+from verification.running.stored_studies import RECORD as STUDY_RECORD
 
 PAGE, SHEETS = "index.html", "sheets.html"  # the front, and one sheet per case
 RECORD = "report.json"
 PACKED = f"{RECORD}{PACKED_SUFFIX}"  # what is kept of a report: `xz report.json` makes it
 JUNIT = "junit.xml"
 SUMMARY = "summary.md"
-APPENDICES = {name: f"study-{name}.html" for name in TITLES}
 FILES = (RECORD, PAGE, SHEETS, JUNIT, SUMMARY)  # of any report
-POSSIBLE = (*FILES, PACKED, *APPENDICES.values())
-EARLIER = "earlier"  # of the report's directory: the report before, until the new one is whole
+POSSIBLE = (*FILES, PACKED)
+STUDY_FILES = (STUDY_RECORD, PAGE)
+CASES = "cases"  # of the directory: the records of finished cases
+EARLIER = "earlier"  # of the directory: the files before, until the new ones are whole
 
 
 def refuse_if_unwritable(directory: Path) -> None:
@@ -39,7 +40,7 @@ def refuse_if_unwritable(directory: Path) -> None:
 
 
 def record_in(directory: Path) -> Path:
-    """Where the record of a report is, or would be: packed only where there is no other."""
+    """Return the path of a report's record, packed only where there is no other."""
     packed = directory / PACKED
     return packed if packed.is_file() and not (directory / RECORD).is_file() else directory / RECORD
 
@@ -56,10 +57,10 @@ def set_aside_report(directory: Path) -> None:
         set_aside(directory, (record, *(name for name in POSSIBLE if name != record)))
 
 
-def set_aside(directory: Path, names: Sequence[str]) -> None:
-    """Move files that belong together into `earlier`, first the one that says they are whole.
+def set_aside(directory: Path, names: Sequence[str] = STUDY_FILES) -> None:
+    """Move files that belong together into `earlier`, first the record that says they are whole.
 
-    Without that one the others are removed, and what waits in `earlier` stays.
+    Without the record the others are removed, and the files in `earlier` stay.
     """
     record, *_ = names
     with stop_signals_held():
@@ -78,13 +79,6 @@ def set_aside(directory: Path, names: Sequence[str]) -> None:
             ) from error
 
 
-def remove_set_aside(directory: Path, names: Sequence[str]) -> None:
-    """What `set_aside` has moved, once there is better."""
-    with suppress(OSError):  # there is none, or it holds what is not ours
-        _remove(directory / EARLIER, names)
-        (directory / EARLIER).rmdir()
-
-
 def draw_again(report: Report, directory: Path) -> None:
     """Render everything from the record that is there, and leave a packed one as it is."""
     packed = record_in(directory).name == PACKED
@@ -96,60 +90,72 @@ def write_report(report: Report, directory: Path) -> None:
     """Render everything, then replace the files of an earlier report, also of one set aside.
 
     A record of other numbers goes first and the new one comes last: a directory with a
-    `report.json` holds files that belong together.
+    `report.json` has files that belong together.
     """
     _write(_rendered(report) | {RECORD: dump_report(report)}, directory)
 
 
+def write_study(record: StudyRecord, rows: Mapping[str, str], directory: Path) -> None:
+    """Write the page, the tables and the record of a study, and remove those set aside.
+
+    rows  text by name of the file
+    """
+    from verification.report.page import render_study
+
+    texts = {**rows, PAGE: render_study(record), STUDY_RECORD: dump_study(record)}
+    with stop_signals_held():
+        _put(texts, directory)
+        _remove_set_aside(directory, STUDY_FILES)
+
+
 def _rendered(report: Report) -> dict[str, str]:
     """The files that are drawn, by name."""
-    # Drawing takes long to import: whoever has just a directory to prepare does without.
+    # Drawing takes long to import: a command that only prepares a directory does without.
     from verification.report.junit import render_junit
     from verification.report.page import render_page, render_sheets
-    from verification.report.study_page import render_study
     from verification.report.summary_text import render_summary
 
     return {
-        PAGE: render_page(report),
-        SHEETS: render_sheets(report),
-        JUNIT: render_junit(report),
+        PAGE: render_page(report), SHEETS: render_sheets(report), JUNIT: render_junit(report),
         SUMMARY: render_summary(report),
-        **{
-            APPENDICES[study.name]: render_study(study)
-            for study in report.studies
-            if study.name in APPENDICES and extent(report.level).appendices
-        },
-    }
+    }  # fmt: skip
 
 
 def _write(texts: Mapping[str, str], directory: Path, kept: Sequence[str] = ()) -> None:
-    """Replace the files of an earlier report but those that are kept; what comes last in the texts
-    says that they are whole."""
+    """Replace the files of an earlier report but those that are kept. The last text states that
+    they are whole."""
     with _alone_in(directory), stop_signals_held():
-        if RECORD in texts and not _holds(directory / RECORD, texts[RECORD]):
-            (directory / RECORD).unlink(missing_ok=True)
+        record = directory / RECORD
+        if record.is_file() and record.read_text(encoding="utf-8") != texts.get(RECORD):
+            record.unlink()
         _remove(directory, [name for name in POSSIBLE if name not in texts and name not in kept])
-        for name, text in texts.items():
-            with atomic_file(directory / name) as temporary:
-                temporary.write_text(text, encoding="utf-8", newline="\n")
-        remove_set_aside(directory, POSSIBLE)
+        _put(texts, directory)
+        _remove_set_aside(directory, POSSIBLE)
+
+
+def _put(texts: Mapping[str, str], directory: Path) -> None:
+    for name, text in texts.items():
+        with atomic_file(directory / name) as temporary:
+            temporary.write_text(text, encoding="utf-8", newline="\n")
+
+
+def _remove_set_aside(directory: Path, names: Sequence[str]) -> None:
+    with suppress(OSError):  # there is none, or it has files of others
+        _remove(directory / EARLIER, names)
+        (directory / EARLIER).rmdir()
 
 
 def _remove(directory: Path, names: Sequence[str]) -> None:
-    """The record goes first: a directory that has one holds files that belong together."""
+    """Remove the record first: a directory that has one has files that belong together."""
     for name in names:
         (directory / name).unlink(missing_ok=True)
 
 
 @contextmanager
 def _alone_in(directory: Path) -> Iterator[None]:
-    """Wait for whoever writes a report there: files of two would be mixed."""
+    """Wait for another process that writes a report there: files of two would be mixed."""
     lock = acquire(directory, wait=True)
     try:
         yield
     finally:
         release(lock)
-
-
-def _holds(path: Path, text: str) -> bool:
-    return path.is_file() and path.read_text(encoding="utf-8") == text

@@ -9,7 +9,7 @@ from verification.exhibits.chart import Chart
 from verification.exhibits.log_chart import drawable, log_chart, point_curves
 from verification.exhibits.table import NONE, Table
 from verification.judging.status_words import SYMBOLS, WORDS
-from verification.report.templating import environment
+from verification.report.page import environment
 
 COLUMNS = ("quantity", "step", "level", "verdict", "error", "bound", "class", "order", "because")
 MOST_CURVES = 8

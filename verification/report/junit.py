@@ -4,69 +4,66 @@ from __future__ import annotations
 
 from xml.etree import ElementTree
 
-from verification.judging.outcome import CaseOutcome, Status, Verdict
+from verification.judging.outcome import Status
 from verification.judging.verdict_text import failure_line
 from verification.report.changes import case_rows
-from verification.running.record import StudyRecord
 from verification.running.report_record import Report
 from verification.running.sources import is_current
 from verification.running.study_text import study_failure_line
 
+Made = tuple[str, Status, str, str]  # name, outcome, message, text
+
 
 def render_junit(report: Report) -> str:
-    """One suite per case, one test case per verdict; without times, which differ between runs.
-    Studies of the same sources make one more suite.
+    """Return one suite per case with a test case per verdict, and one suite of the studies of the
+    same sources; without times, which differ between runs.
 
-    What is new since the baseline is text of its suite: it is no failure.
+    Changes since the baseline are text of their suite: they are no failures.
     """
-    own = [study for study in report.studies if is_current(study.provenance)]
-    root = ElementTree.Element(
-        "testsuites", name=f"slipstick verify, {report.level}",
-        tests=str(sum(report.counts.values()) + len(own)),
-        failures=str(report.counts[Status.FAIL] + len(report.failed_studies)),
-        errors="0", skipped=str(report.counts[Status.INCONCLUSIVE]),
-    )  # fmt: skip
+    root = ElementTree.Element("testsuites", name=f"slipstick verify, {report.level}")
     for case in report.cases:
-        suite = ElementTree.SubElement(
-            root, "testsuite", name=case.name, tests=str(len(case.verdicts)),
-            failures=str(case.count(Status.FAIL)), errors="0",
-            skipped=str(case.count(Status.INCONCLUSIVE)),
-        )  # fmt: skip
-        for verdict in case.verdicts:
-            _add(suite, case, verdict, report.level)
-        _add_changes(suite, case)
+        verdicts = [
+            (
+                f"{v.name} [{v.run}]",
+                v.status,
+                failure_line(case.name, v, report.level)
+                if v.status is Status.FAIL
+                else f"inconclusive: {v.because}",
+                v.because,
+            )
+            for v in case.verdicts
+        ]
+        lines = [row.line for row in case_rows(case) if row.kind.matters]
+        _suite(root, case.name, verdicts, lines if case.baseline else ["no baseline yet"])
+    own = [study for study in report.studies if is_current(study.provenance)]
+    failed = [study for study in own if study.status is Status.FAIL]
     if own:
-        _add_studies(root, own)
+        studies = [
+            (one.name, Status.FAIL if one in failed else Status.PASS,
+             study_failure_line(one) if one in failed else "", "")
+            for one in own
+        ]  # fmt: skip
+        _suite(root, "studies", studies)
+    for name in ("tests", "failures", "errors", "skipped"):
+        root.set(name, str(sum(int(suite.get(name, 0)) for suite in root)))
     ElementTree.indent(root)
     text = ElementTree.tostring(root, encoding="unicode")
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'
 
 
-def _add(suite: ElementTree.Element, case: CaseOutcome, verdict: Verdict, level: str) -> None:
-    name = f"{verdict.name} [{verdict.run}]"
-    element = ElementTree.SubElement(suite, "testcase", classname=case.name, name=name)
-    if verdict.status is Status.FAIL:
-        message = failure_line(case.name, verdict, level)
-        ElementTree.SubElement(element, "failure", message=message).text = verdict.because
-    elif verdict.status is Status.INCONCLUSIVE:
-        ElementTree.SubElement(element, "skipped", message=f"inconclusive: {verdict.because}")
-
-
-def _add_studies(root: ElementTree.Element, studies: list[StudyRecord]) -> None:
-    failures = [study for study in studies if study.status is Status.FAIL]
+def _suite(
+    root: ElementTree.Element, name: str, made: list[Made], lines: list[str] | None = None
+) -> None:
+    ends = [status for _, status, _, _ in made]
     suite = ElementTree.SubElement(
-        root, "testsuite", name="studies", tests=str(len(studies)), failures=str(len(failures)),
-        errors="0", skipped="0",
+        root, "testsuite", name=name, tests=str(len(made)), errors="0",
+        failures=str(ends.count(Status.FAIL)), skipped=str(ends.count(Status.INCONCLUSIVE)),
     )  # fmt: skip
-    for study in studies:
-        element = ElementTree.SubElement(suite, "testcase", classname="studies", name=study.name)
-        if study in failures:
-            ElementTree.SubElement(element, "failure", message=study_failure_line(study))
-
-
-def _add_changes(suite: ElementTree.Element, case: CaseOutcome) -> None:
-    lines = [row.line for row in case_rows(case) if row.kind.matters]
-    if case.baseline is None:
-        lines = ["no baseline yet"]
+    kinds = {Status.FAIL: "failure", Status.INCONCLUSIVE: "skipped"}
+    for title, status, message, text in made:
+        element = ElementTree.SubElement(suite, "testcase", classname=name, name=title)
+        if status in kinds:
+            child = ElementTree.SubElement(element, kinds[status], message=message)
+            child.text = text if status is Status.FAIL else None
     if lines:
         ElementTree.SubElement(suite, "system-out").text = "\n".join(lines)

@@ -1,28 +1,24 @@
-"""The pages, a front and the sheets of the cases: neither needs network or scripts."""
+"""The pages of a report and of a study: neither needs network or scripts."""
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Sequence
 from functools import cache
 
 import jinja2
+from markupsafe import Markup
 
-from verification.exhibits.chart import Chart
 from verification.exhibits.numbers import plain, value_text
 from verification.exhibits.table import Table
-from verification.judging.outcome import CaseOutcome, Status, Verdict
+from verification.judging.outcome import FOUND_IN_A_RUN, CaseOutcome, Status, Verdict
+from verification.judging.status_words import SYMBOLS, WORDS
 from verification.judging.verdict_text import (
     clearance_text,
     failure_text,
     order_text,
     uncertainty_text,
-)
-from verification.report.answers import answers
-from verification.report.both_solvers import (
-    both_solvers_charts,
-    furthest_apart,
-    shared_references,
 )
 from verification.report.changes import (
     change_counts,
@@ -32,136 +28,100 @@ from verification.report.changes import (
     without_baseline,
     worse_rows,
 )
-from verification.report.closing import closing_sentences, line_of
-from verification.report.counts import counts_text
-from verification.report.extent import extent
-from verification.report.features import claims_line, features
 from verification.report.files import PAGE, SHEETS
-from verification.report.front import front_charts
-from verification.report.order_table import not_judged
-from verification.report.orders import observed_orders
-from verification.report.profiles_together import profiles_together
-from verification.report.sections import study_section
-from verification.report.shared_styles import with_shared_styles
-from verification.report.stability_map import legend, stability_map
-from verification.report.svg import image_address
-from verification.report.templating import environment
+from verification.report.sections import claims_line, features, study_section
+from verification.report.summary_text import counts_text
+from verification.report.svg import image_address, inline_svg, with_shared_styles
+from verification.running.record import StudyRecord
 from verification.running.report_record import Report
 from verification.running.study_text import measured_text
 
-PAPER_CASE = "paper_fretting_loop"  # which makes the paper's figures 1 and 2
 MOST_WORSE = 6  # on the front; the rest stands below
-SEVERAL = 2  # cases whose equal references and reasons are printed once
 MOST_MOVED = 40
+MOST_CHARTS, MOST_ROWS = 2, 40  # of a study and of a table on a page of the quick level
+SEVERAL = 2  # cases whose equal references and reasons are printed once
+WORDS_FROM = 30  # characters of a cell that make its column one of words
+DIGITS = frozenset("0123456789")
+EXPONENT = re.compile(r"(?<=\d)e[+−-]?\d+")
+NUMBER = "number"  # class of the style sheet; "words" for the other columns
 
 
 def render_page(report: Report) -> str:
-    """The front as HTML; equal records give equal text."""
-    return _rendered("page.html", report)
+    """Return the front as HTML; equal records give equal text."""
+    return _rendered("page.html", report=report, brief=report.level == "quick")
 
 
 def render_sheets(report: Report) -> str:
-    """One sheet per case, in the order of the record."""
-    return _rendered("sheets.html", report)
+    """Return one sheet per case, in the order of the record."""
+    return _rendered("sheets.html", report=report, brief=report.level == "quick")
 
 
-def _rendered(template: str, report: Report) -> str:
-    return with_shared_styles(_environment().get_template(template).render(report=report))
+def render_study(record: StudyRecord) -> str:
+    """Return the page of a study, in its own directory."""
+    return _rendered("study.html", study=record, brief=False)
+
+
+def _rendered(template: str, **shown: object) -> str:
+    return with_shared_styles(environment().get_template(template).render(**shown))
 
 
 @cache
-def _environment() -> jinja2.Environment:
-    made = environment()
+def environment() -> jinja2.Environment:
+    """Return the environment of all templates."""
+    made = jinja2.Environment(
+        loader=jinja2.PackageLoader("verification.report"),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
     made.filters.update(
         value=value_text, plain=plain, clearance=clearance_text, order=order_text,
-        uncertainty=uncertainty_text, failure=failure_text,
-        address=image_address,
+        uncertainty=uncertainty_text, failure=failure_text, address=image_address,
+        svg=lambda chart, prefix="": Markup(inline_svg(chart, prefix)),  # nosec B704: escaped there
     )  # fmt: skip
+    shared = (
+        alignment, heading, line_of, reasons_of, shared_reasons, study_section, measured_text,
+        features, counts_text, claims_line, change_counts, changes_text, moved_rows, origins,
+        without_baseline, worse_rows,
+    )  # fmt: skip
+    made.globals.update({one.__name__: one for one in shared})
     made.globals.update(
-        Status=Status,
-        MOST_WORSE=MOST_WORSE,
-        PAGE=PAGE,
-        SHEETS=SHEETS,
-        PAPER_CASE=PAPER_CASE,
-        MOST_MOVED=MOST_MOVED,
-        bar=_bar,
-        kinds=_kinds,
-        references=_references,
-        common=_common,
-        answers=answers,
-        study_section=study_section,
-        measured_text=measured_text,
-        features=features,
-        observed_orders=observed_orders,
-        not_judged=not_judged,
-        both_solvers=_both_solvers,
-        extent=extent,
-        inconclusive=_inconclusive,
-        counts_text=counts_text,
-        front_charts=front_charts,
-        stability_map=stability_map,
-        map_legend=legend,
-        line_of=line_of,
-        closing_sentences=closing_sentences,
-        claims_line=claims_line,
-    )
-    made.globals.update(
-        change_counts=change_counts,
-        changes_text=changes_text,
-        moved_rows=moved_rows,
-        origins=origins,
-        without_baseline=without_baseline,
-        worse_rows=worse_rows,
-    )
+        Status=Status, symbols=SYMBOLS, words=WORDS, PAGE=PAGE, SHEETS=SHEETS,
+        MOST_WORSE=MOST_WORSE, MOST_MOVED=MOST_MOVED, MOST_CHARTS=MOST_CHARTS, MOST_ROWS=MOST_ROWS,
+    )  # fmt: skip
     return made
 
 
-def _bar(verdict: Verdict) -> int:
-    """Length of the bar of a verdict in per cent; full from the allowed error on."""
-    part = verdict.clearance
-    return 100 if part is None else round(min(100.0, 100 * part))
+def line_of(case: CaseOutcome) -> str:
+    """State the number of verdicts that passed, and the verdict that uses most of its tolerance:
+    a failed one before all others, a quantity before the residuals of a solve."""
+    total, passed = len(case.verdicts), case.count(Status.PASS)
+    counted = f"{total} verdicts" if passed == total else f"{passed} of {total} verdicts passed"
+
+    def rank(verdict: Verdict) -> tuple[bool, bool, float]:
+        measured = verdict.status is Status.PASS and verdict.name not in FOUND_IN_A_RUN
+        return verdict.status is Status.FAIL, measured, verdict.clearance or 0.0
+
+    worst = max((v for v in case.verdicts if v.clearance is not None), key=rank, default=None)
+    if worst is None:
+        return counted
+    name = worst.name.replace("_", " ")
+    return f"{counted}; {name} uses {clearance_text(worst)} of what is allowed"
 
 
-def _kinds(report: Report) -> dict[str, dict[Status, int]]:
-    """Verdicts by what they judge, and how they ended."""
-    verdicts = [verdict for case in report.cases for verdict in case.verdicts]
-    kinds = {
-        "against a reference": [v for v in verdicts if v.tolerance_kind != "order"],
-        "order of convergence": [v for v in verdicts if v.tolerance_kind == "order"],
-    }
+def shared_reasons(cases: Sequence[CaseOutcome]) -> dict[str, list[str]]:
+    """Return references and reasons that several cases share, with their verdicts."""
+    found = [reasons_of(case) for case in cases]
+    times = Counter(text for reasons in found for text in reasons)
     return {
-        kind: {status: sum(v.status is status for v in of) for status in Status}
-        for kind, of in kinds.items()
+        text: list(dict.fromkeys(name for reasons in found for name in reasons.get(text, ())))
+        for text, count in times.items()
+        if count >= SEVERAL
     }
 
 
-def _both_solvers(report: Report) -> tuple[tuple[Chart, ...], Table] | None:
-    """Profiles and errors of both solvers against the same references, where there are such."""
-    shared = shared_references(report)
-    charts = (*profiles_together(report), *both_solvers_charts(shared))
-    return (charts, furthest_apart(shared)) if shared else None
-
-
-def _inconclusive(report: Report) -> list[tuple[CaseOutcome, Verdict]]:
-    """Verdicts that are neither passed nor failed, with their cases."""
-    return [
-        (case, verdict)
-        for case in report.cases
-        for verdict in case.verdicts
-        if verdict.status is Status.INCONCLUSIVE
-    ]
-
-
-def _common(cases: Sequence[CaseOutcome]) -> dict[str, list[str]]:
-    """References and reasons that several cases share, with their verdicts."""
-    named: dict[str, list[str]] = {}
-    times = Counter(text for case in cases for text in _references(case))
-    for case in cases:
-        named.update(_references(case))
-    return {text: named[text] for text, count in times.items() if count >= SEVERAL}
-
-
-def _references(case: CaseOutcome) -> dict[str, list[str]]:
+def reasons_of(case: CaseOutcome) -> dict[str, list[str]]:
     """Return each source of a reference and each reason of a tolerance, with its verdicts."""
     found: dict[str, list[str]] = {}
     for v in case.verdicts:
@@ -173,3 +133,22 @@ def _references(case: CaseOutcome) -> dict[str, list[str]]:
             if v.name not in names:
                 names.append(v.name)
     return found
+
+
+def alignment(table: Table, column: int) -> str:
+    """Return the class of a column: numbers stand to the right, words to the left."""
+    cells = [row[column] for row in table.rows if len(row) > column]
+    with_digits = all(DIGITS & set(cell) or len(cell) < 2 for cell in cells)  # – is no word
+    short = max(map(len, cells), default=0) < WORDS_FROM
+    return NUMBER if with_digits and short else "words"
+
+
+def heading(table: Table, column: int) -> str:
+    """Return the head of a column, with the unit of its numbers where the cells do not name it."""
+    head = table.columns[column]
+    if table.units is None or column == 0 or alignment(table, column) != NUMBER:
+        return head
+    cells = [EXPONENT.sub("", row[column]) for row in table.rows if len(row) > column]
+    bare = not any(sign.isalpha() or sign == "%" for cell in cells for sign in cell)
+    unit = table.units.get(head, "–" if bare else "")
+    return f"{head} [{unit}]" if unit else head

@@ -1,4 +1,4 @@
-"""Sections that a study makes: its record, or the command that makes one."""
+"""Studies in a report: their records, the commands that make them, and the promises they judge."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
+from verification.exhibits.numbers import plain
+from verification.judging.outcome import Status
 from verification.running.record import StudyRecord
 from verification.running.report_record import Report
 from verification.running.sources import is_current
@@ -20,6 +22,12 @@ TITLES = {
     "mutants": "What the tests of kernels notice",
     "scoreboard": "Other codes on the same problems",
 }
+PROMISES = {
+    "work-precision": "Know what accuracy costs",
+    "stability": "Stay stable in hard cases",
+    "error-coverage": "State an error for every number, and keep it",
+}
+FORCED = "forced_effects"  # the case that judges the plan
 LEVELS = ("quick", "standard", "full")
 PLACES = (Path("reports/studies"), Path("out"))  # where records are looked for
 
@@ -38,27 +46,81 @@ class StudySection:
     command: str
 
 
+@dataclass(frozen=True)
+class Feature:
+    """A promise of the program with its figures; no status where this report has nothing on it."""
+
+    promise: str
+    status: Status | None
+    figures: str
+    address: str
+
+
 def study_section(report: Report, name: str) -> StudySection:
-    """The section of a study of this name; KeyError if the page has no place for it."""
+    """Return the section of a study; KeyError if the page has no place for it."""
     command = f"slipstick maintain study {name} --level {report.level}"
-    return StudySection(name, TITLES[name], study_of(report, name), command)
+    record = next((record for record in report.studies if record.name == name), None)
+    return StudySection(name, TITLES[name], record, command)
 
 
-def study_of(report: Report, name: str) -> StudyRecord | None:
-    """The record of a study; None without one."""
-    return next((record for record in report.studies if record.name == name), None)
+def features(report: Report, sheets: str) -> tuple[Feature, ...]:
+    """Return the promises: planning, judged by a case, and those that a study judges.
+
+    sheets  address of the page with the sheets of the cases
+    """
+    return (
+        _planned(report, sheets),
+        *(_studied(study_section(report, name), text) for name, text in PROMISES.items()),
+    )
+
+
+def _planned(report: Report, sheets: str) -> Feature:
+    promise = "Simulate only the effects that a scene calls for"
+    case = next((case for case in report.cases if case.name == FORCED), None)
+    if case is None:
+        command = f"slipstick verify {FORCED} --level {report.level}"
+        return Feature(promise, None, f"not in this report; {command} measures it", "#cases")
+    runs = {run.label: run for run in case.runs}
+    ratios = [
+        run.convolutions / max(runs[run.planned].convolutions, 1)
+        for run in case.runs
+        if run.planned is not None
+    ]
+    told = f"{min(ratios):.2g} to {max(ratios):.2g} times the" if ratios else "as many"
+    worst = max((v.error or 0.0 for v in case.verdicts if len(v.runs) > 1), default=0.0)
+    figures = (
+        f"with every effect forced on, {len(ratios)} scenes give the same answer within "
+        f"{plain(worst, 2)} and take {told} convolutions"
+    )
+    return Feature(promise, case.status, figures, f"{sheets}#{FORCED}")
+
+
+def _studied(section: StudySection, promise: str) -> Feature:
+    address, record = f"#study-{section.name}", section.record
+    if record is None:
+        return Feature(promise, None, f"not in this report; {section.command} finds it", address)
+    answer = record.conclusion.answer
+    told = f"{answer} (level {record.level})" if answer else claims_line(record)
+    return Feature(promise, record.status, told, address)
+
+
+def claims_line(record: StudyRecord) -> str:
+    """State the number of claims of a study that hold."""
+    judged = [s.outcome for s in record.conclusion.statements if s.outcome is not None]
+    good = judged.count(Status.PASS)
+    return f"{good} of its {len(judged)} judged claims hold (level {record.level})"
 
 
 def stored_records(
     places: Iterable[Path] = PLACES, left_out: Callable[[str], None] | None = None
 ) -> tuple[StudyRecord, ...]:
-    """Of every study that the page has a place for the record that tells most about these sources;
-    by name. One that they have made goes before those of others, whatever their level; then the
-    higher level, and of two such the later. What was computed on cells of somebody's choice is no
-    level of a study.
+    """Return the best record of every study that the page has a place for, by name.
 
-    left_out  is told of a record that is broken or of another version; without it that raises
-              ValueError, naming the file
+    A record of the current sources goes before those of others, then the higher level, then the
+    later date. A record on cells of the user's choice is no level of a study.
+
+    left_out  called with the problem of a record that is broken or of another version; without it
+              such a record raises ValueError
     """
     from verification.running.stored_studies import stored_studies
 
@@ -67,13 +129,11 @@ def stored_records(
         for record in stored_studies(place, left_out):
             if record.own_cells or record.name not in TITLES:
                 continue
-            if _rank(record) >= _rank(best.get(record.name)):
+            if record.name not in best or _rank(record) >= _rank(best[record.name]):
                 best[record.name] = record
     return tuple(best[name] for name in sorted(best))
 
 
-def _rank(record: StudyRecord | None) -> tuple[bool, int, str]:
-    if record is None:
-        return False, -2, ""
+def _rank(record: StudyRecord) -> tuple[bool, int, str]:
     level = LEVELS.index(record.level) if record.level in LEVELS else -1
     return is_current(record.provenance), level, record.provenance.date

@@ -1,79 +1,140 @@
-"""`summary.md`: the report for a pull request."""
+"""`summary.md`: the report for a pull request; the sentences that it shares with the command."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from verification.judging.outcome import CaseOutcome, Status
+from verification.exhibits.numbers import value_text
+from verification.judging.coverage import judged_errors
+from verification.judging.outcome import CaseOutcome, Status, Verdict
 from verification.judging.status_words import SYMBOLS, WORDS
 from verification.judging.verdict_text import clearance_text, failure_line
+from verification.problems.reference import ReferenceKind
+from verification.regression.number_change import NOISE
 from verification.report.changes import change_rows, changes_text, origins
-from verification.report.counts import counts_text, uncovered_lines
-from verification.report.power import power_text
 from verification.running.report_record import Report
 from verification.running.sources import age_text
 from verification.running.study_text import measured_text, study_failure_line
 
 MOST_LINES = 40  # of failures, and of changes: a pull request's comment holds 65 kB
+TIMES = (3.0, 10.0)  # the errors that a verdict is to notice
+OUTSIDE = {
+    ReferenceKind.CLOSED_FORM, ReferenceKind.SEMI_CLOSED, ReferenceKind.THEORY,
+    ReferenceKind.EXTERNAL_CODE,
+}  # fmt: skip
+
+
+def counts_text(report: Report) -> str:
+    """State the number of verdicts, stated errors and studies by outcome."""
+    found = [verdict.covered for _, verdict in judged_errors(report.cases)]
+    failed = len(report.failed_studies)
+    older = sum(study.status is Status.FAIL for study in report.studies) - failed
+    open_ = sum(study.status is Status.INCONCLUSIVE for study in report.studies)
+    parts = [
+        ", ".join(f"{report.counts[status]} {word}" for status, word in (
+            (Status.PASS, "passed"), (Status.FAIL, "failed"), (Status.INCONCLUSIVE, "inconclusive")
+        ))
+    ]  # fmt: skip
+    parts += [f"{sum(map(bool, found))} of {len(found)} stated errors cover"] if found else []
+    parts += [f"{failed} of the studies failed"] if failed else []
+    parts += [f"{older} of the studies failed and are older than the code"] if older else []
+    parts += [f"{open_} {'study' if open_ == 1 else 'studies'} inconclusive"] if open_ else []
+    return "; ".join(parts)
+
+
+def uncovered_lines(report: Report) -> list[str]:
+    """Return one line for every stated error that does not cover the difference."""
+    return [
+        f"UNCOVERED {case.name}/{verdict.name} [{verdict.run}]: "
+        f"{value_text(abs((verdict.value or 0.0) - verdict.reference), verdict.unit)} from the "
+        f"reference, {value_text(verdict.stated_error, verdict.unit)} stated"
+        for case, verdict in judged_errors(report.cases)
+        if not verdict.covered
+    ]
 
 
 def failure_lines(report: Report) -> list[str]:
-    """One line for every failed verdict, and for every failed study of the same sources."""
+    """Return one line for every failed verdict, and for every failed study of the same sources."""
     lines = [failure_line(case.name, verdict, report.level) for case, verdict in report.failures]
     lines += uncovered_lines(report) if report.errors_too_small else []
     return lines + [study_failure_line(study) for study in report.failed_studies]
 
 
+def power_text(report: Report) -> str:
+    """State the share of verdicts that a larger error would pass; empty without any."""
+    judged = [
+        (verdict.error, verdict.allowed)
+        for case in report.cases
+        for verdict in case.verdicts
+        if verdict.status is Status.PASS and verdict.tolerance_kind != "order"
+        and verdict.reference_kind in OUTSIDE and verdict.error is not None
+    ]  # fmt: skip
+    if not judged:
+        return ""
+    passing, hidden = (
+        [
+            sum(t * e <= u and (t - 1) * e < least for e, u in judged) / len(judged)
+            for t in TIMES
+        ]
+        for least in (float("inf"), NOISE)
+    )  # fmt: skip
+    return (
+        f"Of {len(judged)} numbers with a reference from outside, {passing[0]:.0%} would pass "
+        f"with an error three times as large and {passing[1]:.0%} with ten times; "
+        f"{hidden[0]:.0%} and {hidden[1]:.0%} without that the comparison with baselines tells it "
+        "as worse"
+    )
+
+
 def render_summary(report: Report) -> str:
-    """Verdict, failures and one row per case, in Markdown."""
+    """Return the verdict, the failures and one row per case, in Markdown."""
     return "\n".join(_lines(report)) + "\n"
 
 
 def _lines(report: Report) -> Iterator[str]:
-    yield f"# {SYMBOLS[report.status]} {WORDS[report.status]}: slipstick verify, {report.level}"
+    yield f"# {_sign(report.status)}: slipstick verify, {report.level}"
     yield ""
     yield f"{counts_text(report)}, in {len(report.cases)} cases."
     if age := age_text(report.provenance):
         yield f"The report is {age}."
     if power := power_text(report):
         yield f"{power}."
-    if report.status is Status.FAIL:
+    failed = report.status is Status.FAIL
+    lines = [f"`{line}`" for line in failure_lines(report)] if failed else uncovered_lines(report)
+    if lines:
         yield ""
-        lines = failure_lines(report)
-        yield from (f"- `{line}`" for line in lines[:MOST_LINES])
-        if len(lines) > MOST_LINES:
-            yield f"- and {len(lines) - MOST_LINES} more"
-    elif uncovered := uncovered_lines(report):
-        yield ""
-        yield from (f"- {line}" for line in uncovered[:MOST_LINES])
+    yield from (f"- {line}" for line in lines[:MOST_LINES])
+    if len(lines) > MOST_LINES:
+        yield f"- and {len(lines) - MOST_LINES} more"
     yield ""
     yield from _changes(report)
     yield ""
     if report.studies:
-        yield (
-            "Studies: "
-            + ", ".join(
-                f"{study.name} {SYMBOLS[study.status]} {WORDS[study.status]} ({study.level}"
-                f"{measured_text(study)})"
-                for study in report.studies
-            )
-            + "."
+        told = (
+            f"{study.name} {_sign(study.status)} ({study.level}{measured_text(study)})"
+            for study in report.studies
         )
+        yield f"Studies: {', '.join(told)}."
         yield ""
     yield "| case | verdict | verdicts | closest to its limit |"
     yield "| --- | --- | --- | --- |"
     for case in report.cases:
-        status = f"{SYMBOLS[case.status]} {WORDS[case.status]}"
-        yield f"| {case.name} | {status} | {len(case.verdicts)} | {_closest(case)} |"
+        yield f"| {case.name} | {_sign(case.status)} | {len(case.verdicts)} | {_closest(case)} |"
+
+
+def _sign(status: Status) -> str:
+    return f"{SYMBOLS[status]} {WORDS[status]}"
 
 
 def _closest(case: CaseOutcome) -> str:
-    """The verdict that uses most of what is allowed."""
+    """The verdict that uses most of its tolerance."""
+
+    def use(verdict: Verdict) -> float:
+        return verdict.clearance or 0.0
+
     known = [verdict for verdict in case.verdicts if verdict.clearance is not None]
-    if not known:
-        return "–"
-    worst = max(known, key=lambda verdict: verdict.clearance or 0.0)
-    return f"{worst.name} [{worst.run}]: {clearance_text(worst)}"
+    worst = max(known, key=use, default=None)
+    return "–" if worst is None else f"{worst.name} [{worst.run}]: {clearance_text(worst)}"
 
 
 def _changes(report: Report) -> Iterator[str]:

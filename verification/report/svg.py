@@ -1,9 +1,11 @@
-"""Figures as SVG inside a page: its colours, its text, no clash of names."""
+"""Diagrams as SVG elements in a page: its colours, its text, unique names, few bytes."""
 
 from __future__ import annotations
 
+import hashlib
 import io
 import re
+from collections import Counter
 from html import escape
 from urllib.parse import quote
 
@@ -12,10 +14,9 @@ import matplotlib
 from contact_results.figures import style
 from verification.exhibits.chart import Chart
 from verification.exhibits.picture import Picture
-from verification.report.compact_svg import compact
 from verification.report.drawing import GRID_COLOUR, INK, REFERENCE_COLOUR, draw
 
-# Colours of a figure become variables of the page, which has a light and a dark value of each.
+# Colours of a diagram become variables of the page, which has a light and a dark value of each.
 VARIABLES = {
     INK: "--ink",
     REFERENCE_COLOUR: "--reference",
@@ -25,10 +26,19 @@ VARIABLES = {
 ROOT = '<svg xmlns="http://www.w3.org/2000/svg" font-family="DejaVu Sans,Verdana,sans-serif"'
 KEPT_AS_IT_IS = " =:/;,+()!*@$?[]"  # of an address within quotes
 NO_METADATA = {"Date": None, "Creator": None, "Format": None, "Type": None}
+NUMBER = re.compile(r"-?\d+\.\d+")
+DIGITS = 6  # of the digest that stands for the name of a diagram
+DECIMALS = 1  # of a point, 1/72 inch
+FINE_DECIMALS, SMALL = 2, 10.0  # for the shapes of marks
+REFERENCE = re.compile(r'(?:xlink:href="#|url\(#)([^")]*)')
+FIGURE = re.compile(r"<svg[ >].*?</svg>", re.DOTALL)
+# Within a tag alone: text cannot contain an opening bracket.
+STYLED = re.compile(r'(<\w[^<>]*?) style="([^"<>{}]*)"')
+HEAD = "</style>\n</head>"
 
 
 def inline_svg(chart: Chart, prefix: str = "") -> str:
-    """The chart as an SVG element; equal charts give equal text.
+    """Return the chart as an SVG element; equal charts give equal text.
 
     prefix  of its ids, where a page shows a chart twice
     """
@@ -38,33 +48,98 @@ def inline_svg(chart: Chart, prefix: str = "") -> str:
         buffer = io.StringIO()
         draw(chart).savefig(buffer, format="svg", metadata=NO_METADATA)
     svg = buffer.getvalue()
-    svg = svg[svg.index("<svg") :].strip()
-    name = _id(prefix + chart.name)
-    svg = compact(svg, name)
+    name = re.sub(r"[^A-Za-z0-9_.-]", "_", prefix + chart.name)
+    svg = compact(svg[svg.index("<svg") :].strip(), name)
     for colour, variable in VARIABLES.items():
         svg = re.sub(re.escape(colour), f"var({variable})", svg, flags=re.IGNORECASE)
-    return _labelled(svg, chart, name)
+    opening, rest = svg.split(">", 1)
+    opening = re.sub(r'\s(width|height)="[^"]*"', "", opening)
+    title = f'<title id="{name}-name">{escape(chart.title)}</title>'
+    return f'{opening} role="img" aria-labelledby="{name}-name">{title}{rest}'
 
 
 def image_address(picture: Picture) -> str:
-    """The picture as an address that holds all of it: an image is not a part of the page, so
-    nothing in it can run, refer to the page or ask for anything."""
+    """Return an address that contains the whole picture. An image is not part of the page: nothing
+    in it can run, refer to the page or request anything."""
     svg = compact(picture.svg, picture.name)
-    if not svg.startswith("<svg "):  # no drawing: an image that a browser shows the text for
+    if not svg.startswith("<svg "):  # no drawing: a browser shows the text of the image
         return "data:,"
     return f"data:image/svg+xml,{quote(ROOT + svg.removeprefix('<svg'), safe=KEPT_AS_IT_IS)}"
 
 
-def _id(name: str) -> str:
-    """A name that can stand in an attribute and in a reference to it."""
-    return re.sub(r"[^A-Za-z0-9_.-]", "_", name)
+def compact(svg: str, name: str) -> str:
+    """Remove all that a page does not need: two thirds of the bytes of matplotlib.
+
+    name  unique in the page: two diagrams cannot refer to each other's parts
+    """
+    svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.DOTALL)
+    svg = re.sub(r"<!--.*?-->|<style.*?</style>", "", svg, flags=re.DOTALL)
+    svg = _with_own_ids(svg, name)
+    svg = re.sub(r' style="([^"]*)"', _short_style, svg)
+    svg = re.sub(r' transform="rotate\(-?0 [^"]*\)"', "", svg)
+    svg = re.sub(r' (d|x|y|width|height|points|transform|viewBox)="([^"]*)"', _short_numbers, svg)
+    svg = re.sub(r' (?:xmlns(?::xlink)?|version)="[^"]*"', "", svg.replace("xlink:href", "href"))
+    svg = re.sub(r"> <", "><", re.sub(r"\s*\n\s*", " ", svg))
+    while (shorter := re.sub(r"<(g|defs)></\1>", "", svg)) != svg:
+        svg = shorter
+    return _without_bare_groups(svg)
 
 
-def _labelled(svg: str, chart: Chart, name: str) -> str:
-    """Add the title for screen readers and remove the fixed size."""
-    opening, rest = svg.split(">", 1)
-    opening = re.sub(r'\s(width|height)="[^"]*"', "", opening)
-    return (
-        f'{opening} role="img" aria-labelledby="{name}-name">'
-        f'<title id="{name}-name">{escape(chart.title)}</title>{rest}'
+def with_shared_styles(page: str) -> str:
+    """Replace every style that several parts of the diagrams have by a class, numbered in the order
+    of the first use."""
+    counts = Counter(
+        style for figure in FIGURE.findall(page) for _, style in STYLED.findall(figure)
     )
+    shared = [style for style, count in counts.items() if count > 1]
+    names = {style: f"s{number}" for number, style in enumerate(shared)}
+
+    def classed(tag: re.Match[str]) -> str:
+        name = names.get(tag[2])
+        return tag[0] if name is None else f'{tag[1]} class="{name}"'
+
+    page = FIGURE.sub(lambda figure: STYLED.sub(classed, figure[0]), page)
+    rules = "".join(f"svg .{name} {{ {style} }}\n" for style, name in names.items())
+    return page.replace(HEAD, rules + HEAD, 1)
+
+
+def _with_own_ids(svg: str, name: str) -> str:
+    """Number the ids that something refers to; remove the others."""
+    wanted = set(REFERENCE.findall(svg))
+    kept = [i for i in re.findall(r'\bid="([^"]*)"', svg) if i in wanted]
+    short = hashlib.sha256(name.encode()).hexdigest()[:DIGITS]
+    new = {old: f"f{short}.{number}" for number, old in enumerate(dict.fromkeys(kept))}
+    svg = re.sub(r' id="([^"]*)"', lambda m: f' id="{new[m[1]]}"' if m[1] in new else "", svg)
+    return re.sub(r'(xlink:href="#|url\(#)([^")]*)', lambda m: m[1] + new[m[2]], svg)
+
+
+def _short_style(match: re.Match[str]) -> str:
+    """The font's family is the page's."""
+    parts = [part.strip().replace(": ", ":") for part in match[1].split(";")]
+    return f' style="{";".join(p for p in parts if p and not p.startswith("font-family"))}"'
+
+
+def _short_numbers(match: re.Match[str]) -> str:
+    text = NUMBER.sub(lambda number: _short_number(float(number[0])), match[2])
+    text = re.sub(r"\s+", " ", text).strip()
+    return f' {match[1]}="{re.sub(r" ?([MLQCz]) ?", lambda m: m[1], text)}"'
+
+
+def _short_number(value: float) -> str:
+    decimals = FINE_DECIMALS if abs(value) < SMALL else DECIMALS
+    return f"{value:.{decimals}f}".rstrip("0").rstrip(".")
+
+
+def _without_bare_groups(svg: str) -> str:
+    """Remove each group without attributes, and its own end."""
+    kept: list[bool] = []
+
+    def end(match: re.Match[str]) -> str:
+        if match[0].endswith("/>"):
+            return match[0]
+        if match[0] == "</g>":
+            return match[0] if kept.pop() else ""
+        kept.append(match[0] != "<g>")
+        return match[0] if kept[-1] else ""
+
+    return re.sub(r"<g(?: [^>]*)?>|</g>", end, svg)
