@@ -36,7 +36,6 @@ COMMANDS = {
 LONG = {
     "verify": ("verify", "layered_identities", "--workers", "1", "-o"),
     "study": ("maintain", "study", "mesh", "scene.toml", "--levels", "4", "--workers", "1", "-o"),
-    "bench": ("maintain", "bench", "--no-peers", "--cells", "32", "-o"),
     "baseline": (
         "maintain",
         "baseline",

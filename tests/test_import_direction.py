@@ -181,7 +181,7 @@ ORDERS = {
         *("problems", "laws", "observed", "external_codes"),
         "judging",
         *("running", "regression"),
-        *("cases", "defects", "peers", "challenge", "adapters", "studies", "benchmarks"),
+        *("cases", "defects", "peers", "challenge", "adapters", "studies"),
         *("showcase", "report", "judged_by_pytest"),
     ),
     "verification.studies.refinement": ("scene_level", "estimate", "study"),

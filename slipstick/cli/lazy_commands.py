@@ -104,7 +104,6 @@ MAINTENANCE = _commands(
         "tolerances": "Propose or accept tolerances that follow the errors.",
         "records": "List stored records, their age and cost, or make them again.",
         "report": "Render the report again from recorded results.",
-        "bench": "Measure what the method costs, beside other codes in turn.",
         "schema": "Print the JSON Schema of a scene file, a summary or a report.",
     }
 )

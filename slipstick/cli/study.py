@@ -170,7 +170,6 @@ def _studied(
             provenance=provenance(
                 command,
                 seconds,
-                timed=study.timed(settings, records),
                 modules=(study.cases.__module__,),
             ),
         )

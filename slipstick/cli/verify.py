@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from verification.judging.case import Case
     from verification.judging.outcome import CaseOutcome
     from verification.running.case_pool import CaseEnd, Workers
-    from verification.running.report_record import Benchmark, Report
+    from verification.running.report_record import Report
 
 
 MOST_WARNINGS = 20
@@ -135,13 +135,12 @@ def _verified(
         set_aside_report(directory)
         outcomes, seconds = judged(cases, level.name, directory, workers, fresh=fresh)
         command = " ".join(["slipstick verify", *names, f"--level {level}"])
-        made = () if names else _benchmarks()
         measured = Report(
             level=level,
             counts=count(outcomes),
             cases=outcomes,
             omissions=OMISSIONS,
-            provenance=provenance(command, seconds, made, modules=MODULES),
+            provenance=provenance(command, seconds, modules=MODULES),
             studies=studies,
             chosen=bool(names),
             pictures=() if names else _pictures(),
@@ -204,12 +203,6 @@ def _verdict(end: CaseEnd) -> str:
         f"{SYMBOLS[outcome.status]} {WORDS[outcome.status]:12} {outcome.name:24} "
         f"{len(outcome.verdicts):3} verdicts, {len(outcome.runs):3} solves, {took}"
     )
-
-
-def _benchmarks() -> tuple[Benchmark, ...]:
-    from verification.benchmarks import benchmarks
-
-    return tuple(benchmarks())
 
 
 def _pictures() -> tuple[Picture, ...]:

@@ -9,8 +9,8 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 from contact_results.directory.atomic_file import atomic_file
@@ -31,19 +31,12 @@ class Peer:
     module        that is imported, and whose driver is MODULE_driver, in small letters
     friction      whether it is asked for shear
     settings      for its build, in the environment
-    edges         whether edges shall be inside the cells, which ours alone can do
     """
 
     distribution: str
     module: str
     friction: bool = False
     settings: tuple[tuple[str, str], ...] = ()
-    edges: bool = False
-
-    @property
-    def name(self) -> str:
-        """For people."""
-        return f"{self.module}, edges inside cells" if self.edges else self.module
 
     @property
     def driver(self) -> str:
@@ -51,9 +44,6 @@ class Peer:
         return f"verification.peers.drivers.{self.module.lower()}_driver"
 
 
-OURSELVES = Peer("slipstick", "slipstick", friction=True)
-WITH_EDGES = replace(OURSELVES, edges=True)
-OURS = (OURSELVES.name, WITH_EDGES.name)
 PEERS = (
     Peer(
         "aspher==0.1.3.post1", "aspher", friction=True,
@@ -72,10 +62,6 @@ class Installed:
 
     python: Path
     missing: dict[str, str]
-
-    def peers(self, among: Sequence[Peer] = PEERS) -> tuple[Peer, ...]:
-        """Those that can be run."""
-        return tuple(peer for peer in among if peer.distribution not in self.missing)
 
 
 def peers_directory() -> Path:

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import subprocess
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 
 from contact_results.directory.machine import library_versions, machine, program_version
-from verification.running.report_record import Benchmark, Provenance
+from verification.running.report_record import Provenance
 from verification.running.sources import source_digest
-from verification.running.study import Conclusion
 
 SOURCE = Path(__file__).resolve().parents[2]
 SECONDS_FOR_GIT = 10
@@ -19,16 +18,12 @@ SECONDS_FOR_GIT = 10
 def provenance(
     command: str,
     seconds: dict[str, float],
-    benchmarks: Iterable[Benchmark] = (),
-    timed: Conclusion | None = None,
     modules: Sequence[str] = (),
 ) -> Provenance:
     """Versions, machine, commit and times of this process.
 
     command     the command that makes the same report again
     seconds     wall seconds by case
-    benchmarks  measured on the way
-    timed       what a study finds by its seconds
     modules     that make the numbers, with all that these import
     """
     # Of what computes: a kept report or record that this very command replaces is no change.
@@ -44,8 +39,6 @@ def provenance(
         machine=machine(),
         libraries=library_versions(),
         seconds={name: round(value, 2) for name, value in seconds.items()},
-        benchmarks=tuple(benchmarks),
-        timed=timed,
     )
 
 

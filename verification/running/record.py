@@ -9,7 +9,6 @@ from typing import Any
 from pydantic import model_validator
 
 from contact_scene.description import Description
-from verification.exhibits.chart import Chart
 from verification.judging.outcome import Status
 from verification.running.provenance_record import Provenance
 from verification.running.study import STUDY_VERSION, Conclusion, LostCase
@@ -36,12 +35,6 @@ class StudyRecord(Description):
         if self.schema_version != STUDY_VERSION:
             raise ValueError(f"it is of version {self.schema_version}, not {STUDY_VERSION}")
         return self
-
-    @property
-    def charts(self) -> tuple[Chart, ...]:
-        """All that it draws."""
-        timed = self.provenance.timed
-        return (*self.conclusion.charts, *(timed.charts if timed is not None else ()))
 
     @property
     def status(self) -> Status:

@@ -12,11 +12,11 @@ from verification.judging.case import Level
 from verification.judging.change import GoneCase
 from verification.judging.coverage import LEAST_SHARE, share_covered
 from verification.judging.outcome import CaseOutcome, Status, Verdict
-from verification.running.provenance_record import Benchmark, Provenance
+from verification.running.provenance_record import Provenance
 from verification.running.record import StudyRecord, json_text
 from verification.running.sources import is_current
 
-__all__ = ["Benchmark", "Provenance", "Report"]
+__all__ = ["Provenance", "Report"]
 
 REPORT_VERSION = 1
 PACKED_SUFFIX = ".xz"

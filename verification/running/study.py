@@ -93,8 +93,6 @@ class Study:
     question  what it is about, for a reader
     cases     what has to be computed
     conclude  from the records that there are, by name of the case: some may be missing
-    timed     what follows from the seconds in the records, which no run repeats; it goes into the
-              provenance, so that all else is the same at every run
     """
 
     name: str
@@ -102,4 +100,3 @@ class Study:
     question: str
     cases: Callable[[Settings], tuple[StudyCase, ...]]
     conclude: Callable[[Settings, Records], Conclusion]
-    timed: Callable[[Settings, Records], Conclusion | None] = lambda settings, records: None

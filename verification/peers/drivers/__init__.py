@@ -2,7 +2,6 @@
 
 They import nothing of ours but `exchange`. A request has `cells`, `window`, `radius`, `modulus`,
 `force`, `friction`, `tangential_force` and `tolerance`, all in the units of the caller; friction 0
-asks for pressure alone. An answer has `version`, `pressure`, `shear` (None without), `approach`
-(None where the code does not say), `iterations`, `converged`, `seconds` and `repeats`; or `cannot`,
-with the reason.
+asks for pressure alone. An answer has `pressure`, `shear` (None without), `approach` (None where
+the code does not state it), `converged` and `seconds`; or `cannot`, with the reason.
 """

@@ -4,7 +4,6 @@ by its load-history driver."""
 from __future__ import annotations
 
 from importlib import import_module
-from importlib.metadata import version
 
 from verification.peers.drivers.exchange import Answer, Request, answer, gap_of
 
@@ -24,11 +23,9 @@ def solve(request: Request) -> Answer:
             tol=request["tolerance"],
         )  # fmt: skip
         return {
-            "version": version("aspher"),
             "pressure": found.pressure.reshape(n, n),
             "shear": None,
             "approach": float(found.approach),
-            "iterations": int(found.iterations),
             "converged": found.status == "converged" or bool(getattr(found, "converged", False)),
         }
     solver = aspher.FrictionSolver(
@@ -45,11 +42,9 @@ def solve(request: Request) -> Answer:
         if not step.converged:
             break
     return {
-        "version": version("aspher"),
         "pressure": solver.pressure.reshape(n, n),
         "shear": shears if "tangential_forces" in request else shears[-1],
         "approach": float(pressed.approach),
-        "iterations": None,
         "converged": bool(step.converged),
     }
 

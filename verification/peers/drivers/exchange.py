@@ -1,4 +1,4 @@
-"""What all drivers share: gap and approach, the clock and the memory, and the way in and out."""
+"""Gap, approach, clock and exchange of data of all drivers."""
 
 from __future__ import annotations
 
@@ -7,10 +7,8 @@ import os
 import statistics
 import sys
 import time
-from collections.abc import Callable, Iterable, Mapping
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Callable, Mapping
 from importlib import import_module
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -55,49 +53,29 @@ def approach_of(gap: Array, displacement: Array, pressure: Array) -> float:
     return float(np.sum(pressure * (displacement + gap)) / np.sum(pressure))
 
 
-def answer(
-    solve: Callable[[Request], Answer],
-    *modules: str,
-    around: Callable[[], AbstractContextManager[None]] = nullcontext,
-) -> None:
-    """Read a request, solve it several times, write the answer with the median of CPU seconds and
-    the memory [MB] on top of what the imported modules take, which are not part of the seconds.
-
-    around  each solve, not part of the seconds either
-    """
+def answer(solve: Callable[[Request], Answer], *modules: str) -> None:
+    """Read a request, solve it several times, write the answer with the median of CPU seconds,
+    which imports of the modules are no part of."""
     request = json.load(sys.stdin)
     with os.fdopen(os.dup(sys.stdout.fileno()), "w") as out:
-        os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # whatever the code prints goes there
-        json.dump(_answered(solve, request, modules, around), out)
+        os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # the prints of a code go there
+        for module in modules:
+            import_module(module)
+        json.dump(_answered(solve, request), out)
 
 
-def _answered(
-    solve: Callable[[Request], Answer],
-    request: Request,
-    modules: Iterable[str],
-    around: Callable[[], AbstractContextManager[None]],
-) -> Answer:
-    for module in modules:
-        import_module(module)
+def _answered(solve: Callable[[Request], Answer], request: Request) -> Answer:
     seconds: list[float] = []
-    before = _memory("VmRSS")
     try:
         while len(seconds) < MOST_REPEATS and sum(seconds) < ENOUGH_SECONDS:
-            with around():
-                started = time.process_time()
-                found = solve(request)
-                seconds.append(time.process_time() - started)
+            started = time.process_time()
+            found = solve(request)
+            seconds.append(time.process_time() - started)
     except CannotDo as error:
         return {"cannot": str(error)}
-    memory = _memory("VmHWM") - before
-    for name in ("pressure", "shear"):
-        if found[name] is not None:
-            found[name] = np.asarray(found[name], dtype=float).tolist()
-    found |= {"seconds": statistics.median(seconds), "repeats": len(seconds), "memory": memory}
-    return found
-
-
-def _memory(what: str) -> float:
-    """Of this process [MB], as Linux tells it: VmRSS now, VmHWM at most so far."""
-    lines = Path("/proc/self/status").read_text(encoding="ascii").splitlines()
-    return next(int(line.split()[1]) / 1024 for line in lines if line.startswith(f"{what}:"))
+    tractions = {
+        name: np.asarray(found[name], dtype=float).tolist()
+        for name in ("pressure", "shear")
+        if found[name] is not None
+    }
+    return {**found, **tractions, "seconds": statistics.median(seconds)}

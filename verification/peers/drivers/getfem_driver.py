@@ -73,7 +73,6 @@ def solve(request: Request) -> Answer:
         "pressure": model.variable("p"),
         "shear": None,
         "approach": float(model.variable("d")[0]),
-        "iterations": int(iterations),
         "converged": bool(iterations < MOST_ITERATIONS),
     }
 

@@ -1,8 +1,8 @@
 """The contacts of the study: problems whose answer is known, and the errors that are looked at.
 
-Errors are relative to the reference, and signed where the quantity is one number, so that two grids
-can be extrapolated. Fields are judged by one norm for both solvers, edge included where the
-reference reaches to it.
+Errors are relative to the reference. Norms of fields compare what the values of a method mean:
+means over cells, values at the rings of the radial solver, functions that are linear between the
+rings of finite elements. They include the edge where the reference reaches to it.
 """
 
 from __future__ import annotations
@@ -15,8 +15,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+import radial
+from contact_results.surface import surface_of
 from semi_analytical import SurfaceGrid
+from verification import norms
 from verification.cases import coatings as coated
+from verification.cell_means import round_means
+from verification.judging import field_errors
 from verification.judging.observable import Observable, error_norm
 from verification.judging.observables import (
     APPROACH,
@@ -30,10 +35,10 @@ from verification.problems import paper_scene as paper
 from verification.problems.hertz import BALL
 from verification.problems.indentation import COATED
 from verification.problems.loop_history import WINDOW_PER_RADIUS, ExactLoop, fretting_loop
-from verification.problems.paper_scene import NU_ZERO
+from verification.problems.paper_scene import FRICTION, NU_ZERO
 from verification.problems.problem import OVER_PEAK, Problem
 from verification.problems.sheared import OVER_LIMIT, sheared
-from verification.studies.work_precision.field_errors import PRESSURE, SHEAR
+from verification.quantities import shear_of
 
 Field = NDArray[np.float64]
 Errors = Mapping[str, float]
@@ -89,6 +94,37 @@ class PreciseContact:
         return paper.square_grid(cells, self.window / 2 * self.problem.radius)
 
 
+def _pressure_l2(result: Any, step: int, problem: Problem) -> float:
+    """Relative L2 error of the pressure [1]."""
+    end, exact = result.steps[step], problem.ends[step].pressure
+    if hasattr(result, "grid"):
+        return norms.relative_l2(end.pressure, _means(exact, result.grid))
+    if not isinstance(result, radial.Result):
+        return field_errors.pressure_l2(result, step, problem)
+    surface: Any = surface_of(result)
+    part = np.sqrt(surface.weights)
+    known = exact(np.hypot(*surface.positions))
+    return norms.relative_l2(part * surface.scalar(end, "pressure"), part * known)
+
+
+def _shear_l1(result: Any, step: int, problem: Problem) -> float:
+    """Σ|q - q_exact| / Σµp [1]."""
+    end, exact = result.steps[step], problem.ends[step].shear
+    if hasattr(result, "grid"):
+        known = _means(exact, result.grid)
+        return norms.shear_error(shear_of(end), known, FRICTION * end.pressure)
+    if not isinstance(result, radial.Result):
+        return field_errors.shear_error(result, step, problem)
+    surface: Any = surface_of(result)
+    areas, known = surface.weights, exact(np.hypot(*surface.positions))
+    limit = areas * FRICTION * surface.scalar(end, "pressure")
+    return norms.shear_error(areas * surface.vector(end, "shear"), areas * known, limit)
+
+
+def _means(exact: Callable[[Field], Field], grid: SurfaceGrid) -> Field:
+    return round_means(exact, *grid.coordinates(), grid.spacing)
+
+
 @cache
 def _pushed(increments: int) -> Problem:
     problem = sheared("Cattaneo-Mindlin, ν = 0", (SHEARED,))
@@ -112,6 +148,8 @@ def _largest_error(
     return error_norm("traction", "", measure, scale)
 
 
+PRESSURE = error_norm("pressure", "pressure over the {domain}, L2", _pressure_l2, norm="L2")
+SHEAR = error_norm("shear", "{sum}|q - q_exact| / {sum}µp{when}", _shear_l1, "Σµp")
 HERTZIAN = PreciseContact(
     "hertz",
     "Hertz",

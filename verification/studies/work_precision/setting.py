@@ -1,28 +1,55 @@
-"""One method at one setting on one contact: what it errs, and what it costs."""
+"""One method at one setting on one contact, with its errors and its cost; all settings."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from typing import Any
 
+import fem_reference
 import radial
 from contact_scene import FiniteElementDiscretisation, RadialDiscretisation
-from fem_reference import Method as Enforcement
-from fem_reference import Result as Section
-from fem_reference import solve as solve_section
-from semi_analytical import Result as Surface
-from semi_analytical import SurfaceGrid, plan, solve
+from semi_analytical import plan, solve
+from verification.judging.case import Level
 from verification.judging.run import SOLVER_TOLERANCE
 from verification.running.cold_cache import timed
 from verification.running.row import CaseRecord, parameters_of
-from verification.studies.work_precision import counted_work
-from verification.studies.work_precision.contacts import CONTACTS, PreciseContact
+from verification.studies.work_precision.contacts import (
+    CATTANEO,
+    COATING,
+    CONTACTS,
+    HERTZIAN,
+    INDENTATION,
+    PreciseContact,
+)
 
-NO_INCREMENTS = 1
-# Of the radial solver the fineness is in twelfths of what it chooses; fields are told at so many
-# radii, between which a table is interpolated.
+# Of the radial solver the fineness is in twelfths of its own; fields are given at so many radii,
+# between which a table is interpolated.
 OWN, TOLD = 12, 512
-OPERATIONS = "operations"  # counted work, by the name of its measure
+CELLS = {Level.QUICK: (16, 32, 64, 128), Level.STANDARD: (16, 32, 64, 128, 256)}
+# More where a norm of the field means the edge: without correction the finest grids reach 0.1 %.
+TO_THE_EDGE: dict[str, dict[Level, tuple[int, ...]]] = {
+    HERTZIAN.name: {Level.QUICK: (256, 512), Level.STANDARD: (512,), Level.FULL: (512, 1024)},
+    COATING.name: {Level.QUICK: (256, 512), Level.STANDARD: (512,), Level.FULL: (512, 1024)},
+    CATTANEO.name: {Level.QUICK: (256,), Level.STANDARD: (512,), Level.FULL: (512,)},
+}
+ELEMENTS = {
+    Level.QUICK: (8, 16, 32),
+    Level.STANDARD: (8, 16, 32, 64),
+    Level.FULL: (8, 16, 32, 64, 128),
+}
+LOOSE = {Level.QUICK: (1e-4,), Level.STANDARD: (1e-2, 1e-4)}  # tolerances of the solver
+PENALTIES = {Level.QUICK: (1.0, 10.0), Level.STANDARD: (1.0, 10.0, 100.0)}
+RINGS = {
+    Level.QUICK: (OWN // 2, OWN),
+    Level.STANDARD: (OWN // 2, OWN, 3 * OWN // 2),
+    Level.FULL: (OWN // 2, OWN, 3 * OWN // 2, 2 * OWN),
+}
+# Energies and shifts of a loop stay those of cells without edges.
+WITH_EDGES = (HERTZIAN.name, CATTANEO.name, COATING.name, INDENTATION.name)
+INCREMENTS = {Level.QUICK: (5,), Level.STANDARD: (5, 10, 40)}  # beside the usual ones
+MOST_SPRINGS = 64  # elements: finer penalty solves take longer than all the rest
 
 
 class Method(StrEnum):
@@ -30,7 +57,6 @@ class Method(StrEnum):
 
     SURFACE = "semi-analytical"
     EDGES = "semi-analytical, edges inside cells"
-    EXTRAPOLATED = "semi-analytical, extrapolated"
     ELEMENTS = "finite elements"
     PENALTY = "finite elements, penalty"
     RADIAL = "radial"
@@ -66,103 +92,86 @@ class PrecisionCase:
 
     @property
     def solved(self) -> PreciseContact:
-        """What is solved."""
+        """The contact."""
         return CONTACTS[self.contact]
-
-    @property
-    def by_sections(self) -> bool:
-        """Whether finite elements solve it."""
-        return self.method in (Method.ELEMENTS, Method.PENALTY)
 
     @property
     def text(self) -> str:
         """The setting for people."""
         n = self.fineness
         words = [f"{n} x {n}"]
-        if self.by_sections:
+        if self.method in (Method.ELEMENTS, Method.PENALTY):
             words = [f"{n} elements per radius"]
         elif self.method is Method.RADIAL:
-            words = ["its own rings" if n == OWN else f"{n / OWN:g} times its own rings"]
+            words = [f"{n / OWN:g} times its own rings"]
         words += [f"tolerance {self.tolerance:g}"] if self.tolerance != SOLVER_TOLERANCE else []
         words += [f"c = {self.penalty:g}"] if self.penalty else []
-        if self.increments:
-            words += ["1 increment" if self.increments == 1 else f"{self.increments} increments"]
+        words += [f"{self.increments} increments"] if self.increments else []
         return ", ".join(words)
 
     def compute(self) -> CaseRecord:
-        """Solve, compare and count; raises what the solvers raise.
-
-        Measures are the errors by name, relative, signed where the quantity is one number, and
-        counted work (see `counted_work`); unknowns are tractions of the surface grid or
-        displacements of the section.
-        """
-        contact, components = self.solved, 1 if self.solved.problem.scene.friction is None else 3
-        if self.by_sections:
-            section, seconds, repeats = timed(self._section)
-            errors, operations = contact.errors_of(section), counted_work.of_section(section)
-            counters = {
-                "factorisations": counted_work.factorisations(section),
-                "systems": counted_work.systems(section),
-                "unknowns": counted_work.unknowns(section),
-                "increments": len(section.increments),
-            }
-        elif self.method is Method.RADIAL:
-            rings, seconds, repeats = timed(self._rings)
-            errors, operations = contact.errors_of(rings), counted_work.of_rings(rings, self._finer)
-            counters = {
-                "systems": counted_work.systems(rings),
-                "unknowns": counted_work.ring_unknowns(rings, self._finer),
-                "increments": len(rings.increments),
-            }
-        else:
-            surface, seconds, repeats = timed(self._surface)
-            errors = contact.errors_of(surface)
-            convolutions = counted_work.convolutions(surface)
-            operations = counted_work.of_convolutions(self._grid.cells, convolutions)
-            counters = {
-                "convolutions": convolutions,
-                "unknowns": components * self.fineness**2,
-                "increments": len(surface.increments),
-            }
+        """Solve, compare and count; raises what the solvers raise. Measures are the relative errors
+        by name."""
+        result, seconds, repeats = timed(self._solve)
+        names = ("iterations", "convolutions", "factorizations")
+        found = {name: [getattr(i, name, 0) or 0 for i in result.increments] for name in names}
+        counters = {"increments": len(result.increments)}
+        counters |= {name: sum(counts) for name, counts in found.items() if any(counts)}
         return CaseRecord(
             parameters=parameters_of(self),
-            measures={**errors, OPERATIONS: operations},
+            measures={**self.solved.errors_of(result)},
             counters=counters,
             words={"setting": self.text},
             seconds=seconds,
             repeats=repeats,
         )
 
-    @property
-    def _steps(self) -> int:
-        return self.increments or self.solved.increments or NO_INCREMENTS
-
-    @property
-    def _grid(self) -> SurfaceGrid:
-        return self.solved.grid(self.fineness)
-
-    def _surface(self) -> Surface:
-        scene = self.solved.posed(self._steps).scene
-        decided = plan(scene, edge="last" if self.method is Method.EDGES else "off")
-        return solve(scene, self._grid, self.tolerance, plan=decided)
-
-    @property
-    def _finer(self) -> float:
-        return self.fineness / OWN
-
-    def _rings(self) -> radial.Result:
-        scene = self.solved.posed(self._steps).scene
-        plan = replace(radial.plan(scene), fineness=self._finer)
-        return radial.solve(scene, RadialDiscretisation(rings=TOLD), plan=plan)
-
-    def _section(self) -> Section:
-        discretisation = FiniteElementDiscretisation(
-            elements_per_radius=self.fineness,
-            # The edge of the contact lies in the middle of an element on every mesh.
-            contact_radius=self.solved.problem.radius * self.fineness / (self.fineness + 0.5),
+    def _solve(self) -> Any:
+        contact, n = self.solved, self.fineness
+        scene = contact.posed(self.increments or contact.increments or 1).scene
+        if self.method is Method.RADIAL:
+            finer = replace(radial.plan(scene), fineness=n / OWN)
+            return radial.solve(scene, RadialDiscretisation(rings=TOLD), plan=finer)
+        if self.method in (Method.SURFACE, Method.EDGES):
+            decided = plan(scene, edge="last" if self.method is Method.EDGES else "off")
+            return solve(scene, contact.grid(n), self.tolerance, plan=decided)
+        # The edge of the contact lies in the middle of an element on every mesh.
+        mesh = FiniteElementDiscretisation(
+            elements_per_radius=n, contact_radius=contact.problem.radius * n / (n + 0.5),
             tolerance=self.tolerance,
-        )
-        if self.penalty:
-            discretisation = discretisation.model_copy(update={"penalty": self.penalty})
-        by = Enforcement.PENALTY if self.method is Method.PENALTY else Enforcement.COMPLEMENTARITY
-        return solve_section(self.solved.posed(self._steps).scene, discretisation, by)
+        )  # fmt: skip
+        of = fem_reference.Method
+        if self.method is Method.ELEMENTS:
+            return fem_reference.solve(scene, mesh, of.COMPLEMENTARITY)
+        stiff = mesh.model_copy(update={"penalty": self.penalty})
+        return fem_reference.solve(scene, stiff, of.PENALTY)
+
+
+def all_cases(level: Level) -> tuple[PrecisionCase, ...]:
+    """Return all settings of a level, each once."""
+    return tuple(case for contact in CONTACTS for case in _of_contact(contact, level))
+
+
+def _of_contact(contact: str, level: Level) -> Iterator[PrecisionCase]:
+    upper = min(level, Level.STANDARD)
+    for n in CELLS[upper]:
+        for tolerance in (SOLVER_TOLERANCE, *LOOSE[upper]):
+            yield PrecisionCase(contact, Method.SURFACE, n, tolerance)
+        if contact in WITH_EDGES:
+            yield PrecisionCase(contact, Method.EDGES, n)
+    # The radial solver has the closed form of an uncoated ball, and one of a coated ball.
+    if contact != HERTZIAN.name:
+        for n in (OWN,) if contact == COATING.name else RINGS[level]:
+            yield PrecisionCase(contact, Method.RADIAL, n)
+    for n in ELEMENTS[level]:
+        yield PrecisionCase(contact, Method.ELEMENTS, n)
+        for penalty in PENALTIES[upper] if n <= MOST_SPRINGS else ():
+            yield PrecisionCase(contact, Method.PENALTY, n, penalty=penalty)
+    for increments in INCREMENTS[upper] if contact == INDENTATION.name else ():
+        for n in CELLS[upper]:
+            yield PrecisionCase(contact, Method.SURFACE, n, increments=increments)
+        for n in ELEMENTS[max(level, Level.STANDARD)]:
+            yield PrecisionCase(contact, Method.ELEMENTS, n, increments=increments)
+        yield PrecisionCase(contact, Method.RADIAL, OWN, increments=increments)
+    for n in TO_THE_EDGE.get(contact, {}).get(level, ()):
+        yield PrecisionCase(contact, Method.SURFACE, n)

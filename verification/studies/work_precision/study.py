@@ -1,62 +1,97 @@
-"""The study of what accuracy costs.
-
-Its conclusion is of errors and counted work, which every run repeats. What follows from seconds
-stands apart, in the provenance of its record.
-"""
+"""The study of work and precision: errors against CPU seconds of every method."""
 
 from __future__ import annotations
 
-from verification.judging.outcome import Status
-from verification.running.row import found
-from verification.running.rules import solved
-from verification.running.study import Conclusion, Records, Settings, Statement, Study
-from verification.studies.work_precision.charts import SERIES, time_chart, work_chart
-from verification.studies.work_precision.contacts import CONTACTS
-from verification.studies.work_precision.families import all_cases
-from verification.studies.work_precision.points import Found, points_of
-from verification.studies.work_precision.price import (
-    CLOCK,
-    WORK,
-    Everything,
-    answer_in,
-    percent,
-    price_rows,
-    quantity_title,
-    reached,
-    statements_in,
-    tables_in,
-)
-from verification.studies.work_precision.recorded_peers import (
-    peer_answer,
-    peer_charts,
-    peer_points,
-    peer_remarks,
-    peer_tables,
-    recorded_peers,
-)
-from verification.studies.work_precision.setting import PrecisionCase
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 
+from contact_scene.residuals import worst
+from verification.exhibits.chart import Chart, Look
+from verification.exhibits.log_chart import Points, log_chart, point_curves
+from verification.exhibits.numbers import plain
+from verification.exhibits.table import NONE, Table
+from verification.running.row import CaseRecord, found, value_of
+from verification.running.rules import judged, solved
+from verification.running.study import Conclusion, Records, Settings, Statement, Study
+from verification.studies.work_precision.contacts import CONTACTS
+from verification.studies.work_precision.setting import Method, PrecisionCase, all_cases
+
+TARGETS = (0.1, 0.01, 0.001, 0.0001)
+ASKED = 0.001  # the target of the answer
 REACHED = 0.01  # what some setting must reach at every level, for every quantity
-SHARED = (
+FLOOR = 1e-9  # of what can be drawn on a logarithmic axis
+REMARKS = (
     "A setting counts as accurate to what the finer ones of its curve keep: an error that happens "
     "to change sign earns nothing. The finest of a curve has none above it.",
-    "Operations are those of an idealised algorithm with the counted convolutions (on the whole "
-    "window), factorisations (nested dissection) and dense systems.",
     "Edges are put inside the cells at the end of every step, or, where bodies couple, in every "
     "increment; energies and shifts stay those of cells, so that no loop was run so. The radial "
     "solver is asked for what it has no closed form of.",
-    "Extrapolation takes two grids with cells of ratio two and the order two, for peak pressure "
-    "and approach.",
     "An error norm of a field means the edge, where pressure is a square root. Every method is "
     "asked for what its values mean: cells for means over cells, with edges inside them or not, "
     "the radial solver for values at its rings, finite elements for what is linear between theirs.",
-)
-BY_THE_CLOCK = (
     "Seconds are CPU seconds of one thread, the median of up to five runs, each with an empty "
-    "cache: influence coefficients and condensed sections are made anew. Imports do not count.",
-    "They are of the machine and the moment that the provenance names, differ from run to run, and "
-    "judge nothing.",
+    "cache; imports do not count. They are of the machine and the moment that the provenance "
+    "names, and are no verdict.",
 )
+
+
+@dataclass(frozen=True)
+class Point:
+    """A setting of a method.
+
+    curve     settings of one curve differ in fineness alone
+    setting   for people
+    fineness  cells or elements along a length
+    error     relative, not negative
+    seconds   CPU time
+    """
+
+    method: str
+    curve: str
+    setting: str
+    fineness: int
+    error: float
+    seconds: float
+
+
+def points_of(
+    known: Mapping[PrecisionCase, CaseRecord], contact: str, quantity: str
+) -> tuple[Point, ...]:
+    """Return the points of all settings on a contact that give the quantity."""
+    return tuple(
+        Point(
+            case.method.value, f"{case.tolerance:g} {case.penalty:g} {case.increments}", case.text,
+            case.fineness, abs(value_of(record, quantity)), record.seconds,
+        )
+        for case, record in known.items()
+        if case.contact == contact and quantity in record.measures
+    )  # fmt: skip
+
+
+def dependable(points: Iterable[Point]) -> tuple[Point, ...]:
+    """Return the points with errors that no finer setting of their curve exceeds: a coarse one
+    whose error happens to change sign does not count as accurate, nor one whose finer is NaN."""
+    found: list[Point] = []
+    largest: dict[tuple[str, str], float] = {}
+    for point in sorted(points, key=lambda p: -p.fineness):
+        curve = point.method, point.curve
+        largest[curve] = worst(largest.get(curve, 0.0), point.error)
+        found.append(replace(point, error=largest[curve]))
+    return tuple(found)
+
+
+def pareto(points: Iterable[Point]) -> tuple[Point, ...]:
+    """Return the points that no other point beats in error and cost, cheapest first."""
+    line: list[Point] = []
+    for point in sorted(points, key=lambda p: (p.seconds, p.error)):
+        if not line or point.error < line[-1].error:
+            line.append(point)
+    return tuple(line)
+
+
+def cheapest(points: Iterable[Point], target: float) -> Point | None:
+    """Return the least costly point with an error of at most `target`; None where none has."""
+    return next((point for point in pareto(points) if point.error <= target), None)
 
 
 def cases(settings: Settings) -> tuple[PrecisionCase, ...]:
@@ -65,79 +100,106 @@ def cases(settings: Settings) -> tuple[PrecisionCase, ...]:
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
-    """Statements, tables and diagrams by counted work."""
+    """Judge that every quantity is reached; report the cheapest settings, tables and diagrams."""
     known = found(cases(settings), records)
-    everything = _everything(known)
-    rows, peers = price_rows(WORK, everything), recorded_peers()
-    leading = [(c.name, c.leading) for c in CONTACTS.values()]
+    everything = {
+        (contact.name, quantity): dependable(points)
+        for contact in CONTACTS.values()
+        for quantity in contact.errors
+        if (points := points_of(known, contact.name, quantity))
+    }
+    best = {key: cheapest(points, ASKED) for key, points in everything.items()}
+    missed = [_meaning(*key) for key, p in everything.items() if cheapest(p, REACHED) is None]
+    had = len(everything) - len(missed)
+    reached = Statement(
+        claim=f"every quantity is had to {_percent(REACHED)}",
+        outcome=judged(not missed and bool(everything)),
+        measured=f"{had} of {len(everything)}" + (f"; not {'; '.join(missed)}" if missed else ""),
+        because="some setting of some method of ours, and all finer ones of its curve",
+    )
+    good = [point for point in best.values() if point is not None]
+    most = f", in at most {_cost(max(good, key=lambda p: p.seconds))}" if good else ""
     return Conclusion(
         statements=(
             solved("every setting is solved", len(known), len(cases(settings))),
-            _reached(everything),
-            *statements_in(rows),
-        ),
-        answer=answer_in(WORK, rows),
-        tables=(*tables_in(WORK, rows), *peer_tables(peers)),
-        charts=(
+            reached,
             *(
-                work_chart(CONTACTS[c], q, everything[c, q])
-                for c, q in leading
-                if (c, q) in everything
+                Statement(
+                    claim=f"{_meaning(*key)} to {_percent(ASKED)}",
+                    outcome=None,
+                    measured="not reached" if p is None else f"{p.method}, {_setting(p)}",
+                )
+                for key, p in best.items()
             ),
-            *peer_charts(peers),
         ),
-        rows=rows,
+        answer=f"{_percent(ASKED)} is reached for {len(good)} of {len(best)} quantities{most}.",
+        tables=tuple(_table(*key, points) for key, points in everything.items()),
+        charts=tuple(_chart(*key, points) for key, points in everything.items()),
         remarks=(
-            *SHARED,
-            *peer_remarks(peers),
+            *REMARKS,
             *(f"Reference, {c.title}: {c.problem.source}." for c in CONTACTS.values()),
         ),
     )
 
 
-def timed(settings: Settings, records: Records) -> Conclusion:
-    """The same by CPU seconds, beside other codes: findings, no verdicts."""
-    ours, peers = _everything(found(cases(settings), records)), recorded_peers()
-    others = peer_points(peers)
-    beside = {key: (*points, *others.get(key, ())) for key, points in ours.items()}
-    rows = price_rows(CLOCK, beside)
-    own = [row for row in rows if row.parameters["method"] in SERIES]
-    return Conclusion(
-        statements=statements_in(own),
-        answer=" ".join(filter(None, (answer_in(CLOCK, own), peer_answer(peers)))),
-        tables=tables_in(CLOCK, rows),
-        rows=rows,
-        charts=tuple(time_chart(CONTACTS[c], q, points) for (c, q), points in beside.items()),
-        remarks=BY_THE_CLOCK,
+def _by_method(points: tuple[Point, ...]) -> Iterator[tuple[str, list[Point]]]:
+    for method in Method:
+        yield method.value, [p for p in points if p.method == method.value]
+
+
+def _table(contact: str, quantity: str, points: tuple[Point, ...]) -> Table:
+    rows = (
+        (method, *(_setting(cheapest(own, target)) for target in TARGETS))
+        for method, own in _by_method(points)
+        if own
+    )
+    return Table(
+        title=f"Cheapest setting by CPU time, {_meaning(contact, quantity)}",
+        columns=("method", *map(_percent, TARGETS)),
+        rows=tuple(rows),
+        note="CPU seconds, and the setting; – where no setting that was tried reaches it.",
+        units=NONE,
     )
 
 
-def _everything(known: Found) -> Everything:
-    everything = {
-        (contact.name, quantity): points_of(known, contact.name, quantity)
-        for contact in CONTACTS.values()
-        for quantity in contact.errors
-    }
-    return {key: points for key, points in everything.items() if points}
+def _chart(contact: str, quantity: str, points: tuple[Point, ...]) -> Chart:
+    def drawn(points: Iterable[Point]) -> Points:
+        return [(p.seconds, max(p.error, FLOOR)) for p in pareto(points)]
 
-
-def _reached(everything: Everything) -> Statement:
-    missed = [quantity_title(*key) for key, p in everything.items() if not reached(p, REACHED)]
-    return Statement(
-        claim=f"every quantity is had to {percent(REACHED)}",
-        outcome=Status.FAIL if missed or not everything else Status.PASS,
-        measured=f"{len(everything) - len(missed)} of {len(everything)}"
-        + (f"; not {'; '.join(missed)}" if missed else ""),
-        because="some setting of some method of ours, and all finer ones of its curve",
+    meaning = CONTACTS[contact].errors[quantity]
+    lines = [(method, drawn(own)) for method, own in _by_method(points)]
+    return log_chart(
+        f"precision_{contact}_{quantity}",
+        _meaning(contact, quantity),
+        f"Error of the {meaning} against CPU seconds, set-up included, of the best settings of "
+        "every method; thin black dashes are the Pareto line of all of them.",
+        "CPU seconds",
+        "relative error",
+        point_curves(lines) + point_curves([("Pareto line", drawn(points))], Look.BOUND),
     )
+
+
+def _meaning(contact: str, quantity: str) -> str:
+    return CONTACTS[contact].meaning(quantity)
+
+
+def _setting(point: Point | None) -> str:
+    return "–" if point is None else f"{_cost(point)}: {point.setting}"
+
+
+def _cost(point: Point) -> str:
+    return f"{plain(point.seconds, 2)} s"
+
+
+def _percent(part: float) -> str:
+    return f"{100 * part:g} %"
 
 
 STUDY = Study(
     name="work-precision",
     title="What accuracy costs",
-    question="Which method and which setting reach an accuracy with the least work, and what does "
+    question="Which method and which setting reach an accuracy in the least time, and what does "
     "0.1 % cost with each of them?",
     cases=cases,
     conclude=conclude,
-    timed=timed,
 )
