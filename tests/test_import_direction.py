@@ -163,7 +163,17 @@ ORDERS = {
         *("coverage", "verdicts", "judgement", "door", "named_solver"),
     ),
     "slipstick": (
-        *("solvers", "solving", "stored_run", "tables", "sweep", "sweep_chart", "cli", "__main__"),
+        *(
+            "solvers",
+            "solving",
+            "stored_run",
+            "tables",
+            "sweep",
+            "sweep_chart",
+            "against",
+            "cli",
+            "__main__",
+        ),
     ),
     # Its floors: what judges stands on what is known, what is shown on what was judged.
     "verification": (

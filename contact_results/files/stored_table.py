@@ -60,7 +60,7 @@ def read_table(path: Path, meanings: Mapping[str, str]) -> StoredTable:
 
     Raises ValueError for what is no table of ours, or one of a version that named no units.
     """
-    header, *rows = _cells(path)
+    header, *rows = read_cells(path)
     columns = list(zip(*rows, strict=True)) or [()] * len(header)
     found = {}
     for heading, cells in zip(header, columns, strict=True):
@@ -86,11 +86,12 @@ def read_meanings(path: Path, file: str) -> Mapping[str, str]:
             f"{path} is missing, which says what the columns of {file} are: the files are of an "
             "earlier version; write them again"
         )
-    _, *rows = _cells(path)
+    _, *rows = read_cells(path)
     return {name: meaning for of, name, _, meaning in rows if of == file}
 
 
-def _cells(path: Path) -> list[list[str]]:
+def read_cells(path: Path) -> list[list[str]]:
+    """Read the texts of a table, the line of names first; raises ValueError for what is none."""
     try:
         with open(path, newline="", encoding="utf-8") as file:
             rows = list(csv.reader(file, strict=True))

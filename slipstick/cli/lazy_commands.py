@@ -88,6 +88,7 @@ COMMANDS = _commands(
         "run": "Solve a scene and write its results, tables and pictures.",
         "stress": "Compute displacement and stress below the surface.",
         "sweep": "Solve a scene for values of its keys; write a table and a chart.",
+        "against": "Compare a run with a measured loop or profile.",
         "export": "Write the surface of a run for ParaView.",
         "table": "Print a table of reference numbers with their uncertainty.",
         "verify": "Measure the accuracy against closed forms and write the report.",

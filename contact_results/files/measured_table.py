@@ -1,0 +1,55 @@
+"""Measured tables: columns of known names, converted from the units in their heads to SI."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from decimal import Context, Decimal
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_results.files.csv_file import WITH_UNIT
+from contact_results.files.stored_table import read_cells
+from contact_scene import units
+from contact_scene.units import Kind, UnknownUnit
+
+SHIFT, ACTUATOR = "tangential_shift", "actuator_shift"
+LOAD, PLACE, PRESSURE, SHEAR = "tangential_force", "x", "pressure", "shear"
+# Names of a column in a head, in lower case; our own tables are among those that can be read.
+NAMES: Mapping[str, tuple[Kind, frozenset[str]]] = {
+    SHIFT: (
+        units.LENGTH,
+        frozenset({"shift", "delta", "δ", "tangential_shift", "tangential_shift_x"}),
+    ),
+    ACTUATOR: (units.LENGTH, frozenset({"actuator_shift", "actuator_shift_x", "delta*", "δ*"})),
+    LOAD: (units.FORCE, frozenset({"t", "f", "force", "tangential_force", "tangential_force_x"})),
+    PLACE: (units.LENGTH, frozenset({"x"})),
+    PRESSURE: (units.PRESSURE, frozenset({"p", "pressure"})),
+    SHEAR: (units.PRESSURE, frozenset({"q", "shear", "shear_x"})),
+}
+
+
+def read_measured(path: Path) -> Mapping[str, NDArray[np.float64]]:
+    """Read the columns of known names in SI; others are ignored. Raises ValueError."""
+    (heads, *rows), found = read_cells(path), {}
+    for position, head in enumerate(heads):
+        split = WITH_UNIT.fullmatch(head.strip())
+        name = (split["name"] if split else head).strip().lower()
+        known = [(mine, kind) for mine, (kind, names) in NAMES.items() if name in names]
+        if not known:
+            continue
+        ((mine, kind),) = known
+        try:
+            factor = kind.to_si(Decimal(1), split["unit"] if split else "", Context())
+            found[mine] = factor * np.array([row[position] for row in rows], dtype=float)
+        except UnknownUnit:
+            raise ValueError(
+                f"{path}: got the column {head!r}, expected a unit of {kind.si}; write "
+                f"'{name} [{kind.si}]'"
+            ) from None
+        except ValueError as error:
+            raise ValueError(f"{path}: column {head!r}: {error}; write numbers alone") from None
+        if not np.all(np.isfinite(found[mine])):
+            raise ValueError(f"{path}: column {head!r} has values that are not finite; remove them")
+    return found

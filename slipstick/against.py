@@ -1,0 +1,201 @@
+"""Comparison of a run with a measured loop or profile.
+
+A loop of force over shift is compared by its centre, by its slope, which is the ratio of the ranges
+of force and shift, and by its area, the energy per cycle. The forces are then compared at the
+places of the loop with fewer points, after both loops were moved to a common centre.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_results.files.measured_table import ACTUATOR, LOAD, PLACE, PRESSURE, SHEAR, SHIFT
+from contact_results.files.stored_run import StoredRun
+from contact_scene.rig import compliances
+from contact_scene.summary import StepSummary
+
+Numbers = NDArray[np.float64]
+
+
+class NothingToCompare(ValueError):
+    """A table that has no counterpart in the run."""
+
+
+@dataclass(frozen=True)
+class Compared:
+    """A number of the measured table and of the run.
+
+    error  stated error of the computed number; None where it is unknown
+    gap    difference, or root of the mean square of the differences at all places
+    """
+
+    name: str
+    unit: str
+    measured: float
+    computed: float
+    error: float | None
+    gap: float
+
+    @property
+    def ratio(self) -> float | None:
+        """Measured over computed; None if the computed number is zero within its error."""
+        return self.measured / self.computed if abs(self.computed) > (self.error or 0.0) else None
+
+    @property
+    def ours(self) -> float | None:
+        """Largest part of the difference that the stated error explains."""
+        if self.error is None:
+            return None
+        return self.error / self.gap if self.error < self.gap else 1.0
+
+
+def comparison(
+    table: Mapping[str, Numbers], run: StoredRun, step: int | None = None
+) -> tuple[Compared, ...]:
+    """Compare a table of shift and T, or of x with p or q, in SI.
+
+    step  load step at whose end profiles are compared, from 1; the last if absent
+
+    Raises NothingToCompare.
+    """
+    for motion in (ACTUATOR, SHIFT):
+        if {motion, LOAD} <= table.keys():
+            return tuple(_loops(_Loop(table[motion], table[LOAD]), run, motion))
+    if PLACE in table and {PRESSURE, SHEAR} & table.keys():
+        return tuple(_profiles(table, run, step or len(run.summary.steps)))
+    raise NothingToCompare(
+        f"got the columns {', '.join(table) or 'none'}, expected shift or actuator_shift with T (a "
+        "loop), or x with p or q (a profile); write heads such as 'shift [um]' and 'T [N]'"
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Loop:
+    """Shift and force (n,) once around."""
+
+    shift: Numbers
+    force: Numbers
+
+    @property
+    def slope(self) -> float:
+        """Ratio of the ranges [force/length]."""
+        return float(np.ptp(self.force) / np.ptp(self.shift))
+
+    @property
+    def area(self) -> float:
+        """Energy per cycle, of the polygon [force length]."""
+        turn = np.roll(self.shift, -1) * self.force - self.shift * np.roll(self.force, -1)
+        return 0.5 * abs(float(np.sum(turn)))
+
+    @property
+    def branches(self) -> tuple[tuple[Numbers, Numbers], ...]:
+        """Shift and force about the centre, from the smallest shift to the largest and back."""
+        begin = int(np.argmin(self.shift))
+        shift, force = (np.roll(each, -begin) - _centre(each) for each in (self.shift, self.force))
+        turn = int(np.argmax(shift))
+        back = np.arange(turn, len(shift) + 1)[::-1] % len(shift)
+        return (shift[: turn + 1], force[: turn + 1]), (shift[back], force[back])
+
+
+def _centre(values: Numbers) -> float:
+    return float(np.max(values) + np.min(values)) / 2
+
+
+def _loops(theirs: _Loop, run: StoredRun, motion: str) -> Iterator[Compared]:
+    """Offset, slope and area, then the forces along the loop.
+
+    motion  of the actuator or of the contact, which are equal without a spring
+    """
+    numbered = [(n, end) for n, end in enumerate(run.summary.steps, 1) if end.energy_per_cycle]
+    if not numbered:
+        raise NothingToCompare(
+            "the table is a loop, and no load cycle of the run closes with slip; end a load step "
+            "with the loads of an earlier one"
+        )
+    (last, end), increments = numbered[-1], run.tables["increments"]
+    steps = increments["step"].array
+    start = np.flatnonzero(steps == end.cycle_start)[-1]
+    path = slice(start, np.flatnonzero(steps == last)[-1] + 1)
+    motion = motion if compliances(run.scene.rig)[1] else SHIFT
+    moves, loads = (
+        np.stack([increments[f"{name}_{axis}"].array[path] for axis in "xy"])
+        for name in (motion, LOAD)
+    )
+    change = loads[:, np.argmax(np.hypot(*(loads - loads[:, :1])))] - loads[:, 0]
+    along = change / np.hypot(*change) * np.sign(change[np.argmax(np.abs(change))])
+    ours = _Loop(along @ moves, along @ loads)
+    of_shift, of_force, of_energy = (
+        _error(end, name) for name in (motion, LOAD, "energy_per_cycle")
+    )
+    of_slope = None
+    if of_shift is not None and of_force is not None:
+        parts = of_shift / np.ptp(ours.shift) + of_force / np.ptp(ours.force)
+        of_slope = float(2 * parts * ours.slope)
+    yield _number("centre of shift", "m", _centre(theirs.shift), _centre(ours.shift), of_shift)
+    yield _number("centre of force", "N", _centre(theirs.force), _centre(ours.force), of_force)
+    yield _number("slope", "N/m", theirs.slope, ours.slope, of_slope)
+    yield _number("energy per cycle", "J", theirs.area, end.energy_per_cycle or 0.0, of_energy)
+    few, many = sorted((theirs, ours), key=lambda loop: len(loop.shift))
+    gaps = [
+        force - np.interp(shift, *finer)
+        for (shift, force), finer in zip(few.branches, many.branches, strict=True)
+    ]
+    theirs_half, ours_half = (float(np.ptp(loop.force)) / 2 for loop in (theirs, ours))
+    error = None if of_slope is None else of_slope * float(np.ptp(ours.shift)) / 2
+    gap = _rms(np.concatenate(gaps))
+    yield Compared("force along the loop", "N", theirs_half, ours_half, error, gap)
+
+
+def _profiles(table: Mapping[str, Numbers], run: StoredRun, step: int) -> Iterator[Compared]:
+    """Pressure and shear at the places of the table; none outside the window of the run."""
+    end, profiles = run.summary.steps[step - 1], run.tables["profiles"]
+    here = profiles["step"].array == step
+
+    def along(name: str) -> Numbers:
+        parts = np.stack([profiles[f"{name}{axis}"].array[here] for axis in "xy"])
+        return np.asarray(np.array(run.direction) @ parts)
+
+    # Tractions are as accurate as the peak pressure, and shear as the tangential load and shift.
+    shares = [_share(end, "peak_pressure")]
+    for name in (PRESSURE, SHEAR):
+        if name not in table:
+            continue
+        values = profiles["pressure"].array[here] if name == PRESSURE else along("shear_")
+        if name == SHEAR:
+            shares += [_share(end, load) for load in (SHIFT, LOAD)]
+        if np.any(np.isnan(values)):
+            raise NothingToCompare("the run has no shear; leave the column out or add friction")
+        ours = np.interp(table[PLACE], along(""), values, 0.0, 0.0)
+        largest = [float(np.max(np.abs(each))) for each in (table[name], ours)]
+        known = [share for share in shares if share is not None]
+        error = sum(known) * largest[1] if len(known) == len(shares) else None
+        measured, computed = largest
+        yield _number(f"largest {name}", "Pa", measured, computed, error)
+        gap = _rms(table[name] - ours)
+        yield Compared(f"{name} at the places", "Pa", measured, computed, error, gap)
+
+
+def _error(end: StepSummary, name: str) -> float | None:
+    """Stated error of a scalar, of a vector the larger one; None where none is known."""
+    stated = (end.errors or {}).get(name)
+    return None if stated is None or stated.error is None else float(np.max(stated.error))
+
+
+def _share(end: StepSummary, name: str) -> float | None:
+    """Stated error relative to the number."""
+    error, value = _error(end, name), np.max(np.abs(getattr(end, name) or 0.0))
+    return error / float(value) if error and value else error
+
+
+def _number(
+    name: str, unit: str, measured: float, computed: float, error: float | None
+) -> Compared:
+    return Compared(name, unit, measured, computed, error, abs(measured - computed))
+
+
+def _rms(values: Numbers) -> float:
+    return float(np.sqrt(np.mean(values**2)))

@@ -1,0 +1,145 @@
+"""`slipstick against`: measured loops and profiles beside a run, and our part of the difference."""
+
+import csv
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from command import outcome, rows
+
+SCENE = """
+[indenter]
+shape = "paraboloid"
+radius = "18 mm"
+material = { young_modulus = "420 GPa", poisson_ratio = 0 }
+[body]
+material = { young_modulus = "420 GPa", poisson_ratio = 0 }
+[friction]
+coefficient = 0.1
+[rig]
+tangential_stiffness = "100 N/um"
+[[loading]]
+normal_force = "1 kN"
+[[loading]]
+tangential_shift = ["1.5 um", 0]
+[[loading]]
+tangential_shift = ["-1.5 um", 0]
+increments = 24
+[[loading]]
+tangential_shift = ["1.5 um", 0]
+increments = 24
+[semi_analytical]
+cells = [32, 32]
+window = ["1.2 mm", "1.2 mm"]
+"""
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A scene and its run in `run`."""
+    directory = tmp_path_factory.mktemp("against")
+    (directory / "scene.toml").write_text(SCENE, encoding="utf-8")
+    ended = outcome("run", "scene.toml", "-o", "run", "--figures", "none", cwd=directory)
+    assert ended.returncode == 0, ended.stderr
+    return directory
+
+
+def table(path: Path, **columns) -> Path:
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(columns)
+        writer.writerows(zip(*columns.values(), strict=True))
+    return path
+
+
+def column(path: Path, name: str, steps: tuple[str, ...]) -> np.ndarray:
+    return np.array([float(row[name]) for row in rows(path) if row["step"] in steps])
+
+
+def against(place: Path, measured: Path, *arguments, run: str = "run") -> dict[str, list[str]]:
+    """Cells of the printed table by the name of its row: measured, computed, ratio, difference,
+    and our part."""
+    ended = outcome("against", measured, run, *arguments, cwd=place)
+    assert ended.returncode == 0, ended.stderr
+    lines = (re.split(r"\s{2,}", line.strip()) for line in ended.stdout.splitlines())
+    return {cells[0].split(" (")[0]: cells[1:] for cells in lines if len(cells) == 6}
+
+
+def loop(place: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    path = place / "run/increments.csv"
+    names = ("actuator_shift_x [m]", "tangential_shift_x [m]", "tangential_force_x [N]")
+    actuator, shift, force = (column(path, name, ("3", "4")) for name in names)
+    return actuator, shift, force
+
+
+def test_offset_slope_and_area_of_a_loop_are_found_with_our_part(place: Path) -> None:
+    _, shift, force = loop(place)
+    measured = table(
+        place / "loop.csv",
+        **{"time [s]": force, "δ [µm]": 1.02e6 * shift + 0.03, "T [mN]": 900 * force},
+    )
+    found = against(place, measured)
+    offset, computed = found["centre of shift"], found["energy per cycle"][1]
+    assert float(offset[3]) == pytest.approx(30.0, abs=0.3)  # nm
+    assert float(found["slope"][2]) == pytest.approx(0.9 / 1.02, abs=1e-4)
+    assert float(found["energy per cycle"][2]) == pytest.approx(0.9 * 1.02, abs=3e-3)
+    assert float(found["force along the loop"][3]) == pytest.approx(0.1 * 60, rel=0.3)
+
+    error = float(computed.split("±")[1])
+    expected = 100 * error / float(found["energy per cycle"][3])
+    assert float(found["energy per cycle"][4].split()[0]) == pytest.approx(expected, rel=0.03)
+
+
+def test_a_loop_of_the_actuator_has_the_energy_of_the_contact(place: Path) -> None:
+    actuator, shift, force = loop(place)
+    energies, slopes = [], []
+    for name, motion in (("actuator_shift [m]", actuator), ("shift [m]", shift)):
+        found = against(place, table(place / "loop.csv", **{name: motion, "T [N]": force}))
+        energies.append(float(found["energy per cycle"][0]))
+        slopes.append(float(found["slope"][0]))
+        assert float(found["slope"][2]) == pytest.approx(1.0, abs=1e-4)
+        assert found["slope"][4] == "100.0 %"
+    assert energies[0] == pytest.approx(energies[1], rel=1e-4)
+    assert 1 / slopes[0] - 1 / slopes[1] == pytest.approx(1 / 100, rel=1e-3)  # of the spring
+
+
+def test_a_profile_is_compared_at_its_places(place: Path) -> None:
+    path = place / "run/profiles.csv"
+    x, p, q = (column(path, name, ("2",)) for name in ("x [m]", "pressure [Pa]", "shear_x [Pa]"))
+    some = slice(3, -3, 2)
+    measured = table(
+        place / "profile.csv",
+        **{"x [mm]": 1e3 * x[some], "p [GPa]": 1.01e-9 * p[some], "q [MPa]": 1e-6 * q[some]},
+    )
+    found = against(place, measured, "--step", "2")
+    assert float(found["largest pressure"][2]) == pytest.approx(1.01, abs=1e-4)
+    gap = 0.01 * np.sqrt(np.mean((p[some] / 1e9) ** 2))
+    assert float(found["pressure at the places"][3]) == pytest.approx(gap, rel=1e-3)
+    assert found["shear at the places"][4] == "100.0 %"
+    steps = json.loads((place / "run/summary.json").read_text(encoding="utf-8"))["steps"]
+    error = steps[1]["errors"]["peak_pressure"]["error"] / steps[1]["peak_pressure"]
+    assert float(found["largest pressure"][4].split()[0]) == pytest.approx(1e4 * error, abs=0.06)
+
+
+def test_a_scene_is_solved_first(place: Path) -> None:
+    _, shift, force = loop(place)
+    measured = table(place / "loop.csv", **{"shift [m]": 1.1 * shift, "T [N]": force})
+    assert against(place, measured, run="scene.toml") == against(place, measured)
+
+
+@pytest.mark.parametrize(
+    ("columns", "message"),
+    [
+        ({"T [mm]": [1], "shift [um]": [1]}, "got the column 'T [mm]', expected a unit of N"),
+        ({"T": [1], "shift [um]": [1]}, "got the column 'T', expected a unit of N"),
+        ({"T [N]": ["two"], "shift [um]": [1]}, "write numbers alone"),
+        ({"T [N]": ["nan"], "shift [um]": [1]}, "values that are not finite"),
+        ({"T [N]": [1], "time [s]": [1]}, "got the columns tangential_force, expected shift or"),
+    ],
+)
+def test_a_table_that_cannot_be_compared_is_refused(place: Path, columns, message) -> None:
+    ended = outcome("against", table(place / "bad.csv", **columns), "run", cwd=place)
+    assert ended.returncode == 2
+    assert message in " ".join(ended.stderr.replace("│", " ").split())
