@@ -149,7 +149,7 @@ class CellSolver(DiscretisedSolver):
         run = memory.estimated_bytes(fineness.space, self.plan.cut_into(fineness.increments))
         if not self.stress or not self.scene.body.deforms:
             return run
-        stress = stress_on_cells.estimated_bytes(self.scene.body, fineness.space)
+        stress = stress_on_cells.estimated_bytes(fineness.space)
         return max(run, memory.LIBRARIES + stress)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import FittedEdge, StressField, StressPoints
-from contact_scene.array_types import Field
+from contact_scene.array_types import Field, Indices
 from contact_scene.one_thread import one_thread
 
 if TYPE_CHECKING:
@@ -25,17 +25,16 @@ if TYPE_CHECKING:
 # and past what bends a coating down there.
 MARGIN = 1.6
 DOUBLE = 8
-# Numbers per point at most: displacement and stress, the stress near the edge, principal stresses
-# and equivalent stress; a copy of the points below the surface, with the tensors and eigenvalues
-# that its principal stresses take.
-NUMBERS = (9 + 6 + 4) + (13 + 4 + 9)
+# Numbers per point of the volume: places, displacement and stress, tensors and invariants of files.
+NUMBERS = (5 + 9) + (9 + 4 + 8)
 
 
-def estimated_bytes(body: Body, grid: SurfaceGrid) -> int:
-    """Largest memory of the stress of a body, its largest values and their errors, below a contact
-    that fills the grid [byte]."""
-    levels = _levels(body, None, min(grid.window) / 2)
-    return int(DOUBLE * NUMBERS * len(levels) * grid.cells[0] * grid.cells[1] * MARGIN**2)
+def estimated_bytes(grid: SurfaceGrid) -> int:
+    """Largest memory of the stress below a contact that fills the grid [byte]."""
+    from semi_analytical.stress.field import required_bytes
+
+    nx, ny = (round(MARGIN * cells) for cells in grid.cells)
+    return required_bytes((nx, ny), 1)
 
 
 @one_thread()
@@ -57,37 +56,45 @@ def stress_on_cells(
             layers
     volume    whether the field has the cells of the volume
     see_edge  whether to look for the edge
-    section_only  whether the stress near the edge is needed in the section alone
+    section_only  whether the largest values are those of the section
     Raises ValueError for a depth that is not in the body, ResourceRefused.
     """
-    from semi_analytical.stress import refuse_beyond_memory, subsurface
+    from semi_analytical.stress import SubsurfaceField, refuse_beyond_memory
+    from semi_analytical.stress.levels import line_weights
 
     body = state.indenter if indenter else state.body
     grid, pressure, shear = _with_margin(state)
     counted = float(np.sqrt(np.count_nonzero(pressure) * grid.cell_area / np.pi))
     radius = counted if state.contact_radius is None else state.contact_radius
     levels = _levels(body, depths, radius)
-    refuse_beyond_memory(grid.cells, len(levels), NUMBERS)
+    if volume:
+        refuse_beyond_memory(grid.cells, len(levels), NUMBERS)
     if indenter and shear is not None:
         shear = -shear
-    field = subsurface(body, grid, *_as_seen_from_afar(state, pressure, shear), levels)
     edge, why = None, "not looked for"
     if see_edge:
-        at = 0.0 if section_only else None
-        field, edge, why = _with_edge(state, body, grid, field, pressure, shear, at)
-    plane = field.along_x()
-    points = _points(field, grid)
+        edge, why = _edge(state, body, grid, levels, pressure, shear)
+    rows = np.flatnonzero(line_weights(grid.y, 0.0)) if section_only else None
+    sections, largest, planes = [], [], []
+    for field in _each_level(
+        state, body, grid, levels, pressure, shear, None if why else edge, rows
+    ):
+        sections.append(field.along_x())
+        points = _points(field, grid)
+        largest.append(points.with_largest())
+        planes += [field] if volume else []
+    plane = SubsurfaceField.joined(sections)
     fitted = None
     if edge is not None:
         fitted = FittedEdge(_on_edge(edge), edge.apart * edge.size, not why)
     return StressField(
-        points,
+        StressPoints.joined(largest),
         fitted,
         _points(plane, grid).with_cells(),
         _axis(plane),
-        points.with_cells() if volume else None,
+        _points(SubsurfaceField.joined(planes), grid).with_cells() if volume else None,
         "x at y = 0",
-        (float(field.x[-1]), float(field.depths[-1])),
+        (float(plane.x[-1]), float(plane.depths[-1])),
         {
             "contact_radius": radius,
             "cells": list(grid.cells),
@@ -98,39 +105,55 @@ def stress_on_cells(
     )
 
 
-def _with_edge(
+def _edge(
     state: LoadedBodies,
     body: Body,
     grid: SurfaceGrid,
-    field: SubsurfaceField,
+    levels: Sequence[Level],
     pressure: Field,
     shear: Field | None,
-    y: float | None,
-) -> tuple[SubsurfaceField, NearEdge | None, str]:
-    """The field with the edge, and the edge. If it is not determined: the field as it is, the edge
-    as far as it is fitted, and the cause."""
+) -> tuple[NearEdge | None, str]:
+    """Fit the edge of the contact. If it is not determined, return the fit so far and the cause."""
     from semi_analytical.frf.stack import stack_of
-    from semi_analytical.stress import EdgeNotSeen, near_edge, near_surface, subsurface
+    from semi_analytical.stress import EdgeNotSeen, near_edge, near_surface
 
     if state.no_root is not None:
-        return field, None, state.no_root
-    if not any(
-        level.layer == 0 and near_surface(level.depth, grid.spacing) for level in field.levels
-    ):
-        return field, None, "no depth is near the surface"
+        return None, state.no_root
+    if not any(level.layer == 0 and near_surface(level.depth, grid.spacing) for level in levels):
+        return None, "no depth is near the surface"
     try:
-        edge = near_edge(stack_of(body), grid, pressure, shear, corrected=state.edges)
+        return near_edge(stack_of(body), grid, pressure, shear, corrected=state.edges), ""
     except EdgeNotSeen as cause:
-        return field, cause.candidate, str(cause)
-    if not state.edges:
-        return edge.corrected(field, y), edge, ""
-    # Beside the edge the tractions are what the field is of, and not what acts alike far away.
-    near = [n for n, level in enumerate(field.levels) if edge.reaches(level)]
-    levels = [field.levels[n] for n in near]
-    there = edge.corrected(subsurface(body, grid, pressure, shear, levels), y)
-    stress = field.stress.copy()
-    stress[near] = np.where(edge.beside, there.stress, stress[near])
-    return replace(field, stress=stress), edge, ""
+        return cause.candidate, str(cause)
+
+
+def _each_level(
+    state: LoadedBodies,
+    body: Body,
+    grid: SurfaceGrid,
+    levels: tuple[Level, ...],
+    pressure: Field,
+    shear: Field | None,
+    edge: NearEdge | None,
+    rows: Indices | None,
+) -> Iterator[SubsurfaceField]:
+    """Fields level by level, with the stress near an edge that is determined."""
+    from semi_analytical.stress import fields_by_level
+
+    far = _as_seen_from_afar(state, pressure, shear)
+    reached = [level for level in levels if edge is not None and edge.reaches(level)]
+    # Beside a corrected edge the field is that of the tractions themselves.
+    exact = reached if state.edges else []
+    near = fields_by_level(body, grid, pressure, shear, exact, rows)
+    for field in fields_by_level(body, grid, *far, levels, rows):
+        if edge is None or field.levels[0] not in reached:
+            yield field
+        elif exact:
+            beside = edge.beside if rows is None else edge.beside[:, rows]
+            there = edge.corrected(next(near)).stress
+            yield replace(field, stress=np.where(beside, there, field.stress))
+        else:
+            yield edge.corrected(field)
 
 
 def _as_seen_from_afar(

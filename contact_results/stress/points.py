@@ -116,6 +116,10 @@ class StressPoints:
         corners += [index[above + 1][:, *at] for at in below]
         return replace(self, cells=(kind, np.stack(corners, axis=-1).reshape(-1, len(corners))))
 
+    def with_largest(self) -> StressPoints:
+        """The points (n,) that have the largest values of the measures, without cells."""
+        return self.chosen(np.array([np.argmax(values) for values in self.measures.values()]))
+
     def near(self, reach: float) -> StressPoints:
         """The cells that have a corner within a distance to the sides and in depth."""
         assert self.cells is not None
@@ -167,7 +171,7 @@ class FittedEdge:
 class StressField:
     """Stress in a body below a contact.
 
-    points   wherever it was computed
+    points   that may have the largest values: on cells those of each level, else all
     edge     of the contact, where it could be fitted
     section  the plane y = 0 near the contact, with cells
     axis     down the z axis

@@ -3,6 +3,7 @@
 from semi_analytical.frf.depth import Level
 from semi_analytical.stress.field import (
     SubsurfaceField,
+    fields_by_level,
     refuse_beyond_memory,
     subsurface,
     subsurface_section,
@@ -16,6 +17,7 @@ __all__ = [
     "NearEdge",
     "SubsurfaceField",
     "default_depths",
+    "fields_by_level",
     "interfaces",
     "near_edge",
     "near_surface",

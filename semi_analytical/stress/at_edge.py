@@ -93,8 +93,11 @@ def _in_box(edged: EdgedTractions, phi: Quadratic, material: HalfSpace, spacing:
         np.where(at[:, None] == corners, 1e-9, at[:, None] - corners) * side
         for at, side in zip((x, y), spacing, strict=True)
     )
-    response = half_space_response(RectanglePotentials(to_x, to_y, 0.0), material, 0.0)[STRESS]
-    return stress + np.einsum("ftnij,tnij->fn", response[..., ::-1, ::-1], left)
+    potentials, sheared = RectanglePotentials(to_x, to_y, 0.0), bool(edged.means[:2].any())
+    response = half_space_response(potentials, material, 0.0, sheared=sheared)[
+        STRESS, :, :, ::-1, ::-1
+    ]
+    return stress + np.einsum("ftnij,tnij->fn", response, left[-response.shape[1] :])
 
 
 def _by_points(

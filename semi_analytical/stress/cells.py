@@ -17,7 +17,7 @@ from semi_analytical.frf.stack import Stack
 from semi_analytical.influence.layered_boxes import Boxes, joined
 from semi_analytical.influence.layered_cells import CELL_AVERAGE, FAR, MARGIN
 from semi_analytical.influence.layered_response import BATCH
-from semi_analytical.stress.components import FIELDS, TRACTIONS, empty_response, parity
+from semi_analytical.stress.components import each_response, empty_response
 from semi_analytical.stress.radial_table import DepthTable, clearance, depth_table, in_scene_axes
 from semi_analytical.stress.rectangle import RectanglePotentials, half_space_response
 
@@ -40,12 +40,12 @@ def cell_integrals(
     table      up to MARGIN cells beyond the farthest offset
     level      index in the table
     clearance  distance of the nearest singularity [length]
-    returns    shape (FIELDS, TRACTIONS, nx, ny)
+    returns    shape (FIELDS, acting tractions, nx, ny)
     """
     result = _averaged(table, level, spacing, shape)
     cells = _near_cells(spacing, shape, clearance)
     boxes = _clear_boxes(spacing, cells, clearance)
-    near = np.zeros((len(FIELDS), len(TRACTIONS), len(cells)))
+    near = np.zeros((*result.shape[:2], len(cells)))
     for part in boxes.batches(BATCH // 4):
         x, y, weight = part.gauss_points()
         integrals = np.einsum("ftbp,bp->ftb", _response(table, level, x, y), weight)
@@ -59,18 +59,16 @@ def cell_integrals(
 
 def _with_exact_zeros(result: Field) -> Field:
     """Odd there: exactly zero, not nearly."""
-    for field in range(len(FIELDS)):
-        for traction in range(len(TRACTIONS)):
-            along_x, along_y = parity(field, traction)
-            if along_x < 0:
-                result[field, traction, 0, :] = 0
-            if along_y < 0:
-                result[field, traction, :, 0] = 0
+    for coefficients, (along_x, along_y) in each_response(result):
+        if along_x < 0:
+            coefficients[0, :] = 0
+        if along_y < 0:
+            coefficients[:, 0] = 0
     return result
 
 
 def _response(table: DepthTable, level: int, x: Field, y: Field) -> Field:
-    """Fields by unit point forces, shape (FIELDS, TRACTIONS, *x.shape)."""
+    """Fields by unit point forces, shape (FIELDS, acting tractions, *x.shape)."""
     r = np.hypot(x, y)
     away = np.where(r > 0, r, 1.0)  # on the axis what depends on the direction vanishes
     functions = table.at(level, r.ravel()).reshape(-1, *x.shape)
@@ -83,18 +81,18 @@ def _averaged(
     """All cells by a nine-point average along x and y, good for the far ones only."""
     x = np.arange(shape[0] + MARGIN) * spacing[0]
     y = np.arange(shape[1] + MARGIN) * spacing[1]
-    points = empty_response((len(x), len(y)))
+    points = empty_response((len(x), len(y)), sheared=table.sheared)
     rows = max(1, BATCH // len(y))
     for start in range(0, len(x), rows):
         part = slice(start, start + rows)
         points[:, :, part] = _response(table, level, *np.broadcast_arrays(x[part, None], y))
-    result = empty_response(shape)
-    for field in range(len(FIELDS)):
-        for traction in range(len(TRACTIONS)):
-            along_x, along_y = parity(field, traction)
-            once = _averaged_along(points[field, traction], 0, along_x)
-            result[field, traction] = _averaged_along(once, 1, along_y)
-    return result * (spacing[0] * spacing[1])
+    points *= spacing[0] * spacing[1]
+    result = empty_response(shape, sheared=table.sheared)
+    for averaged, (of_points, (along_x, along_y)) in zip(
+        result.reshape(-1, *shape), each_response(points), strict=True
+    ):
+        averaged[:] = _averaged_along(_averaged_along(of_points, 0, along_x), 1, along_y)
+    return result
 
 
 def _averaged_along(field: Field, axis: int, sign: int) -> Field:
@@ -145,7 +143,12 @@ def _quartered(boxes: Boxes) -> Boxes:
 
 
 def depth_coefficients(
-    stack: Stack, levels: tuple[Level, ...], spacing: tuple[float, float], shape: tuple[int, int]
+    stack: Stack,
+    levels: tuple[Level, ...],
+    spacing: tuple[float, float],
+    shape: tuple[int, int],
+    *,
+    sheared: bool = True,
 ) -> Iterator[Field]:
     """Fields at offset (i dx, j dy), i, j >= 0, of each level in turn.
 
@@ -155,27 +158,33 @@ def depth_coefficients(
 
     spacing  cell sides [length]
     shape    number of offsets along x and y, the zero offset included
-    yields   shape (FIELDS, TRACTIONS, nx, ny)
+    sheared  include the responses to shear, before that to pressure
+    yields   shape (FIELDS, acting tractions, nx, ny)
     """
     for start in range(0, len(levels), AT_ONCE):
         batch = levels[start : start + AT_ONCE]
         if not stack.layers:
-            yield from (_closed_form(stack, level, spacing, shape) for level in batch)
+            for level in batch:
+                yield _closed_form(stack, level, spacing, shape, sheared)
             continue
         reach = hypot((shape[0] + MARGIN) * spacing[0], (shape[1] + MARGIN) * spacing[1])
-        table = depth_table(stack, batch, reach)
+        table = depth_table(stack, batch, reach, sheared=sheared)
         for index, level in enumerate(batch):
             result = cell_integrals(table, index, clearance(stack, level), spacing, shape)
             if level.layer == 0:
-                result += _closed_form(stack, level, spacing, shape)
+                result += _closed_form(stack, level, spacing, shape, sheared)
             yield result
 
 
 def _closed_form(
-    stack: Stack, level: Level, spacing: tuple[float, float], shape: tuple[int, int]
+    stack: Stack,
+    level: Level,
+    spacing: tuple[float, float],
+    shape: tuple[int, int],
+    sheared: bool,
 ) -> Field:
     """A half-space of the material at this level."""
     x = (np.arange(shape[0] + 1, dtype=np.float64) - 0.5) * spacing[0]
     y = (np.arange(shape[1] + 1, dtype=np.float64) - 0.5) * spacing[1]
     potentials = RectanglePotentials(x, y, level.depth)
-    return half_space_response(potentials, material_at(stack, level), level.depth)
+    return half_space_response(potentials, material_at(stack, level), level.depth, sheared=sheared)

@@ -1,5 +1,7 @@
 """Order and parity of the fields at depth and of the tractions that cause them."""
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,15 +13,33 @@ STRESS = slice(3, 9)
 TRACTIONS = ("x", "y", "z")
 
 
-def parity(field: int, traction: int) -> tuple[int, int]:
+PRESSURE = TRACTIONS[2:]
+
+
+def acting(sheared: bool) -> tuple[str, ...]:
+    """Return the tractions that act: the pressure alone, or all of `TRACTIONS`."""
+    return TRACTIONS if sheared else PRESSURE
+
+
+def parity(field: str, traction: str) -> tuple[int, int]:
     """+1 if a response is even, -1 if it is odd, along x and along y.
 
     By reflection each axis named in the field or the traction is one change of sign.
     """
-    axes = FIELDS[field] + TRACTIONS[traction]
+    axes = field + traction
     return (-1) ** axes.count("x"), (-1) ** axes.count("y")
 
 
-def empty_response(shape: tuple[int, ...]) -> NDArray[np.float64]:
-    """An array (FIELDS, TRACTIONS, *shape)."""
-    return np.empty((len(FIELDS), len(TRACTIONS), *shape))
+def each_response(
+    coefficients: NDArray[np.float64],
+) -> Iterator[tuple[NDArray[np.float64], tuple[int, int]]]:
+    """Iterate over responses of (FIELDS, acting tractions, nx, ny) with their parity."""
+    tractions = acting(coefficients.shape[1] > 1)
+    for responses, field in zip(coefficients, FIELDS, strict=True):
+        for response, traction in zip(responses, tractions, strict=True):
+            yield response, parity(field, traction)
+
+
+def empty_response(shape: tuple[int, ...], *, sheared: bool = True) -> NDArray[np.float64]:
+    """Return an array (FIELDS, acting tractions, *shape)."""
+    return np.empty((len(FIELDS), len(acting(sheared)), *shape))

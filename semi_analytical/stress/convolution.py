@@ -6,75 +6,78 @@ Both pad with zeros to at least the sum of the lengths, so there is no periodic 
 from collections.abc import Callable
 
 import numpy as np
-from scipy.fft import next_fast_len
+from scipy.fft import fft, ifft, irfft, next_fast_len, rfft
 
 from contact_scene.array_types import Field, Indices
-from semi_analytical.stress.components import FIELDS, TRACTIONS, parity
+from semi_analytical.operator.spectra import even_transform, mixed_transform, odd_transform
+from semi_analytical.stress.components import FIELDS, each_response
 
-# Coefficients (FIELDS, TRACTIONS, nx, ny) to fields.
+# Coefficients (FIELDS, acting tractions, nx, ny) to fields.
 Convolution = Callable[[Field], Field]
 
 
 def plane_convolution(tractions: Field) -> Convolution:
-    """Convolve tractions (TRACTIONS, nx, ny) on all cells; fields (FIELDS, nx, ny)."""
+    """Convolve tractions (acting tractions, nx, ny) on all cells; fields (FIELDS, nx, ny)."""
     _, nx, ny = tractions.shape
-    period = (int(next_fast_len(2 * nx, real=False)), int(next_fast_len(2 * ny, real=True)))
-    spectra = np.fft.rfft2(tractions, period)
-    loaded = _loaded(tractions)
+    half_x, half_y = (_half_period(cells) for cells in (nx, ny))
+    along_y = rfft(np.swapaxes(tractions, 1, 2), 2 * half_y, axis=1)
+    spectra = fft(along_y, 2 * half_x, axis=2)
+    pad = [(0, half_x + 1 - nx), (0, half_y + 1 - ny)]
 
     def convolve(coefficients: Field) -> Field:
-        fields = np.zeros((len(FIELDS), nx, ny))
-        for field in range(len(FIELDS)):
+        fields = np.empty((len(FIELDS), nx, ny))
+        responses = each_response(coefficients)
+        for field in fields:
             total = np.zeros(spectra.shape[1:], dtype=np.complex128)
-            for traction in loaded:
-                along_x, along_y = parity(field, traction)
-                kernel = _mirrored(coefficients[field, traction], 0, along_x, period[0])
-                kernel = _mirrored(kernel, 1, along_y, period[1])
-                total += np.fft.rfft2(kernel) * spectra[traction]
-            fields[field] = np.fft.irfft2(total, period)[:nx, :ny]
+            for spectrum in spectra:
+                response, parity = next(responses)
+                total += _spectrum(np.pad(response, pad), parity) * spectrum
+            rows = ifft(total, axis=1, overwrite_x=True)[:, :nx]
+            field[:] = irfft(rows, 2 * half_y, axis=0)[:ny].T
         return fields
 
     return convolve
 
 
 def row_convolution(tractions: Field, rows: Indices) -> Convolution:
-    """The same on some rows of cells only; fields (FIELDS, nx, len(rows)).
+    """Convolve on some rows of cells only; fields (FIELDS, nx, len(rows)).
 
     rows  indices along y
     """
     _, nx, ny = tractions.shape
-    period = int(next_fast_len(2 * nx, real=True))
-    spectra = np.fft.rfft(tractions, period, axis=1)
-    loaded = _loaded(tractions)
+    period = 2 * _half_period(nx)
+    spectra = rfft(tractions, period, axis=1)
     offsets = rows[:, None] - np.arange(ny)
 
     def convolve(coefficients: Field) -> Field:
         fields = np.empty((len(FIELDS), nx, len(rows)))
-        for field in range(len(FIELDS)):
+        responses = each_response(coefficients)
+        for field in fields:
             total = np.zeros((spectra.shape[1], len(rows)), dtype=np.complex128)
-            for traction in loaded:
-                along_x, along_y = parity(field, traction)
-                kernel = _mirrored(coefficients[field, traction], 0, along_x, period)
-                responses = np.fft.rfft(kernel, axis=0)
+            for spectrum in spectra:
+                response, (along_x, along_y) = next(responses)
+                mirrored = along_x * response[:0:-1]
+                gap = np.zeros((period - len(response) - len(mirrored), response.shape[1]))
+                transformed = rfft(np.concatenate([response, gap, mirrored]), axis=0)
                 sign = np.where(offsets < 0, along_y, 1)
                 for row in range(len(rows)):
-                    facing = responses[:, np.abs(offsets[row])] * sign[row]
-                    total[:, row] += np.sum(facing * spectra[traction], axis=1)
-            fields[field] = np.fft.irfft(total, period, axis=0)[:nx]
+                    facing = transformed[:, np.abs(offsets[row])] * sign[row]
+                    total[:, row] += np.sum(facing * spectrum, axis=1)
+            field[:] = irfft(total, period, axis=0)[:nx]
         return fields
 
     return convolve
 
 
-def _loaded(tractions: Field) -> list[int]:
-    """Components that act at all."""
-    return [k for k in range(len(TRACTIONS)) if np.any(tractions[k])]
+def _half_period(cells: int) -> int:
+    return int(next_fast_len(cells, real=True))
 
 
-def _mirrored(coefficients: Field, axis: int, sign: int, period: int) -> Field:
-    """Continue coefficients at offsets >= 0 to negative ones, cyclic with the period."""
-    count = coefficients.shape[axis]
-    gap = list(coefficients.shape)
-    gap[axis] = period - 2 * count + 1
-    reflected = sign * np.flip(np.take(coefficients, range(1, count), axis), axis)
-    return np.concatenate([coefficients, np.zeros(gap), reflected], axis)
+def _spectrum(coefficients: Field, parity: tuple[int, int]) -> Field:
+    """Transform coefficients at the offsets 0 … m along each side: real, or imaginary if odd along
+    one side, (my + 1, 2 mx)."""
+    if parity == (1, 1):
+        return even_transform(coefficients)[:]
+    if parity == (-1, -1):
+        return odd_transform(coefficients)[:]
+    return -1j * mixed_transform(coefficients, odd_axis=0 if parity[0] < 0 else 1)[:]

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from contact_scene import Body, Scene
-from contact_scene.array_types import Field
+from contact_scene.array_types import Field, Indices
 from contact_scene.free_memory import available_bytes
 from contact_scene.solver_errors import ResourceRefused
 from semi_analytical.frf.depth import Level
@@ -16,7 +16,7 @@ from semi_analytical.frf.stack import Stack, stack_of
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.stress.cells import depth_coefficients
 from semi_analytical.stress.components import DISPLACEMENT, FIELDS, STRESS, TRACTIONS
-from semi_analytical.stress.convolution import Convolution, plane_convolution, row_convolution
+from semi_analytical.stress.convolution import plane_convolution, row_convolution
 from semi_analytical.stress.levels import levels_of, line_weights
 
 DOUBLE = 8
@@ -41,6 +41,18 @@ class SubsurfaceField:
     levels: tuple[Level, ...]
     displacement: Field
     stress: Field
+
+    @classmethod
+    def joined(cls, parts: Iterable[SubsurfaceField]) -> SubsurfaceField:
+        """Join fields of equal places at successive levels."""
+        each = list(parts)
+        return cls(
+            each[0].x,
+            each[0].y,
+            tuple(level for part in each for level in part.levels),
+            np.concatenate([part.displacement for part in each]),
+            np.concatenate([part.stress for part in each]),
+        )
 
     @property
     def depths(self) -> Field:
@@ -95,11 +107,9 @@ def subsurface(
     ResourceRefused
         The fields do not fit into the memory.
     """
-    tractions = _tractions(grid, pressure, shear)
-    stack = _stack(body)
-    levels = levels_of(stack, depths)
+    levels = levels_of(_stack(body), depths)
     refuse_beyond_memory(grid.cells, len(levels))
-    return _field(stack, grid, levels, plane_convolution(tractions), grid.cells, grid.y)
+    return SubsurfaceField.joined(fields_by_level(body, grid, pressure, shear, levels))
 
 
 def subsurface_section(
@@ -115,38 +125,37 @@ def subsurface_section(
     Between rows of cells it is interpolated cubically, which costs 0.02 dy^4 of the fourth
     derivative. Raises what `subsurface` raises.
     """
+    rows = np.flatnonzero(line_weights(grid.y, y))
+    near = fields_by_level(body, grid, pressure, shear, depths, rows)
+    return SubsurfaceField.joined(near).along_x(y)
+
+
+def fields_by_level(
+    body: Body | Scene | Stack,
+    grid: SurfaceGrid,
+    pressure: Field,
+    shear: Field | None,
+    depths: Sequence[float | Level],
+    rows: Indices | None = None,
+) -> Iterator[SubsurfaceField]:
+    """Iterate over the fields of one level after the other; other arguments as of `subsurface`.
+
+    rows  indices along y of the rows of cells that are needed; all if absent
+    """
     tractions = _tractions(grid, pressure, shear)
     stack = _stack(body)
     levels = levels_of(stack, depths)
-    weights = line_weights(grid.y, y)
-    rows = np.flatnonzero(weights)
-    farthest = int(max(rows[-1], grid.cells[1] - 1 - rows[0])) + 1
-    refuse_beyond_memory((grid.cells[0], farthest), 0)
-    convolve = row_convolution(tractions, rows)
-    shape = (grid.cells[0], farthest)
-    near = _field(stack, grid, levels, convolve, shape, grid.y[rows])
-    return near.along_x(y)
-
-
-def _field(
-    stack: Stack,
-    grid: SurfaceGrid,
-    levels: tuple[Level, ...],
-    convolve: Convolution,
-    shape: tuple[int, int],
-    y: Field,
-) -> SubsurfaceField:
-    """Fields at some levels. shape: number of offsets that the convolution reads."""
-    fields = np.empty((len(levels), len(FIELDS), grid.cells[0], len(y)))
-    for index, coefficients in enumerate(_each_level(stack, levels, grid, shape)):
-        fields[index] = convolve(coefficients)
-    return SubsurfaceField(grid.x, y, levels, fields[:, DISPLACEMENT], fields[:, STRESS])
-
-
-def _each_level(
-    stack: Stack, levels: tuple[Level, ...], grid: SurfaceGrid, shape: tuple[int, int]
-) -> Iterator[Field]:
-    return depth_coefficients(stack, levels, grid.spacing, shape)
+    (nx, ny), y = grid.cells, grid.y if rows is None else grid.y[rows]
+    if rows is None:
+        convolve = plane_convolution(tractions)
+    else:
+        convolve = row_convolution(tractions, rows)
+        ny = int(max(rows[-1], ny - 1 - rows[0])) + 1  # the farthest offset that is read, and 0
+    refuse_beyond_memory((nx, ny), 0 if rows is not None else 1)
+    each = depth_coefficients(stack, levels, grid.spacing, (nx, ny), sheared=len(tractions) > 1)
+    for level, coefficients in zip(levels, each, strict=True):
+        fields = convolve(coefficients)[None]
+        yield SubsurfaceField(grid.x, y, (level,), fields[:, DISPLACEMENT], fields[:, STRESS])
 
 
 def _stack(body: Body | Scene | Stack) -> Stack:
@@ -160,20 +169,18 @@ def _stack(body: Body | Scene | Stack) -> Stack:
 
 
 def _tractions(grid: SurfaceGrid, pressure: Field, shear: Field | None) -> Field:
-    """(q_x, q_y, p) on the cells."""
-    tractions = np.zeros((3, *grid.cells))
-    for name, given, target in (
-        ("pressure", pressure, tractions[2]),
-        ("shear", shear, tractions[:2]),
-    ):
-        if given is None:
-            continue
-        if given.shape != target.shape:
+    """Check (q_x, q_y, p) on the cells; p alone without shear."""
+    given = {"pressure": (pressure, grid.cells)}
+    if shear is not None:
+        given = {"shear": (shear, (2, *grid.cells))} | given
+    for name, (field, expected) in given.items():
+        if field.shape != expected:
             raise ValueError(
-                f"{name} has shape {given.shape}, expected {target.shape} for {grid.cells} cells"
+                f"{name} has shape {field.shape}, expected {expected} for {grid.cells} cells"
             )
-        target[...] = given
-    return tractions
+    if shear is None or not shear.any():
+        return pressure[None]
+    return np.concatenate([shear, pressure[None]])
 
 
 def required_bytes(cells: tuple[int, int], levels: int, numbers: int = 0) -> int:

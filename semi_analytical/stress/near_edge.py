@@ -21,7 +21,6 @@ from semi_analytical.grid import SurfaceGrid
 from semi_analytical.stress.at_edge import change_at_depth, stress_at_surface
 from semi_analytical.stress.edge_tractions import EdgedTractions, edged_tractions
 from semi_analytical.stress.field import SubsurfaceField, subsurface
-from semi_analytical.stress.levels import line_weights
 from semi_analytical.stress.patch import NODES
 
 # The fit, and one to other cells, the difference of which measures the error; of tractions that are
@@ -102,23 +101,21 @@ class NearEdge:
         """Cells (nx, ny) below which stress is evaluated anew."""
         return _beside(self.tractions)
 
-    def corrected(self, field: SubsurfaceField, y: float | None = None) -> SubsurfaceField:
-        """The same field with the stress near the edge by the tractions with their edge.
-
-        y  the one section of the field that is needed [length]; None for all of it
-        """
-        rows = np.ones_like(self.grid.y) if y is None else line_weights(self.grid.y, y)
-        i, j = np.nonzero(self.beside & (rows != 0))
+    def corrected(self, field: SubsurfaceField) -> SubsurfaceField:
+        """Return a field, on all or some rows of cells, with the stress near the edge by the
+        tractions with their edge."""
+        rows = np.searchsorted(self.grid.y, field.y)
+        i, k = np.nonzero(self.beside[:, rows])
+        x, y = i.astype(float), rows[k].astype(float)
         stress = field.stress.copy()
         for index, level in enumerate(field.levels):
             if level.depth == 0:
-                phi, safe = self.tractions.shape.about(i.astype(float), j.astype(float))
-                stress[index][:, i[safe], j[safe]] = _at_surface(self, phi.chosen(safe))
+                phi, safe = self.tractions.shape.about(x, y)
+                stress[index][:, i[safe], k[safe]] = _at_surface(self, phi.chosen(safe))
             elif self.reaches(level):
-                stress[index][:, i, j] += change_at_depth(
-                    self.tractions, i.astype(float), j.astype(float), level.depth,
-                    self.stack.outer, self.grid.spacing,
-                )  # fmt: skip
+                stress[index][:, i, k] += change_at_depth(
+                    self.tractions, x, y, level.depth, self.stack.outer, self.grid.spacing
+                )
         return replace(field, stress=stress)
 
     def reaches(self, level: Level) -> bool:

@@ -21,25 +21,30 @@ def stress_by_force(x: Field, y: Field, depth: float, nu: float, force: Field) -
     force  (q_x, q_y, p), shape (3, …)
     """
     q_x, q_y, p = force / (2 * pi)
+    sheared = bool(q_x.any() or q_y.any())
     if depth == 0:
-        return _at_surface(x, y, nu, q_x, q_y, p)
+        return _at_surface(x, y, nu, (q_x, q_y, p), sheared)
     z, rho = depth, np.sqrt(x * x + y * y + depth * depth)
     near, deep = 1 / rho, 1 / (rho + z)
     cubed = near * near * near
     fifth, deep_squared = cubed * near * near, deep * deep
     once = (2 * rho + z) * cubed * deep_squared
-    along = q_x * x + q_y * y
     # Normal force.
     g = 1 - 2 * nu
     even, square = g * p * (z * cubed - near * deep), p * (g * once - 3 * z * fifth)
+    through = -3 * z * z * p * fifth
+    if not sheared:
+        normal = [even + x * x * square, even + y * y * square, z * through]
+        return np.stack([*normal, y * through, x * through, x * y * square])
     # Shear: z B_xxx + 2 nu C_xxx and what turning the axes makes of them.
+    along = q_x * x + q_y * y
     c_cubed = (3 * rho + z) * cubed * deep_squared * deep
     b_cubed = (8 * rho * rho + 9 * rho * z + 3 * z * z) * fifth * deep_squared * deep
     bend = 2 * nu * near * deep_squared + z * once
     square = square - along * (2 * nu * c_cubed + z * b_cubed)
     even = even + along * (bend - 2 * nu * cubed)
     straight = 2 * (bend - cubed)
-    through = -3 * z * (along + z * p) * fifth
+    through = through - 3 * z * along * fifth
     return np.stack(
         [
             even + x * x * square + x * q_x * straight,
@@ -52,15 +57,23 @@ def stress_by_force(x: Field, y: Field, depth: float, nu: float, force: Field) -
     )
 
 
-def _at_surface(x: Field, y: Field, nu: float, q_x: Field, q_y: Field, p: Field) -> Field:
-    """The same at depth zero, where xx, yy and xy are left."""
+def _at_surface(
+    x: Field, y: Field, nu: float, force: tuple[Field, Field, Field], sheared: bool
+) -> Field:
+    """Compute the stress at depth zero, where xx, yy and xy are not zero."""
+    q_x, q_y, p = force
     g = 1 - 2 * nu
     near = 1 / (x * x + y * y)
-    root = np.sqrt(near)
-    even, straight = g * near * p, -2 * g * near * root
-    square = (2 * even - 6 * nu * near * root * (q_x * x + q_y * y)) * near
+    even = g * near * p
+    square = 2 * even * near
     stress = np.zeros((6, *even.shape))
-    stress[0] = x * x * square - even + x * q_x * straight
-    stress[1] = y * y * square - even + y * q_y * straight
-    stress[5] = x * y * square + (y * q_x + x * q_y) * straight / 2
+    if sheared:
+        root = near * np.sqrt(near)
+        square -= 6 * nu * root * (q_x * x + q_y * y) * near
+        straight = -2 * g * root
+        stress[0], stress[1] = x * q_x * straight, y * q_y * straight
+        stress[5] = (y * q_x + x * q_y) * straight / 2
+    stress[0] += x * x * square - even
+    stress[1] += y * y * square - even
+    stress[5] += x * y * square
     return stress

@@ -42,6 +42,7 @@ REACH = 48.0
 
 # Order of the Bessel function of each radial function.
 ORDERS = (1, 0, 0, 1, 0, 2, 0, 2, 1, 0, 2, 1, 1, 1, 3)
+BY_PRESSURE = 6  # of these functions, the first
 
 
 @dataclass(frozen=True)
@@ -54,6 +55,11 @@ class DepthTable:
 
     edges: Array
     coefficients: Array
+
+    @property
+    def sheared(self) -> bool:
+        """Whether the responses to shear are among the functions."""
+        return self.coefficients.shape[-1] > BY_PRESSURE
 
     def at(self, level: int, r: Array) -> Array:
         """The functions at distances r at one of the levels, shape (functions, len(r))."""
@@ -71,28 +77,36 @@ def clearance(stack: Stack, level: Level) -> float:
     return level.depth
 
 
-def depth_table(stack: Stack, levels: tuple[Level, ...], reach: float) -> DepthTable:
+def depth_table(
+    stack: Stack, levels: tuple[Level, ...], reach: float, *, sheared: bool = True
+) -> DepthTable:
     """Tabulate the fields of a layered body at some levels up to the distance `reach` [length]."""
+    orders = ORDERS if sheared else ORDERS[:BY_PRESSURE]
     nearest = min(clearance(stack, level) for level in levels)
     edges = panel_edges(min(nearest / 2, reach), reach)
     values = []
     for panel, (low, high) in enumerate(pairwise(edges)):
         died_out = REACH / nearest
         points = faded_points(low, high, died_out) if panel else hankel_points(high, died_out)
-        values.append(_transforms(stack, levels, nodes_between(low, high), *points))
+        values.append(_transforms(stack, levels, nodes_between(low, high), *points, orders))
     return DepthTable(edges, coefficients_of(np.stack(values, axis=1)))
 
 
 def _transforms(
-    stack: Stack, levels: tuple[Level, ...], r: Array, alpha: Array, weight: Array
+    stack: Stack,
+    levels: tuple[Level, ...],
+    r: Array,
+    alpha: Array,
+    weight: Array,
+    orders: tuple[int, ...],
 ) -> Array:
     """Hankel transforms at distances r, shape (levels, len(r), functions)."""
     descent = Descent(stack, alpha)
-    sources = np.stack([_integrands(descent, level) for level in levels])
+    sources = np.stack([_integrands(descent, level)[: len(orders)] for level in levels])
     sources *= alpha * weight / (2 * pi)
-    values = np.empty((len(levels), len(r), len(ORDERS)))
+    values = np.empty((len(levels), len(r), len(orders)))
     for order, bessel in enumerate(_bessel(np.outer(r, alpha))):
-        chosen = [k for k, of in enumerate(ORDERS) if of == order]
+        chosen = [k for k, of in enumerate(orders) if of == order]
         values[:, :, chosen] = np.einsum("ra,lfa->lrf", bessel, sources[:, chosen], optimize=True)
     return values
 
@@ -131,22 +145,25 @@ def integrands(fields: DepthScalars, plane: PlaneScalars) -> Array:
 
 
 def in_scene_axes(functions: Array, cos: Array, sin: Array) -> Array:
-    """Fields by unit forces along x, y and z, shape (FIELDS, TRACTIONS, *cos.shape).
+    """Fields by unit forces, shape (FIELDS, acting tractions, *cos.shape).
 
-    functions  values of the radial functions, shape (functions, *cos.shape)
+    functions  values of the radial functions, or of those by pressure (functions, *cos.shape)
     cos, sin   of phi
     """
     ur_p, uz_p, n_p, s_p, mean_p, half_p, *by_shear = functions
-    u_mean, u_twist, uz, t_mean, t_twist, n, mean, once, thrice = by_shear
     cos2, sin2 = (cos - sin) * (cos + sin), 2 * cos * sin
-    cos3, sin3 = cos * (cos2 - 2 * sin * sin), sin * (cos2 + 2 * cos * cos)
-    result = empty_response(cos.shape)
-    by_x, by_y, by_p = result[:, 0], result[:, 1], result[:, 2]
+    result = empty_response(cos.shape, sheared=bool(by_shear))
+    by_p = result[:, -1]
 
     by_p[0], by_p[1], by_p[2] = -cos * ur_p, -sin * ur_p, uz_p
     by_p[3], by_p[4], by_p[5] = mean_p - cos2 * half_p, mean_p + cos2 * half_p, -n_p
     by_p[6], by_p[7], by_p[8] = sin * s_p, cos * s_p, -sin2 * half_p
 
+    if not by_shear:
+        return result
+    u_mean, u_twist, uz, t_mean, t_twist, n, mean, once, thrice = by_shear
+    cos3, sin3 = cos * (cos2 - 2 * sin * sin), sin * (cos2 + 2 * cos * cos)
+    by_x, by_y = result[:, 0], result[:, 1]
     along, across = cos2 * u_twist, -sin2 * u_twist
     by_x[0], by_x[1], by_x[2] = u_mean - along, across, cos * uz
     by_y[0], by_y[1], by_y[2] = across, u_mean + along, sin * uz

@@ -173,16 +173,18 @@ class RectanglePotentials:
         return -self._corners(self._y / self._deep)
 
 
-def half_space_response(f: RectanglePotentials, material: HalfSpace, depth: float) -> Field:
-    """Fields by unit tractions on a rectangle, shape (FIELDS, TRACTIONS, …, nx, ny).
+def half_space_response(
+    f: RectanglePotentials, material: HalfSpace, depth: float, *, sheared: bool = True
+) -> Field:
+    """Fields by unit tractions on a rectangle, shape (FIELDS, acting tractions, …, nx, ny).
 
     They are in equilibrium and regular at nu = 1/2; the divergence is 2 (1 - 2 nu) / 2G times A_z
     under pressure, A_x and A_y under shear, and 2 nu times these enters every normal stress.
     """
     G, nu = material
     z, g = depth, 1 - 2 * nu
-    result = empty_response(f.a.shape)
-    by_x, by_y, by_p = result[:, 0], result[:, 1], result[:, 2]
+    result = empty_response(f.a.shape, sheared=sheared)
+    by_p = result[:, -1]
     half = 1 / (2 * G)
 
     by_p[0] = half * (g * f.b_x - z * f.a_x)
@@ -195,6 +197,9 @@ def half_space_response(f: RectanglePotentials, material: HalfSpace, depth: floa
     by_p[7] = -z * f.a_xz
     by_p[8] = g * f.b_xy - z * f.a_xy
 
+    if not sheared:
+        return result
+    by_x, by_y = result[:, 0], result[:, 1]
     by_x[0] = half * (2 * f.a + 2 * nu * f.c_xx + z * f.b_xx)
     by_x[1] = half * (2 * nu * f.c_xy + z * f.b_xy)
     by_x[2] = -half * (g * f.b_x + z * f.a_x)
