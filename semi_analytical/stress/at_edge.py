@@ -152,8 +152,13 @@ def _by_parts(
 ) -> Field:
     """By what the count² small cells differ from their cells, first and last ring of these."""
     i, j = np.rint(x).astype(int), np.rint(y).astype(int)
-    away = np.maximum(np.abs(edged.i - i[:, None]), np.abs(edged.j - j[:, None]))
-    observer, cell = np.nonzero((away >= within[0]) & (away <= within[1]))
+    pairs = []
+    for start in range(0, len(x), OBSERVERS):
+        some = slice(start, start + OBSERVERS)
+        away = np.maximum(np.abs(edged.i - i[some, None]), np.abs(edged.j - j[some, None]))
+        seen_from, seen = np.nonzero((away >= within[0]) & (away <= within[1]))
+        pairs.append((seen_from + start, seen))
+    observer, cell = np.concatenate(pairs, axis=1)
     at = part_centres(count)
     forces = edged.parts(count) * (spacing[0] * spacing[1] / count**2)
     stress = np.zeros((6, len(x)))
@@ -163,8 +168,8 @@ def _by_parts(
         to_x = ((x[o] - edged.i[c])[:, None, None] - at[:, None]) * spacing[0]
         to_y = ((y[o] - edged.j[c])[:, None, None] - at) * spacing[1]
         to_x, to_y = np.broadcast_arrays(to_x, to_y)
-        seen = stress_by_force(to_x, to_y, depth, material.poisson_ratio, forces[:, c])
-        stress += _summed(np.sum(seen, axis=(-2, -1)), o, len(x))
+        each = stress_by_force(to_x, to_y, depth, material.poisson_ratio, forces[:, c])
+        stress += _summed(np.sum(each, axis=(-2, -1)), o, len(x))
     return stress
 
 

@@ -22,16 +22,19 @@ def plane_convolution(tractions: Field) -> Convolution:
     half_x, half_y = (_half_period(cells) for cells in (nx, ny))
     along_y = rfft(np.swapaxes(tractions, 1, 2), 2 * half_y, axis=1)
     spectra = fft(along_y, 2 * half_x, axis=2)
-    pad = [(0, half_x + 1 - nx), (0, half_y + 1 - ny)]
+    # By responses that are odd along one side, whose spectra are -i times a real one.
+    turned = -1j * spectra
+    padded = np.zeros((half_x + 1, half_y + 1))
 
     def convolve(coefficients: Field) -> Field:
         fields = np.empty((len(FIELDS), nx, ny))
         responses = each_response(coefficients)
         for field in fields:
             total = np.zeros(spectra.shape[1:], dtype=np.complex128)
-            for spectrum in spectra:
-                response, parity = next(responses)
-                total += _spectrum(np.pad(response, pad), parity) * spectrum
+            for traction in range(len(spectra)):
+                padded[:nx, :ny], parity = next(responses)
+                by = spectra if parity[0] == parity[1] else turned
+                total += _spectrum(padded, parity) * by[traction]
             rows = ifft(total, axis=1, overwrite_x=True)[:, :nx]
             field[:] = irfft(rows, 2 * half_y, axis=0)[:ny].T
         return fields
@@ -74,10 +77,10 @@ def _half_period(cells: int) -> int:
 
 
 def _spectrum(coefficients: Field, parity: tuple[int, int]) -> Field:
-    """Transform coefficients at the offsets 0 … m along each side: real, or imaginary if odd along
-    one side, (my + 1, 2 mx)."""
+    """Transform coefficients at the offsets 0 … m along each side, (my + 1, 2 mx); if odd along one
+    side, over -i."""
     if parity == (1, 1):
         return even_transform(coefficients)[:]
     if parity == (-1, -1):
         return odd_transform(coefficients)[:]
-    return -1j * mixed_transform(coefficients, odd_axis=0 if parity[0] < 0 else 1)[:]
+    return mixed_transform(coefficients, odd_axis=0 if parity[0] < 0 else 1)[:]
