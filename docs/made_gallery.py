@@ -13,11 +13,11 @@ from gallery_claims import SCENES, Entry, Found, Verdict, found
 from gallery_entries import ENTRIES
 from made_notebooks import notebook
 from made_reference import table
+from PIL import Image
 
+from contact_results.figures.overview import DOTS_PER_INCH, PLACE
 from slipstick import save
 
-FIGURES = ("overview.png", "profiles.png")  # the first that the run has
-SMALL = ("stick_slip.png", "profiles.png")  # of the index, likewise
 SYMBOLS = {
     Verdict.AGREES: "✓ agrees",
     Verdict.DIFFERS: "✗ differs",
@@ -106,10 +106,20 @@ def _draw(entry: Entry, folder: Path) -> None:
     solved = entry.of(entry.shown)
     with tempfile.TemporaryDirectory() as directory:
         run = Path(directory) / "run"
-        save(solved.result, run, figures="all", errors=solved.errors)
-        for names, path in ((FIGURES, f"{entry.scene}.png"), (SMALL, f"{entry.scene}_small.png")):
-            drawn = next(run / name for name in names if (run / name).is_file())
-            shutil.copy(drawn, folder / path)
+        save(solved.result, run, errors=solved.errors)
+        shutil.copy(run / "overview.png", folder / f"{entry.scene}.png")
+    _thumbnail(folder / f"{entry.scene}.png", solved.result.steps[-1].in_stick is not None)
+
+
+def _thumbnail(overview: Path, sticks: bool) -> None:
+    """Cut out the zones of stick and slip, or without them the stress below, or the pressure."""
+    width, height = (DOTS_PER_INCH * side for side in PLACE)
+    with Image.open(overview) as picture:
+        stressed = picture.width > 2.5 * width
+        left, top = (0.0, picture.height - height) if stressed and not sticks else (width, 0.0)
+        top = top or picture.height - 2 * height
+        panel = picture.crop((round(left), round(top), round(left + width), round(top + height)))
+        panel.save(overview.with_stem(f"{overview.stem}_small"))
 
 
 def _index(spent: dict[str, float]) -> str:

@@ -33,7 +33,7 @@ increments = 3
 FILES = {
     "summary.json", "timing.json", "result.h5", "profiles.csv", "increments.csv",
     "columns.csv",
-    "pressure.png", "shear.png", "profiles.png", "stick_slip.png", "hysteresis.png",
+    "pressure.png", "shear.png", "profiles.png", "stick_slip.png",
     "dissipation.png", "slip.png", "overview.png", "index.html",
 }  # fmt: skip
 

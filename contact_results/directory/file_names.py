@@ -16,8 +16,6 @@ SHEAR_FIGURE = "shear.png"
 PROFILE_FIGURE = "profiles.png"
 STICK_SLIP_FIGURE = "stick_slip.png"
 SLIP_FIGURE = "slip.png"
-LOADING_FIGURE = "loading_curve.png"
-HYSTERESIS_FIGURE = "hysteresis.png"
 DISSIPATION_FIGURE = "dissipation.png"
 FRETTING_FIGURE = "fretting.png"
 
@@ -36,8 +34,6 @@ RUN_FILES = (
     PROFILE_FIGURE,
     STICK_SLIP_FIGURE,
     SLIP_FIGURE,
-    LOADING_FIGURE,
-    HYSTERESIS_FIGURE,
     DISSIPATION_FIGURE,
     FRETTING_FIGURE,
 )

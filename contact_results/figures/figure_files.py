@@ -10,7 +10,6 @@ from matplotlib.figure import Figure
 
 from contact_results.cycles import FrettingCycle
 from contact_results.directory import file_names
-from contact_results.figures.load_plot import hysteresis_plot, loading_plot, moved
 from contact_results.figures.map_panels import Above, RingsAbove
 from contact_results.figures.maps import field_map, fretting_map, stick_slip_map
 from contact_results.figures.overview import DOTS_PER_INCH as OF_OVERVIEW
@@ -23,7 +22,6 @@ from contact_scene.stated_error import StatedError
 if TYPE_CHECKING:
     from contact_results.surface import Result
 
-FEWEST_POINTS = 3  # of a curve; with fewer there is only a line
 MAPS = {
     "pressure": file_names.PRESSURE_FIGURE,
     "shear": file_names.SHEAR_FIGURE,
@@ -71,10 +69,6 @@ def _figures_called_for(
         yield file_names.STICK_SLIP_FIGURE, stick_slip_map(result, above)
     if cycles and isinstance(surface, Cells):
         yield file_names.FRETTING_FIGURE, fretting_map(result, surface, cycles[-1])
-    if moved(result.increments) >= FEWEST_POINTS:
-        yield file_names.HYSTERESIS_FIGURE, hysteresis_plot(result)
-    if len({increment.approach for increment in result.increments}) >= FEWEST_POINTS:
-        yield file_names.LOADING_FIGURE, loading_plot(result)
 
 
 def seen_from_above(result: Result) -> Above:

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from contact_results.figures import style
@@ -44,13 +43,6 @@ def moved(increments: Sequence[Increment]) -> int:
     return max((int(np.count_nonzero(loop.forces)) for loop in loops), default=0)
 
 
-def hysteresis_plot(result: Result) -> Figure:
-    """The loop by itself."""
-    figure = style.new_figure(5.2, 4.0)
-    draw_loop(figure.subplots(), result)
-    return figure
-
-
 def draw_loop(ax: Any, result: Result) -> None:
     """Force and shift of every increment along the direction of the largest force, or torque and
     twist where they do more work."""
@@ -64,15 +56,14 @@ def draw_loop(ax: Any, result: Result) -> None:
     ax.axvline(0.0, color=style.GREY, linewidth=0.5)
     ax.plot(x, y, color=style.LINE_COLOURS[0], marker=".", markersize=3.5, linewidth=1.2)
     ends = [n for n, i in enumerate(path) if i.index == i.increments_in_step]
-    label = "end of a loading step"
-    ax.plot(x[ends], y[ends], "o", color=style.LINE_COLOURS[1], markersize=5, label=label)
+    ax.plot(x[ends], y[ends], "o", color=style.LINE_COLOURS[1], markersize=5, label="end of a step")
     ax.margins(0.08)
     ax.set_xlabel(across)
     ax.set_ylabel(upward)
     energy = path[-1].dissipated_energy
     if energy is not None:
-        ax.plot([], [], " ", label=f"dissipated in all: {quantity(energy, 'J')}")
-    ax.legend(loc="best")
+        ax.plot([], [], " ", label=f"dissipated: {quantity(energy, 'J')}")
+    style.legend_above(ax)
 
 
 def _loops(increments: Sequence[Increment]) -> list[Loop]:
@@ -107,13 +98,6 @@ def _along(direction: Values) -> str:
     degrees = np.degrees(np.arctan2(direction[1], direction[0]))
     names = {0: "along x", 90: "along y"}
     return names.get(round(degrees, 3), f"at {degrees:.1f}° to x")
-
-
-def loading_plot(result: Result) -> Figure:
-    """The curve by itself."""
-    figure = style.new_figure(5.0, 3.6)
-    draw_loading(figure.subplots(), result)
-    return figure
 
 
 def draw_loading(ax: Any, result: Result) -> None:

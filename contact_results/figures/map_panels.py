@@ -117,6 +117,13 @@ class MapFrame:
         )
         return cls(cells, shown, engineering_unit(max(shown), "m"))
 
+    def show(self, ax: Any) -> None:
+        """Cut axes to the part that is shown, with equal scales."""
+        x, y = (half / self.unit.size for half in self.shown)
+        ax.set_aspect("equal")
+        ax.set_xlim(-x, x)
+        ax.set_ylim(-y, y)
+
     @property
     def extent(self) -> tuple[float, float, float, float]:
         """Outer edges of the cells, in the unit of the axes."""
@@ -154,9 +161,7 @@ def map_axes(figure: FigureBase, frame: MapFrame, count: int) -> list[Any]:
     for spare in panels[count:]:
         spare.remove()
     for position, ax in enumerate(panels[:count]):
-        ax.set_aspect("equal")
-        ax.set_xlim(-frame.shown[0] / frame.unit.size, frame.shown[0] / frame.unit.size)
-        ax.set_ylim(-frame.shown[1] / frame.unit.size, frame.shown[1] / frame.unit.size)
+        frame.show(ax)
         if position % columns == 0:
             ax.set_ylabel(frame.unit.labelled("y"))
         if position + columns >= count:

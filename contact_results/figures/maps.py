@@ -153,15 +153,13 @@ def stick_slip_map(result: Result, cells: Above) -> Figure:
         draw_zones(ax, frame, result, step)
         ax.set_title(step_title(step))
     figure.supylabel("arrows: slip in the last increment", fontsize=style.CAPTION_SIZE)
-    add_zone_legend(figure)
+    figure.legend(handles=zone_patches(), loc="outside upper center", ncols=len(ZONES))
     return figure
 
 
-def add_zone_legend(figure: Any, **where: Any) -> None:
-    """Add the names of the zones' colours above a figure, or where axes have their legend."""
-    patches = [Patch(facecolor=c, edgecolor=style.GREY, label=name) for name, c in ZONES]
-    where = where or {"loc": "outside upper center", "ncols": len(ZONES)}
-    figure.legend(handles=patches, **where)
+def zone_patches() -> list[Patch]:
+    """Return the colours of the zones with their names, for a legend."""
+    return [Patch(facecolor=c, edgecolor=style.GREY, label=name) for name, c in ZONES]
 
 
 def draw_zones(ax: Any, frame: MapFrame, result: Result, step: Increment) -> None:

@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 
 from contact_results.figures import style
 from contact_results.figures.load_plot import draw_loading, draw_loop, moved
-from contact_results.figures.map_panels import Above, MapFrame, map_axes
-from contact_results.figures.maps import Panel, add_zone_legend, draw_panel, draw_zones
+from contact_results.figures.map_panels import Above, MapFrame
+from contact_results.figures.maps import Panel, draw_panel, draw_zones, zone_patches
 from contact_results.figures.profile_plot import draw_end
 from contact_results.figures.section_panel import draw_section
 from contact_results.figures.stress_plot import draw_depth, draw_surface
@@ -33,7 +33,10 @@ LEAST_MOVES = 3  # for a loop instead of the loading curve
 MOST_CELLS = 64
 EVERY = 2  # of the depths that stand in the files
 DOTS_PER_INCH = 90
-BAR = {"shrink": 0.55, "aspect": 14}
+# Of a panel and its place, with room for labels, a legend and a colour bar [inch].
+PANEL, PLACE = (2.6, 2.55), (3.85, 3.45)
+MARGIN = 0.65
+BAR: dict[str, Any] = {"fraction": 0.05, "pad": 0.03}
 
 
 def overview(
@@ -41,34 +44,47 @@ def overview(
     above: Above,
     errors: Mapping[str, StatedError] | None = None,
 ) -> Figure:
-    """Profile, zones, history, stress on the section and along the surface, and the numbers; of a
-    single increment the stress down the axis instead of a history; no stress where it would take
-    longer than the run. Call within `figure_style`.
+    """Draw profile, zones, history, stress on the section and along the surface, and the numbers.
+
+    A single increment has the stress down the axis instead of a history. Stress is left out where
+    it would take longer than the run. Call within `figure_style`.
 
     errors  of the last step; None where they were left out
     """
     field = section_stress(result)
-    figure = style.new_figure(11.0 if field else 7.6, 7.2)
+    columns = 3 if field else 2
+    width, height = columns * PLACE[0], 2 * PLACE[1] + 0.3
+    figure = style.new_figure(width, height, arranged=False)
     title = result.scene.title or "Contact"
     figure.suptitle(
         fill(f"{title}: end of step {result.steps[-1].step}", 120 if field else 80),
         fontsize=9.0,
         parse_math=False,
     )
-    panels = np.asarray(figure.subfigures(2, 3 if field else 2), dtype=object)
-    profile, zones, history, *stressed, numbers = panels.flat
-    draw_end(profile.subplots(), result, surface_of(result))
-    _draw_seen(zones, result, above)
+    profile, zones, history, *stressed, numbers = (
+        figure.add_axes(
+            (
+                (column * PLACE[0] + MARGIN) / width,
+                ((1 - row) * PLACE[1] + MARGIN - 0.15) / height,
+                PANEL[0] / width,
+                PANEL[1] / height,
+            )
+        )
+        for row in (0, 1)
+        for column in range(columns)
+    )
+    draw_end(profile, result, surface_of(result))
+    _draw_seen(figure, zones, result, above)
     if moved(result.increments) >= LEAST_MOVES:
-        draw_loop(history.subplots(), result)
+        draw_loop(history, result)
     elif field and len(result.increments) == 1:
-        _draw_axis(history.subplots(), field, result.scene.body)
+        _draw_axis(history, field, result.scene.body)
     else:
-        draw_loading(history.subplots(), result)
+        draw_loading(history, result)
     if field:
         section, surface = stressed
-        _draw_stress(section, surface, result, field)
-    _write_numbers(numbers.subplots(), result, errors)
+        _draw_stress(figure, section, surface, result, field)
+    _write_numbers(numbers, result, errors)
     return figure
 
 
@@ -95,8 +111,12 @@ def section_stress(result: Result) -> StressField | None:
     from semi_analytical.stress import default_depths
 
     radius = result.steps[-1].contact_radius
-    depths = [level.depth for level in default_depths(state.body, radius)]
-    return stress_on_cells(state, depths=sorted(set(depths))[::EVERY], section_only=True)
+    levels = default_depths(state.body, radius)
+    films = len(state.body.layers)
+    # All depths in the layers, which may be thin.
+    depths = {level.depth for level in levels[::EVERY]}
+    depths |= {level.depth for level in levels if level.layer < films}
+    return stress_on_cells(state, depths=sorted(depths), section_only=True)
 
 
 def coarser(state: LoadedBodies, most: int) -> LoadedBodies:
@@ -116,20 +136,22 @@ def coarser(state: LoadedBodies, most: int) -> LoadedBodies:
     return state
 
 
-def _draw_seen(figure: Any, result: Result, above: Above) -> None:
+def _draw_seen(figure: Figure, ax: Any, result: Result, above: Above) -> None:
     end, frame = result.steps[-1], MapFrame.around_contact(result, above)
-    (ax,) = map_axes(figure, frame, 1)
+    frame.show(ax)
+    ax.set_xlabel(frame.unit.labelled("x"))
+    ax.set_ylabel(frame.unit.labelled("y"))
     if above.scalar(end, "in_stick") is not None:
         draw_zones(ax, frame, result, end)
-        add_zone_legend(figure, loc="outside lower center", ncols=3, fontsize="small")
-        ax.set_title("arrows: slip in the last increment")
+        style.legend_above(ax, handles=zone_patches())
+        ax.set_xlabel(frame.unit.labelled("x") + "; arrows: slip in the last increment")
         return
     pressure = above.scalar(end, "pressure")
     assert pressure is not None
     unit = engineering_unit(float(np.max(pressure)), "Pa")
     seen = np.where(pressure > 0, pressure / unit.size, np.nan)
     image = draw_panel(ax, frame, Panel("", seen), float(np.max(pressure)) / unit.size or 1.0)
-    figure.colorbar(image, ax=ax, label=unit.labelled("pressure p"), shrink=0.8)
+    figure.colorbar(image, ax=ax, label=unit.labelled("pressure p"), **BAR)
 
 
 def _draw_axis(ax: Any, field: StressField, body: Body) -> None:
@@ -137,21 +159,21 @@ def _draw_axis(ax: Any, field: StressField, body: Body) -> None:
     length = engineering_unit(depth, "m")
     draw_depth(ax, field.axis, body, depth, length)
     ax.set_ylabel(length.labelled("depth z on the axis"))
-    ax.legend(loc="lower left", fontsize="small")
+    style.legend_above(ax)
 
 
-def _draw_stress(left: Any, right: Any, result: Result, field: StressField) -> None:
-    axes, along = left.subplots(), right.subplots()
+def _draw_stress(figure: Figure, axes: Any, along: Any, result: Result, field: StressField) -> None:
     body, mises = result.scene.body, field.section.von_mises
-    length = draw_section(left, axes, field, body, mises, "von Mises", bar=BAR)
+    length = draw_section(figure, axes, field, body, mises, "von Mises", bar=BAR)
     axes.set_xlabel(length.labelled(field.label))
     axes.set_ylabel(length.labelled("depth z"))
     draw_surface(along, field)
     if (field.edge is None or not field.edge.determined) and isinstance(surface_of(result), Cells):
         cell = float(np.diff(field.section.x.ravel()[:2])[0])
-        along.set_title(
-            f"by cells of {quantity(cell, 'm', 3)}: too low beside the edges", fontsize="medium"
-        )
+        along.text(
+            0.5, 0.02, f"by cells of {quantity(cell, 'm', 3)}:\ntoo low beside the edges",
+            ha="center", fontsize="small", transform=along.transAxes,
+        )  # fmt: skip
 
 
 def _write_numbers(ax: Any, result: Result, errors: Mapping[str, StatedError] | None) -> None:
@@ -159,4 +181,4 @@ def _write_numbers(ax: Any, result: Result, errors: Mapping[str, StatedError] | 
     lines = [f"status: {result.steps[-1].status.value}"]
     lines += [f"{name}: {text}" for name, text in key_numbers(result.steps, errors)]
     lines += [] if errors else ["errors not stated"]
-    ax.text(0.0, 1.0, "\n".join(lines), va="top", linespacing=1.6, parse_math=False)
+    ax.text(0.0, 1.1, "\n".join(lines), va="top", linespacing=1.35, parse_math=False)

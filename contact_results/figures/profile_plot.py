@@ -78,7 +78,7 @@ def draw_end(ax: Any, result: Result, surface: Surface) -> None:
             ax.plot(x, scaled, label=name, **style.line(number))
     ax.axhline(0.0, color="black", linewidth=0.5)
     ax.set_ylabel(unit.labelled("traction"))
-    ax.legend(loc="best", fontsize="small")
+    style.legend_above(ax)
 
 
 def _pressures(surface: Surface, steps: Sequence[Increment]) -> Component:

@@ -33,7 +33,6 @@ STYLE = (
 )
 HEADINGS = {
     "stick_slip": "Stick and slip",
-    "hysteresis": "Load over motion",
 }
 READ_ON = (
     "± is how far off the number may be; its parts (cells or elements, increments, tolerance) are "

@@ -22,6 +22,8 @@ from contact_scene.engineering_units import EngineeringUnit, engineering_unit
 # Quadrilaterals within a cell: of a nine-node element the quarters around its middle.
 PARTS = {"quad": ((0, 1, 2, 3),), "quad9": ((0, 4, 8, 7), (4, 1, 5, 8), (8, 5, 2, 6), (7, 8, 6, 3))}
 MOST_LEVELS = 12
+# Layers thinner than the first part of the depth in view are drawn over the second.
+THIN, STRETCHED = 0.125, 0.3
 HALO = [patheffects.withStroke(linewidth=2.2, foreground="white")]
 
 Values = NDArray[np.float64]
@@ -61,21 +63,37 @@ def draw_section(
     )  # fmt: skip
     label = unit.labelled(name)
     figure.colorbar(image, ax=ax, ticks=levels, label=label, format="%g", **(bar or {}))
-    draw_interfaces(ax, body, depth, length)
-    ax.set_aspect("equal")
+    if not show_depths(ax, body, depth, length):
+        ax.set_aspect("equal")
     ax.set_xlim(max(-reach, float(points.x.min())) / length.size, reach / length.size)
-    ax.set_ylim(depth / length.size, 0.0)
     return length
 
 
-def draw_interfaces(ax: Any, body: Body, deepest: float, length: EngineeringUnit) -> None:
-    """A line at the depth of every interface in view."""
+def show_depths(ax: Any, body: Body, deepest: float, length: EngineeringUnit) -> bool:
+    """Draw a line at every interface and scale the axis of depths; return whether it stretches thin
+    layers to a part of the axis that shows them."""
+    films = sum(layer.thickness for layer in body.layers) / deepest
+    stretched = 0 < films < THIN
+    if stretched:
+        depths, shown = np.array([0.0, films, 1.0]) * deepest / length.size, (0.0, STRETCHED, 1.0)
+        ax.set_yscale(
+            "function",
+            functions=(
+                lambda z: np.interp(z, depths, shown),
+                lambda at: np.interp(at, shown, depths),
+            ),
+        )
+        ticks = [0.0, *depths[1:2], *MaxNLocator(4).tick_values(*depths[1:])]
+        ax.set_yticks([z for z in ticks if z in depths[:2] or depths[1] < z <= depths[2]])
+        ax.yaxis.set_major_formatter(lambda z, _: f"{z:.2g}")
+    ax.set_ylim(deepest / length.size, 0.0)
     for _, side, depth, _ in interface_sides(body):
         if side == "above" and depth < deepest:
             ax.axhline(
                 depth / length.size, color="black", linewidth=1.0, linestyle="--",
                 path_effects=HALO,
             )  # fmt: skip
+    return stretched
 
 
 def even_levels(low: float, high: float) -> Values:

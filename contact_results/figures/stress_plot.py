@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from contact_results.directory.atomic_file import atomic_file
 from contact_results.figures import style
-from contact_results.figures.section_panel import draw_interfaces, draw_section
+from contact_results.figures.section_panel import draw_section, show_depths
 from contact_results.stress.points import StressField, StressPoints
 from contact_scene import Body
 from contact_scene.engineering_units import EngineeringUnit, engineering_unit
@@ -100,7 +100,7 @@ def draw_surface(ax: Any, field: StressField) -> None:
     dotted = "edge of the contact" if ends else "contact radius"
     ax.set_xlabel(f"{length.labelled(f'{field.label}, z = 0')}; dotted: {dotted}")
     ax.set_ylabel(unit.labelled("stress"))
-    ax.legend(loc="best")
+    style.legend_above(ax)
 
 
 def _ends(field: StressField) -> StressPoints | None:
@@ -171,8 +171,7 @@ def draw_depth(
             )
     ax.axvline(0.0, color="black", linewidth=0.5)
     ax.set_xlabel(unit.labelled("stress"))
-    draw_interfaces(ax, body, deepest, length)
-    ax.set_ylim(deepest / length.size, 0.0)
+    show_depths(ax, body, deepest, length)
 
 
 def _named(component: str) -> str:

@@ -50,9 +50,9 @@ def figure_style() -> Iterator[None]:
         yield
 
 
-def new_figure(width: float, height: float) -> Figure:
-    """An empty figure, sides in inches, that arranges what is put into it."""
-    figure = Figure(figsize=(width, height), layout="constrained")
+def new_figure(width: float, height: float, *, arranged: bool = True) -> Figure:
+    """Return an empty figure, sides in inches, that arranges its contents by default."""
+    figure = Figure(figsize=(width, height), layout="constrained" if arranged else None)
     FigureCanvasAgg(figure)
     return figure
 
@@ -60,6 +60,14 @@ def new_figure(width: float, height: float) -> Figure:
 def line(number: int) -> dict[str, Any]:
     """Colour and dashes of a line, which tell it from its neighbours in print, too."""
     return {"color": LINE_COLOURS[number], "linestyle": LINE_STYLES[number]}
+
+
+def legend_above(ax: Any, **given: Any) -> None:
+    """Add a legend in one row above the axes, where it covers nothing."""
+    ax.legend(
+        loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=5, fontsize="small",
+        handlelength=1.6, columnspacing=1.0, **given,
+    )  # fmt: skip
 
 
 def legend_beside(ax: Any) -> None:

@@ -24,17 +24,17 @@ if TYPE_CHECKING:
 # Half a window in half extents of the contact: past the contact's rim, where tension is largest,
 # and past what bends a coating down there.
 MARGIN = 1.6
-DOUBLE = 8
-# Numbers per point of the volume: places, displacement and stress, tensors and invariants of files.
-NUMBERS = (5 + 9) + (9 + 4 + 8)
+# Numbers per point of the volume: displacement and stress of each level and of all, cells; places,
+# tensors and invariants of the file.
+NUMBERS = (9 + 9 + 8) + (3 + 3 + 9 + 4)
 
 
 def estimated_bytes(grid: SurfaceGrid) -> int:
     """Largest memory of the stress below a contact that fills the grid [byte]."""
-    from semi_analytical.stress.field import required_bytes
+    from semi_analytical.stress.field import FIXED, required_bytes
 
     nx, ny = (round(MARGIN * cells) for cells in grid.cells)
-    return required_bytes((nx, ny), 1)
+    return required_bytes((nx, ny), 1) - FIXED
 
 
 @one_thread()
