@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
 from contextlib import suppress
-from subprocess import CalledProcessError, run
 from typing import Any
 
 import numpy as np
@@ -15,18 +13,14 @@ from contact_results.directory.machine import program_version
 from contact_scene import Scene
 from contact_scene.solver_errors import NotConverged
 from verification import Answer, CannotDo, Solver, judge
-from verification.adapters import calculix, getfem, half_spaces, radius, section, surface
+from verification.adapters import half_spaces, radius, section, surface
 from verification.challenge.cases import challenges
 from verification.challenge.door import Posed, posed
 from verification.challenge.judgement import Judgement
-from verification.external_codes import under_force
-from verification.external_codes.calculix_deck import Fineness
-from verification.external_codes.coated_scene import CoatedScene
 from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.peers.drivers.exchange import approach_of, gap_of
 from verification.peers.environment import PEERS
-from verification.problems.paper_scene import HERTZ
 from verification.running.study import Settings
 from verification.studies import scoreboard
 
@@ -121,52 +115,6 @@ def test_shear_between_rings_is_what_pulls() -> None:
     assert "shear_x: load carried" not in failed(found)
 
 
-def test_a_code_that_is_not_installed_says_so_in_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("PATH", "")
-    with pytest.raises(CannotDo, match=r"^ccx is not installed: apt-get install calculix-ccx$"):
-        judge("hertz_point", calculix.answer, 1)
-    monkeypatch.setattr(getfem, "_installed", lambda: False)
-    with pytest.raises(
-        CannotDo, match=r"^GetFEM is not installed: apt-get install python3-getfem$"
-    ):
-        judge("hertz_point", getfem.answer, 1)
-
-
-def test_getfem_has_balls_and_cones_without_friction(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Asked in units in which the body's modulus and a third of the window are one."""
-
-    def driven(python: object, peer: object, request: dict[str, Any]) -> dict[str, Any]:
-        """Hertz's contact, whatever is asked."""
-        curvature = request["curvature"]
-        if asking or curvature == 0:
-            raise CannotDo("asked")
-        a = np.cbrt(0.75 * request["force"] / curvature)
-        r = np.linspace(0, 1.5, 300)[::-1]
-        pressure = 2 / np.pi * curvature * np.sqrt(np.maximum(a**2 - r**2, 0))
-        if steep:
-            pressure = pressure.max() * (r < a) * (1 + r)
-        return {"radii": r, "pressure": pressure, "approach": curvature * a**2, "converged": True,
-                "seconds": 1.0}  # fmt: skip
-
-    asking, steep, asked = False, False, set()
-    monkeypatch.setattr(getfem, "_installed", lambda: True)
-    monkeypatch.setattr(getfem, "driven", driven)
-    found = judge("hertz_point", getfem.answer, 1, "C", getfem.GETFEM)
-    assert not failed(found)
-    assert not found.omitted
-    steep = True  # a pressure that rises to a wall has no edge to find, and is judged as it is
-    answered = getfem.answer(posed("hertz_point"), 0)
-    assert {quantity for quantity, _ in answered.scalars} == {"approach", "central_pressure"}
-    asking = True
-    for name in challenges():
-        try:
-            getfem.answer(posed(name), 0)
-        except CannotDo as error:
-            asked |= {name} if str(error) == "asked" else set()
-    coated = {name for name in challenges() if "coated_par" in name}
-    assert asked == {"hertz_point", "cone_contact", *coated}
-
-
 def test_codes_for_half_spaces_are_asked_for_what_they_have_alone() -> None:
     aspher = next(peer for peer in PEERS if peer.friction)
     asked = set()
@@ -214,57 +162,6 @@ def test_approach_is_what_overlaps_where_codes_find_pressure() -> None:
     assert approach_of(gap, displacement, pressure) == pytest.approx(3e-2)
     ball = gap_of({"cells": 32, "window": 3.0, "radius": 1.0})
     assert approach_of(ball, 0.5 - ball, np.maximum(0.5 - ball, 0)) == pytest.approx(0.5)
-
-
-@pytest.mark.parametrize(
-    ("name", "said"),
-    [
-        ("cattaneo_mindlin", "a ball that is pressed"),
-        ("tilted_ball", "a ball that is pressed"),
-        ("frictional_indentation/nu_zero", "ν = 0.3"),
-    ],
-)
-def test_what_the_decks_do_not_tell_is_refused(
-    monkeypatch: pytest.MonkeyPatch, name: str, said: str
-) -> None:
-    monkeypatch.setattr(calculix.shutil, "which", lambda name: name)
-    with pytest.raises(CannotDo, match=said):
-        judge(name, calculix.answer, 1)
-
-
-def test_a_deck_that_ccx_does_not_solve_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
-    def fails(scene: CoatedScene, fineness: Fineness) -> dict[str, Any]:
-        raise CalledProcessError(255, ["ccx", "-i", "deck"])
-
-    monkeypatch.setattr(calculix.shutil, "which", lambda name: name)
-    monkeypatch.setattr(under_force, "run_calculix", fails)
-    found = judge("hertz_point", calculix.answer, 1)
-    assert found.exit_code() == 3
-    (told,) = (row for row in found.rows if row.quantity == "solved")
-    assert "ccx" in told.because
-
-
-def test_the_approach_at_which_a_deck_has_the_force_is_found(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    def run(scene: CoatedScene, fineness: Fineness) -> dict[str, Any]:
-        """Hertz's contact, 3 % too stiff."""
-        approach = scene.approach
-        r = np.linspace(1e-3, 0.99, 60) * np.sqrt(approach)
-        pressure = np.sqrt(approach) * np.sqrt(np.maximum(1 - r**2 / approach, 0))
-        return {
-            "normal_force": 1.03 * approach**1.5, "radii": r, "pressure": pressure, "shear": 0 * r
-        }  # fmt: skip
-
-    monkeypatch.setattr(calculix.shutil, "which", lambda name: name)
-    monkeypatch.setattr(under_force, "run_calculix", run)
-    found = calculix.answer(posed("hertz_point"), 0)
-    approach = found.value(("approach", 1))
-    assert approach == pytest.approx(HERTZ.approach / 1.03 ** (2 / 3), rel=1e-9)
-    radius = found.value(("contact_radius", 1))
-    assert radius == pytest.approx(HERTZ.contact_radius / 1.03 ** (1 / 3), rel=1e-6)
-    pressure = found.fields["pressure", 1].value
-    assert pressure[0] == pytest.approx(HERTZ.peak_pressure / 1.03 ** (1 / 3), rel=1e-5)
 
 
 def test_increments_are_refined_with_the_cells_where_the_way_matters(
@@ -325,18 +222,3 @@ def test_the_scoreboard_names_the_version_and_the_price_of_a_code() -> None:
     priced = {row[0]: row[1] for row in found.tables[1].rows}
     assert float(priced["hertz_point"]) == pytest.approx(records[run.name].seconds, rel=0.05)
     assert priced["tilted_ball"] == scoreboard.NO_ANSWER
-
-
-def test_what_calculix_takes_is_counted_in_its_own_process(monkeypatch: pytest.MonkeyPatch) -> None:
-    busy = "import time\nwhile time.process_time() < 0.2: pass"
-
-    def spent(*_: Any) -> Any:
-        run([sys.executable, "-c", busy], check=True)
-        raise ValueError("no result")
-
-    monkeypatch.setattr(calculix, "under_force", spent)
-    monkeypatch.setattr(calculix.shutil, "which", lambda _: "/usr/bin/ccx")
-    found = calculix.answer(posed("hertz_point"), 0)
-    assert found.gave_up
-    assert found.seconds is not None
-    assert found.seconds > 0.15

@@ -7,7 +7,6 @@ import os
 import subprocess
 from collections.abc import Mapping
 from pathlib import Path
-from shutil import which
 from typing import Any
 
 from contact_results.one_thread import VARIABLES
@@ -16,14 +15,6 @@ from verification.peers.environment import Peer
 
 SECONDS_ALLOWED = 240
 SOURCES = Path(__file__).parents[2]
-
-
-def debian_version(package: str) -> str:
-    """Of what Debian has installed, for codes that do not say it; empty elsewhere."""
-    asked = ["dpkg-query", "--show", "--showformat", "${Version}", package]
-    if which(asked[0]) is None:
-        return ""
-    return subprocess.run(asked, capture_output=True, text=True, check=False).stdout
 
 
 def driven(python: Path, peer: Peer, request: Mapping[str, Any]) -> dict[str, Any]:

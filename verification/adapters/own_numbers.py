@@ -17,13 +17,6 @@ def scene_of(posed: Posed) -> Scene:
     return Scene.model_validate(posed.scene)
 
 
-def pressed_alone(posed: Posed) -> bool:
-    """Whether one normal force is all that leads: no tilt, nothing that pushes."""
-    first, *more = posed.scene["loading"]
-    named = {name for name, end in first.items() if end is not None} - {"increments"}
-    return not more and named == {"normal_force"}
-
-
 def given_up(posed: Posed, fineness: int, error: Exception) -> Answer:
     """Of a level whose history did not get to its end: nothing of it is trusted.
 

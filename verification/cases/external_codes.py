@@ -114,8 +114,8 @@ def external_codes(level: Level = Level.QUICK) -> Case:
         "CalculiX on the same scenes",
         "The paper's ball, rigid, moved by a given approach: towards a coating twice as stiff "
         "as its base and as thick as the Hertz radius, without friction and with µ = 0.1. "
-        "CalculiX was run on the same scenes before, with its own elements and contact; what "
-        "writes its input is in verification/external_codes.",
+        "CalculiX was run on the same scenes before, with its own elements and contact: see "
+        "docs/studies/calculix.md.",
         *(part for key, name in NAMES.items() for part in _parts(name, recorded(key), *sizes)),
         limits=(
             "CalculiX ran on a ball a hundred times as flat under a hundredth of the force, as it "

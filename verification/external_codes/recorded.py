@@ -1,4 +1,4 @@
-"""What another code is recorded to have found, freed of its penalty, and how far that is certain.
+"""Recorded results of CalculiX, extrapolated to stiff springs, with their uncertainty.
 
 A penalty leaves an error that goes with the inverse of its stiffness: twice the result of the stiff
 springs less that of springs half as stiff has none of it to first order. Stiffnesses of 100, 300
@@ -18,12 +18,17 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from verification.external_codes.coated_scene import MOVED_GAP
+from verification.closed_forms.hertz import PointContact
 from verification.references import load_reference
 
 Field = NDArray[np.float64]
 LEFT_OF_CORRECTION = 1 / 20
 NAME = "external_code_calculix"
+# The recorded ball: R [mm], W [N], E [MPa], ν. Its gap is measured on the moved surface, which
+# raises the load by (1-2ν)(1+ν) p_H / 2E.
+RADIUS, FORCE, MODULUS, RATIO = 1800.0, 10.0, 210e3, 0.3
+PEAK = PointContact.under_load(FORCE, RADIUS, MODULUS / (1 - RATIO**2)).peak_pressure
+MOVED_GAP = (1 - 2 * RATIO) * (1 + RATIO) * PEAK / (2 * MODULUS)
 
 
 class Certain(NamedTuple):

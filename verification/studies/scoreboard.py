@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import inf
 
 from contact_results.directory.machine import program_version
-from verification.adapters import calculix, getfem, radius, section, surface
-from verification.adapters.driven import debian_version
+from verification.adapters import radius, section, surface
 from verification.adapters.half_spaces import answering
 from verification.challenge.answer import Solver
 from verification.challenge.cases import challenges
@@ -17,7 +16,6 @@ from verification.challenge.door import CannotDo, judge
 from verification.challenge.judgement import Judgement
 from verification.exhibits.numbers import plain
 from verification.exhibits.table import NONE, Table
-from verification.external_codes.run_calculix import calculix_version
 from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.peers.environment import PEERS, made_environment, peers_directory
@@ -30,17 +28,9 @@ OURS = {
     section.ON_ELEMENTS.name: (section.ON_ELEMENTS, section.answer),
     radius.ON_RADII.name: (radius.ON_RADII, radius.answer),
 }
-# On fewer levels; and what takes minutes, not at the quick one.
-SLOW = {getfem.GETFEM.name: (getfem.GETFEM, getfem.answer)}
-SLOWEST = {calculix.CALCULIX.name: (calculix.CALCULIX, calculix.answer)}
-SLOW_LEVELS = 2
 NO_ANSWER = "–"
 LEVELS = {Level.QUICK: 3, Level.STANDARD: 3, Level.FULL: 4}
 CANNOT, LINE, GRADE, VERSION = "cannot", "line", "grade", "version"
-VERSIONS: dict[str, Callable[[], str]] = {
-    calculix.CALCULIX.name: calculix_version,
-    getfem.GETFEM.name: lambda: debian_version("python3-getfem"),
-}
 
 
 @dataclass(frozen=True)
@@ -68,10 +58,9 @@ class ScoredRun:
             return CaseRecord(parameters=asked, words={CANNOT: str(error)})
 
     def _judged(self) -> Judgement:
-        if self.code in (known := OURS | SLOW | SLOWEST):
-            solver, answer = known[self.code]
-            version = VERSIONS.get(self.code, program_version)()
-            solver = replace(solver, version=version)
+        if self.code in OURS:
+            solver, answer = OURS[self.code]
+            solver = replace(solver, version=program_version())
             return judge(self.challenge, answer, self.levels, solver=solver)
         (peer,) = (peer for peer in PEERS if peer.module == self.code)
         installed = made_environment(peers_directory())
@@ -84,14 +73,9 @@ class ScoredRun:
 
 def cases(settings: Settings) -> tuple[ScoredRun, ...]:
     """Every code on every challenge."""
-    codes = (*OURS, *(peer.module for peer in PEERS), *SLOW)
-    codes += tuple(SLOWEST) if settings.level > Level.QUICK else ()
+    codes = (*OURS, *(peer.module for peer in PEERS))
     levels = settings.levels or LEVELS[settings.level]
-    return tuple(
-        ScoredRun(code, name, min(levels, SLOW_LEVELS) if code in SLOW | SLOWEST else levels)
-        for code in codes
-        for name in challenges()
-    )
+    return tuple(ScoredRun(code, name, levels) for code in codes for name in challenges())
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
