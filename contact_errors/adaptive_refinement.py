@@ -26,10 +26,18 @@ from contact_errors.error_formula import BELIEVED, ORDERS, SolvedRun, largest_so
 from contact_errors.stress_errors import largest_tensile_stress
 from contact_errors.values import Values, scale
 from contact_scene.accuracy import LARGEST_TENSION, AccuracyRequest
-from contact_scene.accuracy_reached import AccuracyReached, AccuracySettings
-from contact_scene.free_memory import available_bytes
+from contact_scene.machine.free_memory import available_bytes
+from contact_scene.quantities.accuracy_reached import (
+    AccuracyReached,
+    AccuracySettings,
+)
+from contact_scene.quantities.stated_error import (
+    ErrorStatus,
+    Part,
+    StatedError,
+    StatedErrors,
+)
 from contact_scene.solver_errors import AccuracyOutOfReach, ContactNotResolved, SolverError
-from contact_scene.stated_error import ErrorStatus, Part, StatedError, StatedErrors
 
 # Context of the solve of a discretisation: its observer of increments, or its checkpoint store.
 InContext: TypeAlias = Callable[[Any], AbstractContextManager[Any]]
@@ -40,10 +48,10 @@ Estimated = Callable[[int, Mapping[str, float], Mapping[str, float | None]], Non
 # errors that are too small.
 SPARE = 1.15
 # Largest and smallest refinement of the cells at once, and that of a number not converged.
-MOST_AT_ONCE, LEAST_AT_ONCE, UNCONVERGED = 4.0, 1.15, 2.0
+MAX_AT_ONCE, LEAST_AT_ONCE, UNCONVERGED = 4.0, 1.15, 2.0
 # Doublings of the cells of the first level until they resolve the contact.
-MOST_DOUBLINGS = 5
-MOST_ROUNDS = 7
+MAX_DOUBLINGS = 5
+MAX_ROUNDS = 7
 # The first level may overestimate an error by the first factor. Refinements beyond the second are
 # equally out of reach.
 DOUBT, FURTHEST = 4.0, 1e4
@@ -138,7 +146,7 @@ class Levels:
         """Solve the coarsest level whose cells resolve the contact; raises a SolverError."""
         asked, plan = self.solver.asked, self.solver.plan
         fineness = Fineness(self.solver.first(), plan.increments, asked.tolerance)
-        for _ in range(MOST_DOUBLINGS):
+        for _ in range(MAX_DOUBLINGS):
             try:
                 return self.solved(fineness)
             except ContactNotResolved:
@@ -148,8 +156,8 @@ class Levels:
     def solved(self, fineness: Fineness) -> RefinementLevel:
         """Solve a level with its errors; raises a SolverError."""
         began, began_processor = time.perf_counter(), time.process_time()
-        with self.keeping(fineness) as keeper, self.watching(fineness) as progress:
-            result = self.solver.solve(fineness, progress, keeper)
+        with self.keeping(fineness) as store, self.watching(fineness) as progress:
+            result = self.solver.solve(fineness, progress, store)
         run, companions = solved_run(self.solver, result)
         values, errors, orders = list(run.values), list(run.errors()), {}
         if self.stress_at is not None:
@@ -193,7 +201,7 @@ class Levels:
         )
 
 
-def bounded(by: Refinement, most: float = MOST_AT_ONCE) -> Refinement:
+def bounded(by: Refinement, most: float = MAX_AT_ONCE) -> Refinement:
     """Limit all refinement factors; some parameter is refined in any case."""
     cells, increments = min(by.cells, most), min(by.increments, most)
     others = {part: min(factor, most**2) for part, factor in by.others.items()}
@@ -373,7 +381,7 @@ def _why_left_out(name: str, level: RefinementLevel) -> str:
 
 def _stopped(state: Progress, levels: Levels, most_seconds: float) -> str | None:
     """Reason why the next level is not begun; None without one."""
-    if state.rounds == MOST_ROUNDS:
+    if state.rounds == MAX_ROUNDS:
         return f"{state.rounds} rounds have not met it"
     if too_large := levels.too_large(state.next):
         return too_large

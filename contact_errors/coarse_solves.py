@@ -21,10 +21,14 @@ from contact_errors.error_formula import Comparison, Features, SolvedRun
 from contact_errors.values import Values, values_of
 from contact_results.cycles import fretting_cycles
 from contact_scene import Scene
-from contact_scene.increment_error import with_error
+from contact_scene.quantities.stated_error import (
+    Companion,
+    Part,
+    StatedErrors,
+)
+from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import SolverError
-from contact_scene.stated_error import Companion, Part, StatedErrors
-from contact_scene.summary import ContactStatus
+from contact_scene.stepping.increment_error import with_error
 
 # Coarse solves: description, share of the cells along a side, and further cells.
 PAIR = ("half the {}", 1 / 2, 0), ("two thirds of the {}", 2 / 3, 0)
@@ -103,10 +107,10 @@ class DiscretisedSolver(ABC):
         """Effects and increments."""
 
     @abstractmethod
-    def solve(self, fineness: Fineness, progress: Any = None, keeper: Any = None) -> Any:
+    def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Any:
         """Solve the scene; raises a SolverError.
 
-        progress, keeper  observer of increments, and checkpoint store
+        progress, store   observer of increments, and checkpoint store
         """
 
     @abstractmethod

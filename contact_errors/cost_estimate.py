@@ -19,7 +19,7 @@ from dataclasses import dataclass, replace
 from math import ceil
 from typing import TypeVar
 
-from contact_scene.kept_arrays import without_cache
+from contact_scene.machine.disk_cache import without_cache
 
 T = TypeVar("T")
 

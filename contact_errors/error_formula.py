@@ -27,8 +27,14 @@ from numpy.typing import NDArray
 from contact_errors.values import Values, prescribed, scale
 from contact_scene import Scene
 from contact_scene.geometry import ShapedBody
-from contact_scene.increment_error import near_gross_slip
-from contact_scene.stated_error import EXACT, Amount, ErrorStatus, Part, StatedError
+from contact_scene.quantities.stated_error import (
+    EXACT,
+    Amount,
+    ErrorStatus,
+    Part,
+    StatedError,
+)
+from contact_scene.stepping.increment_error import near_gross_slip
 
 Numbers = NDArray[np.float64]
 

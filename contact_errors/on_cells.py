@@ -21,11 +21,14 @@ from contact_errors.coarse_solves import (
 )
 from contact_errors.cost_estimate import Work, work_on_cells
 from contact_errors.error_formula import PEAK, Features, has_cusp, is_singular
-from contact_results.remarks import left_out
+from contact_results.result_warnings import left_out
 from contact_results.stress import on_cells as stress_on_cells
 from contact_scene import SurfaceDiscretisation
-from contact_scene.stated_error import Part, StatedErrors
-from contact_scene.summary import ContactStatus
+from contact_scene.quantities.stated_error import (
+    Part,
+    StatedErrors,
+)
+from contact_scene.quantities.summary import ContactStatus
 from semi_analytical import Increment, Plan, Result, SurfaceGrid, memory
 from semi_analytical.edge.corrected import EdgeReport
 from semi_analytical.edge.film import film_law
@@ -45,9 +48,9 @@ HIGHEST = 3.0
 FIRST_CELLS = 24
 # Error of the shear by increments on the first level.
 FIRST_PATH_ACCURACY = 4e-2
-MOST_CELLS = 16384
+MAX_CELLS = 16384
 # Enlargement of a fitted window, on as many more cells, where the contact reaches its edge.
-ROOM, MOST_ENLARGEMENTS = 1.25, 5
+ROOM, MAX_ENLARGEMENTS = 1.25, 5
 
 
 @dataclass(frozen=True)
@@ -65,7 +68,7 @@ class CellSolver(DiscretisedSolver):
     part: ClassVar[Part] = "cells"
     cells: ClassVar[str] = "cells"
     small: ClassVar[float] = SMALL
-    most: ClassVar[float] = MOST_CELLS
+    most: ClassVar[float] = MAX_CELLS
 
     @property
     def plan(self) -> Plan:
@@ -74,14 +77,14 @@ class CellSolver(DiscretisedSolver):
             self.scene, FIRST_PATH_ACCURACY, self.asked.edge
         )
 
-    def solve(self, fineness: Fineness, progress: Any = None, keeper: Any = None) -> Result:
+    def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Result:
         """Solve on a larger window of equal cells where a fitted window is too small."""
         grids, plan = [fineness.space], self.plan.cut_into(fineness.increments)
         fixed = self.asked.window is not None or self.scene.indenter.extent is not None
-        for _ in range(0 if fixed else MOST_ENLARGEMENTS):
+        for _ in range(0 if fixed else MAX_ENLARGEMENTS):
             cells, (hx, hy) = scaled(grids[-1].cells, ROOM), grids[-1].spacing
             grids.append(SurfaceGrid(cells, (cells[0] * hx, cells[1] * hy)))
-        return solve_within(self.scene, grids, fineness.tolerance, progress, plan, keeper)
+        return solve_within(self.scene, grids, fineness.tolerance, progress, plan, store)
 
     def space_of(self, result: Result) -> SurfaceGrid:
         return result.grid

@@ -24,9 +24,12 @@ from contact_errors.coarse_solves import (
 from contact_errors.cost_estimate import Work, work_on_elements
 from contact_errors.error_formula import Features, has_cusp, is_singular
 from contact_scene import FiniteElementDiscretisation
+from contact_scene.quantities.stated_error import (
+    Part,
+    StatedErrors,
+)
+from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import SurfacesOverlap
-from contact_scene.stated_error import Part, StatedErrors
-from contact_scene.summary import ContactStatus
 from fem_reference import Increment, Method, Path, Plan, Result
 from fem_reference.expected_radius import sections_of
 from fem_reference.memory import largest_bytes
@@ -37,7 +40,7 @@ FEWEST_ELEMENTS, SMALLEST_BOX, FEWEST_HARMONICS, LARGEST_OVERLAP = 4, 5.0, 2, 1.
 # Elements over the radius times increments of a run up to which a third coarse solve is made.
 SMALL = 640.0
 LINEAR = 2.0  # linear elements resolve a feature like twice as many cells
-FIRST_ELEMENTS, MOST_ELEMENTS, MOST_HARMONICS = 8, 512, 64
+FIRST_ELEMENTS, MAX_ELEMENTS, MAX_HARMONICS = 8, 512, 64
 LEAST_OVERLAP, LARGEST_BOX = 1e-8, 1e6
 
 ACROSS = ("tangential_shift", "tangential_force", "stick_radius", "stick_area",
@@ -58,18 +61,18 @@ class ElementSolver(DiscretisedSolver):
     part: ClassVar[Part] = "elements"
     cells: ClassVar[str] = "elements"
     small: ClassVar[float] = SMALL
-    most: ClassVar[float] = MOST_ELEMENTS
+    most: ClassVar[float] = MAX_ELEMENTS
 
     @property
     def plan(self) -> Plan:
         return self.decided or fem_reference.plan(self.scene)
 
-    def solve(self, fineness: Fineness, progress: Any = None, keeper: Any = None) -> Result:
+    def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Result:
         """Solve, with more overlap where coarse elements leave more than the run may."""
         scene = self.scene.with_increments(fineness.increments)
         mesh = _with(fineness.space, tolerance=fineness.tolerance)
         try:
-            return fem_reference.solve(scene, mesh, self.method, progress, keeper)
+            return fem_reference.solve(scene, mesh, self.method, progress, store)
         except SurfacesOverlap:
             looser = _with(mesh, overlap=LARGEST_OVERLAP)
             return fem_reference.solve(scene, looser, self.method, progress)
@@ -150,7 +153,7 @@ class ElementSolver(DiscretisedSolver):
         finer = _with(
             space,
             elements_per_radius=ceil(by.cells * space.elements_per_radius - 1e-9),
-            harmonics=min(MOST_HARMONICS, ceil(others.get("harmonics", 1) * space.harmonics)),
+            harmonics=min(MAX_HARMONICS, ceil(others.get("harmonics", 1) * space.harmonics)),
             overlap=max(LEAST_OVERLAP, space.overlap / others.get("penalty", 1.0)),
         )
         if "section" not in others:
@@ -165,7 +168,7 @@ class ElementSolver(DiscretisedSolver):
 
     def memory(self, fineness: Fineness) -> int:
         several = self.plan.path in (Path.TWISTING, Path.SHEARING, Path.HARMONICS)
-        count = min(MOST_ELEMENTS, fineness.space.elements_per_radius)
+        count = min(MAX_ELEMENTS, fineness.space.elements_per_radius)
         mesh = _with(fineness.space, elements_per_radius=count)
         elements = max(each.quads.shape[1] for each in sections_of(self.scene, mesh))
         return largest_bytes(elements, several)

@@ -20,15 +20,18 @@ from contact_errors.coarse_solves import (
 from contact_errors.cost_estimate import Work, work_on_rings
 from contact_errors.error_formula import Features, is_singular
 from contact_scene import RadialDiscretisation
-from contact_scene.stated_error import Part, StatedErrors
-from contact_scene.summary import ContactStatus
+from contact_scene.quantities.stated_error import (
+    Part,
+    StatedErrors,
+)
+from contact_scene.quantities.summary import ContactStatus
 from radial import Increment, Plan, Result
 from radial.memory import estimated_bytes
 
 # Of double precision, with what rotations of a few hundred rows lose.
 PRECISION = 1e-13
 LINEAR = 2.0  # values linear between rings resolve a feature like twice as many cells
-FIRST_FINENESS, MOST_FINENESS = 0.5, 4.0
+FIRST_FINENESS, MAX_FINENESS = 0.5, 4.0
 
 
 @dataclass(frozen=True)
@@ -40,7 +43,7 @@ class RingSolver(DiscretisedSolver):
 
     part: ClassVar[Part] = "quadrature"
     cells: ClassVar[str] = "rings"
-    most: ClassVar[float] = MOST_FINENESS
+    most: ClassVar[float] = MAX_FINENESS
 
     @property
     def plan(self) -> Plan:
@@ -52,10 +55,10 @@ class RingSolver(DiscretisedSolver):
         """Whether numbers depend on rings. Without friction they depend on orders and points."""
         return self.plan.coupled or self.plan.circle is not None
 
-    def solve(self, fineness: Fineness, progress: Any = None, keeper: Any = None) -> Result:
+    def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Result:
         plan = self._plan_of(fineness)
         asked = self.asked.model_copy(update={"tolerance": fineness.tolerance})
-        return radial.solve(self.scene, asked, progress, plan, keeper)
+        return radial.solve(self.scene, asked, progress, plan, store)
 
     def space_of(self, result: Result) -> float:
         return result.plan.fineness

@@ -34,16 +34,23 @@ from contact_errors.error_formula import (
     UNKNOWN,
     stated,
 )
-from contact_results.stress.extremes import Extreme, extremes
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
 from contact_results.stress.on_cells import stress_on_cells
 from contact_results.stress.on_disc import stress_on_disc
 from contact_results.stress.on_section import stress_on_section
 from contact_results.stress.points import StressField, StressPoints
+from contact_results.stress.stress_maxima import (
+    Extreme,
+    extremes,
+)
 from contact_scene import Body
 from contact_scene.accuracy import LARGEST_TENSION
+from contact_scene.quantities.stated_error import (
+    Part,
+    StatedError,
+    StatedErrors,
+)
 from contact_scene.solver_errors import UnsupportedScene
-from contact_scene.stated_error import Part, StatedError, StatedErrors
 
 Field = NDArray[np.float64]
 Key = tuple[str, str]

@@ -9,10 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import LoadRamp
-from contact_scene.increment import SCALARS, State
-from contact_scene.load_path import ControlKind
-from contact_scene.reported import reported
+from contact_scene.quantities.field_metadata import reported
+from contact_scene.quantities.increment import (
+    SCALARS,
+    State,
+)
 from contact_scene.rig import Rig, prescribed_motions
+from contact_scene.stepping.load_path import ControlKind
 
 if TYPE_CHECKING:
     from contact_results.cycles import FrettingCycle

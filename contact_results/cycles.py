@@ -19,9 +19,18 @@ from numpy.typing import NDArray
 
 from contact_results.surface import Cells, Surface, surface_of
 from contact_scene.array_types import Field, Vector
-from contact_scene.cycles import LoadCycle, load_cycles
-from contact_scene.reported import Kind, Reported
-from contact_scene.stored_fields import FieldStore, WithFields
+from contact_scene.quantities.cycles import (
+    LoadCycle,
+    load_cycles,
+)
+from contact_scene.quantities.field_metadata import (
+    Kind,
+    Reported,
+)
+from contact_scene.quantities.stored_fields import (
+    FieldStore,
+    WithFields,
+)
 
 if TYPE_CHECKING:
     from contact_results.surface import Increment, Result
@@ -29,7 +38,7 @@ if TYPE_CHECKING:
 Value = TypeVar("Value", float, Field)
 F = Kind.FIELD
 
-MOST_AT_ONCE = 1 << 20  # numbers
+MAX_AT_ONCE = 1 << 20  # numbers
 NEAR_AT_HAND = 1 << 14  # that stay in the cache of a core
 
 
@@ -91,7 +100,7 @@ def fretting_cycles(result: Result) -> tuple[FrettingCycle, ...]:
     closed = load_cycles(result.scene.load_path())
     tension: Any = None
     if closed and isinstance(surface, Cells):
-        from semi_analytical.surface_tension import SurfaceTension
+        from semi_analytical.surface_tensile_stress import SurfaceTension
 
         tension = SurfaceTension(cast(Any, result))
     cycles, fields = [], FieldStore()
@@ -140,7 +149,7 @@ def _slip_amplitude(slips: Callable[[], Iterable[Field]]) -> Field:
     first, count = next(iter(slips())), sum(1 for _ in slips())
     moves = reduce(np.logical_or, (np.any(slip != first, axis=0) for slip in slips()))
     amplitude, places = np.zeros(moves.shape), np.flatnonzero(moves)
-    at_once = max(1, MOST_AT_ONCE // (count * len(first)))
+    at_once = max(1, MAX_AT_ONCE // (count * len(first)))
     for begin in range(0, len(places), at_once):
         some = places[begin : begin + at_once]
         path = np.stack([slip.reshape(len(slip), -1)[:, some] for slip in slips()])

@@ -8,10 +8,15 @@ from typing import NamedTuple, Protocol, TypeVar
 import numpy as np
 
 from contact_results.number_text import Uncertainty, measured_like, number_text, uncertainty
-from contact_scene.engineering_units import engineering_unit
-from contact_scene.increment import SCALARS, State, components, numbers
-from contact_scene.reported import Kind
-from contact_scene.stated_error import StatedError
+from contact_scene.quantities.field_metadata import Kind
+from contact_scene.quantities.increment import (
+    SCALARS,
+    State,
+    components,
+    numbers,
+)
+from contact_scene.quantities.stated_error import StatedError
+from contact_scene.reading.engineering_units import engineering_unit
 
 FIRST, LAST = 10, 10  # of a long history, the steps that are shown
 NEGLIGIBLE = 1e-9  # of the largest value of a vector: round-off, shown as nothing

@@ -5,11 +5,14 @@ from __future__ import annotations
 from math import floor, log10
 from typing import NamedTuple
 
-from contact_scene.stated_error import ErrorStatus, StatedError
+from contact_scene.quantities.stated_error import (
+    ErrorStatus,
+    StatedError,
+)
 
 DIGITS = 5
 ERROR_DIGITS = 2
-MOST_DECIMALS = 12
+MAX_DECIMALS = 12
 
 
 class Uncertainty(NamedTuple):
@@ -43,8 +46,8 @@ def number_text(value: float | None, error: Uncertainty | None, unit: float) -> 
     decimals = ERROR_DIGITS - 1 - floor(log10(size)) if size else DIGITS
     if round(number, decimals) == 0:
         return f"0 ± {size:.{ERROR_DIGITS}g}{doubt}"
-    if decimals > MOST_DECIMALS:
-        return f"{number:.{MOST_DECIMALS}f} ± {size:.0e}{doubt}"
+    if decimals > MAX_DECIMALS:
+        return f"{number:.{MAX_DECIMALS}f} ± {size:.0e}{doubt}"
     decimals = max(0, decimals)
     return f"{number:.{decimals}f} ± {size:.{decimals}f}{doubt}"
 

@@ -7,12 +7,12 @@ from pathlib import Path
 
 from contact_results.directory.file_names import STRESS
 from contact_results.directory.run_directory import files_at_once
-from contact_results.stress.extremes import Extreme
 from contact_results.stress.files import VOLUME, write_files
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import StressField
-from contact_scene.accuracy_reached import AccuracyReached
-from contact_scene.stated_error import StatedError
+from contact_results.stress.stress_maxima import Extreme
+from contact_scene.quantities.accuracy_reached import AccuracyReached
+from contact_scene.quantities.stated_error import StatedError
 
 
 def write_stress(

@@ -4,23 +4,37 @@ A scene is made in Python from the frozen values named here, or read from a TOML
 `load_scene`. Quantities are numbers in SI units, or texts with a unit such as "18 mm".
 """
 
-from contact_scene.array_file import ArrayFile
 from contact_scene.body import Body, Layer
 from contact_scene.discretisation import (
     FiniteElementDiscretisation,
     RadialDiscretisation,
     SurfaceDiscretisation,
 )
-from contact_scene.document import SceneFile, scene_schema
 from contact_scene.friction import CoulombFriction, FrictionMap
 from contact_scene.geometry import Cone, Ellipsoid, FlatPunch, HeightMap, Paraboloid, Sphere
-from contact_scene.load_path import ControlKind, LoadRamp, ScalarControl, VectorControl
 from contact_scene.loading import LoadStep
 from contact_scene.material import RIGID, IsotropicMaterial, Rigid
-from contact_scene.problem import Problem, SceneError
+from contact_scene.reading.array_file import ArrayFile
+from contact_scene.reading.document import (
+    SceneFile,
+    scene_schema,
+)
+from contact_scene.reading.scene_error import (
+    Problem,
+    SceneError,
+)
+from contact_scene.reading.scene_file import (
+    load_scene,
+    read_scene_file,
+)
 from contact_scene.rig import Rig
 from contact_scene.scene import Scene
-from contact_scene.scene_file import load_scene, read_scene_file
+from contact_scene.stepping.load_path import (
+    ControlKind,
+    LoadRamp,
+    ScalarControl,
+    VectorControl,
+)
 
 __all__ = [
     "RIGID",

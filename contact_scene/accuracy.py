@@ -7,13 +7,22 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import Field, create_model, model_validator
 
-from contact_scene.description import Description
-from contact_scene.increment import State
-from contact_scene.problem import Problem, SceneError
-from contact_scene.quantity import Share
-from contact_scene.refusal import refusal, shown
-from contact_scene.reported import Reported, reported
-from contact_scene.summary import Closed
+from contact_scene.quantities.field_metadata import (
+    Reported,
+    reported,
+)
+from contact_scene.quantities.increment import State
+from contact_scene.quantities.summary import Closed
+from contact_scene.reading.description import Description
+from contact_scene.reading.quantity import Share
+from contact_scene.reading.scene_error import (
+    Problem,
+    SceneError,
+)
+from contact_scene.reading.validator_error import (
+    refusal,
+    shown,
+)
 
 # What a share without a name binds.
 OVERALL = (

@@ -5,9 +5,9 @@ from math import inf, log
 
 from pydantic import Field
 
-from contact_scene.description import Description
 from contact_scene.material import IsotropicMaterial, Material
-from contact_scene.quantity import PositiveLength
+from contact_scene.reading.description import Description
+from contact_scene.reading.quantity import PositiveLength
 
 # Materials that differ by less are one, as far as a grid has to resolve them: of ln E, and of ν.
 ALIKE = 0.1, 0.01

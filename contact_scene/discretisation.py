@@ -2,9 +2,14 @@
 
 from typing import Annotated, Literal
 
-from contact_scene.description import Description
-from contact_scene.quantity import PositiveLength, Quantity, Tolerance, WholeNumber
-from contact_scene.units import PURE_NUMBER
+from contact_scene.reading.description import Description
+from contact_scene.reading.quantity import (
+    PositiveLength,
+    Quantity,
+    Tolerance,
+    WholeNumber,
+)
+from contact_scene.reading.units import PURE_NUMBER
 
 PATH_ACCURACY = 1e-2
 

@@ -8,11 +8,17 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Discriminator, Tag, model_validator
 
-from contact_scene.array_file import FileKey, refuse_missing
-from contact_scene.description import Description
 from contact_scene.height_map import PairOfSpacings, interpolate_between
-from contact_scene.quantity import FrictionCoefficient, Length
-from contact_scene.refusal import refusal
+from contact_scene.reading.array_file import (
+    FileKey,
+    refuse_missing,
+)
+from contact_scene.reading.description import Description
+from contact_scene.reading.quantity import (
+    FrictionCoefficient,
+    Length,
+)
+from contact_scene.reading.validator_error import refusal
 
 Field = NDArray[np.float64]
 Pair = tuple[float, float]

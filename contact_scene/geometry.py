@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Discriminator, Tag, model_validator
 
-from contact_scene.array_file import ArrayFile, FileKey
 from contact_scene.body import Body
 from contact_scene.height_map import (
     HeightUnit,
@@ -18,8 +17,15 @@ from contact_scene.height_map import (
     interpolate,
     lowest_point,
 )
-from contact_scene.quantity import PositiveLength, SlopeAngle
-from contact_scene.refusal import refusal
+from contact_scene.reading.array_file import (
+    ArrayFile,
+    FileKey,
+)
+from contact_scene.reading.quantity import (
+    PositiveLength,
+    SlopeAngle,
+)
+from contact_scene.reading.validator_error import refusal
 
 Gap = NDArray[np.float64]
 Pair = tuple[float, float]

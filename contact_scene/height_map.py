@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import BeforeValidator
 
-from contact_scene.quantity import PositiveLength
+from contact_scene.reading.quantity import PositiveLength
 
 # A coordinate this close to a map point (in spacings) is that point: grids that coincide but were
 # computed by another formula differ by a few units of round-off.

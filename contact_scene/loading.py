@@ -4,8 +4,8 @@ from typing import Annotated
 
 from pydantic import model_validator
 
-from contact_scene.description import Description
-from contact_scene.quantity import (
+from contact_scene.reading.description import Description
+from contact_scene.reading.quantity import (
     Force,
     Length,
     Moment,
@@ -14,9 +14,9 @@ from contact_scene.quantity import (
     Rotation,
     WholeNumber,
 )
-from contact_scene.refusal import refusal
+from contact_scene.reading.validator_error import refusal
 
-MOST_STEPS = 20_000
+MAX_STEPS = 20_000
 Increments = Annotated[int, WholeNumber(1, 100_000)]
 
 # Every coordinate of the indenter's rigid motion is led by its force or by itself.

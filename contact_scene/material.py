@@ -5,8 +5,11 @@ from typing import Annotated, Any
 
 from pydantic import Discriminator, Tag
 
-from contact_scene.description import Description
-from contact_scene.quantity import PoissonRatio, PositivePressure
+from contact_scene.reading.description import Description
+from contact_scene.reading.quantity import (
+    PoissonRatio,
+    PositivePressure,
+)
 
 
 class IsotropicMaterial(Description):

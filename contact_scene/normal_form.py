@@ -7,11 +7,14 @@ same plan and the same numbers.
 from typing import TypeVar
 
 from contact_scene.body import Body, Layer
+from contact_scene.body_pair import coupling
 from contact_scene.geometry import Ellipsoid, Indenter, Paraboloid
-from contact_scene.load_path import LoadRamp, along_one_line
 from contact_scene.loading import LoadStep
-from contact_scene.pair import coupling
 from contact_scene.scene import Scene
+from contact_scene.stepping.load_path import (
+    LoadRamp,
+    along_one_line,
+)
 
 B = TypeVar("B", bound=Body)
 # Controls that do nothing, with the control and the value that an unnamed coordinate has.

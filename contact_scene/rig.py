@@ -12,9 +12,9 @@ from typing import Any, TypeVar, cast
 import numpy as np
 from pydantic import model_validator
 
-from contact_scene.description import Description
-from contact_scene.quantity import PositiveStiffness
-from contact_scene.refusal import refusal
+from contact_scene.reading.description import Description
+from contact_scene.reading.quantity import PositiveStiffness
+from contact_scene.reading.validator_error import refusal
 
 Reported = TypeVar("Reported")
 Pair = tuple[float, float]

@@ -5,16 +5,25 @@ from typing import Any
 
 from pydantic import Field, model_validator
 
-from contact_scene.array_file import ArrayFile
 from contact_scene.body import Body
-from contact_scene.consistency import Parts, inconsistencies
-from contact_scene.description import MAX_TITLE, Description
+from contact_scene.checks.consistency import (
+    Parts,
+    inconsistencies,
+)
 from contact_scene.friction import CoulombFriction
 from contact_scene.geometry import Indenter
-from contact_scene.load_path import LoadRamp, load_path
-from contact_scene.loading import MOST_STEPS, LoadStep
-from contact_scene.problem import SceneError
+from contact_scene.loading import MAX_STEPS, LoadStep
+from contact_scene.reading.array_file import ArrayFile
+from contact_scene.reading.description import (
+    MAX_TITLE,
+    Description,
+)
+from contact_scene.reading.scene_error import SceneError
 from contact_scene.rig import Rig
+from contact_scene.stepping.load_path import (
+    LoadRamp,
+    load_path,
+)
 
 
 class Scene(Description):
@@ -38,7 +47,7 @@ class Scene(Description):
     rig: Rig | None = None
     """Springs between the actuator and the indenter; absent: none."""
 
-    loading: tuple[LoadStep, ...] = Field(min_length=1, max_length=MOST_STEPS)
+    loading: tuple[LoadStep, ...] = Field(min_length=1, max_length=MAX_STEPS)
     """Loading steps in order, each ramping linearly from the state before."""
 
     @model_validator(mode="after")
@@ -74,7 +83,7 @@ class Scene(Description):
         Keys have dots; entries of arrays count from 1. None leaves an optional key out. Raises
         `SceneError` with every mistake.
         """
-        from contact_scene.scene_file import changed_scene
+        from contact_scene.reading.scene_file import changed_scene
 
         return changed_scene(self, changes, keys)
 

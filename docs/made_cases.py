@@ -8,7 +8,7 @@ from typing import Any
 from made_reference import table
 
 import verification.baselines
-from contact_scene.engineering_units import quantity
+from contact_scene.reading.engineering_units import quantity
 from verification.cases.catalogue import CASES, case_of
 from verification.judging.case import Case, Derived, Level
 

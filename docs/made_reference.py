@@ -9,7 +9,6 @@ from pydantic import BaseModel
 
 from contact_scene import Body, IsotropicMaterial, Layer, LoadStep, Scene
 from contact_scene.accuracy import AccuracyRequest
-from contact_scene.description import field_descriptions
 from contact_scene.discretisation import (
     FiniteElementDiscretisation,
     RadialDiscretisation,
@@ -17,12 +16,17 @@ from contact_scene.discretisation import (
 )
 from contact_scene.friction import CoulombFriction, FrictionMap
 from contact_scene.geometry import SHAPES
-from contact_scene.increment import Counters, Quality, State
-from contact_scene.quantity import Quantity
-from contact_scene.reported import reported
+from contact_scene.quantities.field_metadata import reported
+from contact_scene.quantities.increment import (
+    Counters,
+    Quality,
+    State,
+)
+from contact_scene.quantities.ring_increment import RingIncrement
+from contact_scene.quantities.summary import Closed
+from contact_scene.reading.description import field_descriptions
+from contact_scene.reading.quantity import Quantity
 from contact_scene.rig import Rig
-from contact_scene.ring_increment import RingIncrement
-from contact_scene.summary import Closed
 from semi_analytical.fields import Increment
 from slipstick.cli.application import application
 from slipstick.cli.lazy_commands import ALL_COMMANDS

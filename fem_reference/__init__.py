@@ -5,7 +5,7 @@ against each other.
 """
 
 from contact_scene.effect import Effect
-from contact_scene.residuals import Residuals
+from contact_scene.quantities.residuals import Residuals
 from contact_scene.solver_errors import ContactAtZoneEdge
 from fem_reference.fields import Increment, Method, Result
 from fem_reference.plan import Path, Plan, plan

@@ -13,8 +13,8 @@ from contact_scene import (
     LoadStep,
     Scene,
 )
-from contact_scene.expected_contact import contact_approach
-from contact_scene.scene_text import shape_text
+from contact_scene.checks.expected_contact import contact_approach
+from contact_scene.reading.scene_text import shape_text
 from contact_scene.solver_errors import ContactAtZoneEdge, UnsupportedScene
 from fem_reference.contact.method import ContactMethod
 from fem_reference.history import march
@@ -27,7 +27,7 @@ from fem_reference.scales import Scales
 # Bodies with layers that are not deep are pressed on a coarse mesh first.
 COARSE = 8
 GROWTH, TOO_SMALL = 1.5, 0.5
-MOST_TRIALS = 30
+MAX_TRIALS = 30
 COARSE_TOLERANCE = 1e-8
 # In contact radii: of coatings a million times as stiff as what is below them, sections are larger
 # by many decades, and so is the work; the radius needs none of them.
@@ -118,7 +118,7 @@ def _coarse_radius(scene: Scene, ramp: LoadRamp, guess: float) -> float:
     pressing = scene.model_copy(update={"friction": None, "loading": (step,)})
     decided = plan(pressing)
     radius = guess
-    for _ in range(MOST_TRIALS):
+    for _ in range(MAX_TRIALS):
         model = ContactModel.of(pressing, _coarse(scene, radius), radius)
         try:
             (pressed,) = march(ContactMethod(model, decided), COARSE_TOLERANCE)

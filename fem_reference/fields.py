@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from contact_scene import FiniteElementDiscretisation, Scene
-from contact_scene.ring_increment import RingIncrement
+from contact_scene.quantities.ring_increment import RingIncrement
 from fem_reference.mesh.section_mesh import SectionMesh
 from fem_reference.plan import Plan
 

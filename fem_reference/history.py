@@ -8,10 +8,16 @@ import numpy as np
 
 from contact_scene import LoadRamp, Scene
 from contact_scene.array_types import Field
-from contact_scene.load_path import ScalarControl
-from contact_scene.march import Reached, marked_increments
 from contact_scene.rig import of_contact
-from contact_scene.standing import Mark, Standing
+from contact_scene.stepping.checkpoint import (
+    Checkpoint,
+    ResumePoint,
+)
+from contact_scene.stepping.load_path import ScalarControl
+from contact_scene.stepping.load_stepping import (
+    Reached,
+    resumable_increments,
+)
 from fem_reference.contact.method import ContactMethod
 from fem_reference.contact.point_state import PointState
 from fem_reference.energy import accounted
@@ -26,15 +32,15 @@ def march(method: ContactMethod, tolerance: float) -> Iterator[Increment]:
 
 
 def marked(
-    method: ContactMethod, tolerance: float, since: Standing | None = None
-) -> Iterator[tuple[Increment, Mark[PointState]]]:
+    method: ContactMethod, tolerance: float, since: Checkpoint | None = None
+) -> Iterator[tuple[Increment, ResumePoint[PointState]]]:
     """Increments of the scene's load path, each with the mark from which the march can go on.
 
     since   where the same march stood before, to go on from there
     raises  NotConverged and GrossSliding, with the last converged increment as `last_state`
     """
     scene, counts = method.model.scene, method.plan.increments
-    return marked_increments(scene, counts, _Solver(scene, method, tolerance), since)
+    return resumable_increments(scene, counts, _Solver(scene, method, tolerance), since)
 
 
 @dataclass(frozen=True)
@@ -67,7 +73,7 @@ class _Solver:
         return self.method.advance(before, loads, self.tolerance)
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Field:
-        """See `contact_scene.march.Solver`."""
+        """See `contact_scene.stepping.load_stepping.Solver`."""
         return np.array(np.broadcast_to(self.method.undeformed_gap, last.gap.T.shape).T)
 
     def report(self, reached: Reached[PointState], last: Increment | None) -> Increment:

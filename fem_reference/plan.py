@@ -5,16 +5,19 @@ from enum import Enum
 from math import ceil, hypot
 
 from contact_scene import ControlKind, LoadRamp, Scene, effect
-from contact_scene.cycles import loop_increments
+from contact_scene.body_pair import (
+    coupling,
+    refuse_contrast,
+)
+from contact_scene.checks.expected_contact import refuse_equator
 from contact_scene.effect import Effect
-from contact_scene.expected_contact import refuse_equator
 from contact_scene.normal_form import normal_form
-from contact_scene.pair import coupling, refuse_contrast
-from contact_scene.scene_text import shape_text
+from contact_scene.quantities.cycles import loop_increments
+from contact_scene.reading.scene_text import shape_text
 from contact_scene.solver_errors import UnsupportedScene
 
 # Of the shear moduli within a body: beyond, its stiffness matrix loses the softest part.
-MOST_CONTRAST = 1e8
+MAX_CONTRAST = 1e8
 ROUND_OFF = 1e-9
 # Increments of a step whose path matters; errors fall as their inverse.
 PATH_INCREMENTS = 20
@@ -58,7 +61,7 @@ def plan(scene: Scene) -> Plan:
     refuse_equator(scene)
     _refuse_shapes(scene)
     refuse_contrast(
-        scene, MOST_CONTRAST, f", and finite elements carry a ratio up to {MOST_CONTRAST:.0e}"
+        scene, MAX_CONTRAST, f", and finite elements carry a ratio up to {MAX_CONTRAST:.0e}"
     )
     friction = scene.friction is not None
     ramps = scene.load_path()

@@ -2,7 +2,7 @@
 
 All sums run over rings. Tractions are nodal values, gaps and slips are integrals over the hat
 functions, so that the sum of their products is the integral of the product of the fields. Measures
-of `contact_scene.residuals.Residuals`; a NaN in a field is one in its measure.
+of `contact_scene.quantities.residuals.Residuals`; a NaN in a field is one in its measure.
 """
 
 import numpy as np

@@ -4,12 +4,16 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from contact_scene import FiniteElementDiscretisation, Scene
+from contact_scene.machine.blas_threads import one_thread
 from contact_scene.normal_form import normal_form
-from contact_scene.one_thread import one_thread
+from contact_scene.quantities.stored_fields import FieldStore
 from contact_scene.solver_errors import ContactAtZoneEdge
-from contact_scene.standing import Keeper, Mark, Standing
-from contact_scene.stored_fields import FieldStore
-from fem_reference.contact.angular_grid import end_grid
+from contact_scene.stepping.checkpoint import (
+    Checkpoint,
+    CheckpointStore,
+    ResumePoint,
+)
+from fem_reference.compliance.angular_grid import end_grid
 from fem_reference.contact.augmented_lagrangian import Penalty
 from fem_reference.contact.method import ContactMethod
 from fem_reference.contact.point_state import PointState
@@ -22,7 +26,7 @@ from fem_reference.plan import Plan, plan
 Progress = Callable[[Increment], None]
 
 GROWTH = 1.2
-MOST_ENLARGEMENTS = 8
+MAX_ENLARGEMENTS = 8
 # A mesh for a contact so many times as large as the one that was found spends its elements beside.
 TOO_LARGE = 1.5
 
@@ -33,7 +37,7 @@ def solve(
     discretisation: FiniteElementDiscretisation,
     method: Method = Method.COMPLEMENTARITY,
     progress: Progress | None = None,
-    keeper: Keeper | None = None,
+    store: CheckpointStore | None = None,
 ) -> Result:
     """Contact of a scene by axisymmetric finite elements, every increment of its load history.
 
@@ -48,7 +52,7 @@ def solve(
     progress
         Called with each increment once it has converged; again from the first one where the
         contact does not fit the mesh and another one is taken.
-    keeper
+    store
         Of this very solve: what it has kept is not computed again.
 
     Raises
@@ -68,7 +72,7 @@ def solve(
     """
     scene = normal_form(scene)
     decided = plan(scene)
-    last = keeper.last() if keeper else None
+    last = store.last() if store else None
     asked = discretisation.contact_radius
     radius = last.extent if last else meshed_radius(scene, asked)
     enlargements = 0
@@ -79,9 +83,9 @@ def solve(
         solver = _solver(model, decided, discretisation, method)
         history = marked(solver, discretisation.tolerance, last)
         try:
-            increments = tuple(_told(model, radius, history, last, progress, keeper))
+            increments = tuple(_told(model, radius, history, last, progress, store))
         except ContactAtZoneEdge:
-            if radius == asked or enlargements == MOST_ENLARGEMENTS:
+            if radius == asked or enlargements == MAX_ENLARGEMENTS:
                 raise
             enlargements += 1
             radius *= GROWTH
@@ -113,10 +117,10 @@ def _solver(
 def _told(
     model: ContactModel,
     radius: float,
-    history: Iterator[tuple[Increment, Mark[PointState]]],
-    since: Standing | None,
+    history: Iterator[tuple[Increment, ResumePoint[PointState]]],
+    since: Checkpoint | None,
     progress: Progress | None,
-    keeper: Keeper | None,
+    store: CheckpointStore | None,
 ) -> Iterator[Increment]:
     """Increments, those of the past first, with the sparse factorisations that fell to them."""
     told: list[Increment] = []
@@ -130,8 +134,8 @@ def _told(
     for increment, mark in history:
         spent, counted = model.factorizations - counted, model.factorizations
         told.append(fields.kept(replace(increment, factorizations=spent)))
-        if keeper is not None:
-            keeper.keep(Standing(tuple(told), mark, radius, tuple(sorted(model.settled))))
+        if store is not None:
+            store.keep(Checkpoint(tuple(told), mark, radius, tuple(sorted(model.settled))))
         if progress is not None:
             progress(told[-1])
         yield told[-1]

@@ -8,7 +8,7 @@ first solve.
 from typing import TYPE_CHECKING, Any
 
 from contact_scene.effect import Effect
-from contact_scene.residuals import Residuals
+from contact_scene.quantities.residuals import Residuals
 from radial.fields import Increment, Result
 from radial.plan import Plan, plan
 

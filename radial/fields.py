@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from contact_scene import RadialDiscretisation, Scene
-from contact_scene.ring_increment import RingIncrement
+from contact_scene.quantities.ring_increment import RingIncrement
 from radial.plan import Plan
 
 

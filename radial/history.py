@@ -10,19 +10,30 @@ import numpy as np
 
 from contact_scene import LoadRamp, RadialDiscretisation, Scene
 from contact_scene.array_types import Array
-from contact_scene.march import Reached, marked_increments
+from contact_scene.machine.blas_threads import one_thread
 from contact_scene.normal_form import normal_form
-from contact_scene.one_thread import one_thread
-from contact_scene.residuals import Residuals
+from contact_scene.quantities.residuals import Residuals
 from contact_scene.rig import of_contact
-from contact_scene.standing import Keeper, Standing
-from radial.bodies import Bodies
+from contact_scene.stepping.checkpoint import (
+    Checkpoint,
+    CheckpointStore,
+)
+from contact_scene.stepping.load_stepping import (
+    Reached,
+    resumable_increments,
+)
 from radial.fields import Increment, Result
 from radial.memory import refuse_if_too_large
-from radial.plan import Plan
-from radial.plan import plan as plan_of
-from radial.pressing import Pressed, pressed
-from radial.shown import (
+from radial.normal.pressing import (
+    Pressed,
+    pressed,
+)
+from radial.normal.surface import (
+    displacement,
+    largest_pressure,
+    pressure,
+)
+from radial.output_points import (
     largest_targets,
     refuse_no_disc,
     refuse_round_off,
@@ -30,7 +41,9 @@ from radial.shown import (
     target,
     undeformed_gap,
 )
-from radial.surface import displacement, largest_pressure, pressure
+from radial.plan import Plan
+from radial.plan import plan as plan_of
+from radial.response.bodies import Bodies
 
 Progress = Callable[[Increment], None]
 
@@ -41,7 +54,7 @@ def solve(
     discretisation: RadialDiscretisation | None = None,
     progress: Progress | None = None,
     plan: Plan | None = None,
-    keeper: Keeper | None = None,
+    store: CheckpointStore | None = None,
 ) -> Result:
     """Contact of a scene of revolution, every increment of its load history.
 
@@ -55,7 +68,7 @@ def solve(
         Called with each increment once it is solved.
     plan
         What is computed; what the scene calls for if absent.
-    keeper
+    store
         Of this very solve: what it has kept is not computed again.
 
     Raises
@@ -72,38 +85,41 @@ def solve(
     refuse_if_too_large(scene, decided)
     solver = _solver(scene, asked, decided)
     if asked.extrapolated and decided.circle:
-        return Result(
-            scene, asked, decided, _extrapolated(scene, solver, decided, progress, keeper)
-        )
+        return Result(scene, asked, decided, _extrapolated(scene, solver, decided, progress, store))
     increments = []
-    for increment in _marched(scene, solver, decided, keeper):
+    for increment in _marched(scene, solver, decided, store):
         increments.append(increment)
         if progress is not None:
             progress(increment)
     return Result(scene, asked, decided, tuple(increments))
 
 
-def _marched(scene: Scene, solver: Any, plan: Plan, keeper: Keeper | None) -> Iterator[Increment]:
+def _marched(
+    scene: Scene, solver: Any, plan: Plan, store: CheckpointStore | None
+) -> Iterator[Increment]:
     """All increments, those first that are kept."""
-    last = keeper.last() if keeper else None
+    last = store.last() if store else None
     increments = [*last.increments] if last else []
     yield from increments
-    for increment, mark in marked_increments(scene, plan.increments, solver, last):
+    for increment, mark in resumable_increments(scene, plan.increments, solver, last):
         increments.append(increment)
-        if keeper is not None:
-            keeper.keep(Standing(tuple(increments), mark, None))
+        if store is not None:
+            store.keep(Checkpoint(tuple(increments), mark, None))
         yield increment
 
 
 def _extrapolated(
-    scene: Scene, solver: Any, plan: Plan, progress: Progress | None, keeper: Keeper | None
+    scene: Scene, solver: Any, plan: Plan, progress: Progress | None, store: CheckpointStore | None
 ) -> tuple[Increment, ...]:
     """Those of the limit of fine increments; what is kept is of the finer history."""
-    from radial.extrapolated import doubled, extrapolated
+    from radial.richardson import (
+        doubled,
+        extrapolated,
+    )
 
     coarse = iter([*_marched(scene, solver, plan, None)])
     increments = []
-    for fine in _marched(scene, solver, doubled(plan), keeper):
+    for fine in _marched(scene, solver, doubled(plan), store):
         if fine.index % 2 == 0:
             increments.append(extrapolated(next(coarse), fine))
             if progress is not None:
@@ -113,17 +129,17 @@ def _extrapolated(
 
 def _solver(scene: Scene, asked: RadialDiscretisation, plan: Plan) -> Any:
     if plan.circle:
-        from radial.pushing import Pushing
+        from radial.tangential.tangential_steps import Pushing
 
         return Pushing.of(scene, asked, plan)
     if plan.coupled:
-        from radial.rubbing import Rubbing
+        from radial.frictional.frictional_indentation_steps import Rubbing
 
         return Rubbing.of(scene, asked, plan.fineness)
     pressing = _Solver.of(scene, asked, round(plan.fineness))
     if not plan.twists:
         return pressing
-    from radial.twisting import Twisting
+    from radial.torsion.torsion_steps import Twisting
 
     assert scene.friction is not None
     assert scene.friction.uniform is not None
@@ -172,7 +188,7 @@ class _Solver:
         return pressed(self.bodies, self.scene.indenter, led, self.fineness)
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Array:
-        """See `contact_scene.march.Solver`."""
+        """See `contact_scene.stepping.load_stepping.Solver`."""
         return undeformed_gap(self.scene, last)
 
     def report(self, reached: Reached[Pressed], last: Increment | None) -> Increment:

@@ -7,12 +7,18 @@ from functools import lru_cache
 from math import exp, log
 
 from contact_scene import Scene
-from radial.bodies import Bodies
-from radial.disc import disc, orders
-from radial.pressing import Target, first_radius
-from radial.profile import profile
-from radial.shown import largest_targets
-from radial.wavenumbers import POINTS
+from radial.normal.disc import (
+    disc,
+    orders,
+)
+from radial.normal.pressing import (
+    Target,
+    first_radius,
+)
+from radial.normal.profile import profile
+from radial.output_points import largest_targets
+from radial.response.bodies import Bodies
+from radial.response.wavenumbers import POINTS
 
 # The radius is good to a percent by so few polynomials.
 FEW_ORDERS, TRIED, NEAR = 16, 12, 0.02

@@ -4,9 +4,9 @@ thinnest outermost layer calls for in the largest contact."""
 from __future__ import annotations
 
 from contact_scene import Scene
-from contact_scene.free_memory import available_bytes
+from contact_scene.machine.free_memory import available_bytes
 from contact_scene.solver_errors import ResourceRefused
-from radial.circle import Circle
+from radial.angular_grid import Circle
 from radial.plan import Plan
 
 # Measured of whole runs, the solve beside them and figures included, of layers from a third to a
@@ -16,7 +16,7 @@ LIGHT = 4500  # bytes of an increment without its fields
 PER_WAVE = 11_300  # bytes; most of it where figures show the stress
 # With friction: rings, and what is kept of contacts of many radii until there is no more room.
 PER_WAVE_RUBBING, RINGS = 8_600, 36_000_000
-PER_WAVE_KEPT, MOST_KEPT = 8_300, 39_000_000
+PER_WAVE_KEPT, MAX_KEPT = 8_300, 39_000_000
 # Of contacts at points, whose rings and angles are always as many: figures are drawn when what the
 # solve has taken is free again.
 PUSHED, WHOLE, PER_WAVE_PUSHED, DRAWN = 133 << 20, 246 << 20, 8_600, 181 << 20
@@ -35,7 +35,7 @@ def estimated_bytes(scene: Scene, plan: Plan) -> int:
         return told + max(solved + PER_WAVE_PUSHED * waves, DRAWN)
     if not plan.coupled:
         return libraries + PER_WAVE * waves
-    kept = min(PER_WAVE_KEPT * waves, MOST_KEPT)
+    kept = min(PER_WAVE_KEPT * waves, MAX_KEPT)
     return libraries + RINGS + kept + PER_WAVE_RUBBING * waves
 
 

@@ -6,18 +6,21 @@ from dataclasses import dataclass
 from math import ceil, hypot
 
 from contact_scene import ControlKind, LoadRamp, Scene, effect
-from contact_scene.cycles import loop_increments
+from contact_scene.body_pair import (
+    coupling,
+    refuse_contrast,
+)
+from contact_scene.checks.expected_contact import refuse_equator
 from contact_scene.effect import Effect
-from contact_scene.expected_contact import refuse_equator
-from contact_scene.load_path import along_one_line
 from contact_scene.normal_form import normal_form
-from contact_scene.pair import coupling, refuse_contrast
-from contact_scene.scene_text import shape_text
+from contact_scene.quantities.cycles import loop_increments
+from contact_scene.reading.scene_text import shape_text
 from contact_scene.solver_errors import UnsupportedScene
-from radial.circle import Circle
+from contact_scene.stepping.load_path import along_one_line
+from radial.angular_grid import Circle
 
 # Of the shear moduli within a body: beyond, round-off is felt in the numbers.
-MOST_CONTRAST = 1e8
+MAX_CONTRAST = 1e8
 # Of a step whose path matters: the shear is then right to some 1e-4 of its limit.
 PATH_INCREMENTS = 64
 # Of a step of a pushed contact: pressing, and by its share of the friction limit pushing.
@@ -88,7 +91,7 @@ def plan(scene: Scene) -> Plan:
     refuse_equator(scene)
     _refuse_shape(scene)
     refuse_contrast(
-        scene, MOST_CONTRAST, f", and this solver carries a ratio up to {MOST_CONTRAST:.0e}"
+        scene, MAX_CONTRAST, f", and this solver carries a ratio up to {MAX_CONTRAST:.0e}"
     )
     couples, why = coupling(scene)
     _refuse_loads(scene)

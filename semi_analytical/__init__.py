@@ -1,7 +1,7 @@
 """Contact by superposition and FFT: the semi-analytical method."""
 
 from contact_scene.effect import Effect
-from contact_scene.residuals import Residuals
+from contact_scene.quantities.residuals import Residuals
 from contact_scene.solver_errors import (
     ContactAtWindowEdge,
     ContactNotResolved,
@@ -11,7 +11,7 @@ from contact_scene.solver_errors import (
     SolverError,
     UnsupportedScene,
 )
-from semi_analytical.discretise import discretise
+from semi_analytical.default_grid import discretise
 from semi_analytical.fields import Increment, Result
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.plan import Coupling, Plan, all_effects, one_way, plan

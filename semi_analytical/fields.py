@@ -7,9 +7,12 @@ import numpy as np
 
 from contact_scene import Scene
 from contact_scene.array_types import Field, Mask, Vector, VectorField
-from contact_scene.increment import ReportedIncrement
-from contact_scene.reported import Kind, Reported
-from contact_scene.summary import ContactStatus
+from contact_scene.quantities.field_metadata import (
+    Kind,
+    Reported,
+)
+from contact_scene.quantities.increment import ReportedIncrement
+from contact_scene.quantities.summary import ContactStatus
 from semi_analytical.edge.corrected import EdgeReport
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.plan import Plan

@@ -8,14 +8,20 @@ import numpy as np
 
 from contact_scene import LoadRamp
 from contact_scene.array_types import Field
-from contact_scene.march import Reached, marked_increments
 from contact_scene.rig import of_contact
-from contact_scene.standing import Mark, Standing
-from semi_analytical.balance import balanced
+from contact_scene.stepping.checkpoint import (
+    Checkpoint,
+    ResumePoint,
+)
+from contact_scene.stepping.load_stepping import (
+    Reached,
+    resumable_increments,
+)
 from semi_analytical.edge.corrected import Corrected, EdgeReport
-from semi_analytical.energy import NOTHING_YET
 from semi_analytical.fields import Increment
-from semi_analytical.increment import (
+from semi_analytical.increments.energy import NOTHING_YET
+from semi_analytical.increments.energy_balance import balanced
+from semi_analytical.increments.increment import (
     State,
     normal_target,
     reached_moment,
@@ -23,11 +29,17 @@ from semi_analytical.increment import (
     solve_increment,
     tangential_target,
 )
+from semi_analytical.increments.normal_solve import (
+    NormalTarget,
+    plane,
+)
+from semi_analytical.increments.tangential_solve import TangentialTarget
+from semi_analytical.increments.tangential_state import (
+    TangentialState,
+    untouched,
+)
 from semi_analytical.model import ContactModel
 from semi_analytical.plan import Coupling, Plan
-from semi_analytical.pressing import NormalTarget, plane
-from semi_analytical.sheared import Sheared, untouched
-from semi_analytical.shearing import TangentialTarget
 
 Advance = Callable[
     [ContactModel, State | None, NormalTarget, TangentialTarget | None, float], State
@@ -45,7 +57,7 @@ class Correct(Protocol):
 # An increment that has taken more without converging is not cut any further. In one go converge
 # those of the stability map with µ = 5 below films a thousand times as stiff or as soft as their
 # base: the dearest takes 5 700.
-MOST_CONVOLUTIONS = 30_000
+MAX_CONVOLUTIONS = 30_000
 
 
 def march(model: ContactModel, plan: Plan, tolerance: float) -> Iterator[Increment]:
@@ -54,15 +66,15 @@ def march(model: ContactModel, plan: Plan, tolerance: float) -> Iterator[Increme
 
 
 def marked(
-    model: ContactModel, plan: Plan, tolerance: float, since: Standing | None = None
-) -> Iterator[tuple[Increment, Mark[State]]]:
+    model: ContactModel, plan: Plan, tolerance: float, since: Checkpoint | None = None
+) -> Iterator[tuple[Increment, ResumePoint[State]]]:
     """Increments of the scene's load path, each with the mark from which the march can go on.
 
     since   where the same march stood before, to go on from there
     raises  NotConverged and GrossSliding, with the last converged increment as `last_state`
     """
     solver = _Solver(model, plan, _advance(plan), _correction(model, plan), tolerance)
-    return marked_increments(model.scene, plan.increments, solver, since)
+    return resumable_increments(model.scene, plan.increments, solver, since)
 
 
 def _advance(plan: Plan) -> Advance:
@@ -70,10 +82,10 @@ def _advance(plan: Plan) -> Advance:
     if plan.coupling is Coupling.NONE:
         return solve_increment
     if plan.coupling is Coupling.ONE_WAY:
-        from semi_analytical.one_way_increment import solve_one_way_increment
+        from semi_analytical.increments.one_way_increment import solve_one_way_increment
 
         return solve_one_way_increment
-    from semi_analytical.coupled_increment import solve_coupled_increment
+    from semi_analytical.coupled.coupled_increment import solve_coupled_increment
 
     return solve_coupled_increment
 
@@ -100,7 +112,7 @@ class _Solver:
     @property
     def most_spent(self) -> float:
         """Of one increment."""
-        return MOST_CONVOLUTIONS
+        return MAX_CONVOLUTIONS
 
     def spent(self) -> float:
         """Convolutions so far."""
@@ -134,7 +146,7 @@ class _Solver:
         return replace(after, corrected=edges, edge_report=replace(edges.report, border=border))
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Field:
-        """See `contact_scene.march.Solver`."""
+        """See `contact_scene.stepping.load_stepping.Solver`."""
         closure = 0.0 if tilt is None else plane(self.model, tilt)
         return self.model.domain.extend(self.model.gap - closure)
 
@@ -219,10 +231,10 @@ def _with_edges(
 def _stick(
     model: ContactModel,
     p: Field,
-    sheared: Sheared,
+    sheared: TangentialState,
     corrected: Corrected | None,
     increment: Increment,
-) -> tuple[float, Sheared, Increment]:
+) -> tuple[float, TangentialState, Increment]:
     """Area of the stick zone in cells, and shear and increment with their edges inside the cells.
 
     p  pressure on cells
@@ -242,7 +254,7 @@ def _stick(
     return stuck, replace(sheared, shear=corrected.shear, in_stick=stick), increment
 
 
-def _traced(increment: Increment, last: Increment | None, sheared: Sheared) -> Increment:
+def _traced(increment: Increment, last: Increment | None, sheared: TangentialState) -> Increment:
     """With what slip leaves on the surface and had left there before the increment; nothing where
     the motion is undefined."""
     if sheared.dissipated_energy is None:

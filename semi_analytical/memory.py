@@ -1,8 +1,8 @@
 """Memory of a run, estimated before anything is allocated."""
 
-from contact_scene.free_memory import available_bytes
+from contact_scene.machine.free_memory import available_bytes
+from contact_scene.quantities.stored_fields import MAX_HELD
 from contact_scene.solver_errors import ResourceRefused
-from contact_scene.stored_fields import MOST_HELD
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.plan import Coupling, Plan
 
@@ -47,7 +47,7 @@ LIBRARIES = 75 << 20  # of the process that solves
 # more, and of every loading step beyond two there is a panel more, up to so many.
 DRAWING, DRAWING_ARRAYS = 77 << 20, 20
 DRAWING_SHEAR, DRAWING_COUPLED = 11 << 20, 23 << 20
-DRAWING_STEP, DRAWING_SHEAR_STEP, MOST_DRAWN = 5 << 20, 4 << 20, 6
+DRAWING_STEP, DRAWING_SHEAR_STEP, MAX_DRAWN = 5 << 20, 4 << 20, 6
 
 
 def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
@@ -55,7 +55,7 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
     array = grid.cells[0] * grid.cells[1] * DOUBLE
     increments = sum(plan.increments)
     kept = PRESSURE_RESULT + (SHEAR_RESULT if plan.shear else 0)
-    held = min(array * kept * increments, MOST_HELD) + LIGHT * increments
+    held = min(array * kept * increments, MAX_HELD) + LIGHT * increments
     if plan.coupling is Coupling.FULL:
         solving = _coupled(grid, plan)
     else:
@@ -111,7 +111,7 @@ def _edges(grid: SurfaceGrid, plan: Plan) -> float:
 
 def _drawing(array: int, plan: Plan) -> int:
     """Bytes that files and figures take."""
-    steps = max(min(len(plan.path), MOST_DRAWN) - 2, 0)
+    steps = max(min(len(plan.path), MAX_DRAWN) - 2, 0)
     drawing = DRAWING + DRAWING_ARRAYS * array + DRAWING_STEP * steps
     drawing += DRAWING_SHEAR + DRAWING_SHEAR_STEP * steps if plan.shear else 0
     return drawing + (DRAWING_COUPLED if plan.coupling is not Coupling.NONE else 0)

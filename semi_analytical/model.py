@@ -9,10 +9,10 @@ from contact_scene.array_types import Field
 from contact_scene.friction import FRICTIONLESS
 from contact_scene.rig import compliances
 from contact_scene.solver_errors import UnsupportedScene
-from semi_analytical.bearing import modulus_of
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.influence.coefficients import InfluenceCoefficients
+from semi_analytical.normal.initial_pressure import modulus_of
 from semi_analytical.operator.domain import WINDOW, Pair, ReducedDomain, ReducedGrid
 from semi_analytical.operator.operator import DisplacementOperator
 from semi_analytical.operator.transforms import Convolutions, offsets_for

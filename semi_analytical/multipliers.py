@@ -13,7 +13,7 @@ import numpy as np
 
 from contact_scene.array_types import Vector
 
-MOST_SWEEPS = 100
+MAX_SWEEPS = 100
 
 
 class Shifted(Protocol):
@@ -42,7 +42,7 @@ def find_multiplier(
     multiplier  where to start
     """
     shifted = shifted_by(multiplier)
-    for _ in range(MOST_SWEEPS):
+    for _ in range(MAX_SWEEPS):
         if shifted.settled(multiplier):
             break
         step = shifted.newton_step()

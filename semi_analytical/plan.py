@@ -5,17 +5,25 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from contact_scene import Scene, effect
+from contact_scene.body_pair import (
+    coupling,
+    dundurs_beta,
+    refuse_contrast,
+)
+from contact_scene.checks.expected_contact import refuse_equator
 from contact_scene.discretisation import PATH_ACCURACY, EdgeCorrection
 from contact_scene.effect import COUPLING, Effect
-from contact_scene.expected_contact import refuse_equator
 from contact_scene.friction import FRICTIONLESS
 from contact_scene.normal_form import normal_form
-from contact_scene.pair import coupling, dundurs_beta, refuse_contrast
+from semi_analytical.increment_counts import (
+    Bodies,
+    StepIncrements,
+    path_increments,
+)
 from semi_analytical.operator.domain import QUARTER, WINDOW, ReducedDomain
-from semi_analytical.path_increments import Bodies, StepIncrements, path_increments
 
 # Of the shear moduli within a body: beyond, its influence coefficients lose the softest part.
-MOST_CONTRAST = 1e12
+MAX_CONTRAST = 1e12
 
 # Names of the effects of a reduced domain and of edges inside the cells.
 MIRROR_PLANES = "mirror planes"
@@ -83,9 +91,8 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
     refuse_equator(scene)
     refuse_contrast(
         scene,
-        MOST_CONTRAST,
-        f"; stiffer than {MOST_CONTRAST:.0e} times the softest, a layer is as good as free or "
-        "rigid",
+        MAX_CONTRAST,
+        f"; stiffer than {MAX_CONTRAST:.0e} times the softest, a layer is as good as free or rigid",
     )
     friction = scene.friction is not None
     loaded = _tangentially_loaded(scene)

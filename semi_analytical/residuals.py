@@ -1,6 +1,6 @@
 """How well a state fulfils the equations of contact: dimensionless, independent of the mesh.
 
-Measures of `contact_scene.residuals.Residuals`; a NaN in a field is one in its measure.
+Measures of `contact_scene.quantities.residuals.Residuals`; a NaN in a field is one in its measure.
 """
 
 import numpy as np

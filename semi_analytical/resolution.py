@@ -12,7 +12,7 @@ from scipy import ndimage
 from contact_scene import HeightMap
 from contact_scene.array_types import Field, Mask
 from contact_scene.solver_errors import ContactNotResolved, SolverError
-from semi_analytical.discretise import fitted_window
+from semi_analytical.default_grid import fitted_window
 from semi_analytical.fields import Increment, Result
 
 # Cells per contact radius from which peak pressure and approach can be trusted.

@@ -3,12 +3,19 @@
 from collections.abc import Callable, Sequence
 
 from contact_scene import Scene, SurfaceDiscretisation
+from contact_scene.machine.blas_threads import one_thread
 from contact_scene.normal_form import normal_form
-from contact_scene.one_thread import one_thread
+from contact_scene.quantities.stored_fields import FieldStore
 from contact_scene.solver_errors import ContactAtWindowEdge
-from contact_scene.standing import Keeper, Standing
-from contact_scene.stored_fields import FieldStore
-from semi_analytical.discretise import discretise, enlarged, refuse_small_window
+from contact_scene.stepping.checkpoint import (
+    Checkpoint,
+    CheckpointStore,
+)
+from semi_analytical.default_grid import (
+    discretise,
+    enlarged,
+    refuse_small_window,
+)
 from semi_analytical.fields import Increment, Result
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.history import marked
@@ -20,7 +27,7 @@ from semi_analytical.resolution import refuse_unresolved
 
 Progress = Callable[[Increment], None]
 
-MOST_ENLARGEMENTS = 5
+MAX_ENLARGEMENTS = 5
 # Increments of a history from which on the largest contact is computed first.
 FORESEEN = 4
 
@@ -32,7 +39,7 @@ def solve(
     tolerance: float,
     progress: Progress | None = None,
     plan: Plan | None = None,
-    keeper: Keeper | None = None,
+    store: CheckpointStore | None = None,
 ) -> Result:
     """Contact of a scene on a grid, every increment of its load history.
 
@@ -48,7 +55,7 @@ def solve(
         Called with each increment once it has converged, or is known to have.
     plan
         Which effects are computed; those that the scene calls for if absent.
-    keeper
+    store
         Of this very solve: what it has kept is not computed again.
 
     Raises
@@ -70,7 +77,7 @@ def solve(
     decided = plan_of(scene) if plan is None else plan
     refuse_if_too_large(grid, decided)
     model = ContactModel.of(scene, grid, decided.symmetry)
-    last = keeper.last() if keeper else None
+    last = store.last() if store else None
     since = last if last and last.extent == grid else None
     increments, fields = [*since.increments] if since else [], FieldStore()
     if progress is not None:
@@ -78,8 +85,8 @@ def solve(
             progress(increment)
     for increment, mark in marked(model, decided, tolerance, since):
         increments.append(fields.kept(increment))
-        if keeper is not None:
-            keeper.keep(Standing(tuple(increments), mark, grid))
+        if store is not None:
+            store.keep(Checkpoint(tuple(increments), mark, grid))
         if progress is not None:
             progress(increment)
     return Result(scene, grid, tolerance, decided, tuple(increments))
@@ -90,7 +97,7 @@ def solve_discretised(
     discretisation: SurfaceDiscretisation,
     progress: Progress | None = None,
     plan: Plan | None = None,
-    keeper: Keeper | None = None,
+    store: CheckpointStore | None = None,
 ) -> Result:
     """Solve a scene on the grid that its file asks for.
 
@@ -104,15 +111,15 @@ def solve_discretised(
     first = discretise(scene, discretisation)
     grids = [first]
     if discretisation.window is None and scene.indenter.extent is None:
-        for _ in range(MOST_ENLARGEMENTS):
+        for _ in range(MAX_ENLARGEMENTS):
             larger = enlarged(scene, discretisation, grids[-1])
             if larger == grids[-1]:  # all that a map of friction covers
                 break
             grids.append(larger)
-    kept = keeper is not None and keeper.last() is not None
+    kept = store is not None and store.last() is not None
     if len(grids) == 1 and not kept and sum(decided.increments) >= FORESEEN:
         refuse_small_window(scene, first)
-    result = solve_within(scene, grids, discretisation.tolerance, progress, decided, keeper)
+    result = solve_within(scene, grids, discretisation.tolerance, progress, decided, store)
     refuse_unresolved(result)
     return result
 
@@ -123,18 +130,18 @@ def solve_within(
     tolerance: float,
     progress: Progress | None = None,
     plan: Plan | None = None,
-    keeper: Keeper | None = None,
+    store: CheckpointStore | None = None,
 ) -> Result:
     """Solve a scene on the first of several grids whose window contains the contact.
 
     Raises what `solve` raises.
     """
-    last = keeper.last() if keeper else None
+    last = store.last() if store else None
     if last and last.extent in grids:  # the smaller ones have been outgrown
         grids = grids[grids.index(last.extent) :]
     for grid in grids[:-1]:
         try:
-            return solve(scene, grid, tolerance, progress, plan, keeper)
+            return solve(scene, grid, tolerance, progress, plan, store)
         except ContactAtWindowEdge:
             continue
-    return solve(scene, grids[-1], tolerance, progress, plan, keeper)
+    return solve(scene, grids[-1], tolerance, progress, plan, store)

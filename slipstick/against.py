@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from contact_results.files.measured_table import ACTUATOR, LOAD, PLACE, PRESSURE, SHEAR, SHIFT
 from contact_results.files.stored_run import StoredRun
+from contact_scene.quantities.summary import StepSummary
 from contact_scene.rig import compliances
-from contact_scene.summary import StepSummary
 
 Numbers = NDArray[np.float64]
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
         SurfaceDiscretisation,
     )
     from contact_scene.accuracy import AccuracyRequest
-    from contact_scene.stated_error import StatedErrors
+    from contact_scene.quantities.stated_error import StatedErrors
     from slipstick.solvers.solver import Discretisation, Progress, Solver
 
 Cells: TypeAlias = Literal["semi-analytical"]
@@ -167,7 +167,7 @@ def save(
     """
     from contact_results.directory.run_directory import run_directory
     from contact_results.result_files import write_result
-    from contact_scene.stated_error import StatedErrors
+    from contact_scene.quantities.stated_error import StatedErrors
 
     solver_of(result)
     if not isinstance(errors, StatedErrors | None):

@@ -23,12 +23,18 @@ from contact_errors.stress_errors import largest_stresses
 from contact_results.cycles import fretting_cycles
 from contact_results.files.summary_file import summary_of
 from contact_results.number_text import uncertainty
-from contact_results.stress.extremes import interface_sides, layer_name
 from contact_results.stress.points import MEASURES
+from contact_results.stress.stress_maxima import (
+    interface_sides,
+    layer_name,
+)
 from contact_scene import Body, read_scene_file
-from contact_scene.reported import Kind, reported
+from contact_scene.quantities.field_metadata import (
+    Kind,
+    reported,
+)
+from contact_scene.quantities.summary import StepSummary
 from contact_scene.solver_errors import SolverError
-from contact_scene.summary import StepSummary
 from slipstick.solving import solve, stated_errors
 from verification.running.row import CaseRecord
 

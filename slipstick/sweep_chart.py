@@ -13,7 +13,10 @@ from numpy.typing import NDArray
 
 from contact_results.directory.atomic_file import atomic_file
 from contact_results.figures import style
-from contact_scene.engineering_units import EngineeringUnit, engineering_unit
+from contact_scene.reading.engineering_units import (
+    EngineeringUnit,
+    engineering_unit,
+)
 from slipstick.sweep import Variation
 
 PERCENTILES = (5.0, 50.0, 95.0)

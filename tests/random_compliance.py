@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from semi_analytical.grades import STIFFNESSES
+from semi_analytical.operator.slip_compliance_bins import STIFFNESSES
 
 
 def compliance(rng, size: int) -> np.ndarray:

@@ -3,7 +3,7 @@
 from contact_scene import (
     IsotropicMaterial,
 )
-from contact_scene.summary import EffectSummary
+from contact_scene.quantities.summary import EffectSummary
 from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.exhibits.table import Table
 from verification.judging.outcome import CaseOutcome, RunRecord, SceneRecord, Status, Verdict

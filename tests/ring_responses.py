@@ -10,8 +10,8 @@ import numpy as np
 from hankel_responses import Coating
 from scipy.special import jv
 
-from fem_reference.contact.ring_compliance import RingCompliance
-from fem_reference.contact.ring_edge import HatEdge
+from fem_reference.compliance.ring_compliance import RingCompliance
+from fem_reference.compliance.ring_edge import HatEdge
 from fem_reference.elasticity.hat_functions import hats_on
 from fem_reference.plan import Path
 

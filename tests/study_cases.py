@@ -5,7 +5,7 @@ import signal
 import time
 from dataclasses import dataclass
 
-from contact_scene.description import Description
+from contact_scene.reading.description import Description
 from verification.running.row import CaseRecord
 
 

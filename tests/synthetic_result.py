@@ -9,11 +9,11 @@ from contact_scene import Body as LowerBody
 from contact_scene import CoulombFriction, IsotropicMaterial, LoadStep, Paraboloid, Scene
 from contact_scene.array_types import Field
 from contact_scene.effect import Effect
-from contact_scene.residuals import Residuals
-from contact_scene.summary import ContactStatus
+from contact_scene.quantities.residuals import Residuals
+from contact_scene.quantities.summary import ContactStatus
 from semi_analytical.fields import Increment, Result
 from semi_analytical.grid import SurfaceGrid
-from semi_analytical.path_increments import StepIncrements
+from semi_analytical.increment_counts import StepIncrements
 from semi_analytical.plan import Coupling, Plan
 
 STEEL = IsotropicMaterial(young_modulus=420e9, poisson_ratio=0.3)

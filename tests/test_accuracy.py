@@ -68,15 +68,22 @@ from contact_scene import (
     SceneError,
     SurfaceDiscretisation,
 )
-from contact_scene.scene_file import read_accuracy, read_scene_file
+from contact_scene.quantities.stated_error import (
+    ErrorStatus,
+    StatedError,
+    StatedErrors,
+)
+from contact_scene.quantities.summary import load_summary
+from contact_scene.reading.scene_file import (
+    read_accuracy,
+    read_scene_file,
+)
 from contact_scene.solver_errors import AccuracyOutOfReach, ResourceRefused
-from contact_scene.stated_error import ErrorStatus, StatedError, StatedErrors
-from contact_scene.summary import load_summary
 from fem_reference import Method
 from semi_analytical import solve
 from semi_analytical.stress import field as stress_field
 from slipstick import solve as solve_file
-from slipstick.cli.plan import requests_of
+from slipstick.cli.commands.plan import requests_of
 from slipstick.solvers.names import SolverName
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.moduli import tangential_modulus

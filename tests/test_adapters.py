@@ -15,8 +15,11 @@ from contact_scene.solver_errors import NotConverged
 from verification import Answer, CannotDo, Solver, judge
 from verification.adapters import half_spaces, radius, section, surface
 from verification.challenge.cases import challenges
-from verification.challenge.door import Posed, posed
 from verification.challenge.judgement import Judgement
+from verification.challenge.python_api import (
+    Posed,
+    posed,
+)
 from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.peers.drivers.exchange import approach_of, gap_of

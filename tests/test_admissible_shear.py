@@ -5,7 +5,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from semi_analytical.admissible_shear import (
+from semi_analytical.tangential.admissible_shear import (
     FixedShift,
     ShearSum,
     magnitude,

@@ -6,12 +6,20 @@ from hypothesis import given
 from hypothesis import strategies as st
 from random_compliance import as_map, compliance, graded_inverse, rough_inverse
 
-from semi_analytical.admissible_shear import FixedShift, ShearSum, magnitude, project_on_discs
-from semi_analytical.alternation import solve_coupled
-from semi_analytical.coupled_problem import CoupledProblem
-from semi_analytical.globalisation import solve_together
-from semi_analytical.grades import STIFFNESSES
-from semi_analytical.normal_load import FixedApproach, PressureSum
+from semi_analytical.coupled.alternating_iteration import solve_coupled
+from semi_analytical.coupled.coupled_problem import CoupledProblem
+from semi_analytical.coupled.globalisation import solve_together
+from semi_analytical.normal.normal_load import (
+    FixedApproach,
+    PressureSum,
+)
+from semi_analytical.operator.slip_compliance_bins import STIFFNESSES
+from semi_analytical.tangential.admissible_shear import (
+    FixedShift,
+    ShearSum,
+    magnitude,
+    project_on_discs,
+)
 
 TOLERANCE = 1e-11
 SHAPE = (3, 4)

@@ -20,11 +20,15 @@ from slipstick.cli import main
 from tests.cell_means import ellipse_means
 from verification import Answer, CannotDo, Field, Solver, judge
 from verification.adapters import surface
-from verification.challenge.asked import Challenge, Grade, Patch
 from verification.challenge.cases import challenges
 from verification.challenge.cases_at_places import PLACES
-from verification.challenge.door import Posed
 from verification.challenge.judgement import judged
+from verification.challenge.python_api import Posed
+from verification.challenge.requested_quantities import (
+    Challenge,
+    Grade,
+    Patch,
+)
 from verification.challenge.round_table import RoundTable
 from verification.challenge.toml_text import toml_text
 from verification.judging.outcome import Status

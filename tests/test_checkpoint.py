@@ -17,7 +17,10 @@ import pytest
 import fem_reference
 import radial
 import semi_analytical
-from contact_results.directory.checkpoint import Checkpoint, checkpointed
+from contact_results.directory.checkpoint import (
+    CheckpointDirectory,
+    checkpointed,
+)
 from contact_results.directory.checkpoint_file import FORMAT, Unusable, pack, unpacked
 from contact_results.result_files import write_result
 from contact_scene import (
@@ -30,12 +33,18 @@ from contact_scene import (
     Scene,
     Sphere,
     SurfaceDiscretisation,
-    stored_fields,
 )
 from contact_scene.discretisation import EdgeCorrection
+from contact_scene.quantities import stored_fields
+from contact_scene.quantities.stored_fields import (
+    StoredArray,
+    WithFields,
+)
 from contact_scene.solver_errors import GrossSliding
-from contact_scene.standing import Keeper, Standing
-from contact_scene.stored_fields import StoredArray, WithFields
+from contact_scene.stepping.checkpoint import (
+    Checkpoint,
+    CheckpointStore,
+)
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 SOFT = IsotropicMaterial(young_modulus=70e9, poisson_ratio=0.33)
@@ -63,7 +72,7 @@ APPROACHED = (
 )
 SURFACE = SurfaceDiscretisation(cells=(16, 16), edge="off")
 SECTION = FiniteElementDiscretisation(elements_per_radius=4, contact_radius=2e-4)
-Solve = Callable[[Keeper | None], Any]
+Solve = Callable[[CheckpointStore | None], Any]
 
 
 def scene(body: Body, loading: tuple[LoadStep, ...], ball: Sphere = BALL) -> Scene:
@@ -74,8 +83,8 @@ def scene(body: Body, loading: tuple[LoadStep, ...], ball: Sphere = BALL) -> Sce
 def on_surface(
     body: Body, loading: tuple[LoadStep, ...], surface: SurfaceDiscretisation = SURFACE
 ) -> Solve:
-    return lambda keeper: semi_analytical.solve_discretised(
-        scene(body, loading), surface, keeper=keeper
+    return lambda store: semi_analytical.solve_discretised(
+        scene(body, loading), surface, store=store
     )
 
 
@@ -84,8 +93,8 @@ def with_edges(body: Body, edge: EdgeCorrection, ball: Sphere | None = None) -> 
     ball = ball or BALL.model_copy(update={"layers": body.layers})
     surface = SurfaceDiscretisation(cells=(32, 32), edge=edge)
 
-    def solve(keeper: Keeper | None) -> Any:
-        result = semi_analytical.solve_discretised(scene(body, LED, ball), surface, keeper=keeper)
+    def solve(store: CheckpointStore | None) -> Any:
+        result = semi_analytical.solve_discretised(scene(body, LED, ball), surface, store=store)
         assert any(step.edge_change is not None for step in result.steps)
         return result
 
@@ -93,13 +102,13 @@ def with_edges(body: Body, edge: EdgeCorrection, ball: Sphere | None = None) -> 
 
 
 def on_section(body: Body, loading: tuple[LoadStep, ...], method: fem_reference.Method) -> Solve:
-    return lambda keeper: fem_reference.solve(scene(body, loading), SECTION, method, keeper=keeper)
+    return lambda store: fem_reference.solve(scene(body, loading), SECTION, method, store=store)
 
 
 def on_rings(loading: tuple[LoadStep, ...]) -> Solve:
     posed = scene(SOFTER, loading)
     rough = replace(radial.plan(posed), fineness=0.5)
-    return lambda keeper: radial.solve(posed, plan=rough, keeper=keeper)
+    return lambda store: radial.solve(posed, plan=rough, store=store)
 
 
 SOLVES = {
@@ -127,13 +136,13 @@ SOLVES = {
 class All:
     """Keeps every standing in memory; `since` is what it says was kept before."""
 
-    since: Standing | None = None
-    kept: list[Standing] = field(default_factory=list)
+    since: Checkpoint | None = None
+    kept: list[Checkpoint] = field(default_factory=list)
 
-    def last(self) -> Standing | None:
+    def last(self) -> Checkpoint | None:
         return self.since
 
-    def keep(self, standing: Standing) -> None:
+    def keep(self, standing: Checkpoint) -> None:
         self.kept.append(standing)
 
 
@@ -145,14 +154,14 @@ class Killed(BaseException):
 class Ending:
     """Passes on to a keeper, and dies after so many increments."""
 
-    keeper: Keeper
+    store: CheckpointStore
     lives: int
 
-    def last(self) -> Standing | None:
-        return self.keeper.last()
+    def last(self) -> Checkpoint | None:
+        return self.store.last()
 
-    def keep(self, standing: Standing) -> None:
-        self.keeper.keep(standing)
+    def keep(self, standing: Checkpoint) -> None:
+        self.store.keep(standing)
         self.lives -= 1
         if not self.lives:
             raise Killed
@@ -174,8 +183,10 @@ def differences(one: Any, other: Any, where: str = "") -> Iterator[str]:
         yield where
 
 
-def checkpoint(directory: Path, said: list[str], identity: str = "this solve") -> Checkpoint:
-    return Checkpoint(directory / "checkpoint", identity, said.append, 0.0)
+def checkpoint(
+    directory: Path, said: list[str], identity: str = "this solve"
+) -> CheckpointDirectory:
+    return CheckpointDirectory(directory / "checkpoint", identity, said.append, 0.0)
 
 
 @pytest.fixture(autouse=True)
@@ -227,29 +238,29 @@ def test_part_that_cannot_be_used_is_named_and_computed_again(
     damage: Callable[[bytes], bytes], problem: str, number: int, tmp_path: Path
 ) -> None:
     solve, said = SOLVES["similar"], []
-    keeper = checkpoint(tmp_path, said)
-    whole = solve(keeper)
-    keeper.close()
+    store = checkpoint(tmp_path, said)
+    whole = solve(store)
+    store.close()
     path = tmp_path / "checkpoint" / f"part-{number:06d}"
     path.write_bytes(damage(path.read_bytes()))
-    keeper = checkpoint(tmp_path, said)
-    last = keeper.last()
+    store = checkpoint(tmp_path, said)
+    last = store.last()
     assert (last.mark.done if last else 0) == number
     assert str(path) in said[0]
     assert problem in said[0]
-    assert [*differences(whole.increments, solve(keeper).increments)] == []
+    assert [*differences(whole.increments, solve(store).increments)] == []
 
 
 def test_checkpoint_of_another_solve_is_named_and_replaced(tmp_path: Path) -> None:
     said: list[str] = []
-    keeper = checkpoint(tmp_path, said, "an earlier scene")
-    SOLVES["similar"](keeper)
-    keeper.close()
-    keeper = checkpoint(tmp_path, said)
-    assert keeper.last() is None
+    store = checkpoint(tmp_path, said, "an earlier scene")
+    SOLVES["similar"](store)
+    store.close()
+    store = checkpoint(tmp_path, said)
+    assert store.last() is None
     assert "another scene, solver, discretisation or version" in said[0]
-    SOLVES["coupled"](keeper)
-    keeper.close()
+    SOLVES["coupled"](store)
+    store.close()
     assert checkpoint(tmp_path, said).last() is not None
     assert checkpoint(tmp_path, said, "an earlier scene").last() is None
 
@@ -303,8 +314,8 @@ def test_arrays_of_other_types_and_fields_of_other_files_are_not_read(tmp_path: 
 def test_full_disk_costs_the_checkpoint_alone(tmp_path: Path) -> None:
     said: list[str] = []
     (tmp_path / "file").touch()
-    keeper = Checkpoint(tmp_path / "file" / "checkpoint", "this solve", said.append, 0.0)
-    assert [*differences(SOLVES["similar"](keeper), SOLVES["similar"](None))] == []
+    store = CheckpointDirectory(tmp_path / "file" / "checkpoint", "this solve", said.append, 0.0)
+    assert [*differences(SOLVES["similar"](store), SOLVES["similar"](None))] == []
     assert len(said) == 1
     assert "no checkpoint could be written" in said[0]
 
@@ -317,8 +328,8 @@ def test_checkpoint_stays_only_where_it_is_of_use(
 ) -> None:
     monkeypatch.setattr("contact_results.directory.checkpoint.SECONDS_BETWEEN", 0.0)
     outcome = nullcontext() if error is None else pytest.raises(type(error))
-    with outcome, checkpointed(tmp_path / "out", "this solve", print) as keeper:
-        SOLVES["similar"](keeper)
+    with outcome, checkpointed(tmp_path / "out", "this solve", print) as store:
+        SOLVES["similar"](store)
         assert (tmp_path / ".out.checkpoint").is_dir()
         if error is not None:
             raise error
@@ -331,7 +342,7 @@ def test_checkpoint_stays_only_where_it_is_of_use(
 @pytest.fixture
 def stored(monkeypatch: pytest.MonkeyPatch) -> None:
     """Whatever can be is in a file."""
-    monkeypatch.setattr(stored_fields, "MOST_HELD", 0)
+    monkeypatch.setattr(stored_fields, "MAX_HELD", 0)
     monkeypatch.setattr(stored_fields, "LEAST_STORED", 1)
 
 

@@ -15,8 +15,8 @@ from command import slipstick
 from synthetic_result import synthetic_result
 
 import semi_analytical
+from contact_results.blas_threads import VARIABLES
 from contact_results.directory.file_names import SUMMARY
-from contact_results.one_thread import VARIABLES
 from contact_scene.solver_errors import (
     ContactAtWindowEdge,
     GrossSliding,
@@ -64,7 +64,7 @@ def solver(monkeypatch: pytest.MonkeyPatch) -> Callable[[Exception | None], None
 
     def replace_by(failure: Exception | None) -> None:
         def solve(
-            scene: Any, discretisation: Any, progress: Any, plan: Any, keeper: Any = None
+            scene: Any, discretisation: Any, progress: Any, plan: Any, store: Any = None
         ) -> Any:
             result = synthetic_result()
             for increment in result.increments:

@@ -14,7 +14,7 @@ from conftest import leave_figures_undrawn
 from scene_texts import COARSE, STEEL_BALL_PRESSED
 
 from contact_results.directory.file_names import SUMMARY
-from contact_scene.summary import summary_schema
+from contact_scene.quantities.summary import summary_schema
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -112,13 +112,13 @@ import contact_results.directory.checkpoint as checkpoint
 from slipstick.cli import main
 checkpoint.SECONDS_BETWEEN = float("inf")
 signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background ignores it
-keep, done = checkpoint.Checkpoint.keep, []
+keep, done = checkpoint.CheckpointDirectory.keep, []
 def keep_and_signal(self, standing):
     keep(self, standing)
     done.append(standing)
     if len(done) == {after}:
         signal.raise_signal({number:d})
-checkpoint.Checkpoint.keep = keep_and_signal
+checkpoint.CheckpointDirectory.keep = keep_and_signal
 main()
 """
 

@@ -111,7 +111,7 @@ def test_workers_of_other_sources_are_refused(
 def test_verification_on_a_cluster_gives_the_report_of_this_machine(
     address: str, tmp_path: Path
 ) -> None:
-    from slipstick.cli.verify import judged
+    from slipstick.cli.commands.verify import judged
     from verification.cases.catalogue import choose
     from verification.judging.case import Level
 

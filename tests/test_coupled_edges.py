@@ -9,7 +9,7 @@ import pytest
 
 import radial
 from contact_scene import LoadStep, RadialDiscretisation, Scene
-from contact_scene.pair import outermost_beta
+from contact_scene.body_pair import outermost_beta
 from semi_analytical import SurfaceGrid, plan, solve
 from verification.problems.coupled_edges import CONTACTS
 from verification.problems.layered_scene import coated, film, half_space, pressed, rigid_ball

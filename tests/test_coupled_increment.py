@@ -16,7 +16,7 @@ from coupled_scenes import (
 )
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Paraboloid
-from contact_scene.summary import ContactStatus
+from contact_scene.quantities.summary import ContactStatus
 from semi_analytical import SurfaceGrid, solve
 
 TOLERANCE = 1e-8

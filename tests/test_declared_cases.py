@@ -8,15 +8,6 @@ import pytest
 
 from verification.judging.case import Derived, Required
 from verification.judging.declared_case import Falls, Refined, Reported, Within, case, judged
-from verification.judging.ladder import (
-    MIDDLE,
-    asked,
-    named,
-    on_cells,
-    on_elements,
-    part_of_side,
-    with_edge_at,
-)
 from verification.judging.observable import Observable
 from verification.judging.observables import (
     APPROACH,
@@ -29,11 +20,20 @@ from verification.judging.observables import (
     STICK_RADIUS,
     WORK,
 )
+from verification.judging.refinement_levels import (
+    MIDDLE,
+    asked,
+    named,
+    on_cells,
+    on_elements,
+    part_of_side,
+    with_edge_at,
+)
 from verification.judging.run import Run
+from verification.problems.cattaneo_mindlin import sheared
 from verification.problems.hertz import BALL
 from verification.problems.paper_scene import HERTZ, hertz_grid
 from verification.problems.problem import Problem
-from verification.problems.sheared import sheared
 
 CELLS = (32, 64, 128)
 SHEARED = sheared("sheared", (0.3, 0.9))

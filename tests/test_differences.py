@@ -11,8 +11,8 @@ import pytest
 from contact_scenes import PRESS, grid, push, scene
 
 from contact_results.key_numbers import outcome_columns
-from contact_scene.increment import SCALARS
-from contact_scene.linear_theory import beyond_linear_theory
+from contact_scene.checks.strain_check import beyond_linear_theory
+from contact_scene.quantities.increment import SCALARS
 from semi_analytical import Result, solve
 from slipstick.cli.outcome_text import solved_in
 from verification.cases import hertz, histories, indenters

@@ -17,7 +17,7 @@ from contact_scenes import (
 )  # fmt: skip
 
 import slipstick
-from contact_results.remarks import remarks
+from contact_results.result_warnings import remarks
 from contact_scene import HeightMap, Scene, SurfaceDiscretisation
 from semi_analytical import SurfaceGrid, plan, solve
 from semi_analytical.edge_correction.pressure import LEAST_FACTOR, relaxation_factor

@@ -6,8 +6,8 @@ from numpy.typing import NDArray
 from scipy.integrate import quad
 from scipy.ndimage import binary_erosion
 
+from semi_analytical.edge.clipped_power_means import mean_power
 from semi_analytical.edge.fit import NARROW, WIDE, Stencil, fit_about
-from semi_analytical.edge.means import mean_power
 from semi_analytical.edge.shape import EdgeShape, edge_shape
 from tests.cell_means import ellipse_means, elliptic_radius
 

@@ -21,9 +21,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from contact_scene import RIGID, Body, FlatPunch
-from contact_scene.summary import ContactStatus
+from contact_scene.quantities.summary import ContactStatus
 from semi_analytical import NotConverged, history, one_way, plan, solve
-from semi_analytical.increment import solve_increment
+from semi_analytical.increments.increment import solve_increment
 
 TOLERANCE = 1e-8
 # Balance of the first law asked for; the equations are solved to the tolerance above.

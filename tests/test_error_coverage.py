@@ -10,7 +10,10 @@ import numpy as np
 import pytest
 
 from contact_errors.error_formula import Comparison
-from contact_scene.stated_error import ErrorStatus, StatedError
+from contact_scene.quantities.stated_error import (
+    ErrorStatus,
+    StatedError,
+)
 from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.problems.drawn.known_scene import APPROACH, Truth

@@ -12,7 +12,7 @@ import fem_reference
 import semi_analytical
 from contact_errors.values import values_of
 from contact_results.cycles import fretting_cycles
-from contact_scene.pair import contact_modulus
+from contact_scene.body_pair import contact_modulus
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.problems.drawn.families import CHOOSING, FAMILIES, JUDGING, TRIED, drawn
 from verification.problems.drawn.known_scene import CELLS, STRESSES, KnownScene

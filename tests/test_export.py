@@ -15,10 +15,13 @@ from test_stress_files import COATED, STATES
 import slipstick
 from contact_results.files.mesh_file import read_mesh
 from contact_results.result_files import write_result
-from contact_results.stress.extremes import extremes
 from contact_results.stress.on_cells import stress_on_cells
+from contact_results.stress.stress_maxima import extremes
 from contact_results.stress_files import write_stress
-from contact_scene.increment import SCALARS, components
+from contact_scene.quantities.increment import (
+    SCALARS,
+    components,
+)
 
 HOSTILE = '=HYPERLINK("http://a.example";"b") <&>  µ'
 

@@ -63,12 +63,12 @@ def test_solution_is_optimal_from_any_guess(program: BoxProgram, code: int) -> N
 @given(programs())
 def test_descent_alone_finds_the_same(program: BoxProgram) -> None:
     free = np.zeros(len(program.right), np.int8)
-    steps = box_program.MOST_STEPS
+    steps = box_program.MAX_STEPS
     try:
-        box_program.MOST_STEPS = 0
+        box_program.MAX_STEPS = 0
         slow = solve_box(program, free)
     finally:
-        box_program.MOST_STEPS = steps
+        box_program.MAX_STEPS = steps
     assert_optimal(program, slow)
     assert slow.values == pytest.approx(solve_box(program, free).values, abs=1e-8)
 

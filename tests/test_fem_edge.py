@@ -8,8 +8,11 @@ from contact_scenes import LOAD, A, scene
 from fem_scenes import end
 from scipy.linalg import toeplitz
 
+from fem_reference.compliance.ring_edge import (
+    HatEdge,
+    stick_area,
+)
 from fem_reference.contact.box_program import BoxProgram, Total, solve_box
-from fem_reference.contact.ring_edge import HatEdge, stick_area
 
 CENTRE = 200
 

@@ -10,18 +10,23 @@ from hypothesis import strategies as st
 from ring_responses import half_space, rings
 
 from contact_scene import CoulombFriction
+from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import ContactNotResolved, GrossSliding, NotConverged
-from contact_scene.summary import ContactStatus
+from fem_reference.compliance.angular_grid import (
+    AngularGrid,
+    axisymmetric_grid,
+    end_grid,
+    mid_grid,
+)
+from fem_reference.compliance.point_compliance import PointCompliance
 from fem_reference.contact import (
     alternating_iteration,
     increment,
     tangential_newton,
 )
 from fem_reference.contact.admissible_shear import into_discs, project
-from fem_reference.contact.angular_grid import AngularGrid, axisymmetric_grid, end_grid, mid_grid
 from fem_reference.contact.augmented_lagrangian import Penalty
 from fem_reference.contact.increment import advance
-from fem_reference.contact.point_compliance import PointCompliance
 from fem_reference.contact.point_contact import PointContact
 from fem_reference.contact.point_state import PointState
 from fem_reference.loads import Loads, NormalTarget, TangentialTarget
@@ -295,7 +300,7 @@ def by_continuation_alone(monkeypatch):
     def without(*_):
         raise NotConverged("the coupled increment", 0, np.inf, TOLERANCE)
 
-    monkeypatch.setattr(alternating_iteration, "MOST_TURNS", 0)
+    monkeypatch.setattr(alternating_iteration, "MAX_TURNS", 0)
     monkeypatch.setattr(increment, "solve_by_newton", without)
 
 

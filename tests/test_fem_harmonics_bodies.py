@@ -18,7 +18,7 @@ from contact_scene import (
 )
 from contact_scene.solver_errors import SurfacesOverlap
 from fem_reference import Method, solve
-from fem_reference.contact.ring_compliance import ring_compliance
+from fem_reference.compliance.ring_compliance import ring_compliance
 from fem_reference.model import ContactModel
 from fem_reference.plan import Path
 from verification.observed.ring_tractions import tractions_at

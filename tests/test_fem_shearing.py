@@ -17,8 +17,8 @@ from contact_scenes import (
 )
 from fem_scenes import both_laws, end, solved
 
+from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import GrossSliding
-from contact_scene.summary import ContactStatus
 from fem_reference import Method
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.moduli import tangential_modulus

@@ -13,7 +13,7 @@ import slipstick
 from contact_results.directory.file_names import FIELDS
 from contact_results.files.field_file import write_fields
 from contact_results.result_files import write_result
-from contact_scene.increment import SCALARS
+from contact_scene.quantities.increment import SCALARS
 from semi_analytical import solve
 
 STEEL = slipstick.IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)

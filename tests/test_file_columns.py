@@ -13,8 +13,11 @@ from test_section_output import LOOP, TWISTED
 import slipstick
 from contact_results.directory.file_names import COLUMNS, SUMMARY
 from contact_results.result_files import write_result
-from contact_scene.convention import CONVENTION
-from contact_scene.summary import SUMMARY_VERSION, load_summary
+from contact_scene.quantities.convention import CONVENTION
+from contact_scene.quantities.summary import (
+    SUMMARY_VERSION,
+    load_summary,
+)
 
 RESULTS = {
     "cells": synthetic_result,

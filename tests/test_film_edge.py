@@ -15,9 +15,12 @@ from contact_scene import (
     Paraboloid,
     Scene,
 )
-from radial.bodies import Bodies
-from radial.disc import Disc, disc
-from radial.surface import pressure
+from radial.normal.disc import (
+    Disc,
+    disc,
+)
+from radial.normal.surface import pressure
+from radial.response.bodies import Bodies
 from semi_analytical import SurfaceGrid, plan, solve
 from semi_analytical.edge.film import FilmLaw, film_law
 from verification.cell_means import round_means

@@ -6,7 +6,7 @@ from contact_scenes import grid
 from coupled_scenes import bulk, press, scene
 
 from semi_analytical import solve
-from semi_analytical.sheared import touching_share
+from semi_analytical.increments.tangential_state import touching_share
 
 X = np.linspace(-1.2, 1.2, 49)
 SQUARED = X[:, None] ** 2 + X**2

@@ -15,8 +15,8 @@ from contact_results import cycles
 from contact_results.cycles import fretting_cycles
 from contact_results.result_files import write_result
 from contact_scene import RIGID, Body, LoadStep
-from contact_scene.cycles import load_cycles
-from contact_scene.load_path import load_path
+from contact_scene.quantities.cycles import load_cycles
+from contact_scene.stepping.load_path import load_path
 from semi_analytical import solve
 from verification.problems import paper_scene as paper
 
@@ -59,7 +59,7 @@ def loop(cells, *loading, window=1.1):
 
 def test_slip_amplitude_is_half_the_largest_distance_of_two_slips(monkeypatch):
     """Of more cells than are told at once, too."""
-    monkeypatch.setattr(cycles, "MOST_AT_ONCE", 1000)
+    monkeypatch.setattr(cycles, "MAX_AT_ONCE", 1000)
     monkeypatch.setattr(cycles, "NEAR_AT_HAND", 200)
     result = loop(16, PRESS, push(0.8, 0.1), push(-0.8, increments=4), push(0.8, 0.1, increments=4))
     (found,) = fretting_cycles(result)

@@ -29,7 +29,7 @@ from verification.observed.surfaces import surface_violation
 TOLERANCE = 1e-6
 # Convolutions of an increment of coupled cells: Newton's method takes at most 78. It takes 142 to
 # 259 where the shear of slipping cells is a tenth below the limit and the alternation ends it.
-MOST_CONVOLUTIONS = 110
+MAX_CONVOLUTIONS = 110
 # Of 40 cells, 24 rings and 32 elements; energy of thin annuli is known no better.
 AGREE = {"approach": 2e-4, "tangential_shift": 1e-2, "twist": 1e-2, "dissipated_energy": 0.2}
 PEAK = hertz().peak_pressure
@@ -147,7 +147,7 @@ def test_any_law_of_friction_holds_in_every_solver_which_agree(law, history) -> 
     elements = {name: solve(asked) for name, solve in ELEMENTS.items()}
     assert surface_violation(cells) < TOLERANCE
     if coupled:
-        assert max(one.convolutions for one in cells.increments) < MOST_CONVOLUTIONS
+        assert max(one.convolutions for one in cells.increments) < MAX_CONVOLUTIONS
     assert ring_violation(rings) < bound
     for name, result in elements.items():
         assert section_laws(result)[0] < TOLERANCE, name

@@ -15,9 +15,9 @@ from contact_results.result_files import write_result
 from contact_results.stress.loaded_bodies import state_of_result, state_of_run
 from contact_results.surface import surface_of
 from contact_scene import HeightMap, SceneError
-from contact_scene.increment import SCALARS
-from contact_scene.reported import reported
-from contact_scene.stated_error import Part
+from contact_scene.quantities.field_metadata import reported
+from contact_scene.quantities.increment import SCALARS
+from contact_scene.quantities.stated_error import Part
 from slipstick.solvers.names import SolverName
 
 ROOT = Path(__file__).resolve().parents[1]

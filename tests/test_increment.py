@@ -7,10 +7,14 @@ import pytest
 from contact_scenes import LOAD, PRESS, RIGID_BALL, grid, push, scene
 
 from semi_analytical import SurfaceGrid, solve
-from semi_analytical.behind import Behind, further, further_shear
+from semi_analytical.increments.increment_history import (
+    PreviousIncrement,
+    further,
+    further_shear,
+)
+from semi_analytical.increments.normal_solve import NormalTarget
+from semi_analytical.increments.tangential_solve import TangentialTarget
 from semi_analytical.operator.operator import DisplacementOperator
-from semi_analytical.pressing import NormalTarget
-from semi_analytical.shearing import TangentialTarget
 
 TOLERANCE = 1e-8
 PRODUCTS = "normal", "tangential", "normal_by_shear", "tangential_by_pressure", "together"
@@ -102,7 +106,7 @@ def test_impossible_grid_is_refused(cells, window):
 
 
 NOTHING = np.zeros((2, 1, 1))
-FIRST = Behind(
+FIRST = PreviousIncrement(
     target=NormalTarget(force=1.0),
     pressure=NOTHING[0],
     shear=NOTHING + 1,

@@ -11,8 +11,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from contact_scene import kept_arrays
-from contact_scene.kept_arrays import SUFFIX, remembered
+from contact_scene.machine import disk_cache
+from contact_scene.machine.disk_cache import (
+    SUFFIX,
+    remembered,
+)
 from fem_reference.elasticity import compliance
 from semi_analytical.influence import layered
 
@@ -119,7 +122,7 @@ def test_without_a_place_to_write_there_is_no_cache_and_no_complaint(
 def test_least_recently_used_make_room_and_other_files_are_spared(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(kept_arrays, "LARGEST_CACHE", 900)
+    monkeypatch.setattr(disk_cache, "LARGEST_CACHE", 900)
     folder.mkdir(parents=True)
     (folder / "notes.txt").write_text("x" * 5000)
     for number in range(3):  # of 250 bytes each

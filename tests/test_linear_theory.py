@@ -23,8 +23,11 @@ from contact_scene import (
     SurfaceDiscretisation,
     read_scene_file,
 )
-from contact_scene.linear_theory import SMALL_STRAIN, beyond_linear_theory
-from contact_scene.plausibility import implausible
+from contact_scene.checks.plausibility import implausible
+from contact_scene.checks.strain_check import (
+    SMALL_STRAIN,
+    beyond_linear_theory,
+)
 from semi_analytical import Result
 from verification.problems import paper_scene as paper
 

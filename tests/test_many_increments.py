@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import slipstick
-from contact_scene import stored_fields
-from contact_scene.increment import ReportedIncrement
+from contact_scene.quantities import stored_fields
+from contact_scene.quantities.increment import ReportedIncrement
 
 EARLY = 0.3  # of the increments: all is allocated, and fields go into the file
 STEEL = slipstick.IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
@@ -57,7 +57,7 @@ many = pytest.param(10_000, marks=[pytest.mark.slow, pytest.mark.timeout(3600)])
 def test_memory_is_flat_and_the_end_that_of_a_few(
     solver: str, count: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(stored_fields, "MOST_HELD", 1 << 20)
+    monkeypatch.setattr(stored_fields, "MAX_HELD", 1 << 20)
     seen: list[int] = []
     memory: list[int] = []
 

@@ -8,13 +8,17 @@ from random_compliance import compliance
 from test_alternation import LOADS, DenseContact
 
 from semi_analytical import solve
-from semi_analytical.generalised_derivative import Natural, Point, Zones
-from semi_analytical.globalisation import solve_together
-from semi_analytical.grades import STIFFNESSES
-from semi_analytical.krylov import least_residual
-from semi_analytical.linearised_increment import LinearisedIncrement
+from semi_analytical.coupled.generalised_derivative import (
+    Natural,
+    Point,
+    Zones,
+)
+from semi_analytical.coupled.globalisation import solve_together
+from semi_analytical.coupled.krylov import least_residual
+from semi_analytical.coupled.linearised_increment import LinearisedIncrement
+from semi_analytical.coupled.newton_iterate import reached
 from semi_analytical.model import ContactModel
-from semi_analytical.newton_iterate import reached
+from semi_analytical.operator.slip_compliance_bins import STIFFNESSES
 
 TOLERANCE = 1e-8
 

@@ -7,9 +7,12 @@ from hypothesis import strategies as st
 from random_compliance import as_map, compliance, rough_inverse
 
 from contact_scene.solver_errors import NotConverged
-from semi_analytical import normal
-from semi_analytical.normal import solve_normal
-from semi_analytical.normal_load import FixedApproach, PressureSum
+from semi_analytical.normal import normal_problem
+from semi_analytical.normal.normal_load import (
+    FixedApproach,
+    PressureSum,
+)
+from semi_analytical.normal.normal_problem import solve_normal
 
 TOLERANCE = 1e-11
 SHAPE = (4, 5)
@@ -65,9 +68,9 @@ def test_an_operator_that_is_not_positive_is_reported(rng):
     assert caught.value.tolerance == TOLERANCE
 
 
-@pytest.mark.parametrize("limit", ["MOST_STEPS", "MOST_ITERATIONS"])
+@pytest.mark.parametrize("limit", ["MAX_STEPS", "MAX_ITERATIONS"])
 def test_a_stop_above_the_tolerance_is_an_error(rng, monkeypatch, limit):
-    monkeypatch.setattr(normal, limit, 1)
+    monkeypatch.setattr(normal_problem, limit, 1)
     with pytest.raises(NotConverged, match="the pressure") as caught:
         solved(compliance(rng, 20), rng.random(20), PressureSum(3.0))
     assert caught.value.residual > caught.value.tolerance == TOLERANCE

@@ -11,7 +11,11 @@ from contact_scenes import APPROACH, LIMIT, LOAD, PRESS, RIGID_BALL, A, grid, pu
 from fem_scenes import elements
 
 from contact_scene import Scene
-from contact_scene.residuals import Residuals, ShearResiduals, worst
+from contact_scene.quantities.residuals import (
+    Residuals,
+    ShearResiduals,
+    worst,
+)
 from contact_scene.solver_errors import NotConverged
 from fem_reference import Method
 from fem_reference import residuals as of_rings

@@ -9,7 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from contact_results.one_thread import ONE, VARIABLES
+from contact_results.blas_threads import (
+    ONE,
+    VARIABLES,
+)
 from verification.cases.catalogue import CASES, MODULE_OF
 
 ROOT = Path(__file__).resolve().parents[1]

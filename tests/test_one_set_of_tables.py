@@ -24,8 +24,14 @@ from contact_scene import (
     Scene,
     SurfaceDiscretisation,
 )
-from contact_scene.increment import SCALARS, components
-from contact_scene.reported import Kind, reported
+from contact_scene.quantities.field_metadata import (
+    Kind,
+    reported,
+)
+from contact_scene.quantities.increment import (
+    SCALARS,
+    components,
+)
 from fem_reference import Method
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)

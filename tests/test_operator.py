@@ -7,10 +7,10 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer, Paraboloid
-from semi_analytical.grades import STIFFNESSES
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.operator.domain import WINDOW
 from semi_analytical.operator.operator import DisplacementOperator, inverse_2x2
+from semi_analytical.operator.slip_compliance_bins import STIFFNESSES
 from semi_analytical.operator.transforms import Convolutions, offsets_for
 
 SHAPES = [(6, 5), (2, 7), (7, 11), (16, 8), (13, 17), (31, 3)]

@@ -17,7 +17,7 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 
 from contact_scene import FiniteElementDiscretisation, SurfaceDiscretisation
 from contact_scene.geometry import HeightMap
-from contact_scene.quantity import (
+from contact_scene.reading.quantity import (
     Force,
     FrictionCoefficient,
     Length,

@@ -32,9 +32,12 @@ from contact_scene import (
 )
 from contact_scene.geometry import ShapedBody
 from contact_scene.solver_errors import UnsupportedScene
-from radial.bodies import Bodies
-from radial.disc import disc
-from radial.surface import displacement, pressure
+from radial.normal.disc import disc
+from radial.normal.surface import (
+    displacement,
+    pressure,
+)
+from radial.response.bodies import Bodies
 from semi_analytical.frf.surface import remainder_scalars
 from verification.closed_forms.coated_indentation import LayeredSurface
 from verification.closed_forms.coated_indentation import flat_punch as coated_punch

@@ -24,11 +24,11 @@ from contact_scene import (
     Scene,
 )
 from contact_scene.solver_errors import GrossSliding
-from radial.circle import Circle
-from radial.coupling import Coupling
-from radial.ring_layout import laid
-from radial.ring_points import Points
-from radial.sliding import carried_times
+from radial.angular_grid import Circle
+from radial.frictional.coupling import Coupling
+from radial.tangential.limit_load import carried_times
+from radial.tangential.ring_layout import laid
+from radial.tangential.ring_points import Points
 
 SOFT = IsotropicMaterial(young_modulus=0.91, poisson_ratio=0.3)
 LOAD, FRICTION = 4 / 3e6, 0.3  # of a ball with R = 1 and E* = 1: a = 1/100

@@ -22,9 +22,12 @@ from contact_scene import (
     Paraboloid,
     Scene,
 )
+from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import NotConverged
-from contact_scene.summary import ContactStatus
-from radial.rings import OUTSIDE, rings_about
+from radial.frictional.rings import (
+    OUTSIDE,
+    rings_about,
+)
 from verification.problems.indentation import STRONG, WEAK, Indentation
 
 # Of half-spaces with E* = 1 below a ball with R = 1, so that a = W = 1 are of a kind.

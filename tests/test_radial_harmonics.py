@@ -12,11 +12,11 @@ from scipy.integrate import dblquad
 from scipy.special import hyp2f1, jv
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer, LoadStep, Paraboloid, Scene
-from radial import ring_energies
-from radial.coupling import Coupling
-from radial.harmonic_kernels import alike
-from radial.ring_compliance import ring_compliance
-from radial.ring_energies import unit_energies
+from radial.frictional.coupling import Coupling
+from radial.tangential import ring_energies
+from radial.tangential.harmonic_kernels import alike
+from radial.tangential.ring_compliance import ring_compliance
+from radial.tangential.ring_energies import unit_energies
 
 NODES = (0.0, 0.1, 0.22, 0.3, 0.5, 0.8, 0.95, 1.0, 1.3)
 HIGHEST = 6

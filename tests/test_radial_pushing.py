@@ -24,8 +24,8 @@ from contact_scene import (
     Paraboloid,
     Scene,
 )
+from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import GrossSliding, UnsupportedScene
-from contact_scene.summary import ContactStatus
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.tangential_history import TangentialHistory
 

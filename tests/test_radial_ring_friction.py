@@ -20,14 +20,17 @@ from contact_scene import (
     Scene,
 )
 from contact_scene.solver_errors import ContactAtZoneEdge
-from radial.circle import Circle
-from radial.coupling import Coupling
-from radial.ring_compliance import ring_compliance
-from radial.ring_friction import held
-from radial.ring_laws import Laws
-from radial.ring_newton import aimed
-from radial.ring_points import Points
-from radial.ring_state import Held, Loads
+from radial.angular_grid import Circle
+from radial.frictional.coupling import Coupling
+from radial.tangential.ring_compliance import ring_compliance
+from radial.tangential.ring_friction import held
+from radial.tangential.ring_laws import Laws
+from radial.tangential.ring_newton import aimed
+from radial.tangential.ring_points import Points
+from radial.tangential.ring_state import (
+    Held,
+    Loads,
+)
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 
 Array = np.ndarray

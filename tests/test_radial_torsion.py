@@ -27,13 +27,19 @@ from contact_scene import (
     Scene,
 )
 from contact_scene.geometry import ShapedBody
+from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import UnsupportedScene
-from contact_scene.summary import ContactStatus
-from radial.bodies import Bodies
-from radial.disc import Disc, disc
-from radial.surface import pressure
-from radial.torsion import Slipped, Torsion
-from radial.twist_path import TwistPath
+from radial.normal.disc import (
+    Disc,
+    disc,
+)
+from radial.normal.surface import pressure
+from radial.response.bodies import Bodies
+from radial.torsion.torsion import (
+    Slipped,
+    Torsion,
+)
+from radial.torsion.twist_path import TwistPath
 from verification.closed_forms.coated_torsion import CoatedTorsion, TorsionalSurface, one_layer
 from verification.closed_forms.torsion import TorsionalPartialSlip
 

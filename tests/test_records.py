@@ -49,7 +49,7 @@ def test_a_record_is_older_where_a_source_of_its_closure_changes(
     made = made_by()
     assert is_current(made)
     real = sources._content
-    for path, current in (("contact_scene/pair.py", True), ("verification/norms.py", False)):
+    for path, current in (("contact_scene/body_pair.py", True), ("verification/norms.py", False)):
         sources.source_digest.cache_clear()
         monkeypatch.setattr(sources, "_content", lambda f, p=path: real(f) + "x" * (f == p))
         assert is_current(made) is current

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from command import slipstick
 
-from slipstick.cli.compare import exit_code_of
+from slipstick.cli.commands.compare import exit_code_of
 from verification.cases.catalogue import CASES, choose
 from verification.cases.hertz import hertz_point
 from verification.judging.case import Level

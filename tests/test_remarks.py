@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from contact_scenes import APPROACH, PRESS, RADIUS, A, grid, push, scene, steel
 
-from contact_results.remarks import remarks
+from contact_results.result_warnings import remarks
 from contact_scene import Ellipsoid, HeightMap
 from semi_analytical import SurfaceGrid, solve
 from semi_analytical.resolution import resolution

@@ -17,7 +17,7 @@ from report_examples import (
 from verification.exhibits.table import Table
 from verification.judging.outcome import Status
 from verification.report.files import SHEETS
-from verification.report.page import MOST_CHARTS, alignment, heading, render_page
+from verification.report.page import MAX_CHARTS, alignment, heading, render_page
 from verification.report.sections import TITLES, features, stored_records, study_section
 from verification.report.summary_text import counts_text, render_summary
 from verification.report.svg import compact
@@ -129,7 +129,7 @@ def test_a_quick_page_stays_small_and_says_what_it_leaves_out() -> None:
     conclusion = large.conclusion.model_copy(update={"charts": charts, "tables": (cells,)})
     report = report_of((), (large.model_copy(update={"conclusion": conclusion}),))
     quick = render_page(report)
-    shown = MOST_CHARTS
+    shown = MAX_CHARTS
     assert quick.count("<svg") == shown < 14
     assert f"{14 - shown} more diagrams" in quick
     assert "View 12; View 13" in quick

@@ -11,8 +11,8 @@ from contact_scene import (
     RadialDiscretisation,
     Scene,
 )
-from contact_scene.increment import numbers
-from contact_scene.plausibility import unlikely
+from contact_scene.checks.plausibility import unlikely
+from contact_scene.quantities.increment import numbers
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.plan import plan
 

@@ -20,7 +20,7 @@ from contact_scenes import (
 )
 
 from contact_scene import Ellipsoid, HeightMap, SceneError, SurfaceDiscretisation
-from contact_scene.summary import ContactStatus
+from contact_scene.quantities.summary import ContactStatus
 from semi_analytical import (
     ContactNotResolved,
     GrossSliding,
@@ -28,7 +28,7 @@ from semi_analytical import (
     plan,
     solve,
 )
-from semi_analytical.discretise import discretise
+from semi_analytical.default_grid import discretise
 
 TOLERANCE = 1e-9
 GRID = grid(32, 2.0)

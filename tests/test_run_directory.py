@@ -17,7 +17,7 @@ from contact_results.directory.directory_lock import acquire, release
 from contact_results.directory.file_names import SUMMARY, TIMING
 from contact_results.directory.refusal import OutputRefused
 from contact_results.directory.run_directory import run_directory
-from contact_results.directory.sole_use import in_sole_use
+from contact_results.directory.run_lock import in_sole_use
 from contact_results.directory.timing import Stopwatch, write_timing
 
 
@@ -228,7 +228,7 @@ cells = [16, 16]
 HOLD = """
 import sys, time
 from pathlib import Path
-from contact_results.directory.sole_use import in_sole_use
+from contact_results.directory.run_lock import in_sole_use
 
 with in_sole_use(Path(sys.argv[1])):
     print("held", flush=True)

@@ -17,8 +17,11 @@ from synthetic_result import CONVOLUTIONS, ITERATIONS, synthetic_result
 from contact_results.directory.file_names import SUMMARY
 from contact_results.directory.timing import Stopwatch, write_timing
 from contact_results.result_files import write_result
-from contact_scene.engineering_units import quantity
-from contact_scene.summary import load_summary, summary_schema
+from contact_scene.quantities.summary import (
+    load_summary,
+    summary_schema,
+)
+from contact_scene.reading.engineering_units import quantity
 from semi_analytical.fields import Result
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -47,12 +47,12 @@ main()
 KILLED_AFTER_SIX = """
 import os, signal
 from pathlib import Path
-keep = checkpoint.Checkpoint.keep
+keep = checkpoint.CheckpointDirectory.keep
 def keep_and_die(self, standing):
     keep(self, standing)
     if Path(".out.checkpoint/part-000005").exists():
         os.kill(os.getpid(), signal.SIGKILL)
-checkpoint.Checkpoint.keep = keep_and_die
+checkpoint.CheckpointDirectory.keep = keep_and_die
 """
 
 

@@ -15,8 +15,8 @@ from hypothesis import strategies as st
 from strategies import Document, as_toml, documents
 
 from contact_scene import Problem, SceneError, SceneFile, read_scene_file
-from contact_scene.quantity import Quantity
-from contact_scene.units import LENGTH
+from contact_scene.reading.quantity import Quantity
+from contact_scene.reading.units import LENGTH
 
 SCENE = """\
 title = "x"

@@ -8,8 +8,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from contact_scene.locator import DEEPEST, NestedTooDeep, locate
-from contact_scene.problem import Path
+from contact_scene.reading.key_lines import (
+    DEEPEST,
+    NestedTooDeep,
+    locate,
+)
+from contact_scene.reading.scene_error import Path
 
 EXAMPLE = '''\
 # a comment with a = 1

@@ -9,8 +9,8 @@ from contact_scenes import APPROACH, LOAD, PRESS, RADIUS, push, scene, slide
 import slipstick
 from contact_results.stress.loaded_bodies import NoSuchState, state_of_result
 from contact_scene import FiniteElementDiscretisation, SurfaceDiscretisation
-from contact_scene.problem import SceneError
-from contact_scene.summary import ContactStatus
+from contact_scene.quantities.summary import ContactStatus
+from contact_scene.reading.scene_error import SceneError
 
 ELEMENTS = FiniteElementDiscretisation(elements_per_radius=12)
 SOLVERS = {

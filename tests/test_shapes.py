@@ -15,8 +15,8 @@ from strategies import SHAPED
 import contact_scene
 from contact_scene import Paraboloid, Scene, SurfaceDiscretisation
 from contact_scene.geometry import SHAPES, Gap, Indenter, ShapedBody
-from contact_scene.quantity import PositiveLength
-from contact_scene.scene_text import shape_text
+from contact_scene.reading.quantity import PositiveLength
+from contact_scene.reading.scene_text import shape_text
 from contact_scene.solver_errors import SolverError, UnsupportedScene
 from fem_reference import plan as plan_of_elements
 from fem_reference import solve as solve_by_elements

@@ -27,7 +27,7 @@ from contact_results.stress.loaded_bodies import NoSuchState, state_of_run
 
 ROOT = Path(__file__).resolve().parents[1]
 MEGABYTE = 1_000_000
-MOST_MEMORY = 200 * MEGABYTE  # of a whole process, Python and its libraries included
+MAX_MEMORY = 200 * MEGABYTE  # of a whole process, Python and its libraries included
 SOON = 1.0  # seconds of CPU
 CLAIM = "more than a file of"
 HUGE = 1 << 14  # cells along a side, the most there can be: 2 GB for one field
@@ -125,7 +125,7 @@ def test_huge_scene_is_refused_at_once(
     assert ended.code == 2
     assert words in ended.said
     assert len(ended.said) < LONGEST_MESSAGE
-    assert ended.memory < MOST_MEMORY
+    assert ended.memory < MAX_MEMORY
     if ended.seconds - refusal_of_nothing.seconds >= SOON:  # others on the core slow it, too
         ended = slipstick("check", tmp_path / "scene.toml")
     assert ended.seconds - refusal_of_nothing.seconds < SOON

@@ -16,8 +16,8 @@ from semi_analytical import (
     plan,
     solve,
     solve_discretised,
-    stick_slip,
 )
+from semi_analytical.increments import stick_slip
 
 TOLERANCE = 1e-8
 

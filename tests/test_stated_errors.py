@@ -21,9 +21,9 @@ from contact_errors.on_cells import CellSolver
 from contact_errors.stress_errors import largest_tensile_stress, on_wide_cells, stress_errors
 from contact_errors.values import OF_CYCLES, PHYSICAL, values_of
 from contact_results.cycles import fretting_cycles
-from contact_results.stress.extremes import extremes
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
 from contact_results.stress.on_cells import stress_on_cells
+from contact_results.stress.stress_maxima import extremes
 from contact_scene import (
     RIGID,
     Body,
@@ -39,10 +39,16 @@ from contact_scene import (
     Scene,
     SurfaceDiscretisation,
 )
-from contact_scene.increment_error import near_gross_slip, with_error
-from contact_scene.scene_file import read_scene_file
+from contact_scene.quantities.stated_error import (
+    ErrorStatus,
+    StatedError,
+)
+from contact_scene.reading.scene_file import read_scene_file
 from contact_scene.solver_errors import NotConverged
-from contact_scene.stated_error import ErrorStatus, StatedError
+from contact_scene.stepping.increment_error import (
+    near_gross_slip,
+    with_error,
+)
 from semi_analytical import SurfaceGrid, solve
 from slipstick import stated_errors
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
@@ -136,14 +142,14 @@ CONSTANTS = {
     *("BELIEVED", "SMOOTH", "EDGE", "ROOT", "PER_TOLERANCE", "PER_ITERATION", "LARGEST_SHARE"),
     *("ORDERS", "LIMITS", "ROUND_OFF", "PRECISION", "HIGHEST"),
     # of the coarse solves
-    *("PAIR", "TRIPLE", "FEW", "MANY", "PER_RADIUS", "SMALL", "ROOM", "MOST_ENLARGEMENTS"),
+    *("PAIR", "TRIPLE", "FEW", "MANY", "PER_RADIUS", "SMALL", "ROOM", "MAX_ENLARGEMENTS"),
     *("FEWEST_ELEMENTS", "SMALLEST_BOX", "FEWEST_HARMONICS", "LARGEST_OVERLAP", "LINEAR"),
     *("NEAR", "COARSE"),
     # of the refinement
-    *("SPARE", "DOUBT", "FURTHEST", "MOST_AT_ONCE", "LEAST_AT_ONCE", "UNCONVERGED", "MOST_ROUNDS"),
-    *("FIRST_CELLS", "FIRST_PATH_ACCURACY", "MOST_CELLS", "LEAST_TOLERANCE", "MOST_DOUBLINGS"),
-    *("FIRST_ELEMENTS", "MOST_ELEMENTS", "MOST_HARMONICS", "LEAST_OVERLAP", "LARGEST_BOX"),
-    *("FIRST_FINENESS", "MOST_FINENESS"),
+    *("SPARE", "DOUBT", "FURTHEST", "MAX_AT_ONCE", "LEAST_AT_ONCE", "UNCONVERGED", "MAX_ROUNDS"),
+    *("FIRST_CELLS", "FIRST_PATH_ACCURACY", "MAX_CELLS", "LEAST_TOLERANCE", "MAX_DOUBLINGS"),
+    *("FIRST_ELEMENTS", "MAX_ELEMENTS", "MAX_HARMONICS", "LEAST_OVERLAP", "LARGEST_BOX"),
+    *("FIRST_FINENESS", "MAX_FINENESS"),
     # of the cost estimate
     *("EXPONENT", "CELL_OVERHEAD", "ELEMENT_OVERHEAD", "SET_UP_INCREMENTS"),
     *("MAX_CELLS", "MAX_ELEMENTS", "MAX_STEPS", "MAX_INCREMENTS"),

@@ -4,8 +4,11 @@ the shear turns across it."""
 import numpy as np
 import pytest
 
-from semi_analytical.contact_area import covered_cells, stuck_cells
 from semi_analytical.edge_correction.stick_area import stick_area
+from semi_analytical.normal.contact_area import (
+    covered_cells,
+    stuck_cells,
+)
 from semi_analytical.operator.domain import QUARTER
 
 CELLS, PARTS = 64, 12

@@ -7,9 +7,9 @@ import pytest
 from numpy.typing import NDArray
 from test_fem_edge import plane_contact
 
-from radial.circle import Circle
-from radial.ring_points import Points
-from radial.stick_border import stick_area
+from radial.angular_grid import Circle
+from radial.tangential.ring_points import Points
+from radial.tangential.stick_border import stick_area
 
 Array = NDArray[np.float64]
 

@@ -19,7 +19,7 @@ from contact_scenes import (
 )
 
 from contact_scene import HeightMap
-from contact_scene.summary import ContactStatus
+from contact_scene.quantities.summary import ContactStatus
 from semi_analytical import GrossSliding, solve
 
 TOLERANCE = 1e-8

@@ -5,11 +5,11 @@ import pytest
 from numpy.typing import NDArray
 
 from contact_errors.stress_errors import stress_errors
-from contact_results.stress.extremes import extremes
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
 from contact_results.stress.on_cells import stress_on_cells
+from contact_results.stress.stress_maxima import extremes
 from contact_scene import Body, IsotropicMaterial, Layer
-from contact_scene.stated_error import ErrorStatus
+from contact_scene.quantities.stated_error import ErrorStatus
 from semi_analytical import SurfaceGrid, plan, solve
 from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.frf.stack import HalfSpace, Stack

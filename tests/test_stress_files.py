@@ -15,13 +15,13 @@ from command import rows
 from test_stress_points import COATED, FRICTION, pressed_and_pushed
 
 from contact_results.files.mesh_file import Mesh, read_mesh, write_mesh
-from contact_results.stress.extremes import extremes
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.on_cells import stress_on_cells
 from contact_results.stress.on_section import stress_on_section
 from contact_results.stress.points import StressField
+from contact_results.stress.stress_maxima import extremes
 from contact_results.stress_files import write_stress
-from contact_scene.convention import CONVENTION
+from contact_scene.quantities.convention import CONVENTION
 
 RADII = np.linspace(0, 1.2, 25)
 X = (np.arange(16) - 7.5) * 2.4 / 16

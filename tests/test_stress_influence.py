@@ -13,7 +13,7 @@ from semi_analytical.influence.closed_form import HalfSpaceCoefficients, Rectang
 from semi_analytical.stress import default_depths, interfaces, subsurface, subsurface_section
 from semi_analytical.stress.cells import depth_coefficients
 from semi_analytical.stress.components import FIELDS, TRACTIONS
-from semi_analytical.stress.levels import line_weights
+from semi_analytical.stress.depths import line_weights
 from semi_analytical.stress.rectangle import RectanglePotentials, half_space_response
 
 GAUSS = np.polynomial.legendre.leggauss(16)

@@ -21,10 +21,14 @@ from contact_scene import (
     Scene,
 )
 from contact_scene.solver_errors import UnsupportedScene
-from radial.below_circle import BelowCircle
-from radial.circle_fit import USUAL, pushed_circle, round_circle
-from radial.loaded_circle import LoadedCircle
-from radial.rays import below_circle
+from radial.stress.circle_fit import (
+    USUAL,
+    pushed_circle,
+    round_circle,
+)
+from radial.stress.loaded_circle import LoadedCircle
+from radial.stress.ray_integrals import below_circle
+from radial.stress.subsurface_circle import BelowCircle
 from semi_analytical.frf.depth import Level
 from semi_analytical.frf.stack import HalfSpace, Stack
 from verification.closed_forms.hamilton_stress import hamilton_stress

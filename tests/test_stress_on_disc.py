@@ -15,10 +15,13 @@ import radial
 import radial.history
 import slipstick
 from contact_errors.stress_errors import stress_errors
-from contact_results.stress.extremes import Extreme, extremes
 from contact_results.stress.loaded_bodies import state_of_result, state_of_run
 from contact_results.stress.on_disc import stress_on_disc
 from contact_results.stress.points import StressField
+from contact_results.stress.stress_maxima import (
+    Extreme,
+    extremes,
+)
 from contact_scene import (
     RIGID,
     Body,
@@ -31,10 +34,13 @@ from contact_scene import (
     Scene,
 )
 from contact_scene.geometry import ShapedBody
-from contact_scene.stated_error import ErrorStatus, StatedError
-from radial.below import Below
-from radial.bodies import Bodies
-from radial.disc import disc
+from contact_scene.quantities.stated_error import (
+    ErrorStatus,
+    StatedError,
+)
+from radial.normal.disc import disc
+from radial.response.bodies import Bodies
+from radial.stress.subsurface_disc import Below
 from semi_analytical.frf.depth import Level
 from semi_analytical.frf.stack import stack_of
 from verification.closed_forms.huber_stress import huber_stress

@@ -14,8 +14,8 @@ import pytest
 from command import outcome, signalled
 from study_cases import Dying, Killed, Number, Refusing, Square, Timed
 
-from contact_results.one_thread import VARIABLES
-from slipstick.cli.study import _studied
+from contact_results.blas_threads import VARIABLES
+from slipstick.cli.commands.study import _studied
 from verification.judging.case import Level
 from verification.report.files import set_aside, write_study
 from verification.running.case_pool import KILLED, Answer, CaseEnd, run_cases

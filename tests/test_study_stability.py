@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from contact_scene import SceneError
-from contact_scene.problem import Problem
+from contact_scene.reading.scene_error import Problem
 from contact_scene.solver_errors import GrossSliding, ResourceRefused, UnsupportedScene
 from semi_analytical import NotConverged, Result, solve
 from verification.exhibits.chart import Look, curve
@@ -370,4 +370,4 @@ def test_verdicts_name_at_most_a_dozen_cells() -> None:
     bad = GOOD.model_copy(update={"verdict": Verdict.SILENT})
     cells = study_cells(Level.QUICK, 32)
     text = verdicts.nothing_silent(dict.fromkeys(cells, bad)).measured
-    assert f"and {len(cells) - verdicts.MOST_NAMED} more" in text
+    assert f"and {len(cells) - verdicts.MAX_NAMED} more" in text

@@ -8,7 +8,7 @@ import pytest
 from jsonschema import Draft202012Validator
 from pydantic import ValidationError
 
-from contact_scene.summary import (
+from contact_scene.quantities.summary import (
     ContactStatus,
     EffectSummary,
     Residuals,

@@ -26,9 +26,9 @@ from contact_scene import RIGID, Ellipsoid, FrictionMap, HeightMap, Layer, Parab
 from contact_scene.geometry import Gap
 from contact_scene.solver_errors import ContactAtWindowEdge, ContactNotResolved, GrossSliding
 from semi_analytical import SurfaceGrid, all_effects, one_way, plan, solve
-from semi_analytical.box import box_around
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.model import ContactModel
+from semi_analytical.operator.box import box_around
 from semi_analytical.operator.domain import QUARTER, WINDOW, ReducedDomain
 from semi_analytical.operator.operator import BINS, DisplacementOperator
 from semi_analytical.operator.transforms import MAX_BY_MATRIX, Convolutions, offsets_for

@@ -7,9 +7,13 @@ from hypothesis import strategies as st
 from random_compliance import as_map, compliance, graded_inverse
 
 from contact_scene.solver_errors import NotConverged
-from semi_analytical.admissible_shear import FixedShift, ShearSum, magnitude
-from semi_analytical.linearised_shear import Point
-from semi_analytical.tangential import solve_tangential
+from semi_analytical.tangential.admissible_shear import (
+    FixedShift,
+    ShearSum,
+    magnitude,
+)
+from semi_analytical.tangential.linearised_shear import Point
+from semi_analytical.tangential.tangential_problem import solve_tangential
 
 TOLERANCE = 1e-11
 SHAPE = (3, 4)

@@ -7,15 +7,20 @@ from pathlib import Path
 import pytest
 from command import slipstick
 
-from slipstick.cli.compare import exit_code_of
+from slipstick.cli.commands.compare import exit_code_of
 from verification.cases.hertz import hertz_point
 from verification.judging.case import Level
 from verification.judging.change import ChangeKind
 from verification.judging.declared_case import Within, case, judged
 from verification.judging.judgement import judge
-from verification.judging.ladder import Ladder, on_cells, on_elements, on_radii
 from verification.judging.observables import APPROACH, CONTACT_RADIUS, PEAK_PRESSURE
 from verification.judging.outcome import CaseOutcome, Status, Verdict
+from verification.judging.refinement_levels import (
+    RefinementLevels,
+    on_cells,
+    on_elements,
+    on_radii,
+)
 from verification.problems.hertz import BALL
 from verification.regression import tolerances
 from verification.regression.acceptance import baselines_of
@@ -91,7 +96,7 @@ def changed(
 
 
 @pytest.mark.parametrize("ladder", LADDERS.values(), ids=LADDERS)
-def test_each_solver_states_the_errors_of_judged_scalars(ladder: Ladder) -> None:
+def test_each_solver_states_the_errors_of_judged_scalars(ladder: RefinementLevels) -> None:
     rows = [Within(what, 1.0, "why") for what in (APPROACH, CONTACT_RADIUS, PEAK_PRESSURE)]
     planted = case("planted", "title", "problem", judged(ladder, rows))
     found = judge(planted).verdicts

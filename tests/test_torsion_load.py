@@ -6,10 +6,10 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from random_compliance import as_map, compliance, rough_inverse
 
-from semi_analytical.admissible_shear import magnitude
-from semi_analytical.normal import solve_normal
-from semi_analytical.tilting import PressureMoments
-from semi_analytical.torsion import ShearMoments
+from semi_analytical.normal.normal_problem import solve_normal
+from semi_analytical.normal.tilting import PressureMoments
+from semi_analytical.tangential.admissible_shear import magnitude
+from semi_analytical.tangential.torsion import ShearMoments
 
 SHAPE = (4, 5)
 Y, X = np.meshgrid(np.arange(5) - 2.0, np.arange(4) - 1.5)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pydantic import ValidationError
 
 import slipstick
-from contact_results.directory.checkpoint import Checkpoint
+from contact_results.directory.checkpoint import CheckpointDirectory
 from contact_scene import (
     RIGID,
     Body,
@@ -28,14 +28,17 @@ from contact_scene import (
     Sphere,
     SurfaceDiscretisation,
 )
-from contact_scene.plausibility import implausible
+from contact_scene.checks.plausibility import implausible
+from contact_scene.quantities.stated_error import StatedErrors
 from contact_scene.solver_errors import (
     ContactAtWindowEdge,
     ContactNotResolved,
     UnsupportedScene,
 )
-from contact_scene.standing import Mark, Standing
-from contact_scene.stated_error import StatedErrors
+from contact_scene.stepping.checkpoint import (
+    Checkpoint,
+    ResumePoint,
+)
 from semi_analytical import solve_discretised
 from slipstick.solvers.on_cells import OnCells
 
@@ -164,21 +167,21 @@ def test_a_window_that_cannot_grow_is_solved_once_however_slow_the_machine(
         {"coefficient": {"map": np.broadcast_to(values, (10, 10)).copy(), "spacing": 5e-6}}
     )
     starts = []
-    keeper = Checkpoint(tmp_path / "kept", "of this scene", print, seconds_between=0.0)
+    store = CheckpointDirectory(tmp_path / "kept", "of this scene", print, seconds_between=0.0)
     with pytest.raises(ContactAtWindowEdge, match="friction map"):
         solve_discretised(
             scene(*({"normal_force": f, "increments": 1} for f in (1e-3, 100.0)), friction=small),
             SurfaceDiscretisation(cells=(32, 32)),
             progress=lambda i: starts.append(i) if (i.step, i.index) == (1, 1) else None,
-            keeper=keeper,
+            store=store,
         )
     assert len(starts) == 1
     # A solve that begins again on the same grid replaces the parts of the first.
-    mark, (first,) = Mark(1, None, None), starts
+    mark, (first,) = ResumePoint(1, None, None), starts
     for _ in range(2):
-        keeper.keep(Standing((first,), mark, "grid"))
-    keeper.close()
-    other = Checkpoint(tmp_path / "kept", "of this scene", print, seconds_between=0.0)
+        store.keep(Checkpoint((first,), mark, "grid"))
+    store.close()
+    other = CheckpointDirectory(tmp_path / "kept", "of this scene", print, seconds_between=0.0)
     kept = other.last()
     assert kept is not None
     assert len(kept.increments) == 1

@@ -11,7 +11,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from radial.wavenumbers import _even_transforms, waves
+from radial.response.wavenumbers import (
+    _even_transforms,
+    waves,
+)
 from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.peers.environment import FAILED, PEERS, made_environment

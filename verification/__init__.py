@@ -9,13 +9,16 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from verification.challenge.answer import Answer, Field, Solver
-    from verification.challenge.door import CannotDo, judge
+    from verification.challenge.python_api import (
+        CannotDo,
+        judge,
+    )
 
 __all__ = ["Answer", "CannotDo", "Field", "Solver", "judge"]
 
 _PLACES = {
     "verification.challenge.answer": ("Answer", "Field", "Solver"),
-    "verification.challenge.door": ("CannotDo", "judge"),
+    "verification.challenge.python_api": ("CannotDo", "judge"),
 }
 
 

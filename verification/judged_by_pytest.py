@@ -59,7 +59,11 @@ class ChallengeItem(pytest.Item):
 
     def runtest(self) -> None:
         """Fail with the verdicts that fail; skip where the solver cannot solve the case."""
-        from verification.challenge.door import LEVELS, CannotDo, judge
+        from verification.challenge.python_api import (
+            LEVELS,
+            CannotDo,
+            judge,
+        )
 
         given = {name: getattr(self.module, name, None) for name in ("CLASS", "SOLVER")}
         strict = bool(self.config.getoption("slipstick_strict"))

@@ -7,8 +7,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene.increment import SCALARS, State, components, numbers
-from contact_scene.reported import Kind
+from contact_scene.quantities.field_metadata import Kind
+from contact_scene.quantities.increment import (
+    SCALARS,
+    State,
+    components,
+    numbers,
+)
 
 if TYPE_CHECKING:
     from contact_results.surface import Result

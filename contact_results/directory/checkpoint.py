@@ -20,15 +20,18 @@ from contact_results.directory.checkpoint_file import Unusable, pack, unpacked
 from contact_results.directory.directory_lock import acquire, release
 from contact_results.directory.refusal import OutputRefused
 from contact_results.directory.stop_signals import cleaned_up_when_stopped
+from contact_scene.quantities.stored_fields import (
+    FieldStore,
+    stored_bytes,
+)
 from contact_scene.solver_errors import SolverError
-from contact_scene.standing import Standing
-from contact_scene.stored_fields import FieldStore, stored_bytes
+from contact_scene.stepping.checkpoint import Checkpoint
 
 # A run of seconds leaves nothing, and one of hours spends a twentieth of them on checkpoints.
 SECONDS_BETWEEN = 5.0
 SHARE = 0.05
-MOST_BETWEEN = 3600.0  # a machine that slept while it wrote says that writing takes a night
-MOST_IN_PART = 16 << 20  # bytes of fields, so that few are in memory at once
+MAX_BETWEEN = 3600.0  # a machine that slept while it wrote says that writing takes a night
+MAX_IN_PART = 16 << 20  # bytes of fields, so that few are in memory at once
 
 
 @dataclass(frozen=True)
@@ -41,11 +44,11 @@ class _Part:
 
     before: int
     increments: tuple[Any, ...]
-    standing: Standing | None
+    standing: Checkpoint | None
 
 
-class Checkpoint:
-    """Keeps one solve in a directory; see contact_scene.standing.Keeper.
+class CheckpointDirectory:
+    """Keeps one solve in a directory; see contact_scene.stepping.checkpoint.CheckpointStore.
 
     seconds_between  two parts at least
     """
@@ -66,12 +69,12 @@ class Checkpoint:
         self._lock: int | None = None
         self._open = True
         self._read = False
-        self._standing: Standing | None = None
+        self._standing: Checkpoint | None = None
         self._parts = 0
         self._kept = 0
         self._extent: Any = None
 
-    def last(self) -> Standing | None:
+    def last(self) -> Checkpoint | None:
         """What an earlier process has kept of the same solve; read once."""
         if not self._read:
             self._read, self._written = True, time.monotonic()
@@ -80,7 +83,7 @@ class Checkpoint:
                 self._settle()
         return self._standing
 
-    def keep(self, standing: Standing) -> None:
+    def keep(self, standing: Checkpoint) -> None:
         """Write a part if the last one is long enough ago; a disk that is full costs only that."""
         self.last()
         began = time.monotonic()
@@ -102,12 +105,12 @@ class Checkpoint:
             return
         self._written = time.monotonic()
         taken = max(0.0, self._written - began)
-        self._pause = max(self._seconds_between, min(taken / SHARE, MOST_BETWEEN))
+        self._pause = max(self._seconds_between, min(taken / SHARE, MAX_BETWEEN))
 
-    def _write(self, standing: Standing) -> None:
+    def _write(self, standing: Checkpoint) -> None:
         new = standing.increments[self._kept :]
         self._extent = standing.extent
-        at_once = max(1, MOST_IN_PART // stored_bytes(new[0]))
+        at_once = max(1, MAX_IN_PART // stored_bytes(new[0]))
         for first in range(0, len(new), at_once):
             some = new[first : first + at_once]
             whole = first + at_once >= len(new)
@@ -142,8 +145,8 @@ class Checkpoint:
                 self._say(f"{self._directory} cannot be locked: no checkpoint is read or written")
         return self._lock is not None
 
-    def _standing_of_parts(self) -> Standing | None:
-        standing: Standing | None = None
+    def _standing_of_parts(self) -> Checkpoint | None:
+        standing: Checkpoint | None = None
         increments: list[Any] = []
         fields, number = FieldStore(), 0
         while (path := self._path(number)).exists():
@@ -187,7 +190,7 @@ class Checkpoint:
 @contextmanager
 def checkpointed(
     target: Path, identity: str, say: Callable[[str], None], name: str = "checkpoint"
-) -> Iterator[Checkpoint]:
+) -> Iterator[CheckpointDirectory]:
     """A checkpoint beside the results of a run; gone when the block is done.
 
     target    directory of the results
@@ -203,7 +206,7 @@ def checkpointed(
     if not directory.exists():  # the target may have appeared just before the process was killed
         beside = target.parent / directory.name
         directory = beside if beside.exists() else directory
-    checkpoint = Checkpoint(directory, identity, say, SECONDS_BETWEEN)
+    checkpoint = CheckpointDirectory(directory, identity, say, SECONDS_BETWEEN)
     try:
         with cleaned_up_when_stopped(kept=checkpoint.how_to_go_on):
             yield checkpoint

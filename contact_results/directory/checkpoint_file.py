@@ -19,9 +19,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import FiniteElementDiscretisation
-from contact_scene.free_memory import available_bytes
-from contact_scene.own_file import open_own
-from contact_scene.stored_fields import StoredArray
+from contact_scene.machine.free_memory import available_bytes
+from contact_scene.machine.trusted_file import open_own
+from contact_scene.quantities.stored_fields import StoredArray
 
 FORMAT = b"slipstick checkpoint 2"
 PROTOCOL = 5

@@ -11,7 +11,10 @@ from pathlib import Path
 
 from contact_results.directory.file_names import TIMING
 from contact_results.directory.machine import library_versions, machine, program_version
-from contact_scene.increment import COUNTERS, ReportedIncrement
+from contact_scene.quantities.increment import (
+    COUNTERS,
+    ReportedIncrement,
+)
 
 
 @dataclass

@@ -17,7 +17,7 @@ from contact_results.figures.overview import overview
 from contact_results.figures.profile_plot import profile_plot
 from contact_results.figures.style import DOTS_PER_INCH, figure_style, save
 from contact_results.surface import Cells, Rings, surface_of
-from contact_scene.stated_error import StatedError
+from contact_scene.quantities.stated_error import StatedError
 
 if TYPE_CHECKING:
     from contact_results.surface import Result

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from contact_results.figures import style
 from contact_results.figures.shown_steps import on_axis
-from contact_scene.engineering_units import quantity
+from contact_scene.reading.engineering_units import quantity
 
 if TYPE_CHECKING:
     from contact_results.surface import Increment, Result

@@ -13,7 +13,10 @@ from scipy.ndimage import map_coordinates
 
 from contact_results.surface import Cells, Rings
 from contact_scene.array_types import Field
-from contact_scene.engineering_units import EngineeringUnit, engineering_unit
+from contact_scene.reading.engineering_units import (
+    EngineeringUnit,
+    engineering_unit,
+)
 
 if TYPE_CHECKING:
     from contact_results.surface import Increment, Result

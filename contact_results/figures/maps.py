@@ -24,7 +24,10 @@ from contact_results.figures.map_panels import (
 )
 from contact_results.figures.shown_steps import selected, step_title
 from contact_scene.array_types import Field, Mask
-from contact_scene.engineering_units import EngineeringUnit, engineering_unit
+from contact_scene.reading.engineering_units import (
+    EngineeringUnit,
+    engineering_unit,
+)
 
 if TYPE_CHECKING:
     from contact_results.surface import Cells, Increment, Result

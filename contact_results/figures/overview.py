@@ -21,8 +21,11 @@ from contact_results.key_numbers import key_numbers
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
 from contact_results.surface import Cells, surface_of
 from contact_scene import Body
-from contact_scene.engineering_units import engineering_unit, quantity
-from contact_scene.stated_error import StatedError
+from contact_scene.quantities.stated_error import StatedError
+from contact_scene.reading.engineering_units import (
+    engineering_unit,
+    quantity,
+)
 
 if TYPE_CHECKING:
     from contact_results.stress.points import StressField
@@ -30,7 +33,7 @@ if TYPE_CHECKING:
 
 LEAST_MOVES = 3  # for a loop instead of the loading curve
 # Of the cells that carry the load to the stress, so that it takes less than a second.
-MOST_CELLS = 64
+MAX_CELLS = 64
 EVERY = 2  # of the depths that stand in the files
 DOTS_PER_INCH = 90
 # Of a panel and its place, with room for labels, a legend and a colour bar [inch].
@@ -90,7 +93,7 @@ def overview(
 
 def section_stress(result: Result) -> StressField | None:
     """Stress in the body under the final tractions, with the edge of the contact where it can be
-    fitted: on at most `MOST_CELLS` cells along a side, means of those of the run, or of the radial
+    fitted: on at most `MAX_CELLS` cells along a side, means of those of the run, or of the radial
     solver; None of elements, whose mesh takes longer than the run, of a rigid body, without
     contact, of a number of cells that has no such divisor, and of the radial solver's shear."""
     if not result.scene.body.deforms or not result.steps[-1].contact_area:
@@ -104,8 +107,8 @@ def section_stress(result: Result) -> StressField | None:
         return stress_on_disc(state)
     if not isinstance(surface_of(result), Cells):
         return None
-    state = coarser(state, MOST_CELLS)
-    if max(state.tractions["pressure"].shape) > MOST_CELLS:
+    state = coarser(state, MAX_CELLS)
+    if max(state.tractions["pressure"].shape) > MAX_CELLS:
         return None
     from contact_results.stress.on_cells import stress_on_cells
     from semi_analytical.stress import default_depths

@@ -11,8 +11,11 @@ from matplotlib.figure import Figure
 
 from contact_results.figures import style
 from contact_results.figures.shown_steps import SAME, selected
-from contact_scene.engineering_units import EngineeringUnit, engineering_unit
 from contact_scene.friction import FRICTIONLESS
+from contact_scene.reading.engineering_units import (
+    EngineeringUnit,
+    engineering_unit,
+)
 
 if TYPE_CHECKING:
     from contact_results.surface import Increment, Result, Surface

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 
 from contact_results.directory import file_names
 from contact_results.key_numbers import key_numbers
-from contact_results.remarks import remarks
-from contact_scene.engineering_units import engineering_unit
-from contact_scene.stated_error import StatedError
+from contact_results.result_warnings import remarks
+from contact_scene.quantities.stated_error import StatedError
+from contact_scene.reading.engineering_units import engineering_unit
 
 if TYPE_CHECKING:
     from contact_results.surface import Result

@@ -14,14 +14,17 @@ from matplotlib.tri import Triangulation
 from numpy.typing import NDArray
 
 from contact_results.figures import style
-from contact_results.stress.extremes import interface_sides
 from contact_results.stress.points import StressField, StressPoints
+from contact_results.stress.stress_maxima import interface_sides
 from contact_scene import Body
-from contact_scene.engineering_units import EngineeringUnit, engineering_unit
+from contact_scene.reading.engineering_units import (
+    EngineeringUnit,
+    engineering_unit,
+)
 
 # Quadrilaterals within a cell: of a nine-node element the quarters around its middle.
 PARTS = {"quad": ((0, 1, 2, 3),), "quad9": ((0, 4, 8, 7), (4, 1, 5, 8), (8, 5, 2, 6), (7, 8, 6, 3))}
-MOST_LEVELS = 12
+MAX_LEVELS = 12
 # Layers thinner than the first part of the depth in view are drawn over the second.
 THIN, STRETCHED = 0.125, 0.3
 HALO = [patheffects.withStroke(linewidth=2.2, foreground="white")]
@@ -100,7 +103,7 @@ def even_levels(low: float, high: float) -> Values:
     """Evenly spaced round numbers around all values, zero among them where they change sign."""
     if low == high:
         low, high = min(low, 0.0), max(high, 0.0) or 1.0
-    rounded = MaxNLocator(MOST_LEVELS, steps=[1, 2, 2.5, 5, 10])
+    rounded = MaxNLocator(MAX_LEVELS, steps=[1, 2, 2.5, 5, 10])
     return np.asarray(rounded.tick_values(low, high), dtype=float)
 
 

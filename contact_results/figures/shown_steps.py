@@ -8,8 +8,11 @@ from typing import TYPE_CHECKING, TypeVar
 import numpy as np
 
 from contact_scene.array_types import Field
-from contact_scene.engineering_units import engineering_unit, quantity
-from contact_scene.increment import SCALARS
+from contact_scene.quantities.increment import SCALARS
+from contact_scene.reading.engineering_units import (
+    engineering_unit,
+    quantity,
+)
 
 if TYPE_CHECKING:
     from contact_results.surface import Increment

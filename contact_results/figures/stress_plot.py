@@ -15,7 +15,10 @@ from contact_results.figures import style
 from contact_results.figures.section_panel import draw_section, show_depths
 from contact_results.stress.points import StressField, StressPoints
 from contact_scene import Body
-from contact_scene.engineering_units import EngineeringUnit, engineering_unit
+from contact_scene.reading.engineering_units import (
+    EngineeringUnit,
+    engineering_unit,
+)
 
 SECTION, AXIS, SURFACE = "stress_section.png", "stress_axis.png", "stress_surface.png"
 

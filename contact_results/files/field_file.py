@@ -15,9 +15,16 @@ import numpy as np
 from contact_results.directory.file_names import FIELDS
 from contact_results.files.stored_values import MAPS, STEP
 from contact_results.surface import Rings, surface_of
-from contact_scene.convention import CONVENTION
-from contact_scene.increment import SCALARS, components
-from contact_scene.reported import Kind, Reported, reported
+from contact_scene.quantities.convention import CONVENTION
+from contact_scene.quantities.field_metadata import (
+    Kind,
+    Reported,
+    reported,
+)
+from contact_scene.quantities.increment import (
+    SCALARS,
+    components,
+)
 
 if TYPE_CHECKING:
     from contact_results.cycles import FrettingCycle

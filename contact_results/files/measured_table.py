@@ -11,8 +11,11 @@ from numpy.typing import NDArray
 
 from contact_results.files.csv_file import WITH_UNIT
 from contact_results.files.stored_table import read_cells
-from contact_scene import units
-from contact_scene.units import Kind, UnknownUnit
+from contact_scene.reading import units
+from contact_scene.reading.units import (
+    Kind,
+    UnknownUnit,
+)
 
 SHIFT, ACTUATOR = "tangential_shift", "actuator_shift"
 LOAD, PLACE, PRESSURE, SHEAR = "tangential_force", "x", "pressure", "shear"

@@ -31,8 +31,11 @@ from contact_results.files.stored_values import (
     values,
 )
 from contact_scene import FiniteElementDiscretisation, Scene
-from contact_scene.problem import SceneError
-from contact_scene.summary import RunSummary, load_summary
+from contact_scene.quantities.summary import (
+    RunSummary,
+    load_summary,
+)
+from contact_scene.reading.scene_error import SceneError
 
 
 class StoredGroup(Mapping[str, StoredValues]):

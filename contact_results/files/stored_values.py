@@ -19,13 +19,13 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene.free_memory import available_bytes
+from contact_scene.machine.free_memory import available_bytes
 from contact_scene.solver_errors import ResourceRefused
 
 # Claimed bytes per byte of the file. Deflate packs at most 1032 to 1, and of two fields at an
 # increment, one of them with two components, the larger may have nothing to store.
 LARGEST_RATIO = 4096
-MOST_CHUNKS = 10_000  # in one reading; our fields have one per increment
+MAX_CHUNKS = 10_000  # in one reading; our fields have one per increment
 # What h5py raises where something else stands in the place of a value, or what follows from it.
 MISREAD = (OSError, KeyError, ValueError, TypeError, AttributeError, IndexError, RuntimeError)
 MAX_DEPTH = 4  # of groups within groups; a run has one
@@ -104,8 +104,8 @@ def values(dataset: h5py.Dataset, row: int | None = None) -> NDArray[Any]:
     if 0 in (*dataset.shape, *chunk):
         raise ValueError(f"{dataset.name} of shape {dataset.shape} is empty")
     chunks = math.prod(-(-n // piece) for n, piece in zip(shape, chunk, strict=True))
-    if chunks > MOST_CHUNKS:
-        raise ValueError(f"{dataset.name} has {chunks} chunks, at most {MOST_CHUNKS} are read")
+    if chunks > MAX_CHUNKS:
+        raise ValueError(f"{dataset.name} has {chunks} chunks, at most {MAX_CHUNKS} are read")
     size = dataset.dtype.itemsize * max(math.prod(shape), math.prod(chunk))
     file = Path(dataset.file.filename)
     held = file.stat().st_size

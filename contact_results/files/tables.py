@@ -13,8 +13,12 @@ from contact_results.directory.file_names import COLUMNS, CYCLES, INCREMENTS, PR
 from contact_results.files.csv_file import STEP, Column, marked, write_meanings, write_table
 from contact_results.surface import Rings, surface_of
 from contact_scene.array_types import Field
-from contact_scene.increment import SCALARS, components, numbers
-from contact_scene.reported import reported
+from contact_scene.quantities.field_metadata import reported
+from contact_scene.quantities.increment import (
+    SCALARS,
+    components,
+    numbers,
+)
 
 if TYPE_CHECKING:
     from contact_results.surface import Increment, Result, Surface

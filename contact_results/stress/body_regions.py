@@ -9,7 +9,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contact_results.stress.extremes import interface_sides, layer_name
+from contact_results.stress.stress_maxima import (
+    interface_sides,
+    layer_name,
+)
 from contact_scene import Body, IsotropicMaterial
 from contact_scene.array_types import Field
 

@@ -14,13 +14,20 @@ from contact_results.files import surface_file
 from contact_results.files.csv_file import Column, write_meanings, write_table
 from contact_results.files.mesh_file import Mesh, tensor, write_mesh
 from contact_results.files.surface_file import write_surface
-from contact_results.stress.extremes import Extreme, interface_sides, layer_name
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import COMPONENTS, MEASURES, StressField, StressPoints
+from contact_results.stress.stress_maxima import (
+    Extreme,
+    interface_sides,
+    layer_name,
+)
 from contact_scene import Body
-from contact_scene.accuracy_reached import AccuracyReached
-from contact_scene.convention import CONVENTION, OF_THE_INDENTER
-from contact_scene.stated_error import StatedError
+from contact_scene.quantities.accuracy_reached import AccuracyReached
+from contact_scene.quantities.convention import (
+    CONVENTION,
+    OF_THE_INDENTER,
+)
+from contact_scene.quantities.stated_error import StatedError
 
 SECTION, VOLUME = "stress_section.vtu", "stress_volume.vtu"
 SURFACE = "stress_surface.vtu"  # the tractions

@@ -16,8 +16,12 @@ from contact_results.surface import Surface, surface_of, surface_on
 from contact_scene import Body, CoulombFriction, FiniteElementDiscretisation, Scene
 from contact_scene.array_types import Field
 from contact_scene.geometry import ShapedBody
-from contact_scene.increment import State
-from contact_scene.stated_error import ErrorStatus, StatedError, StatedErrors
+from contact_scene.quantities.increment import State
+from contact_scene.quantities.stated_error import (
+    ErrorStatus,
+    StatedError,
+    StatedErrors,
+)
 
 if TYPE_CHECKING:
     from contact_results.surface import Result

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import FittedEdge, StressField, StressPoints
 from contact_scene.array_types import Field, Indices
-from contact_scene.one_thread import one_thread
+from contact_scene.machine.blas_threads import one_thread
 
 if TYPE_CHECKING:
     from contact_scene import Body
@@ -60,7 +60,7 @@ def stress_on_cells(
     Raises ValueError for a depth that is not in the body, ResourceRefused.
     """
     from semi_analytical.stress import SubsurfaceField, refuse_beyond_memory
-    from semi_analytical.stress.levels import line_weights
+    from semi_analytical.stress.depths import line_weights
 
     body = state.indenter if indenter else state.body
     grid, pressure, shear = _with_margin(state)
@@ -227,7 +227,7 @@ def _levels(body: Body, depths: Sequence[float] | None, radius: float) -> tuple[
     """What was asked for and both sides of every interface, downward."""
     from semi_analytical.frf.stack import stack_of
     from semi_analytical.stress import default_depths, interfaces
-    from semi_analytical.stress.levels import levels_of
+    from semi_analytical.stress.depths import levels_of
 
     if depths is None:
         return default_depths(body, radius)

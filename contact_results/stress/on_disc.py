@@ -7,11 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from contact_results.stress.extremes import extremes
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import StressField, StressPoints
 from contact_results.stress.radial_body import RadialBody
-from contact_scene.one_thread import one_thread
+from contact_results.stress.stress_maxima import extremes
+from contact_scene.machine.blas_threads import one_thread
 
 SHOWN = 3.0  # contact radii to the sides and in depth
 

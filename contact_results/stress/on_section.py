@@ -9,7 +9,7 @@ import numpy as np
 
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import StressField, StressPoints
-from contact_scene.one_thread import one_thread
+from contact_scene.machine.blas_threads import one_thread
 
 if TYPE_CHECKING:
     from fem_reference.stress import SectionField
@@ -26,7 +26,7 @@ SHOWN = (2.0, 3.0)  # loaded radii to the sides and in depth
 def stress_on_section(state: LoadedBodies, *, indenter: bool = False) -> StressField:
     """Stress at the nodes of a mesh of its own, as fine over the loaded circle as the contact was
     computed. Raises what `fem_reference.stress.subsurface` raises."""
-    from fem_reference.contact.ring_edge import beyond_pressure
+    from fem_reference.compliance.ring_edge import beyond_pressure
     from fem_reference.stress import SurfaceTractions, subsurface
 
     assert state.discretisation is not None

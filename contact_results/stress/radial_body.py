@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from contact_results.stress.body_regions import IN_LAYER, REACH, BodyRegions, spacing
-from contact_results.stress.extremes import Extreme
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import StressPoints
+from contact_results.stress.stress_maxima import Extreme
 from contact_results.surface import Rings
 from contact_scene.array_types import Field
 from contact_scene.geometry import ShapedBody
@@ -84,9 +84,9 @@ class RadialBody:
         cls, state: LoadedBodies, indenter: bool, fineness: int, body: Body, stack: Stack
     ) -> RadialBody:
         from contact_scene import Scene
-        from radial.below import Below
-        from radial.bodies import Bodies
-        from radial.disc import disc
+        from radial.normal.disc import disc
+        from radial.response.bodies import Bodies
+        from radial.stress.subsurface_disc import Below
 
         assert state.pressed is not None
         shape, a, approach = state.pressed
@@ -109,8 +109,13 @@ class RadialBody:
     def _below_shear(
         cls, state: LoadedBodies, indenter: bool, fineness: int, body: Body, stack: Stack
     ) -> RadialBody:
-        from radial.below_circle import BelowCircle
-        from radial.circle_fit import ANOTHER, USUAL, pushed_circle, round_circle
+        from radial.stress.circle_fit import (
+            ANOTHER,
+            USUAL,
+            pushed_circle,
+            round_circle,
+        )
+        from radial.stress.subsurface_circle import BelowCircle
 
         assert state.pressed is not None
         refuse_infinite(*state.pressed[:2])
@@ -218,7 +223,7 @@ def refuse_infinite(indenter: ShapedBody, radius: float) -> None:
 
     radius  about that of the contact [length]: a ball has no gap of its own beyond its equator
     """
-    from radial.profile import profile
+    from radial.normal.profile import profile
 
     if indenter.rim is not None or profile(indenter, radius).apex:
         where = "a tip" if indenter.rim is None else "a rim"

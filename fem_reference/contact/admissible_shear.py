@@ -7,7 +7,7 @@ import numpy as np
 
 from contact_scene.array_types import Field, Vector
 
-MOST_STEPS = 200
+MAX_STEPS = 200
 ROUND_OFF = 4e-16
 
 
@@ -37,7 +37,7 @@ def project(
     rate = np.sum(along * push)
     limit = np.sum(bound * np.sqrt(along[0] ** 2 + along[1] ** 2))
     multiplier, jump = 0.0, limit / rate
-    for _ in range(MOST_STEPS):
+    for _ in range(MAX_STEPS):
         moved = q + multiplier * push
         inside = into_discs(moved, bound)
         defect = float(np.sum(along * inside)) - total

@@ -13,6 +13,7 @@ import numpy as np
 from contact_scene.array_types import Field, Mask, Vector
 from contact_scene.friction import CoulombFriction
 from contact_scene.solver_errors import NotConverged
+from fem_reference.compliance.point_compliance import PointCompliance
 from fem_reference.contact.box_program import (
     BoxProgram,
     BoxSolution,
@@ -21,12 +22,15 @@ from fem_reference.contact.box_program import (
     solve_box,
 )
 from fem_reference.contact.friction_limit import reaches_limit
-from fem_reference.contact.point_compliance import PointCompliance
-from fem_reference.contact.tangential_newton import Sheared, ShearProblem, solve_shear
+from fem_reference.contact.tangential_newton import (
+    ShearProblem,
+    TangentialState,
+    solve_shear,
+)
 from fem_reference.loads import NormalTarget, TangentialTarget
 from fem_reference.residuals import over
 
-MOST_TURNS = 60
+MAX_TURNS = 60
 LOOSEST = 1e-4  # first tolerance of the shear
 REMEMBERED = 30
 DEPENDENT = 1e-10  # part of a difference below which the others explain it
@@ -109,7 +113,7 @@ def solve_coupled(
     try:
         pressed = press(problem, q, sides_of(pressure))
         p, solves = pressed.values, pressed.steps
-        for turn in range(1, MOST_TURNS + 1):
+        for turn in range(1, MAX_TURNS + 1):
             sheared = _shear(problem, p, q, inner)
             q, solves = sheared.shear, solves + sheared.solves
             if not couples:
@@ -171,7 +175,7 @@ def press(problem: CoupledProblem, q: Field, guess: Sides) -> BoxSolution:
     return solve_box(BoxProgram(K_zz, right, nothing, endless, total), guess)
 
 
-def _shear(problem: CoupledProblem, p: Vector, start: Field, tolerance: float) -> Sheared:
+def _shear(problem: CoupledProblem, p: Vector, start: Field, tolerance: float) -> TangentialState:
     """Solve the shear at a given pressure, on the points that carry shear."""
     compliance, target = problem.compliance, problem.tangential
     w, K = compliance.areas, compliance.matrix
@@ -180,10 +184,10 @@ def _shear(problem: CoupledProblem, p: Vector, start: Field, tolerance: float) -
     if target.load is not None and reaches_limit(target.load, problem.capacity(p)):
         lever = np.hypot(*compliance.motion)
         along = np.divide(compliance.motion, lever, out=np.zeros_like(start), where=lever > 0)
-        return Sheared(np.copysign(bound, target.load) * along, None, bound > 0, 0.0, 0)
+        return TangentialState(np.copysign(bound, target.load) * along, None, bound > 0, 0.0, 0)
     inside = np.flatnonzero(bound > 0)
     if len(inside) == 0:
-        return Sheared(np.zeros_like(start), target.motion, bound > 0, 0.0, 0)
+        return TangentialState(np.zeros_like(start), target.motion, bound > 0, 0.0, 0)
     both = np.concatenate([inside, points + inside])
     by_pressure = (K[: 2 * points, 2 * points :] @ p).reshape(2, -1)
     part = ShearProblem(
@@ -197,7 +201,7 @@ def _shear(problem: CoupledProblem, p: Vector, start: Field, tolerance: float) -
     solved = solve_shear(part, start[:, inside], tolerance)
     q, in_slip = np.zeros_like(start), np.zeros(points, dtype=bool)
     q[:, inside], in_slip[inside] = solved.shear, solved.in_slip
-    return Sheared(q, solved.shift, in_slip, solved.residual, solved.solves)
+    return TangentialState(q, solved.shift, in_slip, solved.residual, solved.solves)
 
 
 class _Anderson:

@@ -24,8 +24,8 @@ from contact_scene.solver_errors import NotConverged
 
 Sides = NDArray[np.int8]
 
-MOST_STEPS = 60
-MOST_RELEASES = 50  # per component
+MAX_STEPS = 60
+MAX_RELEASES = 50  # per component
 # Of the largest value: beyond a bound by less is round-off.
 ROUND_OFF = 1e-13
 
@@ -73,7 +73,7 @@ def solve_box(program: BoxProgram, guess: Sides) -> BoxSolution:
     fixed = program.lower == program.upper
     sides = np.where(fixed, -1, guess).astype(np.int8)
     seen: set[bytes] = set()
-    for step in range(1, MOST_STEPS + 1):
+    for step in range(1, MAX_STEPS + 1):
         if program.total is not None and not np.any(sides == 0):
             break
         x, multiplier = _on_free(program, sides)
@@ -147,7 +147,7 @@ def _descend(program: BoxProgram, fixed: NDArray[np.bool_], spent: int) -> BoxSo
     sides = np.where(fixed, -1, 0).astype(np.int8)
     x = _feasible(program)
     size = 1 / np.sqrt(np.diag(program.matrix))
-    for step in range(spent + 1, spent + MOST_RELEASES * len(x) + 1):
+    for step in range(spent + 1, spent + MAX_RELEASES * len(x) + 1):
         goal, multiplier = _on_free(program, sides)
         part, blocking, side = _room(program, x, goal, sides)
         x = x + part * (goal - x)
@@ -161,7 +161,7 @@ def _descend(program: BoxProgram, fixed: NDArray[np.bool_], spent: int) -> BoxSo
             return _solution(program, x, multiplier, sides, step)
         force = np.abs(_gradient(program, x, multiplier)) * size
         sides[np.argmax(np.where(pulling, force, -1.0))] = 0
-    raise NotConverged("the active set", spent + MOST_RELEASES * len(x), np.inf, ROUND_OFF)
+    raise NotConverged("the active set", spent + MAX_RELEASES * len(x), np.inf, ROUND_OFF)
 
 
 def _feasible(program: BoxProgram) -> Field:

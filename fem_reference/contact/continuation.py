@@ -21,12 +21,12 @@ from fem_reference.contact.alternating_iteration import CoupledProblem, CoupledS
 from fem_reference.contact.coupled_newton import Root, Start, root
 from fem_reference.contact.natural_map import Equations, Iterate
 
-MOST_STEPS = 1000
+MAX_STEPS = 1000
 SOFT = 10.0  # of the springs at first, over the compliance of the bodies at a point
 ON_PATH = 1e-7  # how much may be missed on the way
 FIRST_LENGTH, SHORTEST, LONGEST = 0.05, 1e-7, 1.0
 BEYOND_KINK = 1e-6  # how far a piece of the path is looked for on the other side of a kink
-MOST_CORRECTIONS = 8
+MAX_CORRECTIONS = 8
 GROWTH = 1.5
 LITTLE_FRICTION = 0.1  # shear is measured by no less of the pressure
 
@@ -37,14 +37,14 @@ def solve_by_continuation(
     """Solve an increment by continuation.
 
     tolerance  as of `solve_by_newton`
-    raises     NotConverged: the path does not begin, or is not at its end after MOST_STEPS; the
+    raises     NotConverged: the path does not begin, or is not at its end after MAX_STEPS; the
                residual is then what is left of the springs, over the compliance of the bodies
     """
     points = len(problem.compliance.areas)
     itself = np.diagonal(problem.compliance.matrix)[2 * points :] / problem.compliance.areas
     softness = float(np.median(itself))
     path = _Path(problem, root(problem, start, tolerance, SOFT * softness), softness)
-    for _ in range(MOST_STEPS):
+    for _ in range(MAX_STEPS):
         found = path.step(tolerance)
         if found is not None:
             return path.equations.solution(found.at, found.in_slip, found.solves)
@@ -107,7 +107,7 @@ class _Path:
         direction, sign = self._tangent(reached.derivative, self._direction)
         self._values = reached.values
         self._direction = sign * self._sign * direction
-        if reached.corrections <= MOST_CORRECTIONS // 2:
+        if reached.corrections <= MAX_CORRECTIONS // 2:
             self._length = min(GROWTH * self._length, LONGEST)
 
     def _shorten(self) -> None:
@@ -126,7 +126,7 @@ class _Path:
         across  normal of the plane, unit vector
         """
         values = ahead
-        for corrections in range(MOST_CORRECTIONS + 1):
+        for corrections in range(MAX_CORRECTIONS + 1):
             at = Iterate.of(values * self._scales)
             missed, jacobian, in_slip = self.equations.linearised(at)
             size = self.equations.size(missed, at)

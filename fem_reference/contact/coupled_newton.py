@@ -21,8 +21,8 @@ from fem_reference.contact.alternating_iteration import (
 )
 from fem_reference.contact.natural_map import Equations, Iterate
 
-MOST_STEPS = 200
-MOST_HALVINGS = 7
+MAX_STEPS = 200
+MAX_HALVINGS = 7
 REMEMBERED = 4  # misses; a step that gets below the largest of them is not shortened
 SUFFICIENT = 1e-3
 
@@ -62,7 +62,7 @@ def root(problem: CoupledProblem, start: Start, tolerance: float, springs: float
     try:
         at, solves = _first(problem, start, springs)
         equations = Equations(problem)
-        for step in range(MOST_STEPS):
+        for step in range(MAX_STEPS):
             with np.errstate(over="ignore", invalid="ignore"):
                 missed, jacobian, in_slip = equations.linearised(at)
             misses.append(equations.size(missed, at))
@@ -121,7 +121,7 @@ def _nearer(equations: Equations, at: Iterate, change: Vector, bound: float) -> 
     None if no residual is finite.
     """
     nearest, least = None, np.inf
-    for halvings in range(MOST_HALVINGS + 1):
+    for halvings in range(MAX_HALVINGS + 1):
         trial = Iterate.of(at.values + 0.5**halvings * change)
         with np.errstate(over="ignore", invalid="ignore"):
             miss = equations.size(equations.missed(trial), trial)

@@ -3,8 +3,8 @@
 import numpy as np
 
 from contact_scene.array_types import Mask
+from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import GrossSliding
-from contact_scene.summary import ContactStatus
 
 # A force this close to the friction limit, relatively, is at it: what would still stick, a
 # hundredth of the contact wide (the cube root), is less than an element.

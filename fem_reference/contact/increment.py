@@ -11,9 +11,12 @@ import numpy as np
 
 from contact_scene.array_types import Field, Mask, Vector
 from contact_scene.friction import sliding_friction
-from contact_scene.residuals import Residuals, ShearResiduals
+from contact_scene.quantities.residuals import (
+    Residuals,
+    ShearResiduals,
+)
+from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import NotConverged, NothingTouches, motion_undefined
-from contact_scene.summary import ContactStatus
 from fem_reference.contact.alternating_iteration import (
     AlternationFailed,
     CoupledProblem,
@@ -36,7 +39,7 @@ from fem_reference.residuals import (
     slip_direction,
 )
 
-MOST_ATTEMPTS = 4
+MAX_ATTEMPTS = 4
 # Relative change of the pressure by an alternating iteration from which Newton's method takes over.
 # From 1e-2 to 1e-4 the time of an increment varies by 25 %.
 NEAR = 1e-3
@@ -249,7 +252,7 @@ class _Increment:
         (q, p), (moved, approach) = (start[:2], start[2]), motion
         at = Start(p, q, moved if moved is not None else before.motion or 0.0, approach)
         aim, turns, solves = 0.5 * self.tolerance, 0, 0
-        for _ in range(MOST_ATTEMPTS):
+        for _ in range(MAX_ATTEMPTS):
             solution = _solved(problem, at, aim)
             turns, solves = turns + solution.turns, solves + solution.solves
             refuse_beyond_limit(loads.tangential.load, problem.capacity(solution.pressure))

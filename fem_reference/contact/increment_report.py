@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.array_types import Field
-from contact_scene.march import Place
-from contact_scene.summary import ContactStatus
+from contact_scene.quantities.summary import ContactStatus
+from contact_scene.stepping.load_stepping import Place
+from fem_reference.compliance.ring_edge import stick_area
 from fem_reference.contact.point_contact import PointContact
 from fem_reference.contact.point_state import PointState
-from fem_reference.contact.ring_edge import stick_area
 from fem_reference.fields import Increment
 from fem_reference.plan import Path
 

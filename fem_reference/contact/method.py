@@ -10,9 +10,13 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene.march import Place
 from contact_scene.solver_errors import ContactAtZoneEdge
-from fem_reference.contact.angular_grid import AngularGrid, axisymmetric_grid, end_grid
+from contact_scene.stepping.load_stepping import Place
+from fem_reference.compliance.angular_grid import (
+    AngularGrid,
+    axisymmetric_grid,
+    end_grid,
+)
 from fem_reference.contact.augmented_lagrangian import Penalty
 from fem_reference.contact.increment import advance
 from fem_reference.contact.increment_report import reported

@@ -6,16 +6,19 @@ from typing import Any
 import numpy as np
 
 from contact_scene.array_types import Vector
+from contact_scene.body_pair import contact_modulus
 from contact_scene.friction import FRICTIONLESS, CoulombFriction
-from contact_scene.pair import contact_modulus
-from contact_scene.residuals import Residuals
-from contact_scene.summary import ContactStatus
-from fem_reference.contact.angular_grid import AngularGrid
+from contact_scene.quantities.residuals import Residuals
+from contact_scene.quantities.summary import ContactStatus
+from fem_reference.compliance.angular_grid import AngularGrid
+from fem_reference.compliance.point_compliance import PointCompliance
+from fem_reference.compliance.ring_compliance import (
+    RingCompliance,
+    ring_compliance,
+)
+from fem_reference.compliance.ring_edge import GaussEdge
 from fem_reference.contact.augmented_lagrangian import Penalty
-from fem_reference.contact.point_compliance import PointCompliance
 from fem_reference.contact.point_state import PointState
-from fem_reference.contact.ring_compliance import RingCompliance, ring_compliance
-from fem_reference.contact.ring_edge import GaussEdge
 from fem_reference.memory import require_memory
 from fem_reference.model import ContactModel
 from fem_reference.plan import Path

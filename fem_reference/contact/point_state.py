@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from contact_scene.array_types import Field, Mask, Vector
-from contact_scene.residuals import Residuals
-from contact_scene.summary import ContactStatus
+from contact_scene.quantities.residuals import Residuals
+from contact_scene.quantities.summary import ContactStatus
 
 
 @dataclass(frozen=True)

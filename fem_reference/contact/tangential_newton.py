@@ -14,7 +14,7 @@ from contact_scene.solver_errors import NotConverged
 from fem_reference.contact.admissible_shear import project
 from fem_reference.loads import TangentialTarget
 
-MOST_STEPS = 100
+MAX_STEPS = 100
 # Below, the energy along a step is all round-off, and a Newton step is taken as it is.
 ENERGY_ROUND_OFF = 1e-5
 # Part of the bound below which shear is no scale for its own error.
@@ -52,7 +52,7 @@ class ShearProblem:
 
 
 @dataclass(frozen=True)
-class Sheared:
+class TangentialState:
     """Shear (2, points), shift, slipping points, residual and number of linear solves.
 
     shift  None where it is not defined
@@ -65,7 +65,7 @@ class Sheared:
     solves: int
 
 
-def solve_shear(problem: ShearProblem, start: Field, tolerance: float) -> Sheared:
+def solve_shear(problem: ShearProblem, start: Field, tolerance: float) -> TangentialState:
     """The shear and the shift, or the resultant's part of them that is prescribed.
 
     tolerance  of Σ w|q − P(q − ∇/d)| / Σ w|q|
@@ -76,7 +76,7 @@ def solve_shear(problem: ShearProblem, start: Field, tolerance: float) -> Sheare
     least = LEAST_SHEAR * np.sum(problem.areas * bound)
     q, _ = project(start, bound, d, along, total)
     residual, solves = np.inf, 0
-    for _ in range(MOST_STEPS):
+    for _ in range(MAX_STEPS):
         slope = (K @ q.ravel()).reshape(q.shape) - c
         nearest, omega = project(q - slope / d, bound, d, along, total)
         z = q - slope / d + omega * along / d
@@ -87,7 +87,7 @@ def solve_shear(problem: ShearProblem, start: Field, tolerance: float) -> Sheare
         in_slip = length > bound
         if residual <= tolerance:
             shift = omega if problem.led.motion is None else problem.led.motion
-            return Sheared(q, shift, in_slip, residual, solves)
+            return TangentialState(q, shift, in_slip, residual, solves)
         aimed = _newton_point(problem, c, z, length, in_slip, d)
         aimed, _ = project(aimed, bound, d, along, total)
         solves += 1

@@ -8,9 +8,20 @@ from functools import cached_property
 import numpy as np
 
 from contact_scene.array_types import Field
-from fem_reference.contact.angular_grid import AngularGrid, end_grid, mid_grid
-from fem_reference.contact.gauss_points import POINTS_PER_EDGE
-from fem_reference.contact.ring_edge import BEYOND, Beyond, Edge, GaussEdge, HatEdge, contact_edge
+from fem_reference.compliance.angular_grid import (
+    AngularGrid,
+    end_grid,
+    mid_grid,
+)
+from fem_reference.compliance.gauss_points import POINTS_PER_EDGE
+from fem_reference.compliance.ring_edge import (
+    BEYOND,
+    Beyond,
+    Edge,
+    GaussEdge,
+    HatEdge,
+    contact_edge,
+)
 from fem_reference.elasticity.motion import PRESSING, SHEARING, TORSION, Motion, motion
 from fem_reference.fields import Increment
 

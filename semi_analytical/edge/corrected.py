@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from contact_scene.array_types import Field, Mask
 from semi_analytical.edge.displacement import Within
-from semi_analytical.edge.rim import Rim
+from semi_analytical.edge.subcell_tractions import SubcellTractions
 
 
 @dataclass(frozen=True)
@@ -76,7 +76,7 @@ class Corrected:
     approach: float
     contact_cells: float
     change: float
-    edge: Rim
+    edge: SubcellTractions
     report: EdgeReport
     tilt: tuple[float, float] | None = None
     shear: Field | None = None

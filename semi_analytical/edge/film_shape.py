@@ -10,11 +10,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from contact_scene.array_types import Field, Indices, Mask
+from semi_analytical.edge.clipped_power_means import (
+    Exponent,
+    centre_value,
+    power,
+)
+from semi_analytical.edge.edge_geometry import (
+    EdgeLine,
+    Seen,
+)
 from semi_analytical.edge.film import FilmLaw
 from semi_analytical.edge.fit import Fits, Stencil, fit_about
 from semi_analytical.edge.kernels import PARTS, part_centres
-from semi_analytical.edge.line import EdgeLine, Seen
-from semi_analytical.edge.means import Exponent, centre_value, power
 from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.edge.shape import ASKED, CUT_WEIGHT, EdgeShape
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
@@ -24,9 +31,9 @@ ALONG = 1.5
 TURNS, TURNS_AGAIN = 5, 2
 # Of how far data lean on the edge: where the pressure has its first plateau they would hardly tell
 # where that is, and Newton's method overshoots.
-MOST_LEANING = -0.7
+MAX_LEANING = -0.7
 # Of the curvature c of the law, over that of the largest circle inside: what no smooth edge has.
-MOST_BENT = 4.0
+MAX_BENT = 4.0
 # A part of a cell so many times its width inside the edge sees the law change but little.
 FAR = 5.0
 
@@ -151,7 +158,7 @@ class _Problem:
         of_band = a[i, j] if isinstance(a, np.ndarray) else a
         means = self.means[i, j] / ratio
         phi[i, j] = centre_value(means, slope * along_x, slope * along_y, of_band)
-        leaning[i, j] = np.maximum(leans, MOST_LEANING) * slope / seen.slope
+        leaning[i, j] = np.maximum(leans, MAX_LEANING) * slope / seen.slope
         cut = np.abs(seen.distance) < (np.abs(along_x) + np.abs(along_y)) / 2
         weight[i, j] = np.where(cut, CUT_WEIGHT, 1.0)
         return FilmShape(
@@ -173,5 +180,5 @@ def bent(seen: Seen, depth: Field, law: FilmLaw) -> Field:
 
     depth  layers of the region (nx, ny)
     """
-    limit = MOST_BENT / (np.max(depth) * min(law.stretched))
+    limit = MAX_BENT / (np.max(depth) * min(law.stretched))
     return np.clip(0.75 * (seen.bend / (2 * seen.slope) - seen.curvature), -limit, limit)

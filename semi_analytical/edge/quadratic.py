@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from contact_scene.array_types import Field, Indices, Mask
-from semi_analytical.edge.means import mean_power
+from semi_analytical.edge.clipped_power_means import mean_power
 
 
 @dataclass(frozen=True)

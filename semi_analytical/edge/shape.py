@@ -7,8 +7,12 @@ import numpy as np
 from scipy.ndimage import distance_transform_edt
 
 from contact_scene.array_types import Field, Indices, Mask
+from semi_analytical.edge.clipped_power_means import (
+    Exponent,
+    centre_value,
+    power,
+)
 from semi_analytical.edge.fit import Fits, Stencil, fit_about
-from semi_analytical.edge.means import Exponent, centre_value, power
 from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
 

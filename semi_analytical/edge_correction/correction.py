@@ -10,9 +10,12 @@ from semi_analytical.edge_correction.operators import EdgeOperators
 from semi_analytical.edge_correction.pressure import NotFitted, edge_pressure
 from semi_analytical.edge_correction.shear import ShearProblem, edge_shear, sliding_shear
 from semi_analytical.edge_correction.shear_at_edge import FollowingShear
-from semi_analytical.increment import State
+from semi_analytical.increments.increment import State
+from semi_analytical.increments.tangential_state import (
+    TangentialState,
+    rigid,
+)
 from semi_analytical.model import ContactModel
-from semi_analytical.sheared import Sheared, rigid
 
 
 class EdgeCorrection:
@@ -72,7 +75,7 @@ class EdgeCorrection:
     def _sheared(
         self,
         before: State | None,
-        solved: Sheared,
+        solved: TangentialState,
         pressed: Corrected,
         tolerance: float,
     ) -> CorrectedShear | None:
@@ -120,7 +123,7 @@ class EdgeCorrection:
         return edge_shear(problem, solved, before.sheared.shear)
 
 
-def _leads_to(before: State | None, state: State, sheared: Sheared) -> bool:
+def _leads_to(before: State | None, state: State, sheared: TangentialState) -> bool:
     """Whether the stick border of a state follows from that of an earlier one."""
     last = before.corrected.sheared if before and before.corrected else None
     if before is None or last is None or last.shift is None or sheared.shift is None:

@@ -16,8 +16,12 @@ from semi_analytical.edge.kernels import PARITY, PART_OFFSETS, PARTS, EdgeKernel
 from semi_analytical.edge.shape import depth_of
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.model import ContactModel
-from semi_analytical.normal import close_gap
-from semi_analytical.normal_load import Map, Motion, NormalLoad
+from semi_analytical.normal.normal_load import (
+    Map,
+    Motion,
+    NormalLoad,
+)
+from semi_analytical.normal.normal_problem import close_gap
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
 
 Row = tuple[tuple[int, str], ...]

@@ -13,20 +13,26 @@ from typing import NamedTuple
 import numpy as np
 
 from contact_scene.array_types import Field, Mask
-from contact_scene.pair import outermost_beta
-from semi_analytical.box import Box, box_around
+from contact_scene.body_pair import outermost_beta
+from semi_analytical.edge.clipped_power_means import Exponent
 from semi_analytical.edge.corrected import Corrected, EdgeReport
 from semi_analytical.edge.displacement import Within
 from semi_analytical.edge.film import FilmLaw
 from semi_analytical.edge.fit import peak_of
-from semi_analytical.edge.means import Exponent
-from semi_analytical.edge.rim import Rim, rim
+from semi_analytical.edge.subcell_tractions import (
+    SubcellTractions,
+    rim,
+)
 from semi_analytical.edge_correction.operators import EdgeOperators, closed
 from semi_analytical.edge_correction.shear_at_edge import FollowingShear
-from semi_analytical.increment import State
+from semi_analytical.increments.increment import State
+from semi_analytical.increments.normal_solve import MARGIN
 from semi_analytical.model import ContactModel
-from semi_analytical.normal_load import Motion
-from semi_analytical.pressing import MARGIN
+from semi_analytical.normal.normal_load import Motion
+from semi_analytical.operator.box import (
+    Box,
+    box_around,
+)
 
 # Least relaxation factor. With λ an eigenvalue of the derivative of one iteration, the error is
 # multiplied by 1 - (1 - λ) factor. λ lies between 0 (smooth changes) and -2 (changes that alternate
@@ -40,7 +46,7 @@ INNER_REDUCTION = 0.1
 # much remains: the accuracy required of a contact radius on 128 cells per side.
 SETTLED, LEAST_SETTLED = 5e-5, 1e-3
 # Part of the edge that need not be fitted.
-MOST_UNSAFE = 0.03
+MAX_UNSAFE = 0.03
 
 
 class NotFitted(Exception):
@@ -145,12 +151,12 @@ class _Problem:
     def film(self) -> FilmLaw | None:
         return self.operators.film(self.contact, self.model.domain)
 
-    def rim(self, p: Field, before: Rim | None) -> Rim:
+    def rim(self, p: Field, before: SubcellTractions | None) -> SubcellTractions:
         """Fit of the edge of a pressure. Raises NotFitted."""
         edge = rim(p, p > 0, before, self.exponent, self.model.domain, self.film)
         if edge is None:
             raise NotFitted("the contact is too thin")
-        if edge.unsafe > MOST_UNSAFE:
+        if edge.unsafe > MAX_UNSAFE:
             raise NotFitted(f"the edge is rough: {edge.unsafe:.2g} of it cannot be fitted")
         return edge
 
@@ -158,7 +164,7 @@ class _Problem:
         """Approach, or sum of the pressure where the approach is prescribed."""
         return approach if self.state.target.approach is None else float(np.sum(p))
 
-    def solve(self, p: Field, edge: Rim) -> _Solved:
+    def solve(self, p: Field, edge: SubcellTractions) -> _Solved:
         """Pressure for the edge of an iterate.
 
         Cells that the contact only reaches into carry the pressure of the fit; the others carry the
@@ -181,7 +187,7 @@ class _Problem:
         )
         return _Solved(self.box.embed(found.pressure, p.shape), found.motion, beside)
 
-    def by_edge(self, p: Field, edge: Rim) -> Field:
+    def by_edge(self, p: Field, edge: SubcellTractions) -> Field:
         """Displacement by the pressure within its cells, and by the shear that follows."""
         by_p = Within.of(p, edge.i, edge.j, edge.parts, edge.domain)
         if not self.coupled or self.shear is None:
@@ -193,7 +199,7 @@ class _Problem:
         return np.asarray(u + self.model.operator(p.shape).normal_by_shear(q))
 
     def corrected(
-        self, last: _Last, before: _Last, solved: _Solved, edge: Rim, change: float
+        self, last: _Last, before: _Last, solved: _Solved, edge: SubcellTractions, change: float
     ) -> Corrected:
         """The last iterate as a state on the window."""
         target, extend = self.state.target, self.model.domain.extend

@@ -13,23 +13,32 @@ import numpy as np
 
 from contact_scene.array_types import Field, Mask, Vector, VectorField
 from contact_scene.solver_errors import NotConverged
-from semi_analytical.admissible_shear import ShearSum, magnitude
 from semi_analytical.edge.corrected import CorrectedShear
 from semi_analytical.edge.displacement import Within
-from semi_analytical.edge.rim import Rim, rim
+from semi_analytical.edge.subcell_tractions import (
+    SubcellTractions,
+    rim,
+)
 from semi_analytical.edge_correction.operators import EdgeOperators
 from semi_analytical.edge_correction.pressure import (
     INNER_REDUCTION,
     LEAST_SETTLED,
     MAX_ITERATIONS,
-    MOST_UNSAFE,
+    MAX_UNSAFE,
     SETTLED,
     relaxation_factor,
 )
 from semi_analytical.edge_correction.shear_at_edge import direction_of_slip
-from semi_analytical.linearised_shear import Point
-from semi_analytical.sheared import Sheared
-from semi_analytical.tangential import TangentialSolution, solve_tangential
+from semi_analytical.increments.tangential_state import TangentialState
+from semi_analytical.tangential.admissible_shear import (
+    ShearSum,
+    magnitude,
+)
+from semi_analytical.tangential.linearised_shear import Point
+from semi_analytical.tangential.tangential_problem import (
+    TangentialSolution,
+    solve_tangential,
+)
 
 WithinVector = tuple[Within, Within]
 
@@ -43,11 +52,11 @@ class Missing:
     full: VectorField
     slip: VectorField
     stick: Mask
-    edge: Rim
+    edge: SubcellTractions
 
 
 def sliding_shear(
-    operators: EdgeOperators, bound: Field, limit: Within, solved: Sheared
+    operators: EdgeOperators, bound: Field, limit: Within, solved: TangentialState
 ) -> CorrectedShear:
     """The shear where all slips: the limit, along the slip.
 
@@ -100,7 +109,12 @@ class ShearProblem:
         return bound * slip if self.turned is None else before + bound * (slip - self.turned)
 
     def missing(
-        self, q: VectorField, bound: Field, before: VectorField, stick: Mask, edge: Rim | None
+        self,
+        q: VectorField,
+        bound: Field,
+        before: VectorField,
+        stick: Mask,
+        edge: SubcellTractions | None,
     ) -> Missing | None:
         """What is missing from full slip along the slip of the nearest slipping cell; None where
         there is no border of stick to fit.
@@ -116,7 +130,7 @@ class ShearProblem:
         full = self.full(bound, slip, before)
         shear = np.where(stick, full - q, 0.0)
         border = rim(magnitude(shear), stick, edge)
-        if border is None or border.unsafe > MOST_UNSAFE:
+        if border is None or border.unsafe > MAX_UNSAFE:
             return None
         return Missing(shear, full, slip, stick, border)
 
@@ -183,7 +197,7 @@ class ShearProblem:
 
 
 def edge_shear(
-    problem: ShearProblem, solved: Sheared, before: VectorField
+    problem: ShearProblem, solved: TangentialState, before: VectorField
 ) -> CorrectedShear | None:
     """A solved shear with its edges inside the cells; None where that is not safe.
 

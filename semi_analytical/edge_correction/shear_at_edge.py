@@ -21,7 +21,7 @@ from scipy.ndimage import distance_transform_edt, gaussian_filter
 
 from contact_scene import CoulombFriction
 from contact_scene.array_types import Field, Mask, VectorField
-from semi_analytical.admissible_shear import magnitude
+from semi_analytical.tangential.admissible_shear import magnitude
 
 # Layers of cells next to slipping cells to which their direction of slip is extended.
 LAYERS = 12

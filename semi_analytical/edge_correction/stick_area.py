@@ -13,11 +13,11 @@ import numpy as np
 from scipy.ndimage import distance_transform_edt
 
 from contact_scene.array_types import Field, Indices, Mask, VectorField
-from semi_analytical.box import box_around
-from semi_analytical.contact_area import stuck_cells
 from semi_analytical.edge.fit import NARROW, WIDE, Stencil
 from semi_analytical.edge.shape import LARGEST_RMS, depth_of, edge_shape
 from semi_analytical.edge_correction.shear_at_edge import LAYERS, direction_of_slip
+from semi_analytical.normal.contact_area import stuck_cells
+from semi_analytical.operator.box import box_around
 
 # Exponent of the distance, and of what it is fitted in: a smoother fall needs more cells.
 LAWS = ((0.5, NARROW), (1.5, WIDE))

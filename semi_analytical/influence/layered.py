@@ -19,7 +19,7 @@ import numpy as np
 import scipy
 
 from contact_scene.array_types import Field
-from contact_scene.free_memory import available_bytes
+from contact_scene.machine.free_memory import available_bytes
 from contact_scene.solver_errors import ResourceRefused
 from semi_analytical.frf.stack import Stack
 from semi_analytical.influence.layered_cells import cell_integrals
@@ -55,7 +55,7 @@ class LayeredCoefficients:
     stack     the body, not a rigid one
     spacing   cell sides [length]
     shape     number of offsets along x and y, the zero offset included
-    remember  where arrays are kept between runs, for instance `kept_arrays.remembered`
+    remember  where arrays are kept between runs, for instance `disk_cache.remembered`
 
     Raises ResourceRefused, before any work, if the arrays do not fit into the free memory.
     """

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.array_types import Field
-from semi_analytical.grades import STIFFNESSES
 from semi_analytical.influence.coefficients import InfluenceCoefficients
 from semi_analytical.operator.domain import Pair, ReducedDomain
+from semi_analytical.operator.slip_compliance_bins import STIFFNESSES
 from semi_analytical.operator.spectra import KernelSpectrum, kernel_spectrum
 from semi_analytical.operator.transforms import DOUBLE, Convolutions, Dtype, Transforms
 

@@ -1,6 +1,10 @@
 """Displacement and stress below the surface."""
 
 from semi_analytical.frf.depth import Level
+from semi_analytical.stress.depths import (
+    default_depths,
+    interfaces,
+)
 from semi_analytical.stress.field import (
     SubsurfaceField,
     fields_by_level,
@@ -8,7 +12,6 @@ from semi_analytical.stress.field import (
     subsurface,
     subsurface_section,
 )
-from semi_analytical.stress.levels import default_depths, interfaces
 from semi_analytical.stress.near_edge import EdgeNotSeen, NearEdge, near_edge, near_surface
 
 __all__ = [

@@ -11,8 +11,8 @@ import numpy as np
 from scipy.ndimage import distance_transform_edt
 
 from contact_scene.array_types import Field, Indices, Mask
+from semi_analytical.edge.clipped_power_means import mean_power
 from semi_analytical.edge.fit import Stencil, fit_about
-from semi_analytical.edge.means import mean_power
 from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.edge.shape import EdgeShape, edge_shape
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from contact_scene import Body, Scene
 from contact_scene.array_types import Field, Indices
-from contact_scene.free_memory import available_bytes
+from contact_scene.machine.free_memory import available_bytes
 from contact_scene.solver_errors import ResourceRefused
 from semi_analytical.frf.depth import Level
 from semi_analytical.frf.stack import Stack, stack_of
@@ -17,7 +17,10 @@ from semi_analytical.grid import SurfaceGrid
 from semi_analytical.stress.cells import depth_coefficients
 from semi_analytical.stress.components import DISPLACEMENT, FIELDS, STRESS, TRACTIONS
 from semi_analytical.stress.convolution import plane_convolution, row_convolution
-from semi_analytical.stress.levels import levels_of, line_weights
+from semi_analytical.stress.depths import (
+    levels_of,
+    line_weights,
+)
 
 DOUBLE = 8
 # Arrays of the size of the window at the peak besides the fields, measured with shear at 90² and

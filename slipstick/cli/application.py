@@ -6,8 +6,8 @@ from typing import Annotated
 
 import typer
 
+from contact_results.blas_threads import one_thread
 from contact_results.directory.stop_signals import cleaned_up_when_stopped
-from contact_results.one_thread import one_thread
 from slipstick.cli.errors import ExitCode, explain
 from slipstick.cli.lazy_commands import MAINTAIN, LazyCommands, MaintenanceCommands
 

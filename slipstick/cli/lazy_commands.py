@@ -75,7 +75,7 @@ class LazyCommand:
 
 def _commands(summaries: dict[str, str]) -> dict[str, LazyCommand]:
     return {
-        name: LazyCommand(f"slipstick.cli.{name}", name, summary)
+        name: LazyCommand(f"slipstick.cli.commands.{name}", name, summary)
         for name, summary in summaries.items()
     }
 

@@ -51,7 +51,7 @@ SetOption: TypeAlias = Annotated[
 
 def odd_numbers(contents: SceneFile) -> tuple[str, ...]:
     """Remarks on what is hardly meant in a scene file."""
-    from contact_scene.plausibility import implausible
+    from contact_scene.checks.plausibility import implausible
 
     fineness = {name: getattr(contents, name) for name in ("semi_analytical", "fem_reference")}
     return implausible(contents.scene, **fineness)

@@ -14,7 +14,7 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 
-from contact_scene.increment import ReportedIncrement
+from contact_scene.quantities.increment import ReportedIncrement
 from slipstick.solvers.solver import Progress as Observer
 
 SECONDS_BETWEEN_LINES = 10.0

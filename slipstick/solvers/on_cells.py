@@ -14,14 +14,14 @@ from contact_errors.cost_estimate import (
     work_on_cells,
 )
 from contact_scene import Scene, SceneFile, SurfaceDiscretisation
-from contact_scene.engineering_units import engineering_unit
+from contact_scene.quantities.stated_error import StatedErrors
+from contact_scene.reading.engineering_units import engineering_unit
 from contact_scene.solver_errors import ContactNotResolved, SolverError
-from contact_scene.standing import Keeper
-from contact_scene.stated_error import StatedErrors
+from contact_scene.stepping.checkpoint import CheckpointStore
 from semi_analytical import Plan, Result, SurfaceGrid, all_effects
 from semi_analytical.memory import estimated_bytes
 from slipstick.solvers.solver import (
-    MOST_STEPS_SHOWN,
+    MAX_STEPS_SHOWN,
     Pairs,
     Progress,
     increments_text,
@@ -55,9 +55,9 @@ class OnCells:
         fineness: SurfaceDiscretisation,
         plan: Plan,
         progress: Progress | None = None,
-        keeper: Keeper | None = None,
+        store: CheckpointStore | None = None,
     ) -> Result:
-        return semi_analytical.solve_discretised(scene, fineness, progress, plan, keeper)
+        return semi_analytical.solve_discretised(scene, fineness, progress, plan, store)
 
     def errors(self, result: Result) -> StatedErrors:
         from contact_errors.on_cells import stated_errors
@@ -120,9 +120,9 @@ class OnCells:
             return ()
         shown = [
             (str(number), str(step.count), step.why)
-            for number, step in enumerate(plan.path[:MOST_STEPS_SHOWN], start=1)
+            for number, step in enumerate(plan.path[:MAX_STEPS_SHOWN], start=1)
         ]
-        return shown if len(plan.path) <= MOST_STEPS_SHOWN else [*shown, ("…", "", "")]
+        return shown if len(plan.path) <= MAX_STEPS_SHOWN else [*shown, ("…", "", "")]
 
     def layout(self, result: Result) -> Pairs:
         yield "grid", _grid_text(result.grid)

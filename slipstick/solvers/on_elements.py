@@ -14,9 +14,9 @@ from contact_errors.cost_estimate import (
     work_on_elements,
 )
 from contact_scene import FiniteElementDiscretisation, Scene, SceneFile
-from contact_scene.engineering_units import quantity
-from contact_scene.standing import Keeper
-from contact_scene.stated_error import StatedErrors
+from contact_scene.quantities.stated_error import StatedErrors
+from contact_scene.reading.engineering_units import quantity
+from contact_scene.stepping.checkpoint import CheckpointStore
 from fem_reference import Method, Path, Plan, Result
 from fem_reference.expected_radius import meshed_radius, sections_of
 from fem_reference.memory import largest_bytes, run_bytes
@@ -51,9 +51,9 @@ class OnElements:
         fineness: FiniteElementDiscretisation,
         plan: Plan,
         progress: Progress | None = None,
-        keeper: Keeper | None = None,
+        store: CheckpointStore | None = None,
     ) -> Result:
-        return fem_reference.solve(scene, fineness, self.method, progress, keeper)
+        return fem_reference.solve(scene, fineness, self.method, progress, store)
 
     def errors(self, result: Result) -> StatedErrors:
         from contact_errors.on_elements import stated_errors

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import radial
 from contact_errors.cost_estimate import MAX_STEPS, coarse_increments, work_on_rings
 from contact_scene import RadialDiscretisation, Scene, SceneFile
-from contact_scene.standing import Keeper
-from contact_scene.stated_error import StatedErrors
+from contact_scene.quantities.stated_error import StatedErrors
+from contact_scene.stepping.checkpoint import CheckpointStore
 from radial import Plan, Result
-from radial.circle import Circle
+from radial.angular_grid import Circle
 from slipstick.solvers.solver import Pairs, Progress, increments_text, time_of_run
 
 if TYPE_CHECKING:
@@ -37,9 +37,9 @@ class OnRadii:
         fineness: RadialDiscretisation,
         plan: Plan,
         progress: Progress | None = None,
-        keeper: Keeper | None = None,
+        store: CheckpointStore | None = None,
     ) -> Result:
-        return radial.solve(scene, fineness, progress, plan, keeper)
+        return radial.solve(scene, fineness, progress, plan, store)
 
     def errors(self, result: Result) -> StatedErrors:
         from contact_errors.on_radii import stated_errors

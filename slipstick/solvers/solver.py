@@ -18,9 +18,9 @@ if TYPE_CHECKING:
         SceneFile,
         SurfaceDiscretisation,
     )
-    from contact_scene.increment import ReportedIncrement
-    from contact_scene.standing import Keeper
-    from contact_scene.stated_error import StatedErrors
+    from contact_scene.quantities.increment import ReportedIncrement
+    from contact_scene.quantities.stated_error import StatedErrors
+    from contact_scene.stepping.checkpoint import CheckpointStore
 
     Discretisation: TypeAlias = (
         SurfaceDiscretisation | FiniteElementDiscretisation | RadialDiscretisation
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 Progress: TypeAlias = Callable[["ReportedIncrement"], None]
 Pairs: TypeAlias = Iterator[tuple[str, str]]
 
-MOST_STEPS_SHOWN = 12
+MAX_STEPS_SHOWN = 12
 
 
 class Solver(Protocol):
@@ -50,7 +50,7 @@ class Solver(Protocol):
         fineness: Any,
         plan: Any,
         progress: Progress | None = None,
-        keeper: Keeper | None = None,
+        store: CheckpointStore | None = None,
     ) -> Result:
         """The result of a plan; raises a SolverError."""
 
@@ -77,8 +77,8 @@ def increments_text(counts: tuple[int, ...]) -> str:
     """How many, and of a short history how many in every step."""
     if len(counts) == 1:
         return str(counts[0])
-    shown = " + ".join(map(str, counts[:MOST_STEPS_SHOWN]))
-    more = " + …" if len(counts) > MOST_STEPS_SHOWN else ""
+    shown = " + ".join(map(str, counts[:MAX_STEPS_SHOWN]))
+    more = " + …" if len(counts) > MAX_STEPS_SHOWN else ""
     return f"{sum(counts)} = {shown}{more} in {len(counts)} steps"
 
 

@@ -8,11 +8,14 @@ from dataclasses import replace
 import numpy as np
 
 from contact_scene import RIGID, FlatPunch
-from radial.bodies import Bodies
-from radial.disc import disc
-from radial.plan import MOST_CONTRAST
-from radial.pressing import Target, pressed
-from radial.surface import pressure
+from radial.normal.disc import disc
+from radial.normal.pressing import (
+    Target,
+    pressed,
+)
+from radial.normal.surface import pressure
+from radial.plan import MAX_CONTRAST
+from radial.response.bodies import Bodies
 from semi_analytical.frf.stack import Stack
 from slipstick.tables.frictional import (
     BALL,
@@ -41,20 +44,20 @@ RUBBED = (
     f"and {ROUND_OFF:g} of the number for round-off"
 )
 # Nothing rubs more; a ball then sticks all over, and rings have no slip to tell.
-MOST_FRICTION = 10.0
+MAX_FRICTION = 10.0
 COATING = {
     "E1_over_E2": Axis(
         "Young's modulus of the layer over that of the substrate",
         (0.25, 0.5, 1.0, 2.0, 4.0),
-        1 / MOST_CONTRAST,
-        MOST_CONTRAST,
+        1 / MAX_CONTRAST,
+        MAX_CONTRAST,
     ),
     "h_over_aH": Axis(
         "thickness of the layer over Hertz's contact radius on the substrate", (0.25, 1.0)
     ),
     "nu": Axis("Poisson's ratio of both", (0.3,), -1.0, 0.5),
 }
-FRICTION = {"mu": Axis("coefficient of friction", (0.1, 0.3), most=MOST_FRICTION)}
+FRICTION = {"mu": Axis("coefficient of friction", (0.1, 0.3), most=MAX_FRICTION)}
 FIGURE = {
     **COATING,
     "E1_over_E2": replace(COATING["E1_over_E2"], values=(0.5, 1.0, 2.0, 4.0)),
@@ -108,8 +111,8 @@ TABLES: Mapping[str, Table] = {
                 "E1_over_E2": Axis(
                     "Young's modulus of the layer over that of the substrate",
                     (0.1, 0.2, 0.5, 0.8, 1.25, 2.0, 4.0, 10.0),
-                    1 / MOST_CONTRAST,
-                    MOST_CONTRAST,
+                    1 / MAX_CONTRAST,
+                    MAX_CONTRAST,
                 ),
                 "h_over_aH": Axis(
                     "thickness of the layer over Hertz's contact radius on the substrate",

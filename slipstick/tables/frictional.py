@@ -20,11 +20,11 @@ from contact_scene import (
     RadialDiscretisation,
     Scene,
 )
-from contact_scene.march import marked_increments
+from contact_scene.stepping.load_stepping import resumable_increments
+from radial.frictional.frictional_increment import FrictionalState
+from radial.frictional.frictional_indentation_steps import Rubbing
+from radial.normal.surface import pressure
 from radial.plan import PATH_INCREMENTS
-from radial.rubbing import Rubbing
-from radial.sheared import Sheared
-from radial.surface import pressure
 from slipstick.tables.table import Found
 
 # Of the contact on the bare substrate: a_H = p_H = δ_H = 1, E*_2 = π/2, W = 2π/3.
@@ -53,11 +53,11 @@ def scene(place: Sequence[float]) -> Scene:
 
 
 @lru_cache(maxsize=KEPT)
-def pressed(place: tuple[float, ...], increments: int, fineness: int) -> Sheared:
+def pressed(place: tuple[float, ...], increments: int, fineness: int) -> FrictionalState:
     """The contact at the end of so many increments, and so many times as many rings."""
     asked = scene(place)
     solver = Rubbing.of(asked, RadialDiscretisation(), fineness)
-    *_, (_, mark) = marked_increments(asked, (increments,), solver, None)
+    *_, (_, mark) = resumable_increments(asked, (increments,), solver, None)
     assert mark.state is not None  # pressed
     return mark.state
 

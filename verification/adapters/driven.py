@@ -9,8 +9,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from contact_results.one_thread import VARIABLES
-from verification.challenge.door import CannotDo
+from contact_results.blas_threads import VARIABLES
+from verification.challenge.python_api import CannotDo
 from verification.peers.environment import Peer
 
 SECONDS_ALLOWED = 240

@@ -11,7 +11,10 @@ import numpy as np
 
 from verification.adapters.driven import driven
 from verification.challenge.answer import Answer, Field, Key
-from verification.challenge.door import CannotDo, Posed
+from verification.challenge.python_api import (
+    CannotDo,
+    Posed,
+)
 from verification.peers.environment import Peer
 
 COARSEST, TOLERANCE = 32, 1e-8

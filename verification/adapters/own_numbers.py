@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from contact_scene import Scene
-from contact_scene.increment import State
+from contact_scene.quantities.increment import State
 from verification.challenge.answer import Answer, Key
-from verification.challenge.door import CannotDo, Posed
+from verification.challenge.python_api import (
+    CannotDo,
+    Posed,
+)
 
 
 def scene_of(posed: Posed) -> Scene:

@@ -8,7 +8,10 @@ from radial import solve
 from verification.adapters.own_numbers import given_up, in_increments, scene_of
 from verification.adapters.rings import answer_on_rings
 from verification.challenge.answer import Answer, Solver
-from verification.challenge.door import CannotDo, Posed
+from verification.challenge.python_api import (
+    CannotDo,
+    Posed,
+)
 
 ON_RADII = Solver("slipstick, radial", meshless=True)
 COARSEST = 32  # rings: the fields are linear between them, the numbers need none

@@ -9,7 +9,10 @@ import numpy as np
 
 from verification.adapters.own_numbers import number
 from verification.challenge.answer import Answer, Field, Key, Vector
-from verification.challenge.door import CannotDo, Posed
+from verification.challenge.python_api import (
+    CannotDo,
+    Posed,
+)
 from verification.observed.ring_errors import at_radii
 
 PER_INTERVAL = 4  # points of Gauss between two rings

@@ -10,7 +10,10 @@ from fem_reference import plan, solve
 from verification.adapters.own_numbers import given_up, scene_of
 from verification.adapters.rings import answer_on_rings
 from verification.challenge.answer import Answer, Solver
-from verification.challenge.door import CannotDo, Posed
+from verification.challenge.python_api import (
+    CannotDo,
+    Posed,
+)
 
 ON_ELEMENTS = Solver("slipstick, finite elements")
 COARSEST = 16  # elements over the contact radius

@@ -13,7 +13,7 @@ from semi_analytical import Increment, Result, SurfaceGrid, solve_discretised
 from verification.adapters.own_numbers import given_up, in_increments, number, scene_of
 from verification.adapters.surface_places import COMPONENTS, stress_at, under_a_patch
 from verification.challenge.answer import Answer, Field, Key, Solver, Vector
-from verification.challenge.door import Posed
+from verification.challenge.python_api import Posed
 from verification.observed.radial_profile import along_radii, outward
 from verification.quantities import shear_of
 

@@ -10,7 +10,7 @@ from semi_analytical import Increment, Result
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.stress import subsurface
 from verification.challenge.answer import Answer, Key, Vector
-from verification.challenge.door import Posed
+from verification.challenge.python_api import Posed
 from verification.quantities import shear_of
 
 COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer, LoadStep, Paraboloid
-from radial.bodies import Bodies
-from radial.disc import disc
-from radial.surface import pressure
+from radial.normal.disc import disc
+from radial.normal.surface import pressure
+from radial.response.bodies import Bodies
 from semi_analytical.frf.stack import Film, HalfSpace, Stack
 from semi_analytical.frf.surface import scalars
 from verification.cases.levels import (
@@ -38,17 +38,6 @@ from verification.closed_forms.gao_chiu_lee import modulus_weight, ratio_weight
 from verification.judging.case import Case, Check, Comparison, Level, Required
 from verification.judging.declared_case import Falls, Refined, Reported, Row, Within, case, judged
 from verification.judging.drawings import PRESSURE, convergence, profile
-from verification.judging.ladder import (
-    Rung,
-    asked,
-    cells_label,
-    ladder,
-    named,
-    on_cells,
-    on_elements,
-    on_radii,
-    part_of_side,
-)
 from verification.judging.observable import Observable, error_norm
 from verification.judging.observables import (
     APPROACH,
@@ -60,6 +49,17 @@ from verification.judging.observables import (
     PRESSURE_WITHIN,
 )
 from verification.judging.refinement import refinement
+from verification.judging.refinement_levels import (
+    RefinementLevel,
+    asked,
+    cells_label,
+    ladder,
+    named,
+    on_cells,
+    on_elements,
+    on_radii,
+    part_of_side,
+)
 from verification.judging.run import Run
 from verification.observed.end_state import normal_force
 from verification.problems import paper_scene as paper
@@ -306,7 +306,9 @@ def layered_identities(level: Level = Level.QUICK, cells: int = 128) -> Case:
     # All on one window, so that fields of equal contacts can be compared.
     grid = paper.hertz_grid(cells)
     grids = {
-        name: ladder(problem, [Rung(Run(name, problem.scene, grid, problem=name), cells)])
+        name: ladder(
+            problem, [RefinementLevel(Run(name, problem.scene, grid, problem=name), cells)]
+        )
         for name, problem in problems.items()
     }
     of_hertz = (Within(APPROACH, 5e-5, ASKED), Within(PEAK_PRESSURE, 1.5e-4, ASKED))

@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import CoulombFriction
-from contact_scene.residuals import worst
+from contact_scene.quantities.residuals import worst
+from fem_reference.compliance.angular_grid import end_grid
+from fem_reference.compliance.point_compliance import PointCompliance
+from fem_reference.compliance.ring_compliance import RingCompliance
+from fem_reference.compliance.ring_edge import HatEdge
 from fem_reference.contact.alternating_iteration import CoupledProblem
-from fem_reference.contact.angular_grid import end_grid
 from fem_reference.contact.natural_map import Equations, Iterate
-from fem_reference.contact.point_compliance import PointCompliance
-from fem_reference.contact.ring_compliance import RingCompliance
-from fem_reference.contact.ring_edge import HatEdge
 from fem_reference.loads import NormalTarget, TangentialTarget
 from fem_reference.plan import Path
 from verification.judging.case import Check, Required

@@ -34,7 +34,7 @@ from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.exhibits.numbers import plain
 from verification.exhibits.table import NONE, Table
 from verification.judging.case import Case, Comparison, Finding, Level
-from verification.judging.ladder import cells_label
+from verification.judging.refinement_levels import cells_label
 from verification.judging.run import (
     OVER_ANGLES,
     SOLVER_TOLERANCE,

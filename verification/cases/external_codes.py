@@ -14,10 +14,13 @@ from contact_scene import LoadStep
 from verification.external_codes.recorded import Recorded, recorded
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import Judged, Within, case, judged
-from verification.judging.ladder import on_cells, on_elements
 from verification.judging.observable import error_norm
 from verification.judging.observables import NORMAL_FORCE
 from verification.judging.pressing_errors import pressure_at, shear_at
+from verification.judging.refinement_levels import (
+    on_cells,
+    on_elements,
+)
 from verification.problems import paper_scene as paper
 from verification.problems.layered_scene import coated, film, pressed, rigid_ball
 from verification.problems.paper_scene import HERTZ

@@ -28,20 +28,6 @@ from verification.judging.declared_case import (
 )
 from verification.judging.drawings import convergence, profile
 from verification.judging.field_errors import away_from_edges
-from verification.judging.ladder import (
-    Ladder,
-    Rung,
-    asked,
-    cells_label,
-    ladder,
-    named,
-    on_cells,
-    on_elements,
-    on_radii,
-    on_springs,
-    part_of_side,
-    with_edge_at,
-)
 from verification.judging.observable import Observable, error_norm
 from verification.judging.observables import (
     APPROACH,
@@ -58,16 +44,34 @@ from verification.judging.observables import (
     WORK,
 )
 from verification.judging.radial_chart import radial_chart
+from verification.judging.refinement_levels import (
+    RefinementLevel,
+    RefinementLevels,
+    asked,
+    cells_label,
+    ladder,
+    named,
+    on_cells,
+    on_elements,
+    on_radii,
+    on_springs,
+    part_of_side,
+    with_edge_at,
+)
 from verification.judging.run import OVER_ANGLES, Run
 from verification.observed.ring_errors import judged_within
 from verification.problems import loop_history as loop
 from verification.problems import paper_scene as paper
+from verification.problems.cattaneo_mindlin import (
+    OVER_LIMIT,
+    OVER_SLIDING_SHIFT,
+    sheared,
+)
 from verification.problems.indentation import COATED
 from verification.problems.loop_history import LOADED, WINDOW_PER_RADIUS
 from verification.problems.loop_history import fretting_loop as loop_problem
 from verification.problems.paper_scene import FRICTION, HERTZ, NU_ZERO, STEEL
 from verification.problems.problem import Problem
-from verification.problems.sheared import OVER_LIMIT, OVER_SLIDING_SHIFT, sheared
 from verification.problems.torsion import PARTS as TWISTS
 from verification.problems.torsion import TWISTED
 from verification.quantities import shift_along_x, slip_traction_angle, transverse_shear
@@ -75,7 +79,7 @@ from verification.quantities import shift_along_x, slip_traction_angle, transver
 REQUIRED_SHEAR = {128: 2e-3, 256: 1e-3}
 
 
-def shear_allowed(rung: Rung) -> float:
+def shear_allowed(rung: RefinementLevel) -> float:
     """The required figure; on other grids what its order 3/2 makes of that for 128 cells."""
     return REQUIRED_SHEAR.get(rung.count, REQUIRED_SHEAR[128] * (128 / rung.count) ** 1.5)
 
@@ -214,7 +218,7 @@ def paper_fretting_loop(level: Level = Level.QUICK) -> Case:
         uncertainty=0.005,
     )
     grid = paper.square_grid(cells, 0.6e-3)
-    run = ladder(problem, [Rung(Run(cells_label(cells), problem.scene, grid), cells)])
+    run = ladder(problem, [RefinementLevel(Run(cells_label(cells), problem.scene, grid), cells)])
 
     def reported(
         name: str, meaning: str, unit: str, read: Any, remark: str = "zero in the closed form"
@@ -318,7 +322,7 @@ OF_LOOP = (
 )
 
 
-def _loop_profile(of: Ladder, step: int, name: str, when: str, caption: str) -> Drawing:
+def _loop_profile(of: RefinementLevels, step: int, name: str, when: str, caption: str) -> Drawing:
     """Draw the shear at the end of a step of the loop."""
 
     def draw(results: Mapping[str, Any]) -> Chart:

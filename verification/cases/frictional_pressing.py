@@ -33,9 +33,18 @@ from verification.judging.case import Case, Comparison, Level, Quantity, Require
 from verification.judging.declared_case import Drawing, Reported, Row, Within, case, judged
 from verification.judging.drawings import PRESSURE as DRAWN_PRESSURE
 from verification.judging.drawings import Drawn, profile
-from verification.judging.ladder import (
-    Ladder,
-    Rung,
+from verification.judging.observable import Observable, error_norm
+from verification.judging.observables import APPROACH, CONTACT_RADIUS, PEAK_PRESSURE
+from verification.judging.order_of_convergence import (
+    Followed,
+    NotYetAsymptotic,
+    OrderOfChange,
+    Refinement,
+)
+from verification.judging.pressing_errors import PRESSURE, SHEAR, SHEAR_AT_EDGE
+from verification.judging.refinement_levels import (
+    RefinementLevel,
+    RefinementLevels,
     asked,
     cells_label,
     ladder,
@@ -46,19 +55,11 @@ from verification.judging.ladder import (
     on_springs,
     part_of_side,
 )
-from verification.judging.observable import Observable, error_norm
-from verification.judging.observables import APPROACH, CONTACT_RADIUS, PEAK_PRESSURE
-from verification.judging.order_of_convergence import (
-    Followed,
-    NotYetAsymptotic,
-    OrderOfChange,
-    Refinement,
-)
-from verification.judging.pressing_errors import PRESSURE, SHEAR, SHEAR_AT_EDGE
 from verification.judging.run import AnyRun, Run, SectionRun, per_radius
 from verification.observed.end_state import approach, contact_radius, peak_pressure, stick_radius
 from verification.observed.ring_errors import at_radii
 from verification.problems import paper_scene as paper
+from verification.problems.cattaneo_mindlin import OVER_LIMIT
 from verification.problems.indentation import (
     COATED,
     FEW,
@@ -73,7 +74,6 @@ from verification.problems.layered_scene import half_space, pressed, rigid_ball
 from verification.problems.paper_scene import HERTZ, pressing
 from verification.problems.problem import OVER_PEAK, Problem
 from verification.problems.reference import ROUNDING, Reference, ReferenceKind
-from verification.problems.sheared import OVER_LIMIT
 from verification.quantities import shear_of, shift_along_x
 
 ONE = "1"
@@ -84,7 +84,9 @@ STICK_PART = Observable(
 )  # fmt: skip
 
 
-def _profiles(of: Ladder, one: Indentation, name: str, by: str, *drawn: str) -> list[Drawing]:
+def _profiles(
+    of: RefinementLevels, one: Indentation, name: str, by: str, *drawn: str
+) -> list[Drawing]:
     """Pressure or shear over the radius, beside the reference."""
     fields = {
         "pressure": ("p / p_H", of.problem.scale(OVER_PEAK), DRAWN_PRESSURE),
@@ -552,13 +554,13 @@ def goodman_indentation(
     )  # fmt: skip
     grid = paper.square_grid(cells, 1.15 * HERTZ.contact_radius)
 
-    def one(mu: float) -> Ladder:
+    def one(mu: float) -> RefinementLevels:
         title = f"Rigid ball pressed with friction, µ = {mu:g}, coupled one way"
         problem = _goodman(title, 0.3, mu, 40, lambda beta: ROUNDING)
         name = f"µ = {mu:g}"
         label = f"{name}, {cells} cells, 40 increments"
         run = Run(label, problem.scene, grid, effects=one_way, problem=name)
-        return ladder(problem, [Rung(run, cells)])
+        return ladder(problem, [RefinementLevel(run, cells)])
 
     return case(
         "goodman_indentation",
@@ -737,7 +739,7 @@ def spence_example(level: Level = Level.QUICK) -> Case:
     )  # fmt: skip
 
 
-def _on_mesh(one: Indentation, elements: int, increments: int) -> Ladder:
+def _on_mesh(one: Indentation, elements: int, increments: int) -> RefinementLevels:
     """The scene of frictional_indentation, but for its increments, on one mesh."""
     meshes = on_elements(one.problem(increments), (elements,), over=0.97, of=one.name)
     return named(f"{one.name}, {increments} increments", meshes)

@@ -8,7 +8,7 @@ from math import pi, sqrt
 from typing import Any
 
 from contact_scene import RIGID, Body, IsotropicMaterial, LoadStep, Paraboloid, Sphere
-from contact_scene.residuals import worst
+from contact_scene.quantities.residuals import worst
 from verification.cases.levels import (
     ASKED,
     DERIVED,
@@ -25,17 +25,6 @@ from verification.closed_forms.sphere import SphereContact
 from verification.judging.case import Case, Comparison, Level, Quantity, Required
 from verification.judging.declared_case import Falls, Refined, Reported, Within, case, judged
 from verification.judging.drawings import PRESSURE, convergence, profile
-from verification.judging.ladder import (
-    MIDDLE,
-    Rung,
-    asked,
-    meshed,
-    named,
-    on_cells,
-    on_springs,
-    part_of_side,
-    with_edge_at,
-)
 from verification.judging.observable import Observable, number
 from verification.judging.observables import (
     APPROACH,
@@ -47,6 +36,17 @@ from verification.judging.observables import (
 )
 from verification.judging.order_of_convergence import NotYetAsymptotic
 from verification.judging.refinement import refinement
+from verification.judging.refinement_levels import (
+    MIDDLE,
+    RefinementLevel,
+    asked,
+    meshed,
+    named,
+    on_cells,
+    on_springs,
+    part_of_side,
+    with_edge_at,
+)
 from verification.judging.run import SOLVER_TOLERANCE, Run
 from verification.problems import paper_scene as paper
 from verification.problems.elliptical import BARREL, EXACT
@@ -214,11 +214,11 @@ UNLOADED = PointContact.under_load(PART * paper.NORMAL_FORCE, HERTZ.radius, HERT
 SMALLER = UNLOADED.contact_radius / HERTZ.contact_radius
 
 
-def on_smaller(figure: float, order: float) -> Callable[[Rung], float]:
+def on_smaller(figure: float, order: float) -> Callable[[RefinementLevel], float]:
     """A figure asked for on 128 x 128 cells, or at 64 elements per radius, on those of them that
     the smaller contact has."""
 
-    def allowed(rung: Rung) -> float:
+    def allowed(rung: RefinementLevel) -> float:
         if isinstance(rung.run, Run):
             return figure * (128 / (rung.count * SMALLER)) ** order
         return asked(figure, order)(replace(rung, count=round(rung.count * SMALLER)))

@@ -28,7 +28,7 @@ from contact_scene import (
     Scene,
 )
 from contact_scene.loading import CONTROLS
-from contact_scene.residuals import worst
+from contact_scene.quantities.residuals import worst
 from semi_analytical import SurfaceGrid, all_effects
 from verification.cases.levels import IDENTITY
 from verification.closed_forms.hertz import PointContact
@@ -38,6 +38,7 @@ from verification.judging.declared_case import case
 from verification.judging.run import OTHER_NORMS, SOLVER_TOLERANCE, Run, SectionRun, per_radius
 from verification.observed.laws import observed
 from verification.problems import paper_scene as paper
+from verification.problems.cattaneo_mindlin import SLIDING_SHIFT
 from verification.problems.layered_scene import SUBSTRATE, coated, film, pressed, rigid_ball
 from verification.problems.paper_scene import (
     FRICTION,
@@ -54,7 +55,6 @@ from verification.problems.reference import (
     closed_form,
     identity,
 )
-from verification.problems.sheared import SLIDING_SHIFT
 from verification.problems.torsion import LARGEST, PUNCH_RADIUS, SLIDING_TORQUE, STUCK
 from verification.quantities import shear_of, shift_along_x
 

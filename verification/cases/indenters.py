@@ -15,7 +15,6 @@ from verification.closed_forms.tilted_punch import TiltedPunch
 from verification.judging.case import Case, Comparison, Level, Quantity, Required
 from verification.judging.declared_case import Falls, Refined, Within, case, judged
 from verification.judging.drawings import convergence, profile
-from verification.judging.ladder import asked, on_cells, on_elements, part_of_side, with_edge_at
 from verification.judging.observable import Observable, error_norm
 from verification.judging.observables import (
     APPROACH,
@@ -25,6 +24,13 @@ from verification.judging.observables import (
 )
 from verification.judging.order_of_convergence import NotYetAsymptotic
 from verification.judging.refinement import refinement
+from verification.judging.refinement_levels import (
+    asked,
+    on_cells,
+    on_elements,
+    part_of_side,
+    with_edge_at,
+)
 from verification.judging.run import Run
 from verification.problems import paper_scene as paper
 from verification.problems.classical import CONE, PUNCH, PUNCH_RADIUS, PUNCH_WINDOW, mean_pressure

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from contact_scene.description import Description
+from contact_scene.reading.description import Description
 from verification.judging.outcome import CaseOutcome
 from verification.judging.verdicts import lost as without_result
 

@@ -1,7 +1,10 @@
 """Levels of refinement of the cases, and reasons of tolerances that several cases share."""
 
 from verification.judging.case import Level
-from verification.judging.ladder import ASKED_AT, MIDDLE
+from verification.judging.refinement_levels import (
+    ASKED_AT,
+    MIDDLE,
+)
 
 ASKED = "required of this scene by the project's accuracy targets"
 EDGE = "order 1: the edge is known to a part of a cell; the cap is a tenth of a cell"

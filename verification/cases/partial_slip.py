@@ -34,9 +34,12 @@ from verification.judging.declared_case import (
     judged,
 )
 from verification.judging.drawings import Drawn, convergence, profile
-from verification.judging.ladder import (
-    Ladder,
-    Rung,
+from verification.judging.observable import Observable, error_norm
+from verification.judging.observables import ENERGY, SHEAR, SHIFT, STICK_RADIUS, WORK
+from verification.judging.refinement import refinement
+from verification.judging.refinement_levels import (
+    RefinementLevel,
+    RefinementLevels,
     asked,
     ladder,
     mesh_label,
@@ -44,17 +47,18 @@ from verification.judging.ladder import (
     on_cells,
     part_of_side,
 )
-from verification.judging.observable import Observable, error_norm
-from verification.judging.observables import ENERGY, SHEAR, SHIFT, STICK_RADIUS, WORK
-from verification.judging.refinement import refinement
 from verification.judging.run import per_radius
 from verification.observed.ring_tractions import tractions_at
 from verification.problems import paper_scene as paper
+from verification.problems.cattaneo_mindlin import (
+    OVER_LIMIT,
+    OVER_SLIDING_SHIFT,
+    sheared,
+)
 from verification.problems.classical import CONE, SLOPE, UNDER_CONE, mean_pressure
 from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, NU_ZERO, STEEL
 from verification.problems.problem import Problem
 from verification.problems.reference import ReferenceKind
-from verification.problems.sheared import OVER_LIMIT, OVER_SLIDING_SHIFT, sheared
 from verification.problems.shifted_grid import OFFSETS, UNLIKE
 from verification.quantities import force_along_x, shear_of, shift_along_x
 
@@ -360,10 +364,10 @@ def _shear_across(result: Any, step: int, problem: Problem) -> float:
     return float(np.max(np.abs(q_y)) / problem.scale(OVER_LIMIT))
 
 
-def _at_points(of: str, problem: Problem, elements: int, over: float) -> Ladder:
+def _at_points(of: str, problem: Problem, elements: int, over: float) -> RefinementLevels:
     mesh = per_radius(elements, over * problem.radius).model_copy(update={"harmonics": 8})
     run = PointsRun(mesh_label(elements, of=of), problem.scene, mesh)
-    return ladder(problem, [Rung(run, elements)])
+    return ladder(problem, [RefinementLevel(run, elements)])
 
 
 def fem_harmonics(level: Level = Level.QUICK) -> Case:

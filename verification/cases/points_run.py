@@ -7,7 +7,10 @@ from dataclasses import dataclass, replace
 from math import hypot
 
 from fem_reference import Path, Plan, Result, plan
-from fem_reference.contact.angular_grid import end_grid, mid_grid
+from fem_reference.compliance.angular_grid import (
+    end_grid,
+    mid_grid,
+)
 from fem_reference.contact.method import ContactMethod
 from fem_reference.expected_radius import meshed_radius
 from fem_reference.fields import Increment

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from contact_scene.residuals import worst
+from contact_scene.quantities.residuals import worst
 from semi_analytical.frf.stack import Stack
 from semi_analytical.frf.surface import scalars
 from semi_analytical.influence.layered import LayeredCoefficients

@@ -17,10 +17,10 @@ from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.points import StressPoints
 from contact_results.stress.radial_body import RadialBody
 from contact_scene import Body, IsotropicMaterial, Layer, Paraboloid
-from contact_scene.residuals import worst
-from radial.below_circle import BelowCircle
-from radial.circle_fit import round_circle
-from radial.loaded_circle import LoadedCircle
+from contact_scene.quantities.residuals import worst
+from radial.stress.circle_fit import round_circle
+from radial.stress.loaded_circle import LoadedCircle
+from radial.stress.subsurface_circle import BelowCircle
 from semi_analytical.frf.depth import Level as Depth
 from semi_analytical.frf.stack import stack_of
 from semi_analytical.grid import SurfaceGrid
@@ -37,14 +37,17 @@ from verification.exhibits.numbers import plain
 from verification.exhibits.table import NONE, Table
 from verification.judging.case import Case, Check, Level, Required
 from verification.judging.declared_case import Within, case, judged
-from verification.judging.ladder import RINGS_SHOWN, on_radii
 from verification.judging.observable import Observable, error_norm
+from verification.judging.refinement_levels import (
+    RINGS_SHOWN,
+    on_radii,
+)
 from verification.problems import paper_scene as paper
+from verification.problems.cattaneo_mindlin import sheared
 from verification.problems.layered_scene import coated, film, pressed, rigid_ball
 from verification.problems.paper_scene import FRICTION, HERTZ, STEEL, hertz_grid
 from verification.problems.problem import Problem
 from verification.problems.reference import Reference, ReferenceKind, closed_form, identity
-from verification.problems.sheared import sheared
 from verification.problems.shifted_grid import ShiftedGrid
 from verification.problems.torsion import TWISTED
 

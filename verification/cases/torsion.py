@@ -23,14 +23,18 @@ from contact_scene import (
     Scene,
     SurfaceDiscretisation,
 )
-from contact_scene.residuals import worst
+from contact_scene.quantities.residuals import worst
 from semi_analytical import solve_discretised
 from verification.cases.levels import SQUARE_ROOTS, levels, order_levels
 from verification.closed_forms.coated_torsion import CoatedTorsion, TorsionalSurface, one_layer
 from verification.judging.case import Case, Check, Level, Required
 from verification.judging.declared_case import Falls, Refined, Within, case, judged
 from verification.judging.drawings import Drawn, convergence, profile
-from verification.judging.ladder import (
+from verification.judging.observable import Observable, error_norm, number
+from verification.judging.observables import SHEAR_AROUND, STICK_RADIUS, TWIST
+from verification.judging.order_of_convergence import Followed
+from verification.judging.refinement import refinement
+from verification.judging.refinement_levels import (
     asked,
     named,
     on_cells,
@@ -39,18 +43,14 @@ from verification.judging.ladder import (
     part_of_side,
     with_edge_at,
 )
-from verification.judging.observable import Observable, error_norm, number
-from verification.judging.observables import SHEAR_AROUND, STICK_RADIUS, TWIST
-from verification.judging.order_of_convergence import Followed
-from verification.judging.refinement import refinement
 from verification.judging.run import OVER_ANGLES
 from verification.norms import shear_error
 from verification.problems import paper_scene as paper
+from verification.problems.cattaneo_mindlin import OVER_LIMIT
 from verification.problems.layered_scene import coated, exact_contact, film, pressed, rigid_ball
 from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, pressing
 from verification.problems.problem import Problem
 from verification.problems.reference import ROUNDING, ReferenceKind, identity
-from verification.problems.sheared import OVER_LIMIT
 from verification.problems.torsion import LED, OVER_TWIST, PARTS, STUCK, TO_AND_FRO, TWISTED
 from verification.quantities import energy_between, shear_of
 

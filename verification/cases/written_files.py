@@ -17,12 +17,18 @@ from numpy.typing import NDArray
 import semi_analytical
 from contact_results.directory.file_names import CYCLES, FIELDS, INCREMENTS
 from contact_results.result_files import write_result
-from contact_results.stress.extremes import Extreme, extremes
 from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.on_cells import stress_on_cells
+from contact_results.stress.stress_maxima import (
+    Extreme,
+    extremes,
+)
 from contact_scene import Body, LoadStep, Scene
-from contact_scene.increment import SCALARS, components
-from contact_scene.residuals import worst
+from contact_scene.quantities.increment import (
+    SCALARS,
+    components,
+)
+from contact_scene.quantities.residuals import worst
 from verification.judging.case import Case, Check, Level, Required
 from verification.judging.run import SOLVER_TOLERANCE
 from verification.problems import paper_scene as paper

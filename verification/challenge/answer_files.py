@@ -13,7 +13,7 @@ from verification.challenge.export import ANSWERS, FIELDS, LEVELS
 
 IN_ONE = "answers.json"  # in place of the others
 PARTS = {LEVELS: "levels", ANSWERS: "values", FIELDS: "fields"}
-MOST_BYTES = 100_000_000
+MAX_BYTES = 100_000_000
 
 
 def rows(
@@ -72,8 +72,8 @@ def text_of(path: Path) -> str:
     try:
         if path.exists() and not path.is_file():
             raise Refused(f"{path}: is not a regular file")
-        if path.stat().st_size > MOST_BYTES:
-            raise Refused(f"{path}: larger than {MOST_BYTES // 10**6} MB")
+        if path.stat().st_size > MAX_BYTES:
+            raise Refused(f"{path}: larger than {MAX_BYTES // 10**6} MB")
         return path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         reason = getattr(error, "strerror", None) or "not text in UTF-8"

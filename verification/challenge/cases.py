@@ -7,17 +7,27 @@ from collections.abc import Iterator
 from functools import cache
 from typing import Any
 
-from verification.challenge.asked import AskedField, AskedValue, Challenge
 from verification.challenge.cases_at_places import at_places
 from verification.challenge.changing_loads import changing_loads
 from verification.challenge.frictional_cases import frictional
-from verification.challenge.halves import Half, Halves, fitted, round_halves
+from verification.challenge.half_ellipsoids import (
+    Half,
+    HalfEllipsoids,
+    fitted,
+    round_halves,
+)
 from verification.challenge.often_asked import LARGE, SMALL, approach, contact_radius, stick_radius
 from verification.challenge.paper_figure import paper_figure
+from verification.challenge.requested_quantities import (
+    AskedField,
+    AskedValue,
+    Challenge,
+)
 from verification.challenge.tilted_cases import tilted
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.tangential_history import TangentialHistory
 from verification.problems import paper_scene as paper
+from verification.problems.cattaneo_mindlin import sheared
 from verification.problems.classical import CONE, PUNCH
 from verification.problems.coated_ball import ROWS, coated_ball, solved_here
 from verification.problems.elliptical import BARREL
@@ -25,7 +35,6 @@ from verification.problems.hertz import BALL
 from verification.problems.loop_history import AMPLITUDE
 from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, NU_ZERO
 from verification.problems.problem import Problem
-from verification.problems.sheared import sheared
 
 PARTS = (0.3, 0.6, 0.9, 0.99)  # of µW
 QUARTERS = (0.25, 0.5, 0.75, 1.0)  # of the largest force of the loop
@@ -63,7 +72,7 @@ def hertz_elliptical() -> Challenge:
             "semi_axis_y", 1, "m", "semi-axis of the contact along y", b, b, "itself", limit=1
         ),
     )
-    pressure = Halves((Half((a, b), exact.peak_pressure),))
+    pressure = HalfEllipsoids((Half((a, b), exact.peak_pressure),))
     return _pressed("hertz_elliptical", "Hertz: a barrel on a half-space", BARREL, pressure, axes)
 
 
@@ -143,7 +152,7 @@ def _pressed(
     name: str,
     title: str,
     problem: Problem,
-    pressure: Halves | None,
+    pressure: HalfEllipsoids | None,
     more: tuple[AskedValue, ...] = (),
     shares: str = "",
 ) -> Challenge:
@@ -183,20 +192,20 @@ def _tangential(step: int, end: Any, sliding: float) -> Iterator[AskedValue]:
     yield stick_radius(end.stick_radius, step)
 
 
-def _shear(step: int, halves: Halves, force: float) -> AskedField:
+def _shear(step: int, halves: HalfEllipsoids, force: float) -> AskedField:
     return AskedField(
         "shear_x", step, "shear traction along x on the lower body, along +x where the indenter "
         "pulls that way", halves, "L1", FRICTION_LIMIT, force,
     )  # fmt: skip
 
 
-def _cattaneo(end: PartialSlip, times: float = 1.0) -> Halves:
+def _cattaneo(end: PartialSlip, times: float = 1.0) -> HalfEllipsoids:
     peak = times * FRICTION * HERTZ.peak_pressure * (1 if end.tangential_force >= 0 else -1)
     a, c = HERTZ.contact_radius, end.stick_radius
     return round_halves((a, peak), (c, -peak * c / a)) if c > 0 else round_halves((a, peak))
 
 
-def _branches(state: TangentialHistory) -> Halves:
-    return Halves(
+def _branches(state: TangentialHistory) -> HalfEllipsoids:
+    return HalfEllipsoids(
         tuple(term for times, one in state.branches() for term in _cattaneo(one, times).terms)
     )

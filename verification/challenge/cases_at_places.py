@@ -8,8 +8,13 @@ from collections.abc import Iterator
 import numpy as np
 
 from contact_scene import Body, CoulombFriction, IsotropicMaterial, Layer, LoadStep, Scene
-from verification.challenge.asked import AskedPoints, Challenge, Grade, Patch
 from verification.challenge.often_asked import SMALL
+from verification.challenge.requested_quantities import (
+    AskedPoints,
+    Challenge,
+    Grade,
+    Patch,
+)
 from verification.closed_forms.hamilton_stress import hamilton_stress
 from verification.problems import paper_scene as paper
 from verification.problems.paper_scene import HERTZ, STEEL, pressing

@@ -9,8 +9,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from contact_scene import IsotropicMaterial, LoadStep, Scene
-from verification.challenge.asked import AskedValue, Challenge, Grade
 from verification.challenge.often_asked import SMALL
+from verification.challenge.requested_quantities import (
+    AskedValue,
+    Challenge,
+    Grade,
+)
 from verification.problems import paper_scene as paper
 from verification.problems.paper_scene import CONTACT_MODULUS, NORMAL_FORCE
 from verification.references import load_reference

@@ -8,7 +8,7 @@ from math import pi
 import numpy as np
 
 from verification.challenge.answer import Field
-from verification.challenge.asked import AskedField
+from verification.challenge.requested_quantities import AskedField
 
 # Times N^(-3/4) π^(-1/4), √radius over the area of a disc of N cells: what the number of centres
 # in it may be off, as in Gauss's circle. Twice that is seen on our grids, whose axes are its own.

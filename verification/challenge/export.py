@@ -14,8 +14,11 @@ import numpy as np
 
 from contact_results.directory.refusal import Refused
 from contact_results.directory.run_directory import files_at_once
-from contact_scene.load_path import ControlKind, LoadRamp
-from verification.challenge.asked import Challenge
+from contact_scene.stepping.load_path import (
+    ControlKind,
+    LoadRamp,
+)
+from verification.challenge.requested_quantities import Challenge
 from verification.challenge.toml_text import toml_text
 
 POINTS = "points.csv"

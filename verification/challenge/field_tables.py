@@ -11,8 +11,8 @@ import numpy as np
 from contact_results.directory.refusal import Refused
 from verification.challenge.answer import Field, Key
 from verification.challenge.answer_files import IN_ONE, columns_are_there, records, text_of
-from verification.challenge.asked import Challenge
 from verification.challenge.export import FIELD_COLUMNS, FIELDS, IN_PASCAL, LEVELS
+from verification.challenge.requested_quantities import Challenge
 
 Columns = Mapping[str, Any]  # numbers by the head of their column
 

@@ -15,11 +15,18 @@ from verification.cases.frictional_pressing import NO_SLIP_BALL_SOURCE as BALL_S
 from verification.cases.frictional_pressing import NO_SLIP_FRICTION as FRICTION
 from verification.cases.frictional_pressing import NO_SLIP_RATIOS as RATIOS
 from verification.cases.frictional_pressing import NO_SLIP_SOURCE as SOURCE
-from verification.challenge.asked import AskedField, AskedPoints, AskedValue, Challenge, Grade
 from verification.challenge.often_asked import SMALL, approach, contact_radius, stick_radius
+from verification.challenge.requested_quantities import (
+    AskedField,
+    AskedPoints,
+    AskedValue,
+    Challenge,
+    Grade,
+)
 from verification.challenge.round_table import RoundTable, tabulated
 from verification.closed_forms.flat_punch import FlatPunchContact
 from verification.closed_forms.torsion import TorsionalPartialSlip
+from verification.problems.cattaneo_mindlin import OVER_LIMIT
 from verification.problems.classical import PUNCH_RADIUS
 from verification.problems.indentation import (
     COATED,
@@ -37,7 +44,6 @@ from verification.problems.paper_scene import (
     NORMAL_FORCE,
     pressing,
 )
-from verification.problems.sheared import OVER_LIMIT
 from verification.problems.torsion import LARGEST, OVER_TWIST, PARTS, TO_AND_FRO, TWISTED
 
 # Parts of the contact radius would print it [length].

@@ -8,7 +8,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from verification.challenge.answer import Answer, Solver
-from verification.challenge.asked import Challenge, Grade
+from verification.challenge.requested_quantities import (
+    Challenge,
+    Grade,
+)
 from verification.challenge.verdicts import Row, omitted, rows_of
 from verification.judging.outcome import Status
 

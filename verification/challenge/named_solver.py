@@ -11,7 +11,7 @@ from types import ModuleType
 
 from contact_results.directory.refusal import Refused
 from verification.challenge.answer import Answer
-from verification.challenge.door import Posed
+from verification.challenge.python_api import Posed
 
 EXPECTED = "expected FILE.py:FUNCTION or MODULE:FUNCTION"
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from verification.challenge.asked import AskedValue, Grade
+from verification.challenge.requested_quantities import (
+    AskedValue,
+    Grade,
+)
 from verification.problems.paper_scene import HERTZ
 
 # Sides of windows in which all of it fits, round on purpose: what is a multiple of the contact

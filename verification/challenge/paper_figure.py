@@ -6,8 +6,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from contact_scene import LoadStep
-from verification.challenge.asked import AskedValue, Challenge, Grade
 from verification.challenge.often_asked import SMALL, approach
+from verification.challenge.requested_quantities import (
+    AskedValue,
+    Challenge,
+    Grade,
+)
 from verification.problems.indentation import COATED, REFERENCE_ERROR
 from verification.problems.layered_scene import pressed, rigid_ball
 from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, pressing

@@ -16,7 +16,7 @@ INTERVALS = 200  # of each part between two kinks
 
 @dataclass(frozen=True, eq=False)
 class RoundTable:
-    """It stands for a `Halves` where no series of half-ellipsoids does.
+    """It stands for a `HalfEllipsoids` where no series of half-ellipsoids does.
 
     radii   from 0 to the edge [length]
     values  there [force/length²]

@@ -6,8 +6,12 @@ from collections.abc import Iterator
 
 from contact_scene import FlatPunch, LoadStep
 from contact_scene.geometry import Indenter
-from verification.challenge.asked import AskedValue, Challenge, Grade
 from verification.challenge.often_asked import CLOSED, SMALL, approach, contact_radius
+from verification.challenge.requested_quantities import (
+    AskedValue,
+    Challenge,
+    Grade,
+)
 from verification.closed_forms.tilted_punch import TiltedPunch
 from verification.problems import paper_scene as paper
 from verification.problems.classical import PUNCH_RADIUS

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from contact_scene import Scene
-from verification.challenge.asked import Patch
+from verification.challenge.requested_quantities import Patch
 
 
 def toml_text(scene: Scene | Patch) -> str:

@@ -11,8 +11,14 @@ import numpy as np
 
 from verification.cell_means import cell_means
 from verification.challenge.answer import Answer, Field, Key, Solver
-from verification.challenge.asked import AskedField, AskedPoints, AskedValue, Challenge, Grade
 from verification.challenge.coverage import sums_of
+from verification.challenge.requested_quantities import (
+    AskedField,
+    AskedPoints,
+    AskedValue,
+    Challenge,
+    Grade,
+)
 from verification.convergence.observed_order import ILLEGIBLE, observed_order
 from verification.judging.outcome import Status
 

@@ -9,19 +9,25 @@ from typing import Any
 import numpy as np
 
 from contact_results import cycles
-from contact_scene import CoulombFriction, march
+from contact_scene import CoulombFriction
+from contact_scene.stepping import load_stepping
 from semi_analytical import (
+    residuals,
+    surface_tensile_stress,
+)
+from semi_analytical.increments import (
     energy,
     increment,
-    normal,
-    residuals,
-    shearing,
     stick_slip,
-    surface_tension,
+    tangential_solve,
+)
+from semi_analytical.increments.tangential_state import (
+    TangentialState,
+    untouched,
 )
 from semi_analytical.model import ContactModel
-from semi_analytical.normal_load import PressureSum
-from semi_analytical.sheared import Sheared, untouched
+from semi_analytical.normal import normal_problem
+from semi_analytical.normal.normal_load import PressureSum
 from semi_analytical.stress import field
 from verification.defects.defect import Defect, Patches
 
@@ -70,14 +76,14 @@ def _deeper(patches: Patches) -> None:
 
 def _cold(patches: Patches) -> None:
     def wrap(whole: Any) -> Any:
-        def cold(self: Sheared, *given: Any, **named: Any) -> None:
+        def cold(self: TangentialState, *given: Any, **named: Any) -> None:
             whole(self, *given, **named)
             if self.dissipated_energy is not None:
                 object.__setattr__(self, "dissipated_energy", 0.5 * self.dissipated_energy)
 
         return cold
 
-    patches.method(Sheared, "__init__", wrap)
+    patches.method(TangentialState, "__init__", wrap)
 
 
 def _half_work(patches: Patches) -> None:
@@ -112,7 +118,7 @@ def _blind(patches: Patches) -> None:
     for name in ("complementarity", "penetration"):
         patches.function(residuals, name, lambda whole: lambda *given: 0.0)
     patches.function(
-        normal,
+        normal_problem,
         "solve_normal",
         lambda whole: lambda *given: whole(*given[:-1], max(given[-1], 1e-2)),
     )
@@ -123,12 +129,14 @@ def _blind_to_friction(patches: Patches) -> None:
     for name in ("friction_cone", "slip_direction"):
         patches.function(residuals, name, lambda whole: lambda *given: 0.0)
     patches.function(
-        shearing, "shear", lambda whole: lambda *given: whole(*given[:-1], max(given[-1], 3e-2))
+        tangential_solve,
+        "shear",
+        lambda whole: lambda *given: whole(*given[:-1], max(given[-1], 3e-2)),
     )
 
 
 def _few_increments(patches: Patches) -> None:
-    patches.function(march, "fractions", lambda whole: lambda *given: whole(*given)[-1:])
+    patches.function(load_stepping, "fractions", lambda whole: lambda *given: whole(*given)[-1:])
 
 
 def _arms_exchanged(patches: Patches) -> None:
@@ -149,7 +157,9 @@ def _whole_range(patches: Patches) -> None:
 
 def _tension_across(patches: Patches) -> None:
     patches.function(
-        surface_tension, "_in_plane_stress", lambda whole: lambda *given: whole(*given)[[1, 0, 2]]
+        surface_tensile_stress,
+        "_in_plane_stress",
+        lambda whole: lambda *given: whole(*given)[[1, 0, 2]],
     )
 
 

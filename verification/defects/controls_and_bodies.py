@@ -9,7 +9,10 @@ from typing import Any
 import numpy as np
 
 from contact_scene import HeightMap, Scene
-from contact_scene.load_path import Control, ControlKind
+from contact_scene.stepping.load_path import (
+    Control,
+    ControlKind,
+)
 from fem_reference.elasticity import compliance
 from fem_reference.elasticity.factored_section import FactoredSection
 from fem_reference.elasticity.motion import TORSION

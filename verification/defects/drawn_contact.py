@@ -17,9 +17,13 @@ from contact_scene import (
 )
 from verification.judging.case import Case
 from verification.judging.declared_case import Refined, Row, case, judged
-from verification.judging.ladder import Rung, ladder, on_cells
 from verification.judging.observables import APPROACH, CONTACT_RADIUS
 from verification.judging.refinement import refinement
+from verification.judging.refinement_levels import (
+    RefinementLevel,
+    ladder,
+    on_cells,
+)
 from verification.problems.problem import Problem
 
 Random = np.random.Generator
@@ -47,7 +51,7 @@ def pressed(indenter: Paraboloid | Cone | FlatPunch, body: Body, load: float) ->
     )
 
 
-def part_of_cell(part: float) -> Callable[[Rung], float]:
+def part_of_cell(part: float) -> Callable[[RefinementLevel], float]:
     """A part of a cell, over the radius, for a window of three radii."""
     return lambda rung: part * 3.0 / rung.count
 

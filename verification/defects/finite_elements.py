@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from contact_scene import CoulombFriction
-from fem_reference.contact import increment, ring_compliance
+from fem_reference.compliance import ring_compliance
+from fem_reference.contact import increment
 from fem_reference.contact.augmented_lagrangian import Penalty
 from fem_reference.contact.natural_map import Equations
 from fem_reference.elasticity import compliance, hat_functions, section_basis, weak_form

@@ -41,13 +41,19 @@ from verification.defects.drawn_contact import (
 )
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import Refined, Within, case, judged
-from verification.judging.ladder import Rung, asked, ladder, mesh_label, meshed
 from verification.judging.observables import APPROACH, PEAK_PRESSURE, SHIFT, STICK_RADIUS
+from verification.judging.refinement_levels import (
+    RefinementLevel,
+    asked,
+    ladder,
+    mesh_label,
+    meshed,
+)
 from verification.judging.run import SectionRun, per_radius
+from verification.problems.cattaneo_mindlin import OVER_SLIDING_SHIFT
 from verification.problems.layered_scene import FREDHOLM, SEMI_CLOSED_ERROR, surface_of
 from verification.problems.problem import Problem
 from verification.problems.reference import ReferenceKind
-from verification.problems.sheared import OVER_SLIDING_SHIFT
 
 SOURCE = "the closed form of the contact"
 RESOLVED = (
@@ -158,7 +164,7 @@ def fem_hertz(random: Random) -> Case:
     rungs = []
     for n in levels(Level.QUICK):
         mesh = per_radius(n, meshed(problem.radius, n, place))
-        rungs.append(Rung(SectionRun(mesh_label(n), scene, mesh), n))
+        rungs.append(RefinementLevel(SectionRun(mesh_label(n), scene, mesh), n))
     because = "order 2; the cap is the figure of the case fem_hertz"
     rows = [Refined(what, 2.0, asked(1e-4, 2), because) for what in (APPROACH, PEAK_PRESSURE)]
     return case("fem_hertz", "fem_hertz", "", judged(ladder(problem, rungs), rows))

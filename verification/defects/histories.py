@@ -11,8 +11,14 @@ import numpy as np
 import fem_reference.energy
 from contact_scene import CoulombFriction
 from contact_scene.friction import FRICTIONLESS
-from semi_analytical import admissible_shear, coupled_increment, history, residuals, stick_slip
+from semi_analytical import (
+    history,
+    residuals,
+)
+from semi_analytical.coupled import coupled_increment
+from semi_analytical.increments import stick_slip
 from semi_analytical.model import ContactModel
+from semi_analytical.tangential import admissible_shear
 from verification.defects.defect import Defect, Patches
 
 LESS = 1 - 1e-9

@@ -10,7 +10,7 @@ import numpy as np
 
 import radial
 from contact_scene import CoulombFriction
-from radial.coupling import Coupling
+from radial.frictional.coupling import Coupling
 from verification.defects.defect import Defect, Patches
 
 WEAKER = 0.99  # coupling of pressure and shear

@@ -7,8 +7,8 @@ from verification.defects.finite_elements import FINITE_ELEMENTS
 from verification.defects.histories import HISTORIES
 from verification.defects.outputs import OUTPUTS
 from verification.defects.radii import RADII
+from verification.defects.reporting_defects import TOLD
 from verification.defects.surface_response import SURFACE_RESPONSE
-from verification.defects.told import TOLD
 
 DEFECTS: dict[str, Defect] = {
     defect.name: defect

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from enum import StrEnum
 
-from contact_scene.description import Description
+from contact_scene.reading.description import Description
 
 DIGITS = 6  # of a plotted number: far finer than a pixel, and equal on every machine
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from contact_scene.engineering_units import engineering_unit
+from contact_scene.reading.engineering_units import engineering_unit
 
 NOT_FINITE = "not finite"
 

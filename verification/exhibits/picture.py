@@ -1,6 +1,6 @@
 """A picture that was drawn when its fields were at hand: a record keeps no fields to draw again."""
 
-from contact_scene.description import Description
+from contact_scene.reading.description import Description
 
 
 class Picture(Description):

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Mapping
 from typing import TypeVar
 
-from contact_scene.description import Description
+from contact_scene.reading.description import Description
 
 T = TypeVar("T")
 NONE: Mapping[str, str] = {}  # units: every number is a count or a ratio

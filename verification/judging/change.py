@@ -2,7 +2,7 @@
 
 from enum import StrEnum
 
-from contact_scene.description import Description
+from contact_scene.reading.description import Description
 
 SHORT_COMMIT = 7
 

@@ -7,7 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from contact_scene.stated_error import ErrorStatus, StatedErrors
+from contact_scene.quantities.stated_error import (
+    ErrorStatus,
+    StatedErrors,
+)
 from verification.judging.case import Case, Quantity
 from verification.judging.outcome import CaseOutcome, Verdict
 from verification.judging.run import BY_DEFAULT, AnyRun, RadiiRun, Run

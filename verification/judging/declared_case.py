@@ -17,16 +17,19 @@ from verification.judging.case import (
     Quantity,
     Required,
 )
-from verification.judging.ladder import Ladder, Rung
 from verification.judging.observable import Observable
 from verification.judging.order_of_convergence import (
     NotYetAsymptotic,
     OrderOfChange,
     OrderOfConvergence,
 )
+from verification.judging.refinement_levels import (
+    RefinementLevel,
+    RefinementLevels,
+)
 from verification.judging.run import AnyRun
 
-Allowed = float | Mapping[int, float] | Callable[[Rung], float]
+Allowed = float | Mapping[int, float] | Callable[[RefinementLevel], float]
 Results = Mapping[str, Any]
 Drawing = Callable[[Results], Chart]
 
@@ -94,7 +97,7 @@ class Judged:
     equations: tuple[str, ...] = ()
 
 
-def judged(ladder: Ladder, rows: Sequence[Row]) -> Judged:
+def judged(ladder: RefinementLevels, rows: Sequence[Row]) -> Judged:
     """Judge each row on its levels; levels that are not solved have no verdicts."""
     quantities = tuple(quantity for row in rows for quantity in _quantities(row, ladder))
     runs = ladder.runs
@@ -150,7 +153,7 @@ def case(
     )
 
 
-def _quantities(row: Row, ladder: Ladder) -> tuple[Quantity, ...]:
+def _quantities(row: Row, ladder: RefinementLevels) -> tuple[Quantity, ...]:
     if isinstance(row, Refined):
         cap = _allowed(row.cap, ladder.judged)
         derived = Derived(ladder.levels, row.order, cap, row.because)
@@ -173,14 +176,18 @@ def _quantities(row: Row, ladder: Ladder) -> tuple[Quantity, ...]:
     )
 
 
-def _allowed(allowed: Allowed, rung: Rung) -> float:
+def _allowed(allowed: Allowed, rung: RefinementLevel) -> float:
     if callable(allowed):
         return allowed(rung)
     return allowed[rung.count] if isinstance(allowed, Mapping) else allowed
 
 
 def _quantity(
-    what: Observable, ladder: Ladder, rung: Rung, tolerance: Required | Derived, name: str = ""
+    what: Observable,
+    ladder: RefinementLevels,
+    rung: RefinementLevel,
+    tolerance: Required | Derived,
+    name: str = "",
 ) -> Quantity:
     problem = ladder.problem
     return Quantity(
@@ -197,7 +204,7 @@ def _quantity(
     )
 
 
-def _order(row: Falls, ladder: Ladder) -> OrderOfConvergence:
+def _order(row: Falls, ladder: RefinementLevels) -> OrderOfConvergence:
     what = row.what
     assert what.of is not None
     return OrderOfConvergence(
@@ -212,7 +219,7 @@ def _order(row: Falls, ladder: Ladder) -> OrderOfConvergence:
     )
 
 
-def _finding(row: Reported, ladder: Ladder) -> Finding:
+def _finding(row: Reported, ladder: RefinementLevels) -> Finding:
     what, rung = row.what, ladder.judged
     return Finding(
         what.verdict, what.said(rung.words), what.unit, rung.run.label,

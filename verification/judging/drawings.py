@@ -13,9 +13,9 @@ from verification.exhibits.chart import Chart
 from verification.exhibits.convergence_chart import convergence_chart
 from verification.exhibits.profile_chart import Profile, ProfileLabels, Section, profile_chart
 from verification.judging.declared_case import Drawing, Falls, Row
-from verification.judging.ladder import Ladder
 from verification.judging.observable import Observable
 from verification.judging.radial_chart import radial_chart
+from verification.judging.refinement_levels import RefinementLevels
 from verification.judging.run import Run
 
 Field = NDArray[np.float64]
@@ -39,7 +39,7 @@ PRESSURE = Drawn(lambda end: end.pressure, lambda exact: exact.pressure)
 
 
 def profile(
-    ladder: Ladder,
+    ladder: RefinementLevels,
     name: str,
     title: str,
     caption: str,
@@ -84,13 +84,13 @@ def profile(
 
 
 def convergence(
-    ladder: Ladder,
+    ladder: RefinementLevels,
     rows: Sequence[Row],
     name: str,
     title: str,
     caption: str,
     also: Sequence[Observable] = (),
-    beside: Mapping[str, Ladder] | None = None,
+    beside: Mapping[str, RefinementLevels] | None = None,
 ) -> Drawing:
     """Relative errors on the rungs that orders are read off, with the slopes that rows expect.
 

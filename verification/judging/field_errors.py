@@ -13,9 +13,9 @@ from verification.cell_means import cell_means
 from verification.observed import ring_errors
 from verification.observed.ring_errors import judged_within
 from verification.observed.unseen import is_corrected
+from verification.problems.cattaneo_mindlin import OVER_LIMIT
 from verification.problems.paper_scene import FRICTION
 from verification.problems.problem import OVER_PEAK, Problem
-from verification.problems.sheared import OVER_LIMIT
 from verification.quantities import shear_of
 
 Field = NDArray[np.float64]

@@ -7,9 +7,9 @@ from dataclasses import replace
 from typing import Any
 
 from contact_scene import Scene, SurfaceDiscretisation
-from contact_scene.scene_text import describe
+from contact_scene.quantities.summary import EffectSummary
+from contact_scene.reading.scene_text import describe
 from contact_scene.solver_errors import SolverError
-from contact_scene.summary import EffectSummary
 from verification.judging.case import Case, Derived, Finding, Quantity
 from verification.judging.coverage import error_of, stated_errors
 from verification.judging.law_verdicts import judge_laws

@@ -8,7 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from contact_scene.increment import SCALARS, components
+from contact_scene.quantities.increment import (
+    SCALARS,
+    components,
+)
 from verification.judging.order_of_convergence import Followed
 from verification.problems.problem import Problem
 from verification.problems.reference import Reference

@@ -8,9 +8,13 @@ from verification.judging import field_errors
 from verification.judging.observable import Observable, error_norm, number
 from verification.judging.order_of_convergence import Followed
 from verification.observed.end_state import central_pressure
+from verification.problems.cattaneo_mindlin import (
+    OVER_LIMIT,
+    OVER_SLIDING_SHIFT,
+    OVER_SLIDING_WORK,
+)
 from verification.problems.loop_history import OVER_LARGEST_SHIFT, loop_energy
 from verification.problems.problem import OVER_PEAK, OVER_RADIUS
-from verification.problems.sheared import OVER_LIMIT, OVER_SLIDING_SHIFT, OVER_SLIDING_WORK
 
 APPROACH = number("approach", "approach of the bodies since first touch", of=Followed.APPROACH)
 PEAK_PRESSURE = number(

@@ -7,8 +7,8 @@ from typing import Annotated, TypeAlias
 
 from pydantic import Field, model_validator
 
-from contact_scene.description import Description
-from contact_scene.summary import EffectSummary
+from contact_scene.quantities.summary import EffectSummary
+from contact_scene.reading.description import Description
 from verification.convergence.observed_order import ORDER_WIDTH, order_is_kept
 from verification.exhibits.chart import Chart
 from verification.exhibits.table import Table

@@ -149,7 +149,7 @@ class RadiiRun:
         """The solution; raises what `radial.solve` raises."""
         import radial
         from contact_scene import RadialDiscretisation
-        from radial.circle import Circle
+        from radial.angular_grid import Circle
 
         asked = RadialDiscretisation(rings=self.rings, tolerance=self.tolerance)
         plan = radial.plan(self.scene)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from contact_scene.engineering_units import engineering_unit
+from contact_scene.reading.engineering_units import engineering_unit
 from verification.convergence.observed_order import ILLEGIBLE
 from verification.exhibits.numbers import NOT_FINITE, plain, value_text
 from verification.judging.change import Change

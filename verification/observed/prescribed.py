@@ -10,7 +10,10 @@ import numpy as np
 from contact_scene import ControlKind, Scene
 
 if TYPE_CHECKING:
-    from contact_scene.load_path import ScalarControl, VectorControl
+    from contact_scene.stepping.load_path import (
+        ScalarControl,
+        VectorControl,
+    )
 
 
 def missed(scene: Scene, steps: Sequence[Any]) -> Iterator[float]:

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_reference.contact.angular_grid import (
+from fem_reference.compliance.angular_grid import (
     AngularGrid,
     axisymmetric_grid,
     end_grid,

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from contact_scene import CoulombFriction, IsotropicMaterial
 from fem_reference import Increment, Path, Result
-from fem_reference.contact.gauss_points import gauss_points
+from fem_reference.compliance.gauss_points import gauss_points
 from verification.observed.rings import along_load, model_of, section_radii
 from verification.observed.section_energy import EnergeticState
 

@@ -174,7 +174,8 @@ def _missing(
 
 def _unresolved(state: _State, after: _State) -> float:
     """What the finite increment leaves open: loads are taken as straight lines where gaps close
-    or open, and so is the shear (see `semi_analytical.energy`); with what is dissipated."""
+    or open, and so is the shear (see `semi_analytical.increments.energy`); with what is
+    dissipated."""
     p0, p1 = state.tractions[2], after.tractions[2]
     begins, ends = (p0 == 0) & (p1 > 0), (p0 > 0) & (p1 == 0)
     closing = float(np.sum(p1[begins] * state.gap[begins]))

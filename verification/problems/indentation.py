@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from contact_scene import Body
+from verification.problems.cattaneo_mindlin import OVER_LIMIT
 from verification.problems.layered_scene import coated, film, half_space, pressed, rigid_ball
 from verification.problems.paper_scene import HERTZ, pressing
 from verification.problems.problem import OVER_PEAK, Problem
 from verification.problems.reference import ReferenceKind
-from verification.problems.sheared import OVER_LIMIT
 from verification.problems.tabulated import TabulatedContact
 from verification.references import load_reference
 

@@ -15,9 +15,12 @@ from verification.closed_forms.ruiz import CycledContact
 from verification.closed_forms.tangential_history import TangentialHistory
 from verification.norms import shear_error
 from verification.problems import paper_scene as paper
+from verification.problems.cattaneo_mindlin import (
+    OVER_LIMIT,
+    OVER_SLIDING_SHIFT,
+)
 from verification.problems.paper_scene import FRICTION, HERTZ
 from verification.problems.problem import Problem
-from verification.problems.sheared import OVER_LIMIT, OVER_SLIDING_SHIFT
 from verification.quantities import energy_between, force_along_x, shear_of, shift_along_x
 
 if TYPE_CHECKING:

@@ -9,9 +9,9 @@ from scipy.integrate import quad
 from contact_scene import Body, CoulombFriction, FlatPunch, LoadStep, Scene
 from verification.closed_forms.torsion import StuckTorsion, TorsionalPartialSlip
 from verification.problems import paper_scene as paper
+from verification.problems.cattaneo_mindlin import OVER_LIMIT
 from verification.problems.paper_scene import FRICTION, HERTZ, STEEL
 from verification.problems.problem import Problem
-from verification.problems.sheared import OVER_LIMIT
 
 SOURCE = "Lubkin 1951"
 MODULUS = STEEL.shear_modulus / 2

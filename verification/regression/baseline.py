@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field, model_validator
 
-from contact_scene.description import Description
+from contact_scene.reading.description import Description
 from verification.judging.outcome import (
     FOUND_IN_A_RUN,
     Count,

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from contact_results.directory.atomic_file import atomic_file
-from contact_scene.description import Description
+from contact_scene.reading.description import Description
 from verification.judging.outcome import Status, Verdict
 from verification.regression.baseline import key_of
 from verification.regression.refusal import BaselineRefused

@@ -27,7 +27,7 @@ LONGEST_BESIDE = 30  # letters of a legend's text beside the plot
 LONGEST_OF_TWO = 45  # and of two side by side below it
 LEGEND_LINE = 0.19  # inches
 MARKERS = ("o", "s", "^", "D", "v", "P")
-MOST_TICKS, FEW_TICKS = 8, 6  # the latter beside long names
+MAX_TICKS, FEW_TICKS = 8, 6  # the latter beside long names
 FEW_DECADES = 2.5  # with labels between powers of ten
 FLATNESS = 1e-3  # of either side of a panel: half a pixel of 500
 MANY_PLACES = 12  # along y: the legend then stands at the top, where reading begins
@@ -76,7 +76,7 @@ def _draw_panel(ax: Any, panel: Panel) -> None:
                     ha="center", color=INK)  # fmt: skip
     ax.margins(x=0.05 if panel.y_places else 0.02, y=0.12)
     if panel.logarithmic:
-        _label_decades(ax, FEW_TICKS if panel.y_places else MOST_TICKS)
+        _label_decades(ax, FEW_TICKS if panel.y_places else MAX_TICKS)
     for line, one in zip(ax.lines[-len(panel.curves) :], panel.curves, strict=False):
         if one.look in LINES:
             line.set_data(*thinned(line.get_xydata(), ax.transScale + ax.transLimits).T)

@@ -12,7 +12,7 @@ from verification.judging.status_words import SYMBOLS, WORDS
 from verification.report.page import environment
 
 COLUMNS = ("quantity", "step", "level", "verdict", "error", "bound", "class", "order", "because")
-MOST_CURVES = 8
+MAX_CURVES = 8
 
 
 def row_texts(row: Row) -> tuple[str, ...]:
@@ -79,7 +79,7 @@ def _charts(judgement: Judgement) -> list[Chart]:
         lines = [
             (f"{r.quantity}, step {r.step}",
              drawable((h if by_h is None else by_h.get(h), e) for h, e in r.errors))
-            for r in fallen[:MOST_CURVES]
+            for r in fallen[:MAX_CURVES]
         ]  # fmt: skip
         if any(len(points) > 1 for _, points in lines):
             caption = f"{of} {against}"

@@ -36,9 +36,9 @@ from verification.running.record import StudyRecord
 from verification.running.report_record import Report
 from verification.running.study_text import measured_text
 
-MOST_WORSE = 6  # on the front; the rest stands below
-MOST_MOVED = 40
-MOST_CHARTS, MOST_ROWS = 2, 40  # of a study and of a table on a page of the quick level
+MAX_WORSE = 6  # on the front; the rest stands below
+MAX_MOVED = 40
+MAX_CHARTS, MAX_ROWS = 2, 40  # of a study and of a table on a page of the quick level
 SEVERAL = 2  # cases whose equal references and reasons are printed once
 WORDS_FROM = 30  # characters of a cell that make its column one of words
 DIGITS = frozenset("0123456789")
@@ -88,7 +88,7 @@ def environment() -> jinja2.Environment:
     made.globals.update({one.__name__: one for one in shared})
     made.globals.update(
         Status=Status, symbols=SYMBOLS, words=WORDS, PAGE=PAGE, SHEETS=SHEETS,
-        MOST_WORSE=MOST_WORSE, MOST_MOVED=MOST_MOVED, MOST_CHARTS=MOST_CHARTS, MOST_ROWS=MOST_ROWS,
+        MAX_WORSE=MAX_WORSE, MAX_MOVED=MAX_MOVED, MAX_CHARTS=MAX_CHARTS, MAX_ROWS=MAX_ROWS,
     )  # fmt: skip
     return made
 

@@ -16,7 +16,7 @@ from verification.running.report_record import Report
 from verification.running.sources import age_text
 from verification.running.study_text import measured_text, study_failure_line
 
-MOST_LINES = 40  # of failures, and of changes: a pull request's comment holds 65 kB
+MAX_LINES = 40  # of failures, and of changes: a pull request's comment holds 65 kB
 TIMES = (3.0, 10.0)  # the errors that a verdict is to notice
 OUTSIDE = {
     ReferenceKind.CLOSED_FORM, ReferenceKind.SEMI_CLOSED, ReferenceKind.THEORY,
@@ -103,9 +103,9 @@ def _lines(report: Report) -> Iterator[str]:
     lines = [f"`{line}`" for line in failure_lines(report)] if failed else uncovered_lines(report)
     if lines:
         yield ""
-    yield from (f"- {line}" for line in lines[:MOST_LINES])
-    if len(lines) > MOST_LINES:
-        yield f"- and {len(lines) - MOST_LINES} more"
+    yield from (f"- {line}" for line in lines[:MAX_LINES])
+    if len(lines) > MAX_LINES:
+        yield f"- and {len(lines) - MAX_LINES} more"
     yield ""
     yield from _changes(report)
     yield ""
@@ -149,10 +149,10 @@ def _changes(report: Report) -> Iterator[str]:
     yield ""
     yield "| change | quantity | was | is | moved by | remark |"
     yield "| --- | --- | --- | --- | --- | --- |"
-    for row in rows[:MOST_LINES]:
+    for row in rows[:MAX_LINES]:
         quantity = f"{row.case}/{row.name} [{row.run}]"
         cells = (row.kind, quantity, row.was, row.now, row.moved, row.remark)
         yield f"| {' | '.join(cell.replace('|', '/') for cell in cells)} |"
-    if len(rows) > MOST_LINES:
+    if len(rows) > MAX_LINES:
         yield ""
-        yield f"and {len(rows) - MOST_LINES} more; `slipstick maintain compare` lists them."
+        yield f"and {len(rows) - MAX_LINES} more; `slipstick maintain compare` lists them."

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 from contact_results.directory.code_digest import code_digest
-from contact_scene.description import Description
+from contact_scene.reading.description import Description
 from verification.running.case_store import CaseStore, DamagedRecord
 from verification.running.local_workers import LocalWorkers
 from verification.running.row import CaseRecord

@@ -15,7 +15,7 @@ from typing import Any
 
 from contact_results.directory.atomic_file import atomic_file
 from contact_results.directory.code_digest import code_digest
-from contact_scene.description import Description
+from contact_scene.reading.description import Description
 from verification.running.row import CaseRecord
 from verification.running.study import StudyCase
 

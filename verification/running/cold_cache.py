@@ -15,7 +15,7 @@ from typing import TypeVar
 CACHE = "SLIPSTICK_CACHE_DIR"
 SOLVERS = ("semi_analytical", "fem_reference", "radial")
 ENOUGH_SECONDS = 1.0  # of CPU, from where one repetition more would say nothing
-MOST_REPEATS = 5
+MAX_REPEATS = 5
 
 T = TypeVar("T")
 
@@ -53,5 +53,5 @@ def timed(compute: Callable[[], T]) -> tuple[T, float, int]:
             started = time.process_time()
             result = compute()
             seconds.append(time.process_time() - started)
-        if len(seconds) == MOST_REPEATS or sum(seconds) >= ENOUGH_SECONDS:
+        if len(seconds) == MAX_REPEATS or sum(seconds) >= ENOUGH_SECONDS:
             return result, statistics.median(seconds), len(seconds)

@@ -17,7 +17,7 @@ from contextlib import suppress
 from multiprocessing import resource_tracker
 from typing import TypeVar
 
-from contact_results.one_thread import one_thread
+from contact_results.blas_threads import one_thread
 
 # A fresh interpreter: no lock or thread of the parent's libraries is copied half-way.
 START = "spawn"

@@ -1,6 +1,6 @@
 """Who made numbers, on what and when: the block that every record of ours carries."""
 
-from contact_scene.description import Description
+from contact_scene.reading.description import Description
 
 
 class Provenance(Description):

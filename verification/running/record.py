@@ -8,7 +8,7 @@ from typing import Any
 
 from pydantic import model_validator
 
-from contact_scene.description import Description
+from contact_scene.reading.description import Description
 from verification.judging.outcome import Status
 from verification.running.provenance_record import Provenance
 from verification.running.study import STUDY_VERSION, Conclusion, LostCase

@@ -6,7 +6,7 @@ from typing import Any
 
 from pydantic import ValidationError, model_validator
 
-from contact_scene.description import Description
+from contact_scene.reading.description import Description
 from verification.exhibits.picture import Picture
 from verification.judging.case import Level
 from verification.judging.change import GoneCase

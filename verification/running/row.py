@@ -13,7 +13,7 @@ from typing import Any, ClassVar, Protocol, Self, TypeVar
 
 from pydantic import Field
 
-from contact_scene.description import Description
+from contact_scene.reading.description import Description
 
 Value = str | bool | int | float | None
 

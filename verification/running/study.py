@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
-from contact_scene.description import Description
+from contact_scene.reading.description import Description
 from verification.exhibits.chart import Chart
 from verification.exhibits.table import Table
 from verification.judging.case import Level

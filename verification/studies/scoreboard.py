@@ -12,8 +12,11 @@ from verification.adapters import radius, section, surface
 from verification.adapters.half_spaces import answering
 from verification.challenge.answer import Solver
 from verification.challenge.cases import challenges
-from verification.challenge.door import CannotDo, judge
 from verification.challenge.judgement import Judgement
+from verification.challenge.python_api import (
+    CannotDo,
+    judge,
+)
 from verification.exhibits.numbers import plain
 from verification.exhibits.table import NONE, Table
 from verification.judging.case import Level

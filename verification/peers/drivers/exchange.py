@@ -19,7 +19,7 @@ Answer = dict[str, Any]
 Array = NDArray[np.float64]
 
 ENOUGH_SECONDS = 1.0
-MOST_REPEATS = 5
+MAX_REPEATS = 5
 ABOVE = 1.0  # the gap beside a punch: far above any approach of small strains
 
 
@@ -67,7 +67,7 @@ def answer(solve: Callable[[Request], Answer], *modules: str) -> None:
 def _answered(solve: Callable[[Request], Answer], request: Request) -> Answer:
     seconds: list[float] = []
     try:
-        while len(seconds) < MOST_REPEATS and sum(seconds) < ENOUGH_SECONDS:
+        while len(seconds) < MAX_REPEATS and sum(seconds) < ENOUGH_SECONDS:
             started = time.process_time()
             found = solve(request)
             seconds.append(time.process_time() - started)

@@ -11,8 +11,8 @@ from zlib import crc32
 import numpy as np
 
 from contact_scene import RIGID, CoulombFriction, Ellipsoid, LoadStep, Paraboloid, Scene
+from contact_scene.body_pair import contact_modulus
 from contact_scene.geometry import ShapedBody
-from contact_scene.pair import contact_modulus
 from verification.closed_forms.elliptical_contact import EllipticalContact
 from verification.problems.drawn import drawing as of
 from verification.problems.drawn.drawing import Bodies, Profile, Rng, logarithmic

@@ -21,8 +21,8 @@ from contact_errors.error_formula import AT_EDGES
 from contact_errors.values import Values, prescribed, values_of
 from contact_results.cycles import fretting_cycles
 from contact_scene import Ellipsoid, LoadStep, Paraboloid, Scene, SurfaceDiscretisation
-from contact_scene.increment_error import with_error
-from contact_scene.pair import contact_modulus
+from contact_scene.body_pair import contact_modulus
+from contact_scene.stepping.increment_error import with_error
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.elliptical_contact import EllipticalContact
 from verification.closed_forms.ruiz import CycledContact

@@ -5,12 +5,15 @@ from __future__ import annotations
 from typing import Any
 
 from contact_errors.stress_errors import stress_errors
-from contact_results.stress.extremes import extremes
 from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.on_cells import stress_on_cells
 from contact_results.stress.on_disc import stress_on_disc
 from contact_results.stress.on_section import stress_on_section
-from contact_scene.stated_error import StatedError, StatedErrors
+from contact_results.stress.stress_maxima import extremes
+from contact_scene.quantities.stated_error import (
+    StatedError,
+    StatedErrors,
+)
 
 WHOLE = "body"  # among the regions
 

@@ -14,8 +14,11 @@ import semi_analytical
 from contact_errors import on_cells, on_elements
 from contact_errors.values import values_of
 from contact_results.cycles import fretting_cycles
+from contact_scene.quantities.stated_error import (
+    StatedError,
+    StatedErrors,
+)
 from contact_scene.solver_errors import SolverError
-from contact_scene.stated_error import StatedError, StatedErrors
 from verification.problems.drawn.families import drawn
 from verification.problems.drawn.known_scene import CELLS, STRESSES, KnownScene, Truth
 from verification.problems.drawn.stress_maxima import stress_maxima

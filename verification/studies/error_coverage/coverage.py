@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from scipy.special import betaincinv
 
-from contact_scene.stated_error import ErrorStatus
+from contact_scene.quantities.stated_error import ErrorStatus
 from verification.running.row import Row, value_of
 from verification.studies.error_coverage.case import STATED, UNCERTAIN, WRONG
 

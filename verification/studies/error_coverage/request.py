@@ -23,7 +23,7 @@ from verification.studies.error_coverage.coverage import CERTAIN
 
 SHARES = (2e-4, 0.1)
 # Work of the largest level: cells times increments, and elements over the radius times increments.
-MOST_CELLS, MOST_ELEMENTS = 1_500_000, 3_000
+MAX_CELLS, MAX_ELEMENTS = 1_500_000, 3_000
 ASKED, REACHED, TRUE = "asked", "reached", "true"
 
 
@@ -63,9 +63,9 @@ class RequestCase:
         if known.fineness.solver == CELLS:
             stress_at = truths[0].step if quantity == LARGEST_TENSION else None
             on_cells = CellSolver(known.scene, asked, stress=stress_at is not None)
-            levels = LimitedLevels(on_cells, stress_at, most=MOST_CELLS)
+            levels = LimitedLevels(on_cells, stress_at, most=MAX_CELLS)
         else:
-            levels = LimitedLevels(ElementSolver(known.scene, asked), most=MOST_ELEMENTS)
+            levels = LimitedLevels(ElementSolver(known.scene, asked), most=MAX_ELEMENTS)
         try:
             made = refine(levels, AccuracyRequest(**{quantity: share}))
         except SolverError as error:

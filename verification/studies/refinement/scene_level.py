@@ -20,7 +20,10 @@ from contact_errors.error_formula import LIMITS, PEAK, PER_ITERATION, PER_TOLERA
 from contact_errors.values import OF_CYCLES, Values, scale, values_of
 from contact_results.cycles import fretting_cycles
 from contact_scene import Scene, SceneFile, read_scene_file
-from contact_scene.increment import SCALARS, components
+from contact_scene.quantities.increment import (
+    SCALARS,
+    components,
+)
 from contact_scene.solver_errors import SolverError
 from fem_reference import Method
 from verification.quantities import largest_residual

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from contact_scene.increment_error import with_error
+from contact_scene.stepping.increment_error import with_error
 from semi_analytical import discretise
 from verification.exhibits.chart import Chart
 from verification.exhibits.log_chart import drawable, log_chart, point_curves, slope_line

@@ -24,7 +24,7 @@ from verification.studies.stability.cell import Solver
 from verification.studies.stability.pose import Posed
 
 GROWTH = 1.3
-MOST_WINDOWS = 4
+MAX_WINDOWS = 4
 ELEMENTS_PER_HARMONIC = 2
 
 
@@ -107,7 +107,7 @@ SOLVERS: dict[Solver, Callable[[Posed], Solved]] = {
 
 def _solved(posed: Posed) -> Result:
     grid = posed.grid
-    for _ in range(MOST_WINDOWS):
+    for _ in range(MAX_WINDOWS):
         try:
             return solve(posed.scene, grid, posed.tolerance)
         except ContactAtWindowEdge:

@@ -11,7 +11,7 @@ from verification.studies.stability.charts import class_of
 from verification.studies.stability.record import CellRecord, Verdict
 from verification.studies.stability.verdicts import NAMES, WORK, Found, Item, ended, of_solver
 
-MOST_ROWS = 60  # of good cells; the others have all of theirs
+MAX_ROWS = 60  # of good cells; the others have all of theirs
 
 
 def tables(found: Found) -> tuple[Table, ...]:
@@ -61,7 +61,7 @@ def _of_cells(group: list[Item]) -> Table:
     """The worst classes first, of one those that halved increments, then the dearest."""
     by_elements = group[0][0].solver.by_elements
     solver = "finite elements" if by_elements else "the semi-analytical solver"
-    shown = sorted(group, key=_hardness)[:MOST_ROWS]
+    shown = sorted(group, key=_hardness)[:MAX_ROWS]
     some = f"The {len(shown)} hardest of {len(group)} cells of {solver}"
     return table_of(
         f"The cells of {solver}" if len(shown) == len(group) else some,

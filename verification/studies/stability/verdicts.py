@@ -16,8 +16,8 @@ from verification.studies.stability.record import CellRecord, Refusal, Verdict
 Found = Mapping[StabilityCell, CellRecord]
 Item = tuple[StabilityCell, CellRecord]
 
-MOST_NAMED = 12
-MOST_WAYS = 4
+MAX_NAMED = 12
+MAX_WAYS = 4
 LEAST_SHARE = 0.99  # of the cells that are not refused
 LARGEST_FORCE = 1.0  # T/µW that friction carries
 NAMES = {
@@ -124,7 +124,7 @@ def cost(found: Found) -> Statement:
         return Statement(claim="cost", outcome=None, measured="no cell converged")
     by_elements = next(iter(found)).solver.by_elements
     per_increment = [r.work / r.increments for r in solved]
-    ways = Counter(r.way for r in solved).most_common(MOST_WAYS)
+    ways = Counter(r.way for r in solved).most_common(MAX_WAYS)
     halved = sum(r.halvings > 0 for r in solved)
     return Statement(
         claim="cost",
@@ -157,5 +157,5 @@ def _list(cells: Iterable[StabilityCell]) -> str:
     names = [cell.name for cell in cells]
     if not names:
         return ""
-    more = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
-    return ": " + ", ".join(names[:MOST_NAMED]) + more
+    more = f" and {len(names) - MAX_NAMED} more" if len(names) > MAX_NAMED else ""
+    return ": " + ", ".join(names[:MAX_NAMED]) + more

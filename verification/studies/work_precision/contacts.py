@@ -32,12 +32,15 @@ from verification.judging.observables import (
 )
 from verification.judging.pressing_errors import pressure_at, shear_at
 from verification.problems import paper_scene as paper
+from verification.problems.cattaneo_mindlin import (
+    OVER_LIMIT,
+    sheared,
+)
 from verification.problems.hertz import BALL
 from verification.problems.indentation import COATED
 from verification.problems.loop_history import WINDOW_PER_RADIUS, ExactLoop, fretting_loop
 from verification.problems.paper_scene import FRICTION, NU_ZERO
 from verification.problems.problem import OVER_PEAK, Problem
-from verification.problems.sheared import OVER_LIMIT, sheared
 from verification.quantities import shear_of
 
 Field = NDArray[np.float64]

@@ -49,7 +49,7 @@ RINGS = {
 # Energies and shifts of a loop stay those of cells without edges.
 WITH_EDGES = (HERTZIAN.name, CATTANEO.name, COATING.name, INDENTATION.name)
 INCREMENTS = {Level.QUICK: (5,), Level.STANDARD: (5, 10, 40)}  # beside the usual ones
-MOST_SPRINGS = 64  # elements: finer penalty solves take longer than all the rest
+MAX_SPRINGS = 64  # elements: finer penalty solves take longer than all the rest
 
 
 class Method(StrEnum):
@@ -165,7 +165,7 @@ def _of_contact(contact: str, level: Level) -> Iterator[PrecisionCase]:
             yield PrecisionCase(contact, Method.RADIAL, n)
     for n in ELEMENTS[level]:
         yield PrecisionCase(contact, Method.ELEMENTS, n)
-        for penalty in PENALTIES[upper] if n <= MOST_SPRINGS else ():
+        for penalty in PENALTIES[upper] if n <= MAX_SPRINGS else ():
             yield PrecisionCase(contact, Method.PENALTY, n, penalty=penalty)
     for increments in INCREMENTS[upper] if contact == INDENTATION.name else ():
         for n in CELLS[upper]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
-from contact_scene.residuals import worst
+from contact_scene.quantities.residuals import worst
 from verification.exhibits.chart import Chart, Look
 from verification.exhibits.log_chart import Points, log_chart, point_curves
 from verification.exhibits.numbers import plain

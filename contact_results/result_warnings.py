@@ -1,0 +1,134 @@
+"""What to bear in mind of a result: numbers hardly meant, a theory at its end, heights that cells
+leave out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from contact_scene import HeightMap
+from contact_scene.array_types import Field
+from contact_scene.body_pair import contact_modulus
+from contact_scene.checks.plausibility import unlikely
+from contact_scene.checks.strain_check import beyond_linear_theory
+from contact_scene.height_map import interpolate
+from contact_scene.quantities.cycles import load_cycles
+from contact_scene.stepping.increment_error import (
+    NEAR_GROSS_SLIP,
+    near_gross_slip,
+    with_error,
+)
+
+if TYPE_CHECKING:
+    import semi_analytical
+    from contact_results.surface import Result
+
+
+# Of the peak pressure, below which there is nothing to say of what cells leave out.
+NEGLIGIBLE = 1e-3
+NOT_CORRECTED = (
+    "the edge of the contact is not corrected: {}; the tractions there are constant on cells"
+)
+NO_BORDER = (
+    "the edge of the contact is corrected, but the border of stick is not: it is rough, too thin, "
+    "or does not follow from the preceding step"
+)
+
+
+def remarks(result: Result) -> tuple[str, ...]:
+    """In sentences, for people."""
+    found = (
+        *unlikely(result.scene),
+        *beyond_linear_theory(result.scene, result.steps),
+        *_near_gross_slip(result),
+        *_first_cycle(result),
+    )
+    if not hasattr(result, "grid"):
+        return found
+    on_cells = cast("semi_analytical.Result", result)
+    return (*found, *_left_out(on_cells), *_edges_left(on_cells))
+
+
+def _near_gross_slip(result: Result) -> Iterator[str]:
+    """Steps pushed to nearly the friction limit, whose increments decide their shift and energy."""
+    near = near_gross_slip(result.scene)
+    if any(near):
+        yield (
+            f"step {near.index(True) + 1} pushes beyond {NEAR_GROSS_SLIP:.0%} of the friction "
+            "limit: tangential shift and dissipated energy grow like (1 - T/µW)^-1/2 and depend on "
+            "the increments; prescribe the shift, or compare increments"
+        )
+
+
+def _first_cycle(result: Result) -> Iterator[str]:
+    """A first load cycle, which starts at the virgin state of the surfaces."""
+    path = result.scene.load_path()
+    cycles = load_cycles(path)
+    if cycles and with_error(result.scene)[cycles[0].end - 1]:
+        first = cycles[0]
+        yield (
+            f"the load cycle of steps {first.start + 1} to {first.end} is the first one and starts "
+            "from the virgin state: it may dissipate several times the energy of later cycles; "
+            "repeat the steps for a steady cycle"
+        )
+
+
+def _left_out(result: semi_analytical.Result) -> Iterator[str]:
+    share, indenter = left_out(result), result.scene.indenter
+    if share > NEGLIGIBLE and isinstance(indenter, HeightMap):
+        nx, ny = (int(np.ceil(n)) for n in np.divide(result.grid.window, indenter.spacing))
+        yield (
+            f"the cells are wider than the spacing of the height map: to flatten what they leave "
+            f"out takes a pressure of {share:.2g} of the peak (root mean square); "
+            f"try --set semi_analytical.cells=[{nx},{ny}]"
+        )
+
+
+def _edges_left(result: semi_analytical.Result) -> Iterator[str]:
+    if result.plan.edge == "off":
+        return
+    left: dict[str, list[str]] = {}
+    for end in result.steps:
+        report = end.edge_report
+        if report is not None and report.cause is not None:
+            left.setdefault(NOT_CORRECTED.format(report.cause), []).append(str(end.step))
+        elif report is not None and not report.border:
+            left.setdefault(NO_BORDER, []).append(str(end.step))
+    for remark, steps in left.items():
+        yield f"at the end of step {', '.join(steps)} {remark}"
+
+
+def left_out(result: semi_analytical.Result) -> float:
+    """Root mean square over the largest contact of the pressure that would flatten the heights
+    between cells wider than the spacing of their map, over the peak pressure; 0 without such.
+
+    E* √(mean square slope) / 2 (Persson 2001; a wave of amplitude h and wavenumber k takes
+    E* k h / 2: Johnson 1985, eq. 13.7), which the peak misses where all of it is flattened.
+    """
+    indenter, grid = result.scene.indenter, result.grid
+    if not isinstance(indenter, HeightMap):
+        return 0.0
+    if all(np.less_equal(grid.spacing, np.multiply(indenter.spacing, 1 + 1e-9))):
+        return 0.0
+    end = max(result.steps, key=lambda step: step.contact_area)
+    cells = grid.coordinates()
+    x, y = (
+        _points(count, spacing, at[end.in_contact])
+        for count, spacing, at in zip(indenter.file.shape, indenter.spacing, cells, strict=True)
+    )
+    if min(len(x), len(y)) < 2:
+        return 0.0
+    seen = interpolate(indenter.initial_gap(*cells), grid.spacing, x[:, None], y)
+    lost = indenter.initial_gap(x[:, None], y) - seen
+    # From point to point: over two of them the steepest waves have no slope.
+    slopes = (np.diff(lost, axis=axis) / indenter.spacing[axis] for axis in (0, 1))
+    steepness = float(np.sqrt(sum(np.mean(np.square(slope)) for slope in slopes)))
+    return contact_modulus(result.scene) * steepness / 2 / end.peak_pressure
+
+
+def _points(count: int, spacing: float, within: Field) -> Field:
+    """Of a map along one axis, between the outermost of some places [length]."""
+    points = (np.arange(count) - (count - 1) / 2) * spacing
+    return np.asarray(points[(points >= np.min(within)) & (points <= np.max(within))])

@@ -1,0 +1,1 @@
+"""Checks of a scene: consistency, plausibility and the limits of linear theory."""

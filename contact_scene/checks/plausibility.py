@@ -1,0 +1,294 @@
+"""Whether the numbers of a scene are of a size that such quantities have.
+
+A factor of a thousand is quickly lost between a data sheet and a scene file, and what comes out is
+as valid as anything else. Nothing here is an error: remarks are for whoever wrote the scene.
+"""
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import chain, pairwise, product
+
+import numpy as np
+from pydantic import BaseModel
+
+from contact_scene.checks.expected_contact import (
+    ExpectedContact,
+    expected_contacts,
+)
+from contact_scene.checks.strain_check import SMALL_STRAIN
+from contact_scene.geometry import HeightMap
+from contact_scene.material import IsotropicMaterial
+from contact_scene.reading.array_file import ArrayFile
+from contact_scene.reading.engineering_units import quantity
+from contact_scene.reading.quantity import WithUnit
+from contact_scene.reading.scene_error import (
+    Path,
+    dotted,
+)
+from contact_scene.rig import compliances
+from contact_scene.scene import Scene
+from contact_scene.stepping.load_path import ControlKind
+
+
+@dataclass(frozen=True)
+class Usual:
+    """What a quantity usually is.
+
+    least, most  magnitude [SI unit]
+    unit         in SI
+    meant        units in which a number without one was perhaps meant, with their sizes, the
+                 likeliest first
+    signed       whether a negative number is smaller than any of its magnitude
+    """
+
+    least: float
+    most: float
+    unit: str
+    meant: Mapping[str, float]
+    signed: bool = False
+
+
+_MODULUS = Usual(1e3, 2e12, "Pa", {"GPa": 1e9, "MPa": 1e6})
+_SIZE = Usual(1e-9, 1.0, "m", {"mm": 1e-3, "um": 1e-6})
+_STEP = Usual(1e-12, 1e-3, "m", {"um": 1e-6, "nm": 1e-9})
+_DEGREE = {"deg": math.pi / 180}
+_FRICTION = Usual(0.0, 5.0, "", {"per cent": 1e-2})
+
+# By key. From gels to diamond, from the tip of a microscope to a wheel.
+USUAL: Mapping[str, Usual] = {
+    "young_modulus": _MODULUS,
+    **dict.fromkeys(("radius", "radii", "window", "contact_radius"), _SIZE),
+    "thickness": Usual(1e-10, 0.1, "m", {"um": 1e-6, "mm": 1e-3}),
+    "spacing": Usual(1e-10, 1e-2, "m", {"um": 1e-6, "nm": 1e-9}),
+    **dict.fromkeys(("approach", "tangential_shift"), _STEP),
+    "normal_force": Usual(1e-12, 1e9, "N", {}),
+    **dict.fromkeys(("coefficient", "map"), _FRICTION),
+    "twist": Usual(0.0, 0.1, "rad", _DEGREE),
+    "tilt": Usual(0.0, 0.02, "rad", _DEGREE),  # about 1 deg: what a bad mounting has
+    "slope_angle": Usual(0.0, 0.36, "rad", _DEGREE),  # 20 deg: cones as steep as indenters
+    "poisson_ratio": Usual(0.0, 0.5, "", {}, signed=True),
+    "tolerance": Usual(0.0, 1e-3, "", {}),
+}
+# Softer than rubber and larger than a ball: numbers of a scene without units, or in its own.
+_SOFTEST, _LARGEST = 1e6, 0.1
+_STEEP = 1.0  # heights that differ by more than their distance
+_STIFF = 2e10  # Pa: metals and ceramics, whose mean pressure is limited by their hardness
+# Mean pressure over E* that only the hardest ceramics and diamond bear: hardness is 0.01 to 0.04 of
+# the modulus in steels, 0.05 in ceramics, 0.1 in diamond.
+_HARD = 0.05
+# Stiffness of a rig over that of the contact from which on the force is nearly prescribed.
+_SOFT = 1e-3
+SPRINGS = (
+    ("normal_stiffness", "approach", "normal_force"),
+    ("tangential_stiffness", "tangential_shift", "tangential_force"),
+)
+# Contact radii beyond which nothing shows of what is below a layer, and those that a layer has
+# where nothing shows of it; softer and stiffer ones by so much the less.
+_DEEP, _THIN = 20.0, 1e-4
+
+
+def implausible(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
+    """Remarks on numbers that are hardly what was meant, with what perhaps was.
+
+    fineness  tables of the scene file that say how finely it is to be solved, by name
+    Numbers near one that make sense together, of a scene without units, are none.
+    """
+    return (*unlikely(scene, **fineness), *_strained(tuple(expected_contacts(scene))))
+
+
+def unlikely(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
+    """The same without strains, which a result tells better."""
+    pressed = tuple(expected_contacts(scene))
+    if _without_units(scene) and not any(_strained(pressed)):
+        return ()
+    parts = [_numbers(scene, ()), *(_numbers(part, (name,)) for name, part in fineness.items())]
+    unusual = chain.from_iterable(map(_unusual, parts))
+    return (
+        *unusual,
+        *_steep(scene),
+        *_measured(scene),
+        *_too_small(scene, pressed, fineness),
+        *_of_no_effect(scene, pressed),
+        *(_far(pressed) if compliances(scene.rig)[1] == 0 else ()),
+        *_soft(scene, pressed),
+        *_yielding(pressed),
+    )
+
+
+def _unusual(numbers: Iterator[tuple[Path, float]]) -> Iterator[str]:
+    for path, value in numbers:
+        usual = USUAL.get(next((part for part in reversed(path) if isinstance(part, str)), ""))
+        if usual is None or not value:
+            continue
+        if not usual.least <= (value if usual.signed else abs(value)) <= usual.most:
+            yield f"{dotted(path)}: {_odd(value, usual)}"
+
+
+def _odd(value: float, usual: Usual) -> str:
+    small = (value if usual.signed else abs(value)) < usual.least
+    side, limit = ("below", usual.least) if small else ("above", usual.most)
+    meant = (
+        f'; was "{value:g} {unit}" meant?'
+        for unit, size in usual.meant.items()
+        if usual.least <= abs(value * size) <= usual.most and not isinstance(value, WithUnit)
+    )
+    return f"{_text(value, usual)} is {side} the usual {_text(limit, usual)}{next(meant, '')}"
+
+
+def _text(value: float, usual: Usual) -> str:
+    return quantity(value, usual.unit, 6) if usual.unit else f"{value:g}"
+
+
+def _numbers(value: object, path: Path) -> Iterator[tuple[Path, float]]:
+    """Every number of a part of the scene, with its path."""
+    if isinstance(value, BaseModel):
+        for name in type(value).model_fields:
+            yield from _numbers(getattr(value, name), (*path, name))
+    elif isinstance(value, tuple):
+        for index, entry in enumerate(value):
+            yield from _numbers(entry, (*path, index))
+    elif isinstance(value, float):
+        yield path, value
+    elif isinstance(value, ArrayFile):
+        yield path, float(np.max(value.values))
+
+
+def _without_units(scene: Scene) -> bool:
+    """Whether its numbers are those of nothing that exists, in SI."""
+    known = list(_numbers(scene, ()))
+    moduli = [value for path, value in known if path[-1] == "young_modulus"]
+    radii = [value for path, value in known if {"radius", "radii"} & {*path}]
+    return max(moduli) < _SOFTEST and min(radii, default=1.0) >= _LARGEST
+
+
+def _steep(scene: Scene) -> Iterator[str]:
+    if isinstance(indenter := scene.indenter, HeightMap):
+        rows, (dx, dy) = indenter.heights, indenter.spacing
+        # Row by row, without a second array of that size.
+        along_x = max(float(np.max(np.abs(b - a))) for a, b in pairwise(rows)) / dx
+        along_y = max(float(np.max(np.abs(np.diff(row)))) for row in rows) / dy
+        if (steepest := max(along_x, along_y)) > _STEEP:
+            range_ = quantity(float(np.ptp(rows)), "m")
+            yield (
+                f"indenter.file: the heights differ by {range_} and neighbours by {steepest:.2g} "
+                "times their distance; indenter.height_unit names their unit, by default metres"
+            )
+
+
+def _measured(scene: Scene) -> Iterator[str]:
+    if not isinstance(indenter := scene.indenter, HeightMap):
+        return
+    if indenter.lowest_on_rim:
+        yield (
+            "indenter.file: the lowest point lies on the rim of the map, and the contact begins "
+            "there; heights count away from the body, with flip = true towards it: change "
+            "indenter.flip if the map is inverted"
+        )
+    if indenter.unmeasured:
+        yield (
+            f"indenter.file: {indenter.unmeasured:.2g} of the points were not measured; heights "
+            "there solve Laplace's equation between their neighbours"
+        )
+
+
+def _too_small(
+    scene: Scene, pressed: tuple[ExpectedContact, ...], fineness: Mapping[str, BaseModel]
+) -> Iterator[str]:
+    """On a window or a mesh that does not hold the expected contact."""
+    a = max((end.radius for end in pressed), default=scene.indenter.rim or 0.0)
+    window = getattr(fineness.get("semi_analytical"), "window", None)
+    radius = getattr(fineness.get("fem_reference"), "contact_radius", None)
+    for key, size, reach in (
+        ("semi_analytical.window", window and min(window), 2 * a),
+        ("fem_reference.contact_radius", radius, a),
+    ):
+        if size is not None and size < reach:
+            yield (
+                f"{key}: {quantity(size, 'm', 6)} is less than the "
+                f"{'diameter' if key.endswith('window') else 'radius'} of the contact of about "
+                f"{quantity(reach, 'm', 2)}; leave it out to have it chosen"
+            )
+
+
+def _of_no_effect(scene: Scene, pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
+    """On layers of which, or below which, the contact shows nothing."""
+    a = max((end.radius for end in pressed), default=0.0)
+    if not a:
+        return
+    for name, body in (("body", scene.body), ("indenter", scene.indenter)):
+        for number, layer in enumerate(body.layers, 1):
+            below = body.layers[number].material if number < len(body.layers) else body.material
+            softer = (
+                layer.material.young_modulus / below.young_modulus
+                if isinstance(below, IsotropicMaterial)
+                else 0.0
+            )
+            told = f"{name}.layers[{number}].thickness: {quantity(layer.thickness, 'm', 6)} is"
+            radii = layer.thickness / a
+            times = f"{radii:.2g} times the contact radius of about {quantity(a, 'm', 2)}"
+            if radii > _DEEP * max(1.0, softer):
+                yield f"{told} {times}: hardly anything shows of what lies below"
+                break
+            if softer and radii * max(softer, 1 / softer) < _THIN:
+                yield f"{told} {times}: hardly anything shows of it"
+
+
+def _far(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
+    """On a shift that moves the indenter out of the contact."""
+    for end in pressed:
+        if end.ramp.tangential.kind is ControlKind.DISPLACEMENT:
+            shift = math.hypot(*end.ramp.tangential.end)
+            if shift > end.radius:
+                yield (
+                    f"loading[{end.ramp.step}].tangential_shift: {quantity(shift, 'm')} is further "
+                    f"than the contact radius of about {quantity(end.radius, 'm', 2)}, where the "
+                    "theory of small displacements has ended"
+                )
+                return
+
+
+def _soft(scene: Scene, pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
+    """On springs of a rig through which a displacement is as good as a force."""
+    pairs = zip(SPRINGS, compliances(scene.rig), strict=True)
+    for end, ((key, name, force), compliance) in product(pressed, pairs):
+        control = end.ramp.normal if force == "normal_force" else end.ramp.tangential
+        if control.kind is ControlKind.DISPLACEMENT and compliance * end.stiffness > 1 / _SOFT:
+            yield (
+                f"rig.{key}: {quantity(1 / compliance, 'N/m')} is less than {_SOFT:g} of the "
+                f"stiffness of the contact of about {quantity(end.stiffness, 'N/m', 2)}: {name} "
+                f"prescribes nearly a force, at a higher cost and with more round-off; prescribe "
+                f"{force} instead"
+            )
+            return
+
+
+def _yielding(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
+    """On the first step whose pressure hardly anything so stiff bears."""
+    for end in pressed:
+        if end.modulus > _STIFF and _HARD < end.strain <= SMALL_STRAIN:
+            yield (
+                f"loading[{end.ramp.step}].{_led_by(end)} presses with about "
+                f"{quantity(end.strain * end.modulus, 'Pa', 2)} in the mean, {end.strain:.2g} of "
+                f"E* = {quantity(end.modulus, 'Pa')}: all but diamond and the hardest ceramics "
+                "yield before, and the theory knows no yield"
+            )
+            return
+
+
+def _led_by(end: ExpectedContact) -> str:
+    """The control that leads a step, and its end."""
+    by_force = end.ramp.normal.kind is ControlKind.FORCE
+    load = quantity(end.ramp.normal.end, "N" if by_force else "m")
+    return f"{'normal_force' if by_force else 'approach'}: {load}"
+
+
+def _strained(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
+    """On the first step that would press far beyond linear elasticity."""
+    for end in pressed:
+        if end.strain > SMALL_STRAIN:
+            yield (
+                f"loading[{end.ramp.step}].{_led_by(end)} on E* = {quantity(end.modulus, 'Pa')} "
+                f"makes strains of about {end.strain:.2g}, where the theory of small ones has ended"
+            )
+            return

@@ -1,0 +1,1 @@
+"""Quantities of a result: values with unit and meaning, residuals, errors, summary."""

@@ -1,0 +1,167 @@
+"""Separation of the bodies at the end of a load step: the empty contact, an exact state.
+
+Without a normal load there is no contact. Tractions, elastic energy, forces and moments vanish. A
+later contact starts from the virgin state. Only sums over the history and the position of the
+bodies continue (CONVENTIONS).
+"""
+
+from collections.abc import Mapping
+from dataclasses import fields, replace
+from typing import Any, TypeVar, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene.height_map import lowest_point
+from contact_scene.quantities.residuals import Residuals
+from contact_scene.quantities.summary import ContactStatus
+from contact_scene.rig import MOTIONS
+from contact_scene.stepping.load_path import (
+    Control,
+    ControlKind,
+    LoadRamp,
+)
+
+Field = NDArray[np.float64]
+Reported = TypeVar("Reported")
+
+# Places of an increment in space and in the history.
+_PLACES = frozenset({"radii", "angles", "step", "index", "increments_in_step", "path"})
+# Fields and scalars that separation does not change; all others vanish.
+_KEPT = _PLACES | frozenset(
+    {
+        "slip_distance",
+        *("slip", "slip_radial", "slip_circumferential", "slip_along_load", "dissipation"),
+        *("tangential_shift", "twist", "tilt", "dissipated_energy", "dissipation_uncertainty"),
+    }
+)
+# What goes on after a return to contact, by the value at separation that it goes on from.
+_CONTINUED = {
+    **{name: name for name in ("tangential_shift", "twist", "input_work", "unresolved_work")},
+    "actuator_shift": "actuator_shift",
+    **{name: name for name in ("dissipated_energy", "dissipation_uncertainty", "slip_distance")},
+    **{"dissipation": "dissipation", "dissipation_before": "dissipation"},
+}
+_CONJUGATE = {
+    **{"normal_force": "approach", "tangential_force": "tangential_shift"},
+    **{"torque": "twist", "moment": "tilt"},
+}
+
+
+def separated(
+    last: Reported,
+    ramp: LoadRamp,
+    fraction: float,
+    gap: Field,
+    place: Mapping[str, int],
+    approach: float | None = None,
+) -> Reported:
+    """Return the increment without contact that follows another one.
+
+    gap       of the undeformed surfaces at the approach 0 and the tilt of `position` [length]
+    place     step and increment
+    approach  prescribed; that of first touch if absent
+    """
+    before: Any = last
+    found = {f.name: _zero(getattr(before, f.name)) for f in fields(before) if f.init}
+    found = {name: value for name, value in found.items() if name not in _KEPT}
+    if before.in_stick is not None:  # a small contact may not have had its stick zone determined
+        found |= {name: 0.0 for name in ("stick_area", "stick_radius") if name in found}
+    found |= position(before, ramp, fraction)
+    lowest = approach or 0.0
+    if approach is None and found["tilt"] is not None and np.any(found["tilt"]):
+        # Beyond a rim the gap is infinite, and the first contact is on the rim.
+        smooth = bool(np.all(np.isfinite(gap)))
+        lowest = float(np.min(gap)) + (lowest_point(gap)[0] if smooth else 0.0)
+    dissipated = before.dissipated_energy or 0.0
+    found |= {"gap": gap - lowest, "approach": lowest, "status": ContactStatus.SEPARATED}
+    for name, (actuator, _) in MOTIONS.items():
+        if getattr(before, actuator) is not None:
+            found[actuator] = found[name]
+    found |= {"elastic_energy": 0.0, "input_work": None, "unresolved_work": None, **place}
+    for name, source in (("slip_before", "slip"), ("dissipation_before", "dissipation")):
+        if name in found:
+            found[name] = getattr(before, source)
+    worked = before.trapezoidal_work
+    if worked is not None:
+        worked += sum(
+            0.5 * float(np.dot(getattr(before, force), np.subtract(found[motion], start)))
+            for force, motion in _CONJUGATE.items()
+            if (start := getattr(before, motion)) is not None and getattr(before, force) is not None
+        )
+        found |= {"input_work": dissipated, "unresolved_work": worked - dissipated}
+    return cast(Reported, replace(before, **found))
+
+
+def virgin(increment: Reported) -> Reported:
+    """Return an increment of bodies that have never touched: zero but for its places."""
+    of: Any = increment
+    moved = {f.name: _zero(getattr(of, f.name)) for f in fields(of) if f.init}
+    zero = {name: value for name, value in moved.items() if name not in _PLACES}
+    return cast(Reported, replace(of, **zero))
+
+
+def position(last: Any, ramp: LoadRamp, fraction: float) -> dict[str, Any]:
+    """Shift, twist and tilt of separated bodies: the prescribed ones, else those of the last
+    contact; None where they are not reported."""
+    controls: tuple[Any, ...] = (ramp.tangential, ramp.twisting, ramp.tilting)
+    motions = {}
+    for name, control in zip(("tangential_shift", "twist", "tilt"), controls, strict=True):
+        kept = getattr(last, name)
+        if kept is not None and control.kind is ControlKind.DISPLACEMENT:
+            moved = control.led(fraction, (kept, kept))[1]
+            kept = np.array(moved) if isinstance(kept, np.ndarray) else moved
+        motions[name] = kept
+    return motions
+
+
+def since_touch(ramp: LoadRamp, apart: Any) -> LoadRamp:
+    """Return a load step with shift and twist counted from separated bodies that return to
+    contact."""
+    return replace(
+        ramp,
+        tangential=_counted(ramp.tangential, apart.tangential_shift, from_zero=True),
+        twisting=_counted(ramp.twisting, apart.twist, from_zero=True),
+        tilting=_counted(ramp.tilting, apart.tilt, from_zero=False),
+    )
+
+
+def _counted(control: Any, motion: Any, *, from_zero: bool) -> Any:
+    if control.kind is ControlKind.FORCE or motion is None:
+        return control
+    ends = motion if control.start is None else control.start, control.end
+    origin = motion if from_zero else np.zeros_like(motion)
+    return Control(control.kind, *(_plain(np.subtract(end, origin)) for end in ends))
+
+
+def continued(apart: Any, increment: Reported) -> Reported:
+    """Return an increment of a later contact with the sums and the position at separation."""
+    values = {
+        name: _added(getattr(apart, source), getattr(increment, name))
+        for name, source in _CONTINUED.items()
+        if hasattr(increment, name)
+    }
+    return cast(Reported, replace(cast(Any, increment), **values))
+
+
+def _added(first: Any, second: Any) -> Any:
+    if first is None or second is None:
+        return None
+    total = np.add(first, second)
+    return total if isinstance(second, np.ndarray) else _plain(total)
+
+
+def _plain(value: Any) -> Any:
+    """Numbers of Python: a float, or a tuple of two."""
+    return tuple(map(float, value)) if np.ndim(value) else float(value)
+
+
+def _zero(value: Any) -> Any:
+    """Zero of the same kind; None for what has none."""
+    if isinstance(value, Residuals):
+        return Residuals(**{name: _zero(size) for name, size in vars(value).items()})
+    if isinstance(value, np.ndarray):
+        return np.zeros_like(value)
+    if isinstance(value, tuple):
+        return 0.0, 0.0
+    return type(value)(0) if isinstance(value, int | float) else None

@@ -1,0 +1,204 @@
+"""The summary of a run, `summary.json`: what both solvers report, by the same names."""
+
+import json
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Annotated, Any, TypeAlias
+
+from pydantic import ConfigDict, Field, ValidationError, field_validator
+from pydantic.dataclasses import dataclass as pydantic_dataclass
+
+from contact_scene.quantities import residuals
+from contact_scene.quantities.accuracy_reached import AccuracyReached
+from contact_scene.quantities.convention import CONVENTION
+from contact_scene.quantities.field_metadata import Reported
+from contact_scene.quantities.increment import (
+    Quality,
+    State,
+)
+from contact_scene.quantities.stated_error import (
+    Companion,
+    StatedError,
+)
+from contact_scene.reading.description import (
+    MAX_TITLE,
+    DescribedSchema,
+    Description,
+)
+
+SUMMARY_VERSION = 3  # 2 had counters of the solver and no digest, 1 no convention
+
+Ratio: TypeAlias = Annotated[float, Field(json_schema_extra={"unit": "1"})]
+Metre: TypeAlias = Annotated[float, Field(json_schema_extra={"unit": "m"})]
+
+
+class ContactStatus(StrEnum):
+    """How the contact carries its tangential load at the end of a step."""
+
+    FRICTIONLESS = "frictionless"
+    FULL_STICK = "full stick"
+    PARTIAL_SLIP = "partial slip"
+    NO_STICK_AREA_LEFT = "no stick area left"
+    GROSS_SLIDING = "gross sliding"
+    SEPARATED = "separated"
+
+
+STRICT = ConfigDict(
+    extra="forbid",
+    allow_inf_nan=False,
+    json_schema_serialization_defaults_required=True,
+)
+
+
+@pydantic_dataclass(frozen=True, config=STRICT)
+class Residuals(residuals.Residuals):
+    """Dimensionless convergence measures, evaluated from the final fields; null where unused."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Closed:
+    """What the end of a step closes, and how well the state there fulfils its equations."""
+
+    cycle_start: Annotated[
+        int | None,
+        Field(ge=1),
+        Reported(
+            "",
+            "The earlier step, from 1, that ended with the same loads: from its end to the end of "
+            "this one is a cycle. Null, with the four that follow, where no cycle closes or "
+            "nothing is sheared.",
+        ),
+    ] = None
+    energy_per_cycle: Annotated[
+        float | None, Reported("J", "Energy dissipated by slip in the cycle.")
+    ] = None
+    slip_amplitude: Annotated[
+        float | None,
+        Reported("m", "Half the range of slip in the cycle, at the place where it is largest."),
+    ] = None
+    ruiz_f1: Annotated[
+        float | None,
+        Reported(
+            "Pa m",
+            "Ruiz's first parameter: largest shear times slip amplitude, at the place where that "
+            "product is largest (Ruiz, Boddington and Chen 1984).",
+        ),
+    ] = None
+    ruiz_f2: Annotated[
+        float | None,
+        Reported(
+            "Pa^2 m",
+            "Ruiz's second parameter: largest shear times slip amplitude times the largest tension "
+            "along the surface in the direction of the tangential force, at the place where that "
+            "product is largest; null for solvers that do not compute the stress at the surface.",
+        ),
+    ] = None
+    residuals: Residuals
+
+
+@pydantic_dataclass(frozen=True, kw_only=True, config=STRICT)
+class StepSummary(Quality, Closed, State):
+    """State at the end of one `[[loading]]` table.
+
+    Vectors are (x, y), of the indenter relative to the body: positive force gives positive shift.
+    """
+
+    status: ContactStatus
+    """How the contact carries its tangential load."""
+
+    errors: dict[str, StatedError] | None = None
+    """How far each scalar may be from the exact answer, by its name; null where errors were left
+    out. Numbers that describe the numerics have none."""
+
+
+class EffectSummary(Description):
+    """One effect that a solver takes into account or not."""
+
+    name: str
+    """Name of the effect."""
+
+    on: bool
+    """Whether it acts in this scene."""
+
+    why: str
+    """Reason in one sentence."""
+
+
+class RunSummary(Description):
+    """Results of one run, in SI. The same input gives the same summary, byte for byte."""
+
+    schema_version: Annotated[int, Field(ge=1)] = SUMMARY_VERSION
+    """Version of this record; it grows when a key is new or changes its name or meaning."""
+
+    convention: str = CONVENTION
+    """Units, axes and signs."""
+
+    title: str = Field(max_length=MAX_TITLE)
+    """Title of the scene."""
+
+    solver: str
+    """Name of the solver."""
+
+    tolerance: Ratio
+    """Bound of every residual at the end of every increment."""
+
+    cells: tuple[int, int] | None = None
+    """Number of cells along x and y; null for a solver without a surface grid."""
+
+    window: tuple[Metre, Metre] | None = None
+    """Lengths of the surface grid along x and y; null for a solver without one."""
+
+    effects: tuple[EffectSummary, ...]
+    """The solver's plan: which effects act, and why."""
+
+    steps: tuple[StepSummary, ...]
+    """One entry for every `[[loading]]` table, in order."""
+
+    remarks: tuple[str, ...] = ()
+    """What to bear in mind of these results: a theory that has come to its end."""
+
+    companions: tuple[Companion, ...] | None = None
+    """The coarser solves that the errors come from; null where errors were left out."""
+
+    accuracy: AccuracyReached | None = None
+    """What accuracy was asked for and reached; null where none was asked for."""
+
+    fields_digest: str | None = None
+    """SHA-256 of the file of fields, `result.h5`."""
+
+    @field_validator("schema_version")
+    @classmethod
+    def _refuse_other_versions(cls, version: int) -> int:
+        if version > SUMMARY_VERSION:
+            raise ValueError(
+                f"version {version} is of a newer slipstick; this one reads up to {SUMMARY_VERSION}"
+            )
+        if version < SUMMARY_VERSION:
+            raise ValueError(
+                f"version {version} is of an earlier slipstick, this one reads {SUMMARY_VERSION}; "
+                "run the scene again"
+            )
+        return version
+
+
+def dump_summary(summary: RunSummary) -> str:
+    """The summary as JSON text; every key is there, null where it does not apply."""
+    record = summary.model_dump(mode="json")
+    return json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def load_summary(text: str) -> RunSummary:
+    """The summary back from its JSON text; ValueError for anything else, with the first mistake."""
+    try:
+        return RunSummary.model_validate_json(text)
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        key = ".".join(map(str, first["loc"]))
+        told = key, first["msg"].removeprefix("Value error, ")
+        raise ValueError(": ".join(filter(None, told))) from None
+
+
+def summary_schema() -> dict[str, Any]:
+    """JSON Schema of `summary.json`, with meaning and unit of every key."""
+    schema = RunSummary.model_json_schema(mode="serialization", schema_generator=DescribedSchema)
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}

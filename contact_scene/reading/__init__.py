@@ -1,0 +1,1 @@
+"""Reading and writing of scene files: TOML, units, overrides and messages."""

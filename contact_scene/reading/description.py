@@ -1,0 +1,84 @@
+"""The base of every part of a scene: a frozen value that admits no unknown key."""
+
+import ast
+import inspect
+from functools import cache
+from textwrap import dedent
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, model_validator
+from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue
+
+from contact_scene.reading.validator_error import refusal
+
+MAX_TITLE = 500  # characters
+
+
+class Description(BaseModel):
+    """A frozen, hashable value; unknown keys and non-finite numbers are refused."""
+
+    model_config = ConfigDict(
+        frozen=True,
+        extra="forbid",
+        allow_inf_nan=False,
+        json_schema_serialization_defaults_required=True,
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _keeps_the_order(cls, given: Any) -> Any:
+        """Steps, layers and components in a set come in any order."""
+        for name, value in given.items() if isinstance(given, dict) else ():
+            if isinstance(value, set | frozenset):
+                raise refusal(f"got a set for {name}", "a tuple or list, which has an order")
+        return given
+
+
+@cache
+def field_descriptions(model: type) -> dict[str, str]:
+    """Return the description of each field of a model: given to `Field`, or its docstring.
+
+    Reading docstrings from the source takes longer than a small contact. They are therefore read
+    for a schema, a message or a page that shows them, not when the class is defined.
+    """
+    found: dict[str, str] = {}
+    for base in reversed(model.__mro__[:-1]):
+        if not base.__module__.startswith("pydantic"):
+            found |= _docstrings(base)
+    fields = getattr(model, "__pydantic_fields__", {})
+    given = {name: field.description for name, field in fields.items() if field.description}
+    return {name: text for name, text in (found | given).items() if name in fields}
+
+
+def _docstrings(model: type) -> dict[str, str]:
+    try:
+        (definition,) = ast.parse(dedent(inspect.getsource(model))).body
+    except OSError:  # made by a function, without a class statement
+        return {}
+    assert isinstance(definition, ast.ClassDef)
+    return {
+        attribute.target.id: inspect.cleandoc(text.value.value)
+        for attribute, text in zip(definition.body, definition.body[1:], strict=False)
+        if isinstance(attribute, ast.AnnAssign)
+        and isinstance(attribute.target, ast.Name)
+        and isinstance(text, ast.Expr)
+        and isinstance(text.value, ast.Constant)
+        and isinstance(text.value.value, str)
+    }
+
+
+class DescribedSchema(GenerateJsonSchema):
+    """JSON Schema that describes each property by `field_descriptions`."""
+
+    def model_schema(self, schema: Any) -> JsonSchemaValue:
+        return _described(super().model_schema(schema), schema["cls"])
+
+    def dataclass_schema(self, schema: Any) -> JsonSchemaValue:
+        return _described(super().dataclass_schema(schema), schema["cls"])
+
+
+def _described(made: JsonSchemaValue, model: type) -> JsonSchemaValue:
+    for name, text in field_descriptions(model).items():
+        if name in made.get("properties", {}):
+            made["properties"][name]["description"] = text
+    return made

@@ -1,0 +1,246 @@
+"""Physical quantities as they are written in a scene: a number in SI or a string with a unit; and
+whole numbers within bounds."""
+
+import math
+import re
+from dataclasses import dataclass, field
+from decimal import Context, Decimal
+from difflib import get_close_matches
+from numbers import Real
+from operator import index
+from typing import Annotated, Any
+
+import numpy as np
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic_core import CoreSchema, core_schema
+
+from contact_scene.reading.units import (
+    ANGLE,
+    FORCE,
+    LENGTH,
+    MOMENT,
+    PRESSURE,
+    PURE_NUMBER,
+    ROTATION,
+    SHARE,
+    STIFFNESS,
+    Kind,
+    UnknownUnit,
+)
+from contact_scene.reading.validator_error import (
+    refusal,
+    shown,
+)
+
+# Nothing but "number unit" passes; the unit is a product of at most five simple factors.
+_NUMBER = r"[+-]?(?:[0-9]{1,40}(?:\.[0-9]{0,40})?|\.[0-9]{1,40})(?:[eE][+-]?[0-9]{1,4})?"
+_FACTOR = r"[A-Za-zµμ°%]{1,20}(?:(?:\^|\*\*)-?[1-9])?"
+QUANTITY_PATTERN = rf"^({_NUMBER}) ?({_FACTOR}(?:(?: ?[*/·] ?| ){_FACTOR}){{0,4}})$"
+_QUANTITY = re.compile(QUANTITY_PATTERN)
+_NUMBER_ALONE = re.compile(_NUMBER)
+
+# More digits than the pattern admits, so that no product with a unit's factor is rounded twice.
+_EXACT = Context(prec=200)
+
+# Far beyond any contact, near enough to one that no product of a few quantities overflows, or
+# vanishes; a ratio may be as small as it likes.
+_PLAUSIBLE = 1e-30, 1e30
+
+
+class WithUnit(float):
+    """A number in SI that was written with its unit."""
+
+    def __reduce__(self) -> tuple[type[float], tuple[float]]:
+        return float, (float(self),)
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """Validator of one kind of quantity within bounds, for use in `Annotated[float, ...]`.
+
+    kind               what is measured, with its units
+    above, at_least    lower bound, excluded or included [SI unit of the kind]
+    below, at_most     upper bound, excluded or included [SI unit of the kind]
+    wanted             the expectation in words, as in "a positive length"
+    """
+
+    kind: Kind = field(repr=False)  # its table is long, and `wanted` names it
+    wanted: str
+    above: float | None = None
+    at_least: float | None = None
+    below: float | None = None
+    at_most: float | None = None
+
+    @property
+    def expected(self) -> str:
+        """What a writer should have written, with an example."""
+        return f"{self.wanted} such as {self.kind.example}" if self.kind.units else self.wanted
+
+    def __call__(self, value: Any) -> float:
+        """The value in SI; raises a refusal that names what came and what is expected."""
+        number = self._in_si(value)
+        if not math.isfinite(number):
+            raise refusal(f"got {shown(value)}, which is not finite", self.expected)
+        if not self._is_within(number):
+            raise refusal(f"got {shown(value)}", self.expected)
+        smallest, largest = (_PLAUSIBLE[0] if self.kind.units else 0.0), _PLAUSIBLE[1]
+        if number != 0.0 and not smallest <= abs(number) <= largest:
+            bounds = f"a magnitude between {smallest} and {largest} {self.kind.si}"
+            raise refusal(f"got {shown(value)}", bounds.rstrip())
+        # -0.0 and 0.0 are the same quantity and shall give the same bits
+        return type(number)(number + 0.0)
+
+    def _in_si(self, value: Any) -> float:
+        if isinstance(value, str):
+            return self._from_text(value)
+        if not is_plain(value):
+            raise refusal(f"got {shown(value)}", self.expected, self._instead_of(value))
+        try:
+            return float(value)
+        except (TypeError, ValueError, OverflowError):
+            raise refusal(f"got {shown(value)}", self.expected) from None
+
+    def _instead_of(self, value: Any) -> str:
+        """What a script should hand over."""
+        if has_unit(value):
+            text = f"write a text such as {self.kind.example}, or " if self.kind.units else ""
+            return f"{text}hand over its number{f' in {self.kind.si}' if self.kind.si else ''}"
+        is_of_a_library = hasattr(value, "__float__") and not isinstance(value, bool)
+        return "hand over one plain float" if is_of_a_library else ""
+
+    def _from_text(self, text: str) -> float:
+        match = _QUANTITY.match(text.strip())
+        if not self.kind.units:
+            raise refusal(f"got the text {shown(text)}", self.expected, "write it without quotes")
+        if match is None:
+            lone = _NUMBER_ALONE.fullmatch(text.strip())
+            hint = f"write {text.strip()} without quotes, or add a unit" if lone else ""
+            raise refusal(f"got {shown(text)}", self.expected, hint)
+        number, unit = match.groups()
+        try:
+            return WithUnit(self.kind.to_si(Decimal(number), unit, _EXACT))
+        except UnknownUnit:
+            near = get_close_matches(unit, self.kind.units, n=1, cutoff=0.5)
+            folded = [known for known in self.kind.units if known.lower() == unit.lower()]
+            hint = f'did you mean "{number} {(folded or near)[0]}"?' if folded or near else ""
+            raise refusal(f"got {shown(text)}", self.expected, hint) from None
+
+    def _is_within(self, number: float) -> bool:
+        return not (
+            (self.above is not None and number <= self.above)
+            or (self.at_least is not None and number < self.at_least)
+            or (self.below is not None and number >= self.below)
+            or (self.at_most is not None and number > self.at_most)
+        )
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(self)
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        bounds = {
+            "exclusiveMinimum": self.above,
+            "minimum": self.at_least,
+            "exclusiveMaximum": self.below,
+            "maximum": self.at_most,
+        }
+        number = {"type": "number", **{k: v for k, v in bounds.items() if v is not None}}
+        if not self.kind.units:
+            return number
+        number["description"] = f"in {self.kind.si}"
+        written = {
+            "type": "string",
+            "pattern": QUANTITY_PATTERN,
+            "description": f"number and unit, such as {self.kind.example}",
+            "examples": [f"1 {unit}" for unit in self.kind.units if unit.isascii()],
+        }
+        return {"anyOf": [number, written]}
+
+
+@dataclass(frozen=True)
+class WholeNumber:
+    """Validator of a whole number, bounds included, for use in `Annotated[int, ...]`."""
+
+    at_least: int
+    at_most: int
+
+    def __call__(self, value: Any) -> int:
+        """The number; raises a refusal for anything else, 5.0 and true included."""
+        try:
+            number = index(value) if is_plain(value) else None
+        except TypeError:
+            number = None
+        if number is None or not self.at_least <= number <= self.at_most:
+            raise refusal(
+                f"got {shown(value)}", f"a whole number from {self.at_least} to {self.at_most}"
+            )
+        return number
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(self)
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        return {"type": "integer", "minimum": self.at_least, "maximum": self.at_most}
+
+
+def is_plain(value: Any) -> bool:
+    """Whether nothing is lost when a value is taken for a number: it has no unit, mask, imaginary
+    part or second entry, and is neither a truth value nor a time."""
+    if type(value) in (float, int):
+        return True
+    if type(value) is np.ndarray:
+        return value.shape == () and value.dtype.kind in "fiu"
+    if isinstance(value, bool | np.timedelta64) or not isinstance(value, Real | Decimal):
+        return False
+    return not has_unit(value)
+
+
+def has_unit(value: Any) -> bool:
+    """Whether a value is one of a library of units, as of pint, astropy or unyt."""
+    return hasattr(value, "units") or hasattr(value, "unit")
+
+
+Length = Annotated[float, Quantity(LENGTH, "a length")]
+PositiveLength = Annotated[float, Quantity(LENGTH, "a positive length", above=0.0)]
+PressingLength = Annotated[float, Quantity(LENGTH, "a length not below 0", at_least=0.0)]
+Force = Annotated[float, Quantity(FORCE, "a force")]
+PressingForce = Annotated[float, Quantity(FORCE, "a force not below 0", at_least=0.0)]
+Moment = Annotated[float, Quantity(MOMENT, "a moment")]
+# "60 deg" rounds up.
+_MOST_ROTATION = math.nextafter(math.pi / 3, math.inf)
+Rotation = Annotated[
+    float,
+    Quantity(
+        ROTATION,
+        "an angle from -60 to 60 deg",
+        at_least=-_MOST_ROTATION,
+        at_most=_MOST_ROTATION,
+    ),
+]
+PositiveStiffness = Annotated[float, Quantity(STIFFNESS, "a positive stiffness", above=0.0)]
+PositivePressure = Annotated[float, Quantity(PRESSURE, "a positive pressure", above=0.0)]
+SlopeAngle = Annotated[
+    float,
+    Quantity(
+        ANGLE, "an angle of the surface above 0 and below 60 deg", above=0.0, below=math.pi / 3
+    ),
+]
+PoissonRatio = Annotated[
+    float,
+    Quantity(PURE_NUMBER, "a number above -1 and at most 0.5", above=-1.0, at_most=0.5),
+]
+FrictionCoefficient = Annotated[float, Quantity(PURE_NUMBER, "a number not below 0", at_least=0.0)]
+Tolerance = Annotated[
+    float, Quantity(PURE_NUMBER, "a number from 1e-12 to 0.1", at_least=1e-12, at_most=0.1)
+]
+Share = Annotated[
+    float,
+    Quantity(SHARE, "a share above 0 and at most 50 %", above=0.0, at_most=0.5),
+]

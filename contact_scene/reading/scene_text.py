@@ -1,0 +1,95 @@
+"""A scene as texts: every key with its value in a readable unit."""
+
+from collections.abc import Container, Iterable, Iterator
+from typing import get_args
+
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+
+from contact_scene.body import Body
+from contact_scene.discretisation import FiniteElementDiscretisation, SurfaceDiscretisation
+from contact_scene.material import Rigid
+from contact_scene.reading.array_file import ArrayFile
+from contact_scene.reading.engineering_units import quantity
+from contact_scene.reading.quantity import Quantity
+from contact_scene.scene import Scene
+
+MAX_STEPS_SHOWN = 12
+
+Line = tuple[str, str]
+
+
+def describe(
+    scene: Scene,
+    discretisation: SurfaceDiscretisation,
+    elements: FiniteElementDiscretisation | None = None,
+) -> Iterator[Line]:
+    """Names and texts of the parts of a scene, of its load steps and of its discretisation.
+
+    elements  shown where they differ from the default
+    """
+    if scene.title:
+        yield "title", scene.title
+    yield "indenter", _joined(scene.indenter)
+    yield "body", _joined(scene.body)
+    yield "friction", "none" if scene.friction is None else _joined(scene.friction)
+    if scene.rig is not None:
+        yield "rig", _joined(scene.rig)
+    for number, step in enumerate(scene.loading[:MAX_STEPS_SHOWN], 1):
+        yield f"step {number}", _joined(step)
+    if len(scene.loading) > MAX_STEPS_SHOWN:
+        yield "…", f"{len(scene.loading) - MAX_STEPS_SHOWN} more steps"
+    for name, text in _texts(discretisation):
+        yield name.replace("_", " "), text or "chosen"
+    for name, field in FiniteElementDiscretisation.model_fields.items():
+        if elements is not None and (value := getattr(elements, name)) != field.default:
+            yield f"elements: {name}".replace("_", " "), _text(value, _unit(field))
+
+
+def shape_text(indenter: Body) -> str:
+    """Return the shape of an indenter and its parameters."""
+    return _joined(indenter, Body.model_fields)
+
+
+def _texts(model: BaseModel) -> Iterator[Line]:
+    """Names and texts of all keys; the text is empty where there is no value."""
+    for name, field in type(model).model_fields.items():
+        yield name, _text(getattr(model, name), _unit(field))
+
+
+def _joined(model: BaseModel, left_out: Container[str] = ()) -> str:
+    """Names and texts of the keys that have values, the shape first, without its name."""
+    texts = {name: text for name, text in _texts(model) if text and name not in left_out}
+    shape = [texts.pop("shape").replace("_", " ")] if "shape" in texts else []
+    own = sorted(texts, key=lambda name: name in Body.model_fields)
+    return ", ".join([*shape, *(f"{name.replace('_', ' ')} {texts[name]}" for name in own)])
+
+
+def _text(value: object, unit: str = "") -> str:
+    if value is None or value == ():
+        return ""
+    if isinstance(value, ArrayFile):
+        low, high = value.values.min(), value.values.max()
+        points = " x ".join(map(str, value.shape))
+        return f"{value} ({low:.4g} to {high:.4g} in SI units, {points} values)"
+    if isinstance(value, BaseModel):
+        return f"({_joined(value)})"
+    if isinstance(value, tuple):
+        texts = [_text(part, unit) for part in value]
+        return "".join(texts) if texts[0].startswith("(") else f"({', '.join(texts)})"
+    if not isinstance(value, float):
+        return str(value.value if isinstance(value, Rigid) else value)
+    return quantity(value, unit, 6) if unit else f"{value:.6g}"
+
+
+def _unit(field: FieldInfo) -> str:
+    """SI unit of a quantity, or of each of a pair; empty for a pure number and others."""
+    unit = next(_units((*field.metadata, field.annotation)), "")
+    return unit if unit != "1" else ""
+
+
+def _units(parts: Iterable[object]) -> Iterator[str]:
+    for part in parts:
+        if isinstance(part, Quantity):
+            yield part.kind.si
+        yield from _units(get_args(part))

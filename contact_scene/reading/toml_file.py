@@ -1,0 +1,78 @@
+"""A TOML file, read within bounds, and the lines of its keys."""
+
+import re
+import sys
+import tomllib
+from pathlib import Path as FilePath
+from typing import Any
+
+from contact_scene.loading import MAX_STEPS
+from contact_scene.reading.key_lines import (
+    DEEPEST,
+    NestedTooDeep,
+    locate,
+)
+from contact_scene.reading.scene_error import (
+    Path,
+    Problem,
+    SceneError,
+)
+
+_LARGEST_FILE = 10_000_000
+# Every key, entry, table and escape costs one of these signs, and seven write the longest step:
+# counting them refuses, at once, what would take long and much memory to read.
+_MOST_SIGNS = 7 * MAX_STEPS
+_MOST_DIGITS = sys.int_info.default_max_str_digits
+_TOO_LONG = re.compile(rf"[0-9](?:_?[0-9]){{{_MOST_DIGITS},}}+")
+
+
+def read_toml(file: FilePath) -> tuple[dict[str, Any], dict[Path, int]]:
+    """The contents of a TOML file, and the line of every key; raises `SceneError`."""
+    text = _text(file)
+    try:
+        lines = locate(text)  # first: what it lets pass, tomllib reads in linear time
+        return tomllib.loads(text), lines
+    except NestedTooDeep as error:
+        raise _refused(file, "nested too deep", f"at most {DEEPEST} levels", error.line) from None
+    except (ValueError, RecursionError) as error:
+        place = re.search(r" \(at line (\d+), column (\d+)\)", str(error))
+        line = int(place[1]) if place else text.count("\n") + 1
+        column = f" (column {place[2]})" if place else ""
+        reason = str(error).partition(" (at ")[0]
+        if (long := _TOO_LONG.search(text)) and "int_max_str_digits" in reason:
+            line = text.count("\n", 0, long.start()) + 1
+            reason = f"a whole number of more than {_MOST_DIGITS} digits"
+        raise _refused(file, f"not valid TOML: {reason}{column}", line=line) from None
+
+
+def _text(file: FilePath) -> str:
+    try:
+        if file.is_dir():
+            raise _refused(file, "is a folder", "a scene file (TOML)")
+        if not file.exists():
+            raise _refused(file, "there is no such file", "a scene file (TOML)")
+        if not file.is_file():
+            raise _refused(file, "is not a regular file", "a scene file (TOML)")
+        with file.open("rb") as stream:
+            contents = stream.read(_LARGEST_FILE + 1)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or "not a file name"
+        raise _refused(file, f"cannot be read: {reason}") from None
+    if len(contents) > _LARGEST_FILE:
+        raise _refused(file, "is too large", f"at most {_LARGEST_FILE // 10**6} MB")
+    try:
+        text = contents.removeprefix(b"\xef\xbb\xbf").decode("utf-8")
+    except UnicodeDecodeError as error:
+        line = contents.count(b"\n", 0, error.start) + 1
+        raise _refused(file, "is not text in UTF-8", line=line) from None
+    if not text.strip():
+        raise _refused(file, "is empty", "a scene (TOML)")
+    if sum(map(text.count, "=,[\\")) > _MOST_SIGNS:
+        raise _refused(file, "holds too many keys or escapes", f"at most {MAX_STEPS} loading steps")
+    return text
+
+
+def _refused(
+    file: FilePath, message: str, expected: str = "", line: int | None = None
+) -> SceneError:
+    return SceneError([Problem((), message, expected, file=str(file), line=line)])

@@ -1,0 +1,235 @@
+"""What pydantic finds wrong, told in the words and keys of the scene file."""
+
+from collections.abc import Iterable, Mapping
+from difflib import get_close_matches
+from typing import Any, get_args
+
+from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
+
+from contact_scene.body import Body
+from contact_scene.friction import FrictionMap
+from contact_scene.geometry import SHAPES
+from contact_scene.material import IsotropicMaterial
+from contact_scene.reading.description import field_descriptions
+from contact_scene.reading.document import SceneFile
+from contact_scene.reading.quantity import Quantity
+from contact_scene.reading.scene_error import (
+    Path,
+    Problem,
+)
+from contact_scene.reading.validator_error import shown
+
+_MISSING = "the key is missing"
+_NO_TABLE = ("model_type", "model_attributes_type", "dict_type", "dict_attributes_type", "enum")
+_NO_ARRAY = ("tuple_type", "list_type")
+
+
+def mistakes(
+    document: Mapping[str, Any], error: ValidationError, context: Mapping[str, Any]
+) -> list[Problem]:
+    """Every mistake that pydantic found in the document, each told once.
+
+    context  the validation context that the document was checked with
+    """
+    problems: list[Problem] = []
+    for detail in _details(error):
+        problems.append(_problem(document, detail))
+        if detail["type"].startswith("union_tag") and isinstance(detail["input"], dict):
+            problems += _mistakes_beside_the_shape(document, detail["input"], context)
+    return _without_echoes(problems)
+
+
+def _details(error: ValidationError) -> list[ErrorDetails]:
+    """pydantic's findings, without the shortness of a list whose entries are all invalid."""
+    found = error.errors(include_url=False)
+    return [d for d in found if not (d["type"] == "too_short" and d["input"])]
+
+
+def _problem(document: Mapping[str, Any], detail: ErrorDetails) -> Problem:
+    kind, location, got = detail["type"], detail["loc"], f"got {shown(detail['input'])}"
+    path = _as_written(document, detail)
+    context: dict[str, Any] = detail.get("ctx", {})
+    if kind == "refused":
+        return Problem(path, context["message"], context["expected"], context["hint"])
+    if kind == "missing" and isinstance(location[-1], str):
+        return Problem(path, _MISSING, _expected_value(location))
+    if kind == "missing":
+        return Problem(path[:-1], got, "an array of 2, for x and y")
+    if kind == "extra_forbidden":
+        return _unknown_key(path, _known_keys(location[:-1]))
+    if kind.startswith("union_tag"):
+        return _unknown_shape(path, detail["input"])
+    if kind in _NO_TABLE:
+        return Problem(path, got, _expected_table(location), _brackets(path, detail["input"]))
+    if kind in _NO_ARRAY:
+        return Problem(path, got, "an array", _brackets(path, detail["input"]))
+    if kind in ("too_short", "too_long"):
+        number = context["actual_length"]
+        got = f"got {number or 'no'} {'entry' if number == 1 else 'entries'}"
+        least, most = context.get("min_length"), context.get("max_length")
+        return Problem(path, got, f"at most {most}" if least is None else f"at least {least}")
+    if kind in ("string_type", "string_too_long"):
+        return Problem(path, got, "a text of at most 500 characters")
+    if kind == "literal_error":
+        return Problem(path, got, context["expected"].replace("'", '"'))
+    return Problem(path, f"{got}: {detail['msg']}")
+
+
+def _as_written(document: Mapping[str, Any], detail: ErrorDetails) -> Path:
+    """The error's location as a path in the document: no branches, no deeper than it goes."""
+    path: list[str | int] = []
+    value: Any = document
+    unknown = detail["loc"][-1:] if detail["type"] == "extra_forbidden" else ()
+    for part in detail["loc"][: len(detail["loc"]) - len(unknown)]:
+        if _is_branch(part):
+            continue
+        if not isinstance(value, dict if isinstance(part, str) else list):
+            break
+        path.append(part)
+        value = _entry(value, part)
+    return (*path, *unknown)
+
+
+def _entry(holder: Any, part: Any) -> Any:
+    """The entry of a table or array, None where it is missing."""
+    if isinstance(holder, list):
+        return holder[part] if part < len(holder) else None
+    return holder.get(part)
+
+
+def _unknown_key(path: Path, known: list[str]) -> Problem:
+    near = get_close_matches(str(path[-1])[:100].lower(), known, n=1, cutoff=0.65)
+    hint = _did_you_mean(near[0]) if near else f"the keys here are {', '.join(known)}"
+    return Problem(path, "unknown key", hint=hint)
+
+
+def _did_you_mean(key: str) -> str:
+    return f"did you mean {key}?"
+
+
+def _unknown_shape(path: Path, given: Any) -> Problem:
+    expected = "one of " + ", ".join(f'"{shape}"' for shape in SHAPES)
+    if not isinstance(given, dict):
+        return Problem(
+            path, f"got {shown(given)}", "a table with shape and material", _brackets(path, given)
+        )
+    if "shape" not in given:
+        return Problem((*path, "shape"), _MISSING, expected)
+    near = _nearest_shape(given)
+    hint = f'did you mean "{near}"?' if near else ""
+    return Problem((*path, "shape"), f"got {shown(given['shape'])}", expected, hint)
+
+
+def _nearest_shape(given: Mapping[str, Any]) -> str | None:
+    written = given.get("shape")
+    if not isinstance(written, str):
+        return None
+    written = written[:100].lower().replace(" ", "_").replace("-", "_")
+    return next(iter(get_close_matches(written, SHAPES, n=1)), None)
+
+
+def _mistakes_beside_the_shape(
+    document: Mapping[str, Any], given: Mapping[str, Any], context: Mapping[str, Any]
+) -> list[Problem]:
+    """What else is wrong with an indenter of unknown shape.
+
+    Checked as the shape that was probably meant; failing that, by the keys that all shapes have.
+    """
+    near = _nearest_shape(given)
+    model: type[Body] = SHAPES[near] if near else Body
+    branch = f"<{near or next(iter(SHAPES))}>"
+    keys = {k: v for k, v in given.items() if k != "shape" and (near or k in Body.model_fields)}
+    try:
+        model.model_validate(keys, context=dict(context))
+    except ValidationError as error:
+        found = _details(error)
+        for detail in found:
+            detail["loc"] = ("indenter", branch, *detail["loc"])
+        return [_problem(document, detail) for detail in found]
+    return []
+
+
+def _brackets(path: Path, given: Any) -> str:
+    """What to write where single and double brackets were confused."""
+    if path[-1:] != ("layers",) and len(path) != 1:
+        return ""
+    header = ".".join(str(part) for part in path if isinstance(part, str))
+    if isinstance(given, dict):
+        return f"write [[{header}]], with double brackets"
+    return f"write [{header}], with single brackets" if isinstance(given, list) else ""
+
+
+def _without_echoes(problems: list[Problem]) -> list[Problem]:
+    """Each problem once; and a misspelt key, which makes the right one missing, once as well."""
+    meant = {(problem.path[:-1], problem.hint) for problem in problems}
+    return [
+        problem
+        for problem in dict.fromkeys(problems)
+        if problem.message != _MISSING
+        or (problem.path[:-1], _did_you_mean(str(problem.path[-1]))) not in meant
+    ]
+
+
+# Where pydantic goes through a union, its locations name the branch in angle brackets.
+Location = tuple[str | int, ...]
+
+_MATERIAL = '{ young_modulus = "210 GPa", poisson_ratio = 0.3 } or "rigid"'
+_IN_BRANCH = {"<elastic>": _MATERIAL, "<rigid>": _MATERIAL}
+_MODEL_IN_BRANCH: dict[str, type[BaseModel]] = {
+    "<elastic>": IsotropicMaterial,
+    "<mapped>": FrictionMap,
+    **{f"<{name}>": shape for name, shape in SHAPES.items()},
+}
+
+
+def _is_branch(part: str | int) -> bool:
+    """Whether this part of a location names a branch of a union and not a key."""
+    return isinstance(part, str) and part.startswith("<")
+
+
+def _model_at(location: Iterable[str | int]) -> type[BaseModel] | None:
+    """The part of the scene that is described at a location."""
+    model: type[BaseModel] | None = SceneFile
+    for part in location:
+        if isinstance(part, int):
+            continue
+        if _is_branch(part):
+            model = _MODEL_IN_BRANCH.get(part)
+        elif model is not None and part in model.model_fields:
+            model = _model_in(model.model_fields[part].annotation)
+    return model
+
+
+def _known_keys(location: Location) -> list[str]:
+    """Keys of the table at a location."""
+    model = _model_at(location)
+    return list(model.model_fields) if model is not None else []
+
+
+def _expected_value(location: Location) -> str:
+    """What a key stands for, in words."""
+    model, key = _model_at(location[:-1]), location[-1]
+    if model is None or str(key) not in model.model_fields:
+        return ""
+    field = model.model_fields[str(key)]
+    quantity = next((m for m in field.metadata if isinstance(m, Quantity)), None)
+    if quantity is not None:
+        return quantity.expected
+    sentence = " ".join(field_descriptions(model).get(str(key), "").split()).rstrip(".")
+    return sentence[:1].lower() + sentence[1:]
+
+
+def _expected_table(location: Location) -> str:
+    """The table that belongs at a location, by the keys it must have."""
+    if location and location[-1] in _IN_BRANCH:
+        return _IN_BRANCH[str(location[-1])]
+    model = _model_at(location)
+    required = [k for k, f in (model.model_fields.items() if model else ()) if f.is_required()]
+    return "a table with " + " and ".join(required) if required else "a table"
+
+
+def _model_in(annotation: Any) -> type[BaseModel] | None:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return annotation
+    return next(filter(None, map(_model_in, get_args(annotation))), None)

@@ -1,0 +1,1 @@
+"""Load stepping: path of the load, increments, checkpoints."""

@@ -1,0 +1,92 @@
+"""Load steps whose end state depends on the number of their increments.
+
+An increment fixes the direction of slip. Three cases are proved to have no increment error:
+
+- No shear has acted so far.
+- A torsion of bodies of revolution under constant pressure, without any other shear.
+- A straight push at constant pressure of two uncoated bodies of one material with ν = 0.
+
+With ν > 0 the direction of slip rotates while the stick zone shrinks. A layer responds differently
+along and across a wave even at ν = 0. In both cases the result depends on the increments.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import hypot
+
+from contact_scene.body_pair import coupling
+from contact_scene.material import IsotropicMaterial
+from contact_scene.scene import Scene
+from contact_scene.stepping.load_path import (
+    ControlKind,
+    LoadRamp,
+    along_one_line,
+)
+
+# Above this fraction of the friction limit shift and energy, which grow like (1 - T/µW)^-½, exceed
+# ten times their first order and depend on the increments at their leading digit.
+NEAR_GROSS_SLIP = 0.99
+
+
+def with_error(scene: Scene) -> tuple[bool, ...]:
+    """Determine for each load step if its end state depends on the number of increments."""
+    ramps = scene.load_path()
+    return tuple(not _proved(scene, ramps[: number + 1]) for number in range(len(ramps)))
+
+
+def near_gross_slip(scene: Scene) -> tuple[bool, ...]:
+    """Determine the steps with an increment error that push to nearly the friction limit."""
+    reached, found = False, []
+    for ramp, matters in zip(scene.load_path(), with_error(scene), strict=True):
+        forces = ramp.normal.kind is ramp.tangential.kind is ControlKind.FORCE
+        limit = scene.friction.carried(ramp.normal.end) if scene.friction and forces else None
+        share = hypot(*ramp.tangential.end) / limit if limit else 0.0
+        reached = reached or (matters and NEAR_GROSS_SLIP < share < 1)
+        found.append(reached)
+    return tuple(found)
+
+
+def _proved(scene: Scene, ramps: Sequence[LoadRamp]) -> bool:
+    """Whether a history is one of the three proved cases."""
+    if scene.friction is None or scene.friction.uniform == 0:
+        return True
+    sheared = [r for r in ramps if any(r.tangential.end) or r.twisting.end or _led(r)]
+    if coupling(scene)[0]:
+        return False
+    if not sheared:
+        return True
+    constant = all(
+        r.normal.start == r.normal.end and r.tilting.start == r.tilting.end
+        for r in ramps[sheared[0].step - 1 :]
+    )
+    if not constant:
+        return False
+    pushed = any(any(r.tangential.end) for r in sheared)
+    if any(r.twisting.end for r in sheared):
+        tilted = any(any(r.tilting.end) for r in ramps)
+        return not pushed and not tilted and _revolved(scene)
+    return along_one_line(ramps) and _similar(scene)
+
+
+def _led(ramp: LoadRamp) -> bool:
+    """Whether a motion is prescribed that takes over from a force, and may shear."""
+    return ramp.tangential.start is None or ramp.twisting.start is None
+
+
+def _revolved(scene: Scene) -> bool:
+    return (
+        scene.indenter.is_of_revolution
+        and scene.friction is not None
+        and scene.friction.uniform is not None
+    )
+
+
+def _similar(scene: Scene) -> bool:
+    """Whether the bodies are uncoated and of one material with ν = 0."""
+    materials = {body.material for body in (scene.body, scene.indenter)}
+    layers = scene.body.layers or scene.indenter.layers
+    return not layers and all(
+        isinstance(material, IsotropicMaterial) and material.poisson_ratio == 0
+        for material in materials
+    )

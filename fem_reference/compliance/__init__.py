@@ -1,0 +1,1 @@
+"""Compliance of the surface: normal and tangential displacement of rings and angles."""

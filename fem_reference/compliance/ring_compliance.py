@@ -1,0 +1,99 @@
+"""Compliance of rings: displacement of rings per traction on rings, by angular harmonics."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from contact_scene.array_types import Matrix, Vector
+from fem_reference.compliance.gauss_points import (
+    POINTS_PER_EDGE,
+    GaussPoints,
+    gauss_points,
+)
+from fem_reference.compliance.ring_edge import (
+    Edge,
+    GaussEdge,
+    HatEdge,
+    beyond_pressure,
+    contact_edge,
+)
+from fem_reference.elasticity.hat_functions import TractionBasis
+from fem_reference.model import ContactModel
+from fem_reference.plan import Path
+
+R, THETA, Z = range(3)
+
+
+@dataclass(frozen=True)
+class RingCompliance:
+    """Displacement amplitudes by traction amplitudes, both over the functions φ of the rings.
+
+    radii      of the rings, ascending (rings,) [length]
+    areas      ∫ φ r dr (rings,) [length^2]
+    gap        undeformed, the mean over φ (rings,) [length]
+    harmonics  for n = 0, 1, …: ∫ φ_i u r dr of the components r, θ, z of the displacement, lower
+               body less indenter, per traction with profile φ_k (3, rings, 3, rings)
+               [length^5/force], symmetric. On Path.SHEARING the component r is that along the load
+    path       which tractions are solved for
+    motion     displacement of the rings per unit of the indenter's shift or twist (2, rings), for
+               tractions that do not depend on θ; zero where symmetry keeps the indenter in place
+    reach      outer end of the last element [length]
+    edge       how the edge of the contact is found between rings
+    """
+
+    radii: Vector
+    areas: Vector
+    gap: Vector
+    harmonics: tuple[Matrix, ...]
+    path: Path
+    motion: Matrix
+    reach: float
+    edge: Edge
+
+    def contact_edge(self, pressure: Vector) -> float:
+        """Find the radius where a pressure (rings,) ends [length]."""
+        return contact_edge(self.radii, pressure, self.edge, self.reach)
+
+
+def ring_compliance(
+    model: ContactModel, path: Path, highest: int = 0, at_gauss_points: bool = False
+) -> RingCompliance:
+    """Compute the compliance of the bodies of a model; condense the motions that are missing.
+
+    highest          harmonic, on a path with coupled pressure and shear
+    at_gauss_points  rings are at Gauss points instead of corner nodes
+    """
+    nodes = model.radii
+    basis: TractionBasis = gauss_points(nodes, model.rim) if at_gauss_points else model.hats
+    rings = len(basis.radii)
+    motion = np.zeros((2, rings))
+    harmonics = [np.zeros((3, rings, 3, rings)) for _ in range(highest + 1)]
+    if path in (Path.PRESSING_WITH_FRICTION, Path.HARMONICS):
+        for n, A in enumerate(harmonics):
+            condensed = model.compliance(n)
+            for i, a in enumerate(condensed.motion.components):
+                for j, b in enumerate(condensed.motion.components):
+                    A[a, :, b] = basis.compliance(condensed.matrix[i, :, j])
+    else:
+        # Without coupling: normal compliance, and that of the one component of shear, if any.
+        (A,) = harmonics
+        A[Z, :, Z] = basis.compliance(model.compliance(0).matrix[1, :, 1])
+        if path is Path.TWISTING:
+            A[THETA, :, THETA] = basis.compliance(model.torsion().matrix[0, :, 0])
+            motion[THETA] = basis.arms / basis.weights
+        elif path is Path.SHEARING:
+            A[R, :, R] = basis.compliance(model.along_load())
+            motion[R] = 1.0
+    edge: Edge
+    if isinstance(basis, GaussPoints):
+        edge, reach = (
+            GaussEdge(float(nodes[2] - nodes[0])),
+            float(nodes[2 * (rings // POINTS_PER_EDGE)]),
+        )
+    else:
+        edge = HatEdge(beyond_pressure(model.scene.body, model.scene.indenter))
+        reach = float(basis.radii[-1])
+    gap = basis.of(model.gap) / basis.weights
+    return RingCompliance(
+        basis.radii, basis.weights, gap, tuple(harmonics), path, motion, reach, edge
+    )

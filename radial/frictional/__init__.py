@@ -1,0 +1,1 @@
+"""Indentation with friction: pressure and radial shear on rings."""

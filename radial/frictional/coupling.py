@@ -1,0 +1,116 @@
+"""Both bodies as pressure and radial shear together feel them, at any radius of the contact."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+from typing import NamedTuple
+
+import numpy as np
+
+from contact_scene import Scene
+from contact_scene.array_types import Array
+from radial.frictional.rings import Rings
+from radial.normal.disc import Disc
+from radial.response.bodies import (
+    Bodies,
+    added_by,
+)
+from radial.response.quadrature import unit_gauss
+from radial.response.wavenumbers import Waves
+from semi_analytical.frf.stack import Stack, stack_of
+
+POINTS = 40
+
+
+class Response(NamedTuple):
+    """Displacement at the rows of rings by tractions at their columns [length^3/force].
+
+    zz, zr  of the surface into the body, by pressure and by radial shear
+    rz, rr  outward
+    """
+
+    zz: Array
+    zr: Array
+    rz: Array
+    rr: Array
+
+
+@dataclass(frozen=True)
+class Coupling:
+    """Lower body and indenter: responses add, but those that couple subtract.
+
+    bodies   as pressure alone feels them
+    stacks   of the lower body and the indenter, each with its sign in what couples
+    direct   Σ (1-ν)/G of the outermost materials [length²/force]
+    across   Σ 1/G
+    crossed  Σ ± (1-2ν)/2G
+    """
+
+    bodies: Bodies
+    stacks: tuple[tuple[Stack, float], ...]
+    direct: float
+    across: float
+    crossed: float
+
+    @classmethod
+    def of(cls, scene: Scene) -> Coupling:
+        """That of a scene."""
+        stacks = ((stack_of(scene.body), 1.0), (stack_of(scene.indenter), -1.0))
+        outer = [(stack.outer, sign) for stack, sign in stacks if not stack.is_rigid]
+        return cls(
+            Bodies.of(scene),
+            stacks,
+            sum((1 - nu) / G for (G, nu), _ in outer),
+            sum(1 / G for (G, _), _ in outer),
+            sum(sign * (1 - 2 * nu) / (2 * G) for (G, nu), sign in outer),
+        )
+
+    def response(self, rings: Rings, radius: float, fineness: int = 1) -> Response:
+        """To tractions on rings in a contact of this radius [length]: in closed form for the
+        outermost materials, u = ∫ k F t~ J dk for what layers add."""
+        by_pressure, by_shear = rings.logarithmic
+        shear_lifts, pressure_draws = rings.sideways
+        direct, crossed = self.direct * radius, -self.crossed * radius
+        zz, rr = direct * by_pressure, direct * by_shear
+        zr, rz = crossed * shear_lifts, crossed * pressure_draws
+        if self.bodies.layered:
+            waves = self.bodies.waves(radius, fineness=fineness)
+            p, q, at_zeroth, at_first = rings.transforms(waves)
+            c11, c12, c22, _ = radius * waves.rule[1] * self.added(waves, radius)
+            zz, rr = zz + (at_zeroth * c22) @ p, rr + (at_first * c11) @ q
+            zr, rz = zr - (at_zeroth * c12) @ q, rz - (at_first * c12) @ p
+        return Response(zz, zr, rz, rr)
+
+    def drawn(self, contact: Disc, rings: Rings, fineness: int = 1) -> Array:
+        """u_r by the pressure of a contact without friction, at the rows [length]."""
+        a, x = contact.radius, rings.places
+        found = -self.crossed * a * np.divide(_carried(contact, x), x, where=x > 0, out=0 * x)
+        if self.bodies.layered:
+            waves = self.bodies.waves(a, fineness=fineness)
+            transform = contact.bodies.modulus / pi * contact.wave_transform(waves)
+            c12 = waves.rule[1] * self.added(waves, a)[1]
+            found -= rings.transforms(waves)[3] @ (c12 * transform)
+        return np.asarray(found)
+
+    def added(self, waves: Waves, radius: float) -> Array:
+        """k times c11, c12, c22 and csh that layers add to half-spaces (4, κ) [length²/force]."""
+        k = waves.rule[0] / radius
+        total = np.zeros((4, len(k)))
+        for stack, sign in self.stacks:
+            if stack.layers:
+                added = added_by(stack, waves, radius)
+                total += (added.c11, sign * added.c12, added.c22, added.csh)
+        return k * total
+
+
+def _carried(contact: Disc, x: Array) -> Array:
+    """∫₀ˣ p x dx [force/length²]: of the mean pressure without what acts outside of x,
+    (E*/π a) [G(1) √(1-x²) - ∫ₓ¹ G'(t) √(t²-x²) dt]."""
+    inside = np.minimum(x, 1.0)[:, None]
+    chord = np.sqrt((1 - inside) * (1 + inside))
+    v, weights = unit_gauss(POINTS + len(contact.layers))
+    t = np.hypot(inside, chord * v)
+    outside = contact.edge * chord[:, 0] - (chord**3 * v**2 * contact.rate(t) / t) @ weights
+    unit = contact.bodies.modulus / (pi * contact.radius)
+    return np.asarray(contact.load / (2 * pi * contact.radius**2) - unit * outside)

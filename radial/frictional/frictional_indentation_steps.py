@@ -1,0 +1,315 @@
+"""Pressing with friction as the march sees it: every increment from the one before."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import ceil, exp, inf, log
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from contact_scene import CoulombFriction, LoadRamp, RadialDiscretisation, Scene
+from contact_scene.array_types import Array
+from contact_scene.quantities.residuals import Residuals
+from contact_scene.quantities.summary import ContactStatus
+from contact_scene.rig import of_contact
+from contact_scene.solver_errors import NotConverged
+from contact_scene.stepping.load_stepping import Reached
+from radial.fields import Increment
+from radial.frictional.coupling import Coupling
+from radial.frictional.frictional_increment import (
+    FrictionalState,
+    finite_pressure,
+    sheared,
+    stick_share,
+)
+from radial.frictional.rings import (
+    Rings,
+    place_of,
+    rings_about,
+)
+from radial.frictional.stick_slip import (
+    Rubbed,
+    Signs,
+    rubbed,
+)
+from radial.normal.pressing import (
+    LARGEST_STEP,
+    LEAST_POWER,
+    NEAR,
+    ROUND_OFF,
+    Pressed,
+    Target,
+    pressed,
+)
+from radial.normal.surface import (
+    displacement,
+    pressure,
+)
+from radial.output_points import (
+    largest_targets,
+    refuse_no_disc,
+    refuse_round_off,
+    shown_radii,
+    undeformed_gap,
+)
+from radial.output_points import target as target_of
+
+COUNT = 64  # rings, apart from those about the front and at the ends
+MAX_TRIED = 40
+# How much a contact grows or shrinks at once at most, and from what part of the first radius on.
+GROWTH, FIRST = 1.1, 0.03
+MAX_LAID = 3  # times that rings are laid anew for a front that has moved
+REST = 1e-11  # of the approach: less slip is round-off
+MIDDLE = 0.5  # of the radius: where a front is sought first
+
+
+@dataclass(frozen=True)
+class Rubbing:
+    """See `contact_scene.stepping.load_stepping.Solver`.
+
+    largest  contacts without friction that were solved to lay out the rings at which fields are
+             told
+    """
+
+    scene: Scene
+    coupling: Coupling
+    friction: CoulombFriction
+    tolerance: float
+    fineness: float
+    radii: Array
+    largest: tuple[Pressed, ...]
+    most_spent: float = inf
+
+    @classmethod
+    def of(cls, scene: Scene, asked: RadialDiscretisation, fineness: float) -> Rubbing:
+        """That of a scene.
+
+        fineness  how many times as many rings, and radii on the way, as it takes
+        """
+        coupling = Coupling.of(scene)
+        largest = tuple(
+            pressed(coupling.bodies, scene.indenter, target) for target in largest_targets(scene)
+        )
+        radii = shown_radii(asked.rings, largest, scene.indenter.rim)
+        assert scene.friction is not None
+        return cls(scene, coupling, scene.friction, asked.tolerance, fineness, radii, largest)
+
+    def spent(self) -> float:
+        """Nothing that halves would save."""
+        return 0.0
+
+    def advance(
+        self,
+        ramp: LoadRamp,
+        start: FrictionalState | None,
+        before: FrictionalState | None,
+        fraction: float,
+    ) -> FrictionalState:
+        """The contact at a fraction of the ramp; raises NotConverged."""
+        reached = (start.normal_force, start.approach) if start else (0.0, 0.0)
+        target = target_of(self.scene, *ramp.normal.led(fraction, reached))
+        radius, tried = self._first_radius(target, before)
+        begun = before.end.radius if before else FIRST * radius
+        for passed in _on_the_way(begun, radius, GROWTH ** (1 / self.fineness)):
+            before = self._passed(passed, before)
+            tried += 1
+        share = before.middling / before.end.radius if before else MIDDLE
+        for _ in range(MAX_LAID):
+            rings = rings_about(share, self._count)
+            end, more, power = self._reach(target, radius, rings, before)
+            tried, radius = tried + more, end.radius
+            laid, share = share, stick_share(end)
+            if abs(place_of(share) - place_of(laid)) <= 1:
+                break
+        return sheared(self.friction, end, target, self.radii, before, power, tried)
+
+    @property
+    def _count(self) -> int:
+        return round(COUNT * self.fineness)
+
+    def _passed(self, radius: float, before: FrictionalState | None) -> FrictionalState:
+        """The contact of this radius, on the way to the end of an increment."""
+        share = before.middling / before.end.radius if before else MIDDLE
+        like = before.end if before else None
+        end = self._at(radius, rings_about(share, self._count), _moved(before), like)
+        target = Target(None, None)
+        power = self._power(target, before)
+        return sheared(self.friction, end, target, self.radii, before, power, 0)
+
+    def _at(
+        self, radius: float, rings: Rings, moved: Callable[[Array], Array], like: Rubbed | None
+    ) -> Rubbed:
+        """The contact of this radius.
+
+        moved  u_r of the state before, by radius
+        like   a contact in which much the same slides
+        """
+        return rubbed(
+            self.coupling, self.scene.indenter, radius, rings, self.friction,
+            moved(radius * rings.places), _sliding(like, rings),
+        )  # fmt: skip
+
+    def _first_radius(self, target: Target, before: FrictionalState | None) -> tuple[float, int]:
+        """Near that of the target, from the contact before or from that without friction."""
+        if before is None:
+            found = pressed(self.coupling.bodies, self.scene.indenter, target)
+            return found.contact.radius, found.tried
+        further = -target.missed(before.end) / self._power(target, before)
+        return before.end.radius * exp(further), 0
+
+    @staticmethod
+    def _power(target: Target, before: FrictionalState | None) -> float:
+        """Of the radius, with which force or approach rises."""
+        if before is not None and (before.target.force is None) == (target.force is None):
+            return before.power
+        return 3.0 if target.approach is None else 2.0
+
+    def _reach(
+        self, target: Target, radius: float, rings: Rings, before: FrictionalState | None
+    ) -> tuple[Rubbed, int, float]:
+        """The contact at the target by the secant method on the radius, how many were tried, and
+        the power of the radius."""
+        moved = _moved(before)
+        like = before.end if before else None
+        x, power = log(radius), self._power(target, before)
+        best: Rubbed | None = None
+        nearest, last_x, last = inf, x, inf
+        for tried in range(1, MAX_TRIED + 1):
+            now = like = self._at(exp(x), rings, moved, like)
+            missed = target.missed(now)
+            if best is not None and nearest <= NEAR and abs(missed) >= nearest:
+                return best, tried, power
+            if abs(missed) < nearest:
+                best, nearest = now, abs(missed)
+            if best is not None and nearest <= 10 * ROUND_OFF:
+                return best, tried, power
+            if last < inf and x != last_x:
+                power = max((missed - last) / (x - last_x), LEAST_POWER)
+            last_x, last = x, missed
+            x -= min(max(missed / power, -LARGEST_STEP), LARGEST_STEP)
+        raise NotConverged("the contact radius", MAX_TRIED, nearest, ROUND_OFF)
+
+    def undeformed_gap(self, last: Increment, tilt: Any) -> Array:
+        """See `contact_scene.stepping.load_stepping.Solver`."""
+        return undeformed_gap(self.scene, last)
+
+    def report(self, reached: Reached[FrictionalState], last: Increment | None) -> Increment:
+        """The contact at the rings; raises UnsupportedScene where it is no disc, NotConverged above
+        the tolerance."""
+        state = reached.state
+        end, indenter, r = state.end, self.scene.indenter, self.radii
+        refuse_round_off(end.contact, self.tolerance)
+        places = end.radius * end.rings.places
+        n = end.rings.count
+        bare = indenter.initial_gap(places, 0.0)
+        clear = bare[n + 1 :] + displacement(end.contact, end.rings.places[n + 1 :])
+        clear += end.raised[n + 1 :] - end.approach
+        refuse_no_disc(places[1 : n + 1], end.pressure[1:], np.zeros(n))
+        refuse_no_disc(places[n + 1 :], np.ones_like(clear), clear / end.approach)
+        force = state.target.force
+        limit, q = self.friction.limit(end.pressure[1:]), np.abs(end.shear[1:])
+        residuals = Residuals(
+            complementarity=max(end.contact.missed, end.missed),
+            penetration=max(end.contact.missed, end.missed),
+            normal_equilibrium=None if force is None else abs(end.load / force - 1),
+            friction_cone=max(0.0, float(np.max(q - limit) / np.max(limit))),
+            slip_direction=_against(end, self.friction),
+        )
+        residuals.require(self.tolerance, "the contact radius", state.tried)
+        x = r / end.radius
+        p = pressure(end.contact, x) + end.rings.at(end.changed, x)
+        gap = np.zeros_like(r)
+        apart = x > 1
+        raised = _beyond(places, end.raised - end.deeper, -end.deeper)
+        gap[apart] = indenter.initial_gap(r[apart], 0.0) - end.contact.approach
+        gap[apart] += displacement(end.contact, x[apart]) + raised(r[apart])
+        sticks = np.asarray(state.at(np.abs(end.sliding), r) < 0.5) & (x < 1)
+        stored = end.elastic_energy(bare[: n + 1])
+        increment = Increment(
+            step=reached.place.step,
+            index=reached.place.index,
+            increments_in_step=reached.place.increments_in_step,
+            residuals=residuals,
+            iterations=state.tried,
+            halvings=reached.halvings,
+            normal_force=state.normal_force,
+            approach=state.approach,
+            contact_radius=end.radius,
+            peak_pressure=float(np.max(p)),
+            status=_status(state),
+            stick_radius=state.front,
+            tangential_force=(0.0, 0.0),
+            tangential_shift=(0.0, 0.0),
+            dissipated_energy=state.lost,
+            dissipation_uncertainty=state.uncertain,
+            elastic_energy=stored,
+            input_work=stored + state.lost,
+            unresolved_work=state.worked - stored - state.lost,
+            radii=r,
+            pressure=p,
+            gap=np.maximum(gap, 0.0),
+            shear_radial=self._shear(state, p, r),
+            slip_radial=state.slip,
+            in_stick=sticks,
+        )
+        return of_contact(increment, self.scene.rig)
+
+    def _shear(self, state: FrictionalState, p: Array, r: Array) -> Array:
+        """At the rings: where it is the limit, that of the pressure there, which hats cut short."""
+        end = state.end
+        share = end.shear[1:-1] / self.friction.limit(end.pressure[1:-1])
+        share = np.concatenate([[0.0], share, share[-1:]])
+        return np.asarray(self.friction.limit(p) * state.at(share, r))
+
+
+def _moved(before: FrictionalState | None) -> Callable[[Array], Array]:
+    """u_r of the state before, by radius."""
+    if before is None:
+        return np.zeros_like
+    end = before.end
+    return _beyond(end.radius * end.rings.places, end.moved, 0.0)
+
+
+def _beyond(r: Array, field: Array, limit: float) -> Callable[[Array], Array]:
+    """A field of the rows at any radius: far away it goes to its limit as 1/r."""
+    spline, last = CubicSpline(r, field), r[-1]
+
+    def at(radii: Array) -> Array:
+        near = spline(np.minimum(radii, last))
+        return np.asarray(limit + (near - limit) * last / np.maximum(radii, last))
+
+    return at
+
+
+def _on_the_way(begun: float, end: float, growth: float) -> Array:
+    """Radii between those at the start of an increment and at its end, as what sticks remembers
+    them.
+
+    growth  largest ratio of neighbours
+    """
+    steps = max(ceil(abs(log(end / begun)) / log(growth)), 1)
+    return np.geomspace(begun, end, steps + 1)[1:-1]
+
+
+def _sliding(was: Rubbed | None, rings: Rings) -> Signs:
+    """What slid at the same share of the radius."""
+    if was is None:
+        return np.zeros(len(rings.x), dtype=np.int64)
+    return np.rint(np.interp(rings.x, was.rings.x, was.sliding)).astype(np.int64)
+
+
+def _against(end: Rubbed, friction: CoulombFriction) -> float:
+    """∫(b|Δs| + q Δs) dA / ∫b|Δs| dA with the limit b, over what slides by more than round-off."""
+    slipped = end.slipped * (end.sliding != 0) * (np.abs(end.slipped) > REST * end.approach)
+    most = end.over(friction.limit(finite_pressure(end)) * np.abs(slipped))
+    return abs(most + end.over(end.shear * slipped)) / most if most > 0 else 0.0
+
+
+def _status(state: FrictionalState) -> ContactStatus:
+    sticks = state.end.sliding[1:-1] == 0
+    if np.all(sticks):
+        return ContactStatus.FULL_STICK
+    return ContactStatus.PARTIAL_SLIP if np.any(sticks) else ContactStatus.NO_STICK_AREA_LEFT

@@ -1,0 +1,204 @@
+"""Tractions on rings and what half-spaces answer them: hat functions in x = r/a, times √(1-x²), as
+which tractions end at the edge.
+
+Rings are dense where tractions have corners: at the front between stick and slip, at the edge and
+at the axis. Of half-spaces the response to a hat is integrated in closed form or by
+Gauss's rule, lengths in units of the contact radius, tractions in units that the materials give.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from math import exp, log
+from typing import TypeAlias
+
+import numpy as np
+from scipy.special import ellipe, ellipkm1, j0, j1
+
+from contact_scene.array_types import Array
+from radial.response.array_cache import (
+    MAX_KEPT,
+    kept_within,
+)
+from radial.response.quadrature import unit_gauss
+from radial.response.wavenumbers import Waves
+
+# Fronts that lie nearer to each other than this share their rings: of log(c/(a - c)).
+SHARED = 0.08
+NEAREST = 6.0  # of log(c/(a - c)), to the axis and to the edge
+GRADED, TOWARDS, FINEST = 0.5, 0.6, 9  # ratio of rings to the ends, to the front, and how many
+AT_AXIS, AT_EDGE = 4, 6
+POINTS, WAVE_POINTS = 14, 6  # Gauss's of an element
+KEPT = 64
+MAX_AT_ONCE = 1 << 18  # numbers: 2 MiB
+# Radii outside of the contact at which displacements are known.
+OUTSIDE = 1 + np.array([0.01, 0.03, 0.08, 0.2, 0.4, 0.7, 1.1, 1.6, 2.5, 4.0])
+
+
+@dataclass(frozen=True, eq=False)
+class Rings:
+    """Rings and the response of half-spaces to hats on them; made by `rings_about`.
+
+    x  of the n + 1 nodes, from 0 to 1
+
+    Rows are the places, of the nodes and then outside of the contact. Columns are values at nodes:
+    of the pressure 0 to n - 1, for it ends with zero; of the radial shear 1 to n - 1. In the last
+    element tractions are multiples of √(1-x²).
+    """
+
+    x: Array
+
+    @property
+    def count(self) -> int:
+        """n, the number of elements."""
+        return len(self.x) - 1
+
+    @cached_property
+    def places(self) -> Array:
+        """Of the rows."""
+        return np.concatenate([self.x, OUTSIDE])
+
+    @cached_property
+    def weights(self) -> Array:
+        """∫ φ x dx of every node (n + 1,)."""
+        return self._on_nodes(*self._integrals(1))
+
+    def at(self, field: Array, x: Array) -> Array:
+        """A traction of the nodes (n + 1,), at any place; zero outside."""
+        share = field[:-1] / _root(self.x[:-1])
+        return np.asarray(np.interp(x, self.x[:-1], share) * _root(np.minimum(x, 1.0)))
+
+    @cached_property
+    def logarithmic(self) -> tuple[Array, Array]:
+        """∫ G₀ φ s ds of the pressure and ∫ G₁ φ s ds of the shear, G_m = ∫₀^∞ J_m(kx) J_m(ks) dk
+        by complete elliptic integrals (Gradshteyn and Ryzhik 6.512.1 and 8.1)."""
+        inner, length = self.x[:-1], np.diff(self.x)
+        v, weights = unit_gauss(POINTS)
+        v, weights = v**3, 3 * v**2 * weights  # towards the place, where there is a logarithm
+        x = self.places[:, None]
+        before = x <= inner
+        off = length[:, None] * v
+        s = np.where(before[..., None], inner[:, None] + off, self.x[1:, None] - off)
+        apart = np.where(before, inner - x, x - self.x[1:])[..., None] + off
+        share = np.where(before[..., None], v, 1 - v)
+        left, right = self._shapes(s, share, length[:, None] * weights * s)
+        r, total = x[..., None], x[..., None] + s
+        small = (apart / total) ** 2
+        first, second = ellipkm1(small), ellipe(1 - small)
+        zeroth = 2 / np.pi * first / total
+        moment = np.where(r > 0, r, 1.0) * s
+        once = ((r * r + s * s) / total * first - total * second) / (np.pi * moment)
+        once = np.where(r > 0, once, 0.0)
+        hats = [
+            self._on_nodes((part * left).sum(-1), (part * right).sum(-1)) for part in (zeroth, once)
+        ]
+        return hats[0][:, :-1], hats[1][:, 1:-1]
+
+    @cached_property
+    def sideways(self) -> tuple[Array, Array]:
+        """∫ₓ¹ φ ds of the shear and (1/x) ∫₀ˣ φ s ds of the pressure: ∫₀^∞ J₀(kr) J₁(ks) dk is 1/s
+        for r < s, else zero (Gradshteyn and Ryzhik 6.512.3)."""
+        inner, outer = self.x[:-1], self.x[1:]
+        x = self.places[:, None]
+        beyond, within = inner >= x, outer <= x
+        reach = np.where(x > 0, x, 1.0)
+        by_shear, by_pressure = (
+            self._on_nodes(*(np.where(there, part, 0.0) for part in self._integrals(power)))
+            for there, power in ((beyond, 0), (within, 1))
+        )
+        return by_shear[:, 1:-1], (by_pressure / reach)[:, :-1]
+
+    def _integrals(self, power: int) -> tuple[Array, Array]:
+        """∫ φ xᵐ dx over every element, of the hats of its inner and outer end."""
+        v, weights = unit_gauss(POINTS)
+        inner, length = self.x[:-1, None], np.diff(self.x)[:, None]
+        s = inner + length * v
+        left, right = self._shapes(s, np.broadcast_to(v, s.shape), length * weights * s**power)
+        return left.sum(-1), right.sum(-1)
+
+    def _shapes(self, s: Array, share: Array, weights: Array) -> tuple[Array, Array]:
+        """Hats of the inner and outer ends of the elements at points s (…, n, points), weighted.
+
+        share  of the element that lies before a point
+        """
+        root = _root(self.x)
+        known = _root(s) * weights
+        left = known * (1 - share) / root[:-1, None]
+        right = known * share / np.append(root[1:-1], 1.0)[:, None]
+        left[..., -1, :] += right[..., -1, :] / root[-2]
+        right[..., -1, :] = 0.0
+        return left, right
+
+    @staticmethod
+    def _on_nodes(left: Array, right: Array) -> Array:
+        """Sums at nodes (…, n + 1) from parts at the ends of the elements (…, n)."""
+        total = np.zeros((*left.shape[:-1], left.shape[-1] + 1))
+        total[..., :-1] += left
+        total[..., 1:] += right
+        return total
+
+    def transforms(self, waves: Waves) -> tuple[Array, Array, Array, Array]:
+        """∫ φ J₀(κs) s ds of the pressure and ∫ φ J₁(κs) s ds of the shear (κ, columns); J₀(κx) and
+        J₁(κx) at the rows (rows, κ)."""
+        return _transforms(self, waves)
+
+
+def _root(x: Array) -> Array:
+    return np.asarray(np.sqrt((1 - x) * (1 + x)))
+
+
+Transforms: TypeAlias = tuple[Array, Array, Array, Array]
+
+
+@kept_within(MAX_KEPT)
+def _transforms(rings: Rings, waves: Waves) -> Transforms:
+    kappa = waves.rule[0]
+    length = np.diff(rings.x)[:, None]
+    v, weights = unit_gauss(WAVE_POINTS)
+    s = rings.x[:-1, None] + length * v
+    left, right = rings._shapes(s, np.broadcast_to(v, s.shape), length * weights * s)
+    found = [np.empty((len(kappa), len(rings.x))) for _ in range(2)]
+    step = max(MAX_AT_ONCE // s.size, 1)
+    for start in range(0, len(kappa), step):
+        some = slice(start, start + step)
+        at = np.multiply.outer(kappa[some], s)
+        for total, bessel in zip(found, (j0, j1), strict=True):
+            part = bessel(at)
+            total[some] = rings._on_nodes((part * left).sum(-1), (part * right).sum(-1))
+    at = np.multiply.outer(rings.places, kappa)
+    return found[0][:, :-1], found[1][:, 1:-1], j0(at), j1(at)
+
+
+def place_of(front: float) -> int:
+    """Number of the rings for a front at this share of the contact radius."""
+    c = min(max(front, 1e-9), 1 - 1e-9)
+    return round(min(max(log(c / (1 - c)), -NEAREST), NEAREST) / SHARED)
+
+
+def rings_about(front: float, count: int) -> Rings:
+    """Rings for a front between stick and slip at this share of the contact radius.
+
+    count  about how many, apart from those that are dense
+    """
+    return _rings(place_of(front), count)
+
+
+@lru_cache(maxsize=KEPT)
+def _rings(place: int, count: int) -> Rings:
+    c = 1 / (1 + exp(-place * SHARED))
+    share = 1 / (1 + ((1 - c) / c) ** 0.5)
+    inside = max(round(count * share), 8)
+    t = np.arange(inside + 1) / inside
+    stuck = c * t**1.5
+    beyond = max(count - inside, 8)
+    sliding = c + (1 - c) * np.sin(np.pi / 2 * np.arange(beyond + 1) / beyond)
+    near = TOWARDS ** np.arange(FINEST)
+    step_in, step_out = stuck[-1] - stuck[-2], sliding[1] - sliding[0]
+    x = np.concatenate([
+        stuck, sliding,
+        stuck[1] * GRADED ** np.arange(1, AT_AXIS),
+        1 - (1 - sliding[-2]) * GRADED ** np.arange(1, AT_EDGE),
+        c - step_in * near[1:], c + step_out * near[1:],
+    ])  # fmt: skip
+    return Rings(np.unique(x))

@@ -1,0 +1,1 @@
+"""The normal problem: pressure on a disc, as a polynomial."""

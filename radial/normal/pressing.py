@@ -1,0 +1,162 @@
+"""The contact under a force or at an approach: its radius is the unknown."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import exp, inf, isfinite, log
+from typing import TYPE_CHECKING, Protocol
+
+from contact_scene.solver_errors import NotConverged, UnsupportedScene
+from radial.normal.disc import (
+    Disc,
+    disc,
+)
+from radial.response.bodies import Bodies
+
+if TYPE_CHECKING:
+    from contact_scene.geometry import ShapedBody
+
+MAX_TRIED = 60
+# Of force or approach: as near as the radius can be found.
+ROUND_OFF = 1e-13
+# Where more of the same does not bring it nearer, unlike materials have left round-off.
+NEAR = 1e-9
+LARGEST_STEP = 0.7  # of the logarithm of the radius
+LEAST_RADIUS = 1e-12  # [m]
+LEAST_POWER = 0.5  # of the radius, with which force and approach rise
+
+
+class Loaded(Protocol):
+    """What a contact has of its radius [length], load [force] and approach [length]."""
+
+    @property
+    def radius(self) -> float: ...
+
+    @property
+    def load(self) -> float: ...
+
+    @property
+    def approach(self) -> float: ...
+
+
+@dataclass(frozen=True)
+class Target:
+    """Either the normal force [force] or the approach [length].
+
+    spring  compliance of a rig's normal spring, of whose other end the approach is [length/force]
+    """
+
+    force: float | None
+    approach: float | None
+    spring: float = 0.0
+
+    def missed(self, contact: Loaded) -> float:
+        """Logarithm of what a contact has over what is asked; raises UnsupportedScene where a
+        contact of this radius would pull: beyond the end of the shape."""
+        has, asked = contact.load, self.force
+        if asked is None:
+            assert self.approach is not None
+            has, asked = self.moved(contact), self.approach
+        if not (has > 0 and isfinite(has)):
+            raise UnsupportedScene(
+                f"no contact of radius {contact.radius:.3g} m carries the load: it goes on to the "
+                "end of the shape (a sphere pressed to its equator); ask for less force or approach"
+            )
+        return log(has / asked)
+
+    def is_beyond(self, contact: Disc) -> bool:
+        """Whether more is asked than a contact has."""
+        if self.force is not None:
+            return self.force > contact.load
+        assert self.approach is not None
+        return self.approach > self.moved(contact)
+
+    def moved(self, contact: Loaded) -> float:
+        """Approach of the far end of the spring [length]."""
+        return contact.approach + self.spring * contact.load
+
+
+@dataclass(frozen=True)
+class Pressed:
+    """A contact, what was asked of it, and how many radii were tried for it."""
+
+    contact: Disc
+    target: Target
+    tried: int
+
+    @property
+    def normal_force(self) -> float:
+        """As it was asked for, or what came out [force]."""
+        return self.contact.load if self.target.force is None else self.target.force
+
+    @property
+    def approach(self) -> float:
+        """As it was asked for, or what came out [length]."""
+        asked = self.target.approach
+        return self.target.moved(self.contact) if asked is None else asked
+
+
+def pressed(bodies: Bodies, indenter: ShapedBody, target: Target, fineness: int = 1) -> Pressed:
+    """The contact at a target; raises NotConverged, and UnsupportedScene for a gap that is not
+    smooth.
+
+    fineness  of orders and points, as for `disc`
+    """
+    if indenter.rim is not None:
+        whole = disc(bodies, indenter, indenter.rim, fineness=fineness)
+        if target.is_beyond(whole):
+            return Pressed(_to_the_rim(bodies, indenter, target, whole, fineness), target, 1)
+    x, power = log(first_radius(bodies, indenter, target)), 2.0
+    best, nearest = None, inf
+    last_x, last = x, inf
+    for tried in range(1, MAX_TRIED + 1):
+        contact = disc(bodies, indenter, exp(x), fineness=fineness)
+        missed = target.missed(contact)
+        if best is not None and nearest <= NEAR and abs(missed) >= nearest:
+            return Pressed(best, target, tried)
+        if abs(missed) < nearest:
+            best, nearest = contact, abs(missed)
+        if best is not None and nearest <= ROUND_OFF:
+            return Pressed(best, target, tried)
+        if last < inf:
+            power = max((missed - last) / (x - last_x), LEAST_POWER)
+        last_x, last = x, missed
+        x -= min(max(missed / power, -LARGEST_STEP), LARGEST_STEP)
+    raise NotConverged("the contact radius", MAX_TRIED, nearest, ROUND_OFF)
+
+
+def _to_the_rim(
+    bodies: Bodies, indenter: ShapedBody, target: Target, whole: Disc, fineness: int
+) -> Disc:
+    """The contact that a rim bounds: its load is linear in the approach.
+
+    whole  as it just reaches the rim
+    """
+    if target.force is not None:
+        missing = target.force - whole.load
+        further = missing / (2 * bodies.modulus * whole.radius)
+    else:
+        assert target.approach is not None
+        missing = further = target.approach - target.moved(whole)
+    probe = disc(bodies, indenter, whole.radius, whole.approach + further, fineness)
+    by_force = target.force is not None
+    has = probe.load - whole.load if by_force else target.moved(probe) - target.moved(whole)
+    further *= missing / has
+    return disc(bodies, indenter, whole.radius, whole.approach + further, fineness)
+
+
+def first_radius(bodies: Bodies, indenter: ShapedBody, target: Target) -> float:
+    """Where the gap is the approach, or E* r f(r) the force, with the modulus of the stiffest part:
+    rather too small than too large, where layers cost more [length]."""
+    modulus = bodies.stiffest
+
+    def short(r: float) -> bool:
+        gap = float(indenter.initial_gap(r, 0.0))
+        if target.force is None:
+            return gap < (target.approach or 0.0)
+        return modulus * r * gap < target.force
+
+    r, factor = 1.0, 2.0 if short(1.0) else 0.5
+    while short(r) == (factor > 1) and LEAST_RADIUS < r < 1 / LEAST_RADIUS:
+        r *= factor
+    return r

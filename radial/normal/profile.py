@@ -1,0 +1,109 @@
+"""The undeformed gap of a body of revolution below a contact, and its Abel transform."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache, cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.polynomial import chebyshev, legendre
+
+from contact_scene.array_types import Array
+from contact_scene.solver_errors import UnsupportedScene
+from radial.response.quadrature import (
+    shifted,
+    unit_gauss,
+)
+
+if TYPE_CHECKING:
+    from contact_scene.geometry import ShapedBody
+
+
+FEWEST, MOST = 16, 2048  # points at which a gap is taken
+# Of the largest coefficient, per point: what is below is round-off.
+ROUND_OFF = 1e-15
+ANGLES = 16
+
+
+@dataclass(frozen=True)
+class Profile:
+    """The gap f of an indenter over r < a, lengths in units of a.
+
+    abel  Legendre coefficients in 2t - 1 of S(t) = t ∫₀^(π/2) f'(t sin φ) dφ [length]: pressed in
+          by δ, half-spaces take p~(k) = (E*/π) ∫₀ᵃ (δ - S(s)) cos ks ds (Sneddon 1965)
+    apex  whether the gap rises from the axis at an angle: the pressure is infinite there
+    """
+
+    abel: Array
+    apex: bool
+
+    def at(self, t: Array) -> Array:
+        """S at s = a t [length]."""
+        return shifted(self.abel, t)
+
+    @property
+    def at_edge(self) -> float:
+        """S(1): the approach at which the pressure of half-spaces ends smoothly at a [length]."""
+        return float(np.sum(self.abel))
+
+    @cached_property
+    def rate(self) -> Array:
+        """Legendre coefficients of dS/dt in 2t - 1 [length]."""
+        return np.asarray(2 * legendre.legder(self.abel))
+
+
+def profile(indenter: ShapedBody, radius: float, fineness: int = 1) -> Profile:
+    """Of an indenter below a contact of this radius [length], from its gap alone.
+
+    fineness  how many times as many points as it takes
+    raises    UnsupportedScene for a gap that is no smooth function of the radius
+    """
+    count = FEWEST
+    while True:
+        gap = _coefficients(indenter, radius, count)
+        kept = np.flatnonzero(np.abs(gap) > ROUND_OFF * count * np.max(np.abs(gap)))
+        if not len(kept):
+            return Profile(np.zeros(2), False)
+        if kept[-1] < 3 * count // 4:
+            break
+        count *= 2
+        if count > MOST:
+            raise UnsupportedScene(
+                f"the gap over a contact of radius {radius:.4g} m is no smooth function of the "
+                "distance from the axis, and this solver takes it for one; solve it with the "
+                "semi-analytical solver"
+            )
+    if fineness > 1:
+        gap = _coefficients(indenter, radius, count * fineness)
+    slope = 2 * chebyshev.chebder(gap[: kept[-1] + 1])
+    at_axis = float(chebyshev.chebval(-1.0, slope))
+    return Profile(
+        slope @ _abel(len(slope), fineness), abs(at_axis) > 1e-6 * float(np.sum(np.abs(slope)))
+    )
+
+
+def _coefficients(indenter: ShapedBody, radius: float, count: int) -> Array:
+    """Chebyshev's, in 2x - 1."""
+    places, fit = _fit(count)
+    return np.asarray(fit @ indenter.initial_gap(radius * places, 0.0))
+
+
+@cache
+def _fit(count: int) -> tuple[Array, Array]:
+    """Chebyshev's points on 0 < x < 1, and the matrix from values there to coefficients."""
+    points = chebyshev.chebpts1(count)
+    fit = chebyshev.chebvander(points, count - 1).T * (2.0 / count)
+    fit[0] /= 2
+    return (1 + points) / 2, np.asarray(fit, dtype=float)
+
+
+@cache
+def _abel(count: int, fineness: int) -> Array:
+    """From Chebyshev coefficients of a slope to Legendre coefficients of S (count, count + 1)."""
+    t, weights = unit_gauss(count + 1)
+    angles, shares = unit_gauss((ANGLES + count) * fineness)
+    places = np.multiply.outer(t, np.sin(np.pi / 2 * angles))
+    waves = np.einsum("tac,a->tc", chebyshev.chebvander(2 * places - 1, count - 1), shares)
+    by_order = (2 * np.arange(count + 1) + 1) * legendre.legvander(2 * t - 1, count)
+    return np.asarray(np.einsum("t,tc,tl->cl", np.pi / 2 * weights * t, waves, by_order))

@@ -1,0 +1,94 @@
+"""Pressure and gap of a contact on a disc, at any radius."""
+
+from __future__ import annotations
+
+from math import pi
+
+import numpy as np
+from numpy.polynomial import legendre
+from scipy.optimize import minimize_scalar
+from scipy.special import j0
+
+from contact_scene.array_types import Array
+from radial.normal.disc import Disc
+from radial.response.quadrature import (
+    every_order,
+    shifted,
+    unit_gauss,
+)
+
+POINTS = 48
+AT_ONCE = 8192  # wavenumbers
+PLACE = 1e-9  # of the contact radius, to which a largest value is found
+
+
+def pressure(contact: Disc, x: Array) -> Array:
+    """p at r = a x (n,) [force/length²], zero outside; infinite at an apex and at a rim.
+
+    p = (E*/π a) [G(1)/√(1-x²) - ∫ₓ¹ G'(t)/√(t²-x²) dt], with t² = x² + (1-x²) v² for what layers
+    change and t = x cosh y for the profile, where either integrand is smooth.
+    """
+    found = np.zeros_like(x)
+    inside = x < 1
+    rho = x[inside]
+    chord = np.sqrt((1 - rho) * (1 + rho))
+    total = _of_profile(contact, rho, chord) - _of_layers(contact, rho, chord)
+    if contact.edge:
+        total += contact.edge / chord
+    found[inside] = contact.bodies.modulus / (pi * contact.radius) * total
+    return found
+
+
+def _of_layers(contact: Disc, rho: Array, chord: Array) -> Array:
+    """∫ₓ¹ C'(t)/√(t²-x²) dt; C'/t is a polynomial."""
+    rate = legendre.legder(every_order(contact.layers))
+    v, weights = unit_gauss(len(contact.layers) + 1)
+    t = np.hypot(rho[:, None], chord[:, None] * v)
+    return np.asarray(chord * ((legendre.legval(t, rate) / t) @ weights))
+
+
+def _of_profile(contact: Disc, rho: Array, chord: Array) -> Array:
+    """∫ₓ¹ S'(t)/√(t²-x²) dt."""
+    shape = contact.profile
+    v, weights = unit_gauss(POINTS + len(shape.abel))
+    axis = rho == 0
+    furthest = np.arcsinh(chord / np.where(axis, 1.0, rho))
+    t = rho[:, None] * np.cosh(furthest[:, None] * v)
+    found = furthest * (shifted(shape.rate, t) @ weights)
+    found[axis] = np.inf if shape.apex else weights @ (shifted(shape.rate, v) / v)
+    return found
+
+
+def largest_pressure(contact: Disc, x: Array, p: Array) -> float:
+    """The largest pressure at any radius, from that at rings x [force/length²]; of one that is
+    infinite the largest at a ring."""
+    at = int(np.argmax(p))
+    if at == 0 or contact.edge:
+        return float(p[at])
+    found = minimize_scalar(
+        lambda place: -float(pressure(contact, np.array([place]))[0]),
+        bounds=(x[at - 1], min(x[at + 1], 1.0)),
+        method="bounded",
+        options={"xatol": PLACE},
+    )
+    return max(float(p[at]), -float(found.fun))
+
+
+def displacement(contact: Disc, x: Array) -> Array:
+    """u_z at r = a x, outside the contact (n,) [length]:
+    (2/π) [∫₀¹ G(t)/√(x²-t²) dt + ∫₀^∞ (X - 1) G~ J₀(κx) dκ]."""
+    v, weights = unit_gauss(POINTS + len(contact.layers))
+    angle = np.arcsin(1 / x)
+    direct = angle * (contact.transform(x[:, None] * np.sin(angle[:, None] * v)) @ weights)
+    if not contact.bodies.layered:
+        return np.asarray(2 / pi * direct)
+    reach = 2.0 ** np.ceil(np.log2(np.max(x)))  # few lengths, which contacts have in common
+    waves = contact.bodies.waves(contact.radius, float(reach))
+    places, weights = waves.rule
+    felt = weights * contact.bodies.excess(waves, contact.radius)
+    felt *= contact.wave_transform(waves)
+    added = np.zeros_like(x)
+    for first in range(0, len(felt), AT_ONCE):
+        some = slice(first, first + AT_ONCE)
+        added += j0(np.multiply.outer(x, places[some])) @ felt[some]
+    return np.asarray(2 / pi * (direct + added))

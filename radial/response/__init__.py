@@ -1,0 +1,1 @@
+"""Responses of layered bodies to axisymmetric loads, and quadrature."""

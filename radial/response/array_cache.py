@@ -1,0 +1,44 @@
+"""Arrays that contacts have in common, kept as long as there is room: their size goes with the
+number of wavenumbers, and a thin film takes a hundred thousand."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Callable, Hashable
+from functools import wraps
+from typing import Any, ParamSpec, TypeVar
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+MAX_KEPT = 24 << 20  # bytes of the results of one function
+
+
+def kept_within(most: int) -> Callable[[Callable[P, R]], Callable[P, R]]:
+    """Remember what a function of hashable arguments has returned, an array or a tuple of them.
+
+    most  bytes beyond which the least recently used go before another is computed
+    """
+
+    def of(compute: Callable[P, R]) -> Callable[P, R]:
+        found: OrderedDict[Hashable, Any] = OrderedDict()
+
+        @wraps(compute)
+        def remembered(*given: P.args, **named: P.kwargs) -> R:
+            key = (given, *named.items())
+            value = found.pop(key, None)
+            if value is None:
+                while found and sum(map(_size, found.values())) > most:
+                    found.popitem(last=False)
+                value = compute(*given, **named)
+            found[key] = value
+            return value
+
+        remembered.cache_clear = found.clear  # type: ignore[attr-defined]  # as functools has it
+        return remembered
+
+    return of
+
+
+def _size(value: Any) -> int:
+    return sum(map(_size, value)) if isinstance(value, tuple) else int(value.nbytes)

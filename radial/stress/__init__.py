@@ -1,0 +1,1 @@
+"""Displacement and stress below the surface."""

@@ -1,0 +1,176 @@
+"""The circle that carries given tractions, and what they are over the root in which they end.
+
+Round contacts are known at their rings, and so is their edge. Those that are pushed are known by
+hats on rings that do not end where the contact does: p² is smooth there, so that by least squares
+over the outer rings its zeros tell the circle, and what p is beside it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from scipy.interpolate import CubicSpline, RectBivariateSpline
+
+from contact_scene.array_types import Array, Mask
+from contact_scene.solver_errors import UnsupportedScene
+from radial.plan import ELSEWHERE
+from radial.stress.loaded_circle import LoadedCircle
+
+RADII, ANGLES = 241, 360  # of a circle: linear between them to some 1e-5
+FEWEST = 4  # rings that tell the edge
+HARMONICS = 3
+STEPS = 20  # of Newton's method, to the zeros of p²
+PERIOD = 4  # angles beyond a turn that stand for it
+
+
+class Fit(NamedTuple):
+    """Where p² is taken for smooth.
+
+    begins  in radii of the outermost ring that is loaded
+    over    of the largest pressure: nodes that hang over the edge have less
+    powers  of 1 - r²/a²
+    beside  from where on the fit is believed rather than p, in radii of the circle
+    last    up to where the way of the shear is
+    """
+
+    begins: float = 0.7
+    over: float = 0.2
+    powers: int = 2
+    beside: float = 0.9
+    last: float = 0.965
+
+
+USUAL = Fit()
+# As good a one: how far they are apart says how well either tells the edge.
+ANOTHER = Fit(begins=0.6, over=0.3, powers=3, beside=0.87)
+
+
+def round_circle(
+    radii: Array, radius: float, outward: Array, around: Array, p: Array
+) -> LoadedCircle:
+    """Of q_r, q_θ and p (n,) at rings.
+
+    radius  of the contact [length]
+    """
+    within = radii < (1 - 1e-9) * radius
+    eta = radii[within] / radius
+    _refuse_few(len(eta))
+    root = np.sqrt((1 - eta) * (1 + eta))
+    places = np.linspace(0.0, 1.0, RADII)
+    smooth = CubicSpline(eta, p[within] / root)(places)
+    ways = [np.interp(places, eta, q[within] / p[within]) * smooth for q in (outward, around)]
+    return LoadedCircle(radius, 0.0, np.stack([*ways, smooth])[..., None])
+
+
+def pushed_circle(
+    radii: Array, angles: Array, outward: Array, around: Array, p: Array, fit: Fit = USUAL
+) -> LoadedCircle:
+    """Of q_r, q_θ and p at nodes (n, J + 1) of hats, at angles from 0 to π; the other half is the
+    mirror image. It carries the load of the hats."""
+    size = float(radii[np.flatnonzero(np.max(p, axis=1) > 0)[-1]])
+    weights = np.gradient(radii)[:, None] * radii[:, None] * np.ones_like(angles)
+    r, theta = np.broadcast_arrays(radii[:, None] / size, angles)
+    told = (p > fit.over * np.max(p)) & (r > fit.begins)
+    _refuse_few(int(np.min(np.count_nonzero(told, axis=0))))
+    squared = _least_squares(1 - r * r, theta, p * p, np.where(told, weights, 0), fit.powers + 1)
+    centre, radius = _zeros(squared, angles)
+    cos, sin = np.cos(theta), np.sin(theta)
+    x, y = r * cos, r * sin
+    rho, turned = np.hypot(x - centre, y) / radius, np.arctan2(y, x - centre)
+    beside = 1 - rho**2
+    # p² over what is zero at the edge, weighted as p² is.
+    weights = np.where(told & (beside > 0), weights * beside**2, 0.0)
+    factor = _least_squares(
+        beside, turned, p * p / np.where(beside, beside, 1), weights, fit.powers
+    )
+    inner = (rho < fit.beside) & (p > 0)
+    smooth = np.sqrt(np.maximum(factor(beside, turned), 0.0))
+    smooth[inner] = p[inner] / np.sqrt(beside[inner])
+    known = (rho < fit.last) & (p > 0)
+    ways = [
+        _continued(q / np.where(known, p, 1.0), known)
+        for q in (outward * cos - around * sin, outward * sin + around * cos)
+    ]
+    eta, phi = np.linspace(0.0, radius, RADII)[:, None], 2 * np.pi * np.arange(ANGLES) / ANGLES
+    x, y = centre + eta * np.cos(phi), eta * np.sin(phi)
+    at, to = np.hypot(x, y), np.arctan2(y, x)
+    fields = [
+        _all_around(field, r[:, 0], angles, sense, degree)(at, to, grid=False)
+        for field, sense, degree in ((ways[0], 1, 1), (ways[1], -1, 1), (smooth, 1, 3))
+    ]
+    whole = np.stack([fields[0] * fields[2], fields[1] * fields[2], fields[2]])
+    circle = LoadedCircle(radius * size, centre * size, whole)
+    return replace(circle, smooth=whole * (_load(radii, angles, p) / circle.load))
+
+
+def _refuse_few(rings: int) -> None:
+    if rings < FEWEST:
+        raise UnsupportedScene(
+            f"{rings} rings tell the edge of the contact, and the stress below it takes {FEWEST}; "
+            f"ask for a step with a larger contact, or {ELSEWHERE}"
+        )
+
+
+def _least_squares(
+    s: Array, angles: Array, values: Array, weights: Array, powers: int
+) -> Callable[[Array, Array], Array]:
+    """Σ c_mk cos mθ s^k that is nearest to values where they have weight."""
+
+    def terms(s: Array, angle: Array) -> Array:
+        return np.stack([
+            np.cos(m * angle) * s**k for m in range(HARMONICS + 1) for k in range(powers + 1)
+        ], axis=-1)  # fmt: skip
+
+    root = np.sqrt(weights)
+    found = np.linalg.lstsq(
+        terms(s, angles)[weights > 0] * root[weights > 0, None],
+        (values * root)[weights > 0],
+    )[0]
+    return lambda s, angle: np.asarray(terms(s, angle) @ found)
+
+
+def _zeros(squared: Callable[[Array, Array], Array], angles: Array) -> tuple[float, float]:
+    """Centre and radius of the circle through the zeros of a function of 1 - r² and the angle."""
+    s, step = np.zeros_like(angles), 1e-6
+    for _ in range(STEPS):
+        slope = (squared(s + step, angles) - squared(s - step, angles)) / (2 * step)
+        s -= squared(s, angles) / slope
+    # r² = 2 x c + R² - c²
+    x = np.sqrt(1 - s) * np.cos(angles)
+    law = np.stack([2 * x, np.ones_like(x)], axis=1)
+    centre, rest = np.linalg.lstsq(law, 1 - s)[0]
+    return float(centre), float(np.sqrt(rest + centre**2))
+
+
+def _continued(ratio: Array, known: Mask) -> Array:
+    """Further out along every ray as at the last place where it is known."""
+    last = len(known) - 1 - np.argmax(known[::-1], axis=0)
+    kept = np.minimum(np.arange(len(known))[:, None], last)
+    return np.asarray(np.take_along_axis(ratio, kept, axis=0))
+
+
+def _all_around(
+    field: Array, r: Array, angles: Array, sense: int, degree: int
+) -> RectBivariateSpline:
+    """Between nodes and their mirror images.
+
+    sense   1 for what these have alike, -1 for what they have opposite
+    degree  in r
+    """
+    whole = np.hstack([sense * field[:, :0:-1], field])
+    turns = np.concatenate([-angles[:0:-1], angles])
+    before, behind = slice(-PERIOD - 1, -1), slice(1, PERIOD + 1)
+    whole = np.hstack([whole[:, before], whole, whole[:, behind]])
+    turns = np.concatenate([turns[before] - 2 * np.pi, turns, turns[behind] + 2 * np.pi])
+    return RectBivariateSpline(r, turns, whole, kx=degree, ky=3)
+
+
+def _load(radii: Array, angles: Array, p: Array) -> float:
+    """∫ p dA of hats [force]."""
+    rings = 2 * np.asarray(np.trapezoid(p, angles, axis=1))
+    inner, outer = radii[:-1], radii[1:]
+    parts = (2 * inner + outer) * rings[:-1] + (inner + 2 * outer) * rings[1:]
+    return float(np.sum((outer - inner) * parts) / 6)

@@ -1,0 +1,126 @@
+"""Displacement and stress in a half-space below the pressure of a disc.
+
+Every wave exp(-kz) cos ks of the pressure is summed over k in closed form: with c = z + is and
+R² = r² + c², ∫ exp(-kc) J₀(kr) dk = 1/R and ∫ exp(-kc) J₁(kr) dk = r/(R (R + c)); what is left is
+one integral over the transform G. Powers of k are taken by parts, as derivatives of G, so that
+nothing cancels towards the surface. Lengths are in units of the contact radius.
+"""
+
+from __future__ import annotations
+
+from math import asinh, ceil, pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene.array_types import Array
+from radial.normal.disc import Disc
+from radial.normal.surface import pressure
+from radial.response.quadrature import unit_gauss
+from semi_analytical.frf.stack import HalfSpace
+
+Complex = NDArray[np.complex128]
+
+POINTS = 16
+WIDTH = 1.5  # of a panel of the stretched place
+SURFACE = 1e-16  # nothing is told apart from what lies less deep
+# An axis is seen from so near that no digit tells.
+AXIS = 1e-7
+
+
+def below_pressure(contact: Disc, material: HalfSpace, x: Array, depth: float) -> Array:
+    """u_r, u_z [length], σ_rr, σ_θθ, σ_zz, σ_rz [force/length²], shape (6, n), at r = a x and at a
+    depth z = a·depth >= 0 in a half-space of the material."""
+    true, x = x, np.maximum(x, AXIS)
+    G, nu = material
+    modulus = contact.bodies.modulus / pi
+    if depth < SURFACE:
+        p, mean = pressure(contact, x), modulus / contact.radius * _mean(contact, x)
+        out, down = -(1 - 2 * nu) * mean * contact.radius * true, modulus * _settled(contact, x)
+        radial = mean * (1 - 2 * nu)
+        stress = [radial - p, -radial - 2 * nu * p, -p, np.zeros_like(p)]
+        return np.stack([out / (2 * G), (1 - nu) * down / G, *stress])
+    level, once, twice, outward, steep, steeper = _waves(contact, x, depth)
+    moved, unit = modulus / (2 * G), modulus / contact.radius
+    # Over r: u_r is this times r, and σ_θθ = 2G u_r/r - 2ν ∫ p~ exp(-kz) J₀ k dk.
+    spread = -(1 - 2 * nu) * outward + depth * steep
+    hoop = spread - 2 * nu * once
+    return np.stack(
+        [
+            moved * true * spread,
+            moved * (2 * (1 - nu) * level + depth * once),
+            unit * (depth * twice - (1 + 2 * nu) * once - hoop),
+            unit * hoop,
+            -unit * (once + depth * twice),
+            -unit * depth * true * steeper,
+        ]
+    )
+
+
+def _waves(contact: Disc, x: Array, depth: float) -> tuple[Array, ...]:
+    """∫ G~ exp(-κz) f dκ of f = J₀, κ J₀, κ² J₀, J₁/x, κ J₁/x and κ² J₁/x."""
+    beside, weights = _places(contact, x, depth)
+    t = x[:, None] + beside
+    c, R = _distance(x[:, None], depth, beside)
+    by_G, by_rate = weights * contact.transform(t), weights * contact.rate(t)
+    end, last = (part[:, 0] for part in _distance(x[:, None], depth, 1 - x[:, None]))
+
+    def by_parts(inside: Complex, outside: Complex) -> Array:
+        return np.asarray((1j * contact.edge * outside - 1j * np.sum(by_rate * inside, 1)).real)
+
+    out = 1 / (R * (R + c))
+    return (
+        np.asarray(np.sum(by_G / R, axis=1).real),
+        by_parts(1 / R, 1 / last),
+        by_parts(c / R**3, end / last**3),
+        np.asarray(np.sum(by_G * out, axis=1).real),
+        by_parts(out, 1 / (last * (last + end))),
+        by_parts(1 / R**3, 1 / last**3),
+    )
+
+
+def _places(contact: Disc, x: Array, depth: float) -> tuple[Array, Array]:
+    """Points t - x and weights (n, points) for 0 < t < 1: t = x + z sinh y takes the root at
+    t = x ± iz out of 1/R."""
+    first, last = np.arcsinh(-x / depth), np.arcsinh((1 - x) / depth)
+    count = ceil(2 * asinh(max(1.0, float(np.max(x))) / depth) / WIDTH)
+    v, shares = unit_gauss(POINTS + len(contact.layers))
+    v = ((np.arange(count)[:, None] + v) / count).ravel()
+    y = first[:, None] + (last - first)[:, None] * v
+    weights = (last - first)[:, None] / count * np.tile(shares, count) * depth * np.cosh(y)
+    return depth * np.sinh(y), weights
+
+
+def _distance(x: Array, depth: float, beside: Array) -> tuple[Complex, Complex]:
+    """c and R at t = x + beside."""
+    t = x + beside
+    c = np.asarray(depth + 1j * t, dtype=np.complex128)
+    return c, np.asarray(np.sqrt(depth**2 - beside * (x + t) + 2j * depth * t))
+
+
+def _mean(contact: Disc, x: Array) -> Array:
+    """Half the mean pressure within x, in units of E*/πa."""
+    found = np.empty_like(x)
+    inside = x < 1
+    beyond = x[~inside]
+    found[~inside] = contact.load / (2 * contact.bodies.modulus * contact.radius) / beyond**2
+    rho = x[inside][:, None]
+    chord = np.sqrt((1 - rho) * (1 + rho))
+    v, weights = unit_gauss(2 * POINTS + len(contact.profile.abel) + len(contact.layers))
+    furthest = np.arcsinh(chord / rho)
+    y = furthest * v
+    further = furthest[:, 0] * (
+        (contact.rate(np.minimum(rho * np.cosh(y), 1.0)) * np.sinh(y) * np.exp(-y)) @ weights
+    )
+    nearer = (contact.rate(rho * v) * v) @ weights
+    found[inside] = contact.edge / (1 + chord[:, 0]) - further - nearer
+    return found
+
+
+def _settled(contact: Disc, x: Array) -> Array:
+    """∫ G~ J₀ dκ = ∫ G(t)/√(x²-t²) dt over t < x, 1."""
+    v, weights = unit_gauss(2 * POINTS + len(contact.profile.abel) + len(contact.layers))
+    angle = np.arcsin(np.minimum(1 / x, 1.0))
+    return np.asarray(
+        angle * (contact.transform(x[:, None] * np.sin(angle[:, None] * v)) @ weights)
+    )

@@ -1,0 +1,95 @@
+"""Tractions on a circle at whose edge they end like a root, at any place.
+
+Pushed contacts move: their edge is a circle about a centre beside the axis.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene.array_types import Array
+from radial.response.quadrature import unit_gauss
+
+Complex = NDArray[np.complex128]
+
+# Points of a panel of Gauss's rule, and for the load; and for that harmonics that may alias.
+PANEL, LOAD_POINTS, HARMONICS = 16, 128, 15
+
+
+@dataclass(frozen=True, eq=False)
+class LoadedCircle:
+    """Pressure and shear on the lower body.
+
+    radius  of the circle [length]
+    centre  its x; y is 0 [length]
+    smooth  q_x, q_y, p over √(1-η²) at η = k/(n-1) from the centre and angles 2πj/J, or of one
+            angle q_r, q_θ, p, the same all around (3, n, J) [force/length²]
+    """
+
+    radius: float
+    centre: float
+    smooth: Array
+
+    @property
+    def is_round(self) -> bool:
+        """Whether all is the same all around."""
+        return self.smooth.shape[2] == 1
+
+    @property
+    def load(self) -> float:
+        """∫ p dA [force]."""
+        eta, area = self.disc_rule(LOAD_POINTS)
+        return float(2 * np.pi * self.radius**2 * self.harmonics(eta, HARMONICS)[2][0].real @ area)
+
+    @staticmethod
+    def disc_rule(count: int) -> tuple[Array, Array]:
+        """Places η and weights η dη, in panels of Gauss's rule in which η = sin α takes the root
+        out of the edge."""
+        panels = -(-count // PANEL)
+        v, weights = unit_gauss(PANEL)
+        angle = ((np.arange(panels)[:, None] + v) / panels).ravel() * (np.pi / 2)
+        eta = np.sin(angle)
+        return eta, np.tile(weights, panels) / panels * (np.pi / 2) * np.cos(angle) * eta
+
+    def reversed(self) -> LoadedCircle:
+        """What the upper body carries, z up into it."""
+        return replace(self, smooth=self.smooth * np.array([-1.0, -1.0, 1.0])[:, None, None])
+
+    def at(self, x: Array, y: Array) -> Array:
+        """q_x, q_y and p (3, …) at places about the centre, in radii; zero outside."""
+        eta = np.hypot(x, y)
+        root = np.sqrt(np.maximum((1 - eta) * (1 + eta), 0.0))
+        _, n, angles = self.smooth.shape
+        place = np.minimum(eta, 1.0) * (n - 1)
+        k = np.minimum(place.astype(np.intp), n - 2)
+        off = place - k
+        if self.is_round:
+            rays = self.smooth[:, :, 0]
+            outward, around, p = root * (rays[:, k] * (1 - off) + rays[:, k + 1] * off)
+            safe = np.where(eta > 0, eta, 1.0)
+            cos, sin = x / safe, y / safe
+            return np.stack([outward * cos - around * sin, outward * sin + around * cos, p])
+        turn = np.arctan2(y, x) * (angles / (2 * np.pi)) % angles
+        j = np.minimum(turn.astype(np.intp), angles - 1)
+        beside = turn - j
+        flat = self.smooth.reshape(3, -1)
+        here, next_ = k * angles + j, k * angles + (j + 1) % angles
+        inner = flat[:, here] * (1 - beside) + flat[:, next_] * beside
+        outer = flat[:, here + angles] * (1 - beside) + flat[:, next_ + angles] * beside
+        return np.asarray(root * (inner * (1 - off) + outer * off))
+
+    def harmonics(self, eta: Array, highest: int) -> tuple[Complex, Complex, Complex]:
+        """Amplitudes of exp(imθ) of q_r + i q_θ, q_r - i q_θ and p, m = 0 … highest, twice those of
+        the sum over all m but for m = 0 (highest + 1, n)."""
+        count = 2 * highest + 2
+        theta = 2 * np.pi * np.arange(count) / count
+        cos, sin = np.cos(theta), np.sin(theta)
+        x, y, p = self.at(eta[:, None] * cos, eta[:, None] * sin)
+        outward, around = x * cos + y * sin, y * cos - x * sin
+        found = np.fft.rfft(np.stack([outward, around, p]), axis=-1)[..., : highest + 1] / count
+        found[..., 1:] *= 2
+        outward, around, p = np.moveaxis(found, -1, 1)
+        return outward + 1j * around, outward - 1j * around, p

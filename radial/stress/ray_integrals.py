@@ -1,0 +1,225 @@
+"""Displacement and stress in a half-space below a loaded circle, as integrals over rays.
+
+Boussinesq's and Cerruti's solutions (Johnson 1985, sections 3.2 and 3.6) are summed over the circle
+in polar coordinates about the place above which is asked, where their d⁻² loses one power; at the
+surface what is left of the other has no mean over the angle, so that ∫ t/d is its finite part.
+Lengths are in units of the circle's radius.
+"""
+
+from __future__ import annotations
+
+from math import pi
+
+import numpy as np
+
+from contact_scene.array_types import Array
+from radial.response.quadrature import unit_gauss
+from radial.stress.loaded_circle import LoadedCircle
+from semi_analytical.frf.stack import HalfSpace
+
+SURFACE = 1e-8  # depths below are the surface
+ANGLES, POINTS = 8, 6  # Gauss's of a panel of angles and of a ray
+WIDER = 4.0  # than the panel before, at most
+LEAST = 1e-7  # panels of a ray, and of angles
+MAX_AT_ONCE = 1 << 18  # points
+
+
+def below_circle(
+    circle: LoadedCircle, material: HalfSpace, x: Array, y: Array, depth: float, fineness: int = 1
+) -> Array:
+    """u_x, u_y, u_z [length] and σ_xx, yy, zz, yz, xz, xy [force/length²] (9, n) at places x, y
+    from the circle's centre and a depth, all in its radii.
+
+    fineness  how many times as many points as it takes
+    """
+    found = np.empty((9, len(x)))
+    r = np.hypot(x, y)
+    depth = 0.0 if depth < SURFACE else depth
+    # Alike are places that take panels alike.
+    apart = np.sqrt(np.abs((1 - r) * (1 + r)))
+    widths = np.ceil(_panels(np.where(r < 1, np.maximum(apart, LEAST), 1.0)))
+    nearest = np.maximum(np.hypot(np.where(r < 1, 0.0, r - 1), depth), LEAST)
+    if depth == 0:
+        nearest = np.maximum(np.abs(1 - r), LEAST)
+    lengths = 1 + np.ceil(_panels(np.minimum(nearest, 1.0)))
+    kinds = np.stack([r < 1, widths, lengths]).astype(np.intp)
+    for inside, wide, long in np.unique(kinds, axis=1).T:
+        alike = np.flatnonzero(np.all(kinds == np.array([[inside], [wide], [long]]), axis=0))
+        each = ANGLES * POINTS * fineness**2 * int(wide) * int(long) * 4
+        for some in np.array_split(alike, -(-len(alike) * each // MAX_AT_ONCE)):
+            angles = _of_angles(r[some], int(wide), fineness) if inside else None
+            found[:, some] = _summed(
+                circle, material, x[some], y[some], depth, angles, int(long), fineness
+            )
+    found[:3] *= circle.radius
+    return found
+
+
+def _panels(smallest: Array) -> Array:
+    """How many it takes to grow from the smallest to one."""
+    return np.asarray(1 - np.log(smallest) / np.log(WIDER))
+
+
+def _of_angles(r: Array, count: int, fineness: int) -> tuple[Array, Array]:
+    """Angles from the way outward and weights (n, rays), for places inside: dense where rays begin
+    to run along the edge."""
+    width = np.sqrt((1 - r) * (1 + r))
+    v, weights = unit_gauss(ANGLES * fineness)
+    edges = _graded(np.clip(width, LEAST, 1.0), count) * (pi / 2)
+    lengths = np.diff(edges, axis=1)[..., None]
+    beside = (edges[:, :-1, None] + lengths * v).reshape(len(r), -1)
+    weight = (lengths * weights).reshape(len(r), -1)
+    angles = [pi / 2 + beside, pi / 2 - beside, -pi / 2 + beside, -pi / 2 - beside]
+    return np.concatenate(angles, axis=1), np.tile(weight, 4)
+
+
+def _graded(smallest: Array, count: int) -> Array:
+    """0, smallest, …, 1 in equal ratios (…, count + 1)."""
+    powers = np.arange(count - 1, -1, -1) / max(count - 1, 1)
+    grown = smallest[..., None] ** powers
+    return np.concatenate([np.zeros_like(grown[..., :1]), grown], axis=-1)
+
+
+def _summed(
+    circle: LoadedCircle, material: HalfSpace, x: Array, y: Array, depth: float,
+    angles: tuple[Array, Array] | None, count: int, fineness: int,
+) -> Array:  # fmt: skip
+    """As `subsurface_circle`, for places that are alike.
+
+    angles  of the rays, from the way outward; None outside
+    """
+    r = np.hypot(x, y)[:, None]
+    outward = np.arctan2(y, x)[:, None]
+    if angles is None:
+        v, weights = unit_gauss(2 * ANGLES * fineness)
+        # Rays that touch the edge: the sine goes from -1 to 1.
+        widest = np.arcsin(np.minimum(1 / r, 1.0))
+        turned = widest * (2 * v - 1)
+        half = np.sqrt(np.maximum(1 - (r * np.sin(turned)) ** 2, 0.0))
+        first = (r - 1) * (r + 1) / (r * np.cos(turned) + half)
+        length, weight = 2 * half, 2 * widest * weights
+        turned = turned + pi
+        scale = np.hypot(first, depth)
+    else:
+        turned, weight = angles
+        along, half = r * np.cos(turned), np.sqrt(np.maximum(1 - (r * np.sin(turned)) ** 2, 0.0))
+        # The longer part of a chord is a sum, the shorter one what is left of the product.
+        product = (1 - r) * (1 + r)
+        longer = np.abs(along) + half
+        ahead = np.where(along < 0, longer, product / longer)
+        behind = np.where(along < 0, product / longer, longer)
+        first, length = np.zeros_like(ahead), ahead
+        scale = np.full_like(ahead, depth) if depth else behind
+    length = np.maximum(length, 1e-300)
+    share, part = _on_rays(np.clip(scale / length, LEAST, 1 / WIDER), count, fineness)
+    far = first[..., None] + length[..., None] * share
+    weight_far = length[..., None] * part
+    ways = outward + turned
+    cos, sin = np.cos(ways), np.sin(ways)
+    t = circle.at(x[:, None, None] + far * cos[..., None], y[:, None, None] + far * sin[..., None])
+    rays = _by_rays(material, t, far, weight_far, depth, cos, sin)
+    here = circle.at(x, y)
+    if depth == 0 and angles is not None:
+        rays = rays + _finite_part(material, here, far, weight_far, length, cos, sin)
+    found = _turned(rays, cos, sin, weight)
+    if depth == 0:
+        p = here[2]
+        nu = material.poisson_ratio
+        found[3:] += np.stack([-(0.5 + nu) * p, -(0.5 + nu) * p, -p, -here[1], -here[0], 0 * p])
+    return found
+
+
+def _on_rays(scale: Array, count: int, fineness: int) -> tuple[Array, Array]:
+    """Places between 0 and 1 and weights (…, points): dense towards 0, roots taken out of both
+    ends."""
+    edges = _graded(scale, count)
+    v, weights = unit_gauss(POINTS * fineness)
+    lengths = np.diff(edges, axis=-1)[..., None]
+    places = edges[..., :-1, None] + lengths * v
+    parts = np.broadcast_to(lengths * weights, places.shape).copy()
+    places[..., 0, :] = lengths[..., 0, :] * v**2
+    parts[..., 0, :] = lengths[..., 0, :] * weights * 2 * v
+    places[..., -1, :] = edges[..., -2, None] + lengths[..., -1, :] * (1 - (1 - v) ** 2)
+    parts[..., -1, :] = lengths[..., -1, :] * weights * 2 * (1 - v)
+    shape = (*scale.shape, -1)
+    return places.reshape(shape), parts.reshape(shape)
+
+
+def _kernels(material: HalfSpace, d: Array, depth: float) -> tuple[Array, ...]:
+    """Times d: what p, q along the ray and q across it at a distance d do, u_s, u_z, σ_ss, σ_tt,
+    σ_zz, σ_sz of the first two and u_t, σ_st of the third, with s towards the traction."""
+    G, nu = material
+    g, z = 1 - 2 * nu, depth
+    R = np.hypot(d, z)
+    sum_ = R + z
+    # With z = 0 and d = 0 nothing is asked.
+    move, unit = d / (4 * pi * G), d / (2 * pi)
+    by_p = (
+        -move * (d * z / R**3 - g * d / (R * sum_)),
+        move * (z * z / R**3 + 2 * (1 - nu) / R),
+        unit * (g / (R * sum_) - 3 * z * d * d / R**5),
+        unit * g * (z / R**3 - 1 / (R * sum_)),
+        -unit * 3 * z**3 / R**5,
+        unit * 3 * d * z * z / R**5,
+    )
+    by_s = (
+        move * (1 / R + d * d / R**3 + g * (1 / sum_ - d * d / (R * sum_**2))),
+        -move * (d * z / R**3 + g * d / (R * sum_)),
+        unit * (
+            3 * d**3 / R**5
+            + g * d * (3 / (R * sum_**2) - 1 / R**3 - d * d / (R**3 * sum_**2)
+                       - 2 * d * d / (R**2 * sum_**3))
+        ),
+        unit * g * d * (1 / (R * sum_**2) - 1 / R**3),
+        unit * 3 * d * z * z / R**5,
+        -unit * 3 * d * d * z / R**5,
+    )  # fmt: skip
+    by_t = (move * (1 / R + g / sum_), unit * g * d / (R * sum_**2))
+    return (*by_p, *by_s, *by_t)
+
+
+def _by_rays(
+    material: HalfSpace, t: Array, d: Array, weight: Array, depth: float, cos: Array, sin: Array
+) -> Array:
+    """u_s, u_t, u_z, σ_ss, σ_tt, σ_zz, σ_sz, σ_st of every ray (8, n, rays)."""
+    pu, pw, pss, ptt, pzz, psz, su, sw, sss, stt, szz, ssz, tu, tst = _kernels(material, d, depth)
+    q_x, q_y, p = t * weight
+
+    def total(field: Array) -> Array:
+        return np.asarray(np.sum(field, axis=-1))
+
+    c, s = cos[..., None], sin[..., None]
+    along, across = c * q_x + s * q_y, c * q_y - s * q_x
+    return np.stack([
+        total(pu * p + su * along), total(tu * across), total(pw * p + sw * along),
+        total(pss * p + sss * along), total(ptt * p + stt * along), total(pzz * p + szz * along),
+        total(psz * p + ssz * along), total(tst * across),
+    ])  # fmt: skip
+
+
+def _finite_part(
+    material: HalfSpace, here: Array, d: Array, weight: Array, length: Array, cos: Array, sin: Array
+) -> Array:
+    """What makes ∫ t/d by points its finite part: of the traction here, ln R less the points."""
+    left = np.log(length) - np.sum(weight / d, axis=-1)
+    unit, g, nu = 1 / (2 * pi), 1 - 2 * material.poisson_ratio, material.poisson_ratio
+    q_x, q_y, p = here[..., None]
+    along, across = cos * q_x + sin * q_y, cos * q_y - sin * q_x
+    nothing = np.zeros_like(left)
+    return np.stack([
+        nothing, nothing, nothing,
+        left * unit * (g * p + 2 * (1 + nu) * along), -left * unit * g * p, nothing,
+        nothing, left * unit * g * across,
+    ])  # fmt: skip
+
+
+def _turned(rays: Array, cos: Array, sin: Array, weight: Array) -> Array:
+    """Sums over the rays, in x and y (9, n)."""
+    u_s, u_t, u_z, ss, tt, zz, sz, st = rays * weight
+    c2, s2, cs = cos * cos, sin * sin, cos * sin
+    each = (
+        cos * u_s - sin * u_t, sin * u_s + cos * u_t, u_z,
+        c2 * ss + s2 * tt - 2 * cs * st, s2 * ss + c2 * tt + 2 * cs * st, zz,
+        sin * sz, cos * sz, cs * (ss - tt) + (c2 - s2) * st,
+    )  # fmt: skip
+    return np.stack([np.sum(part, axis=-1) for part in each])

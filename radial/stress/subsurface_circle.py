@@ -1,0 +1,171 @@
+"""Displacement and stress in a layered body below the tractions of a circle.
+
+In the outermost layer they are those of a half-space (`ray_integrals`), plus what the layers add,
+which like images no nearer than 2h - z needs few wavenumbers; below it everything comes from no
+nearer than z. These are Hankel integrals of every harmonic: with A = H_{m+1}(q_r + i q_θ) and
+B = H_{m-1}(q_r - i q_θ) the waves that go as exp(imψ) have the tractions (B - A)/2 along them and
+-(A + B)/2 across.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import ceil
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene.array_types import Array
+from radial.response.bodies import (
+    LONGEST_WAVE,
+    longest,
+)
+from radial.response.wavenumbers import waves
+from radial.stress.loaded_circle import LoadedCircle
+from radial.stress.ray_integrals import below_circle
+from radial.tangential.ring_energies import bessel_functions
+from semi_analytical.frf.depth import Descent, Level, in_plane, material_at, remainder_at_depth
+from semi_analytical.frf.stack import Stack
+
+Complex = NDArray[np.complex128]
+
+# exp(-κ d) (κ d)² is below 1e-12 from here on: tractions are not known better.
+DIED_OUT = 36.0
+LEAST_POINTS = 64  # over the radius
+MAX_AT_ONCE = 1 << 21  # numbers
+
+
+class BelowCircle:
+    """The fields of one body.
+
+    circle    what loads it
+    stack     the body, layers or not
+    reach     radii from the centre up to which there are places
+    highest   harmonic
+    fineness  how many times as many points and wavenumbers as it takes
+    """
+
+    def __init__(
+        self, circle: LoadedCircle, stack: Stack, reach: float, highest: int, fineness: int = 1
+    ) -> None:
+        self.circle, self.stack = circle, stack
+        self.highest, self.fineness = highest, fineness
+        if stack.layers:
+            a = circle.radius
+            nearest = DIED_OUT * a / stack.layers[0].thickness
+            chosen = waves(nearest, LONGEST_WAVE * longest(stack, a), reach, fineness)
+            self._kappa, weights = chosen.rule
+            self._sources = self._transforms() * (weights * self._kappa)
+
+    def _transforms(self) -> Complex:
+        """A, B and the transform of p (3, M + 1, κ), of tractions in units of the radius."""
+        count = ceil(max(LEAST_POINTS, self._kappa[-1]) * self.fineness)
+        eta, area = self.circle.disc_rule(count)
+        outward, inward, p = self.circle.harmonics(eta, self.highest)
+        found = np.zeros((3, self.highest + 1, len(self._kappa)), dtype=np.complex128)
+        for some in self._blocks(len(eta)):
+            orders = self._orders(np.multiply.outer(self._kappa[some], eta))
+            for m in range(self.highest + 1):
+                for part, field, order in ((0, outward, 1), (1, inward, -1), (2, p, 0)):
+                    found[part, m, some] = _order(orders, m + order) @ (area * field[m])
+        return found
+
+    def _orders(self, at: Array) -> list[Array]:
+        """J_0 … J_{M+2}."""
+        return list(bessel_functions(self.highest + 2, at))
+
+    def _blocks(self, beside: int) -> list[slice]:
+        """Of wavenumbers whose Bessel functions at so many places fit into little memory."""
+        step = max(MAX_AT_ONCE // (beside * (self.highest + 3)), 1)
+        return [slice(k, k + step) for k in range(0, len(self._kappa), step)]
+
+    def at(self, levels: Sequence[Level], x: Array, y: Array) -> Array:
+        """u_x, u_y, u_z [length] and σ_xx, yy, zz, yz, xz, xy [force/length²] at places (n,) in the
+        scene's axes [length] of every level, shape (levels, 9, n); raises ValueError for a level in
+        a rigid base."""
+        a = self.circle.radius
+        found = np.zeros((len(levels), 9, len(x)))
+        x, y = (x - self.circle.centre) / a, y / a
+        for n, level in enumerate(levels):
+            if level.layer == 0:
+                material = material_at(self.stack, level)
+                found[n] = below_circle(self.circle, material, x, y, level.depth / a, self.fineness)
+        if self.stack.layers:
+            self._add_layers(levels, x, y, found)
+        return found
+
+    def _add_layers(self, levels: Sequence[Level], x: Array, y: Array, found: Array) -> None:
+        a, h = self.circle.radius, self.stack.layers[0].thickness
+        r, theta = np.hypot(x, y), np.arctan2(y, x)
+        turns = np.exp(1j * np.arange(self.highest + 1)[:, None] * theta)
+        polar = np.zeros_like(found)
+        for some in self._blocks(len(x)):
+            kappa, sources = self._kappa[some], self._sources[..., some]
+            descent = Descent(self.stack, kappa / a)
+            orders = self._orders(np.multiply.outer(kappa, r))
+            for n, level in enumerate(levels):
+                away = (2 * h - level.depth if level.layer == 0 else level.depth) / a
+                felt = int(np.searchsorted(kappa, DIED_OUT / away))
+                if felt:
+                    polar[n] += _transformed(
+                        descent, level, sources[..., :felt], orders, turns, felt
+                    )
+        found += _turned(polar, np.cos(theta), np.sin(theta))
+
+
+def _order(orders: Sequence[Array], m: int) -> Array:
+    """J_m, of negative orders, too."""
+    return orders[m] if m >= 0 else (-1) ** m * orders[-m]
+
+
+def _transformed(
+    descent: Descent, level: Level, sources: Complex, orders: Sequence[Array], turns: Complex,
+    felt: int,
+) -> Array:  # fmt: skip
+    """u_r, u_θ, u_z, σ_rr, θθ, zz, θz, rz, rθ (9, n): the sum over harmonics."""
+    if level.layer == 0:
+        fields = remainder_at_depth(descent.stack, descent.alpha, level.depth)
+    else:
+        fields = descent.at(level)
+    plane = in_plane(fields, material_at(descent.stack, level), descent.alpha)
+    total = np.zeros((9, turns.shape[1]))
+    for m, turn in enumerate(turns):
+        A, B, p = sources[:, m]
+        along, across = (B - A) / 2, -(A + B) / 2
+
+        def by_wave(entries: Array, along: Complex = along, p: Complex = p) -> Complex:
+            return np.asarray(entries[0, :felt] * along + entries[1, :felt] * p)
+
+        U, W = by_wave(fields.displacement[0]), by_wave(fields.displacement[1])
+        s, n = by_wave(fields.traction[0]), by_wave(fields.traction[1])
+        lengthwise, sideways = by_wave(plane.along), by_wave(plane.across)
+        V = fields.transverse_displacement[:felt] * across
+        t = fields.transverse_traction[:felt] * across
+        st = plane.shear[:felt] * across
+        half = (lengthwise - sideways) / 2
+        level_J = _order(orders, m)[:felt]
+        W, n, mean = (f @ level_J for f in (W, -n, (lengthwise + sideways) / 2))
+        out, out_z = (f @ _order(orders, m + 1)[:felt] for f in (-(U + V), s + t))
+        in_, in_z = (f @ _order(orders, m - 1)[:felt] for f in (U - V, t - s))
+        out_2 = (st - half) @ _order(orders, m + 2)[:felt]
+        in_2 = -(half + st) @ _order(orders, m - 2)[:felt]
+        apart = (out_2 + in_2) / 2
+        polar = (
+            (out + in_) / 2, (out - in_) / 2j, W, mean + apart, mean - apart, n,
+            (out_z - in_z) / 2j, (out_z + in_z) / 2, (out_2 - in_2) / 2j,
+        )  # fmt: skip
+        total += (np.stack(polar) * turn).real
+    return total
+
+
+def _turned(polar: Array, cos: Array, sin: Array) -> Array:
+    """From outward and around to x and y (levels, 9, n)."""
+    u_r, u_t, u_z, rr, tt, zz, tz, rz, rt = np.moveaxis(polar, 1, 0)
+    mean, half = (rr + tt) / 2, (rr - tt) / 2
+    c2, s2 = cos * cos - sin * sin, 2 * sin * cos
+    apart = half * c2 - rt * s2
+    return np.stack([
+        cos * u_r - sin * u_t, sin * u_r + cos * u_t, u_z,
+        mean + apart, mean - apart, zz,
+        sin * rz + cos * tz, cos * rz - sin * tz, half * s2 + rt * c2,
+    ], axis=1)  # fmt: skip

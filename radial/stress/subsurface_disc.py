@@ -1,0 +1,102 @@
+"""Displacement and stress in a layered body below the pressure of a disc."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import pi
+
+import numpy as np
+from scipy.special import j0, j1
+
+from contact_scene.array_types import Array
+from radial.normal.disc import Disc
+from radial.response.bodies import (
+    LONGEST_WAVE,
+    longest,
+)
+from radial.response.wavenumbers import waves
+from radial.stress.half_space import below_pressure
+from semi_analytical.frf.depth import Descent, Level, in_plane, material_at, remainder_at_depth
+from semi_analytical.frf.stack import Stack
+
+# exp(-κ d) (κ d)² is below 1e-17 from here on.
+DIED_OUT = 48.0
+BLOCK = 4096  # wavenumbers whose Bessel functions are held at a time
+
+
+class Below:
+    """The fields of one body.
+
+    In the outermost layer they are those of a half-space of its material (`half_space`), plus what
+    the layers add, which like images no nearer than 2h - z needs few wavenumbers; below it
+    everything comes from no nearer than z.
+
+    stack     the body, layers or not
+    reach     radii up to which there are places, over that of the contact
+    fineness  how many times as many wavenumbers as it takes
+    """
+
+    def __init__(self, contact: Disc, stack: Stack, reach: float, fineness: int = 1) -> None:
+        self.contact, self.stack = contact, stack
+        if not stack.layers:
+            return
+        a = contact.radius
+        nearest = stack.layers[0].thickness / a
+        chosen = waves(DIED_OUT / nearest, LONGEST_WAVE * longest(stack, a), reach, fineness)
+        self._places, weights = chosen.rule
+        scale = contact.bodies.modulus / (pi * a)
+        self._sources = scale * weights * self._places * contact.wave_transform(chosen)
+
+    def at(self, levels: Sequence[Level], r: Array) -> Array:
+        """u_r, u_z [length], σ_rr, σ_θθ, σ_zz, σ_rz [force/length²] at radii r (n,) [length] of
+        every level, shape (levels, 6, n); raises ValueError for a level in a rigid base."""
+        found = np.zeros((len(levels), 6, len(r)))
+        x = r / self.contact.radius
+        for n, level in enumerate(levels):
+            if level.layer == 0:
+                depth = level.depth / self.contact.radius
+                found[n] = below_pressure(self.contact, material_at(self.stack, level), x, depth)
+        if self.stack.layers:
+            self._add_layers(levels, x, found)
+        return found
+
+    def _add_layers(self, levels: Sequence[Level], x: Array, found: Array) -> None:
+        a, h = self.contact.radius, self.stack.layers[0].thickness
+        for start in range(0, len(self._places), BLOCK):
+            k = self._places[start : start + BLOCK]
+            sources = self._sources[start : start + BLOCK]
+            descent = Descent(self.stack, k / a)
+            kx = np.multiply.outer(k, x)
+            zeroth, first = j0(kx), j1(kx)
+            second = np.divide(2 * first, kx, out=np.zeros_like(kx), where=kx > 0) - zeroth
+            second[kx == 0] = 0.0
+            for n, level in enumerate(levels):
+                away = (2 * h - level.depth if level.layer == 0 else level.depth) / a
+                if k[0] * away > DIED_OUT:
+                    continue
+                felt = int(np.searchsorted(k, DIED_OUT / away))
+                found[n] += _transformed(
+                    _scalars(descent, level)[:, :felt] * sources[:felt],
+                    *(bessel[:felt] for bessel in (zeroth, first, second)),
+                )
+
+
+def _scalars(descent: Descent, level: Level) -> Array:
+    """What the Hankel transforms are taken of, by pressure: U, W, s, n of `frf.depth`, and half the
+    sum and half the difference of the stresses along and across (6, wavenumbers)."""
+    if level.layer == 0:
+        fields = remainder_at_depth(descent.stack, descent.alpha, level.depth)
+    else:
+        fields = descent.at(level)
+    plane = in_plane(fields, material_at(descent.stack, level), descent.alpha)
+    (U, W), (s, n) = fields.displacement[:, 1], fields.traction[:, 1]
+    along, across = plane.along[1], plane.across[1]
+    return np.stack([U, W, s, n, (along + across) / 2, (along - across) / 2])
+
+
+def _transformed(scalars: Array, zeroth: Array, first: Array, second: Array) -> Array:
+    U, W, s, n, mean, half = scalars
+    out, shear = -np.stack([U, -s]) @ first
+    down, normal, mean_there = np.stack([W, -n, mean]) @ zeroth
+    turned = half @ second
+    return np.stack([out, down, mean_there - turned, mean_there + turned, normal, shear])

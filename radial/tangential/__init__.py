@@ -1,0 +1,1 @@
+"""Tangential load: shear on rings and angles, with stick and slip."""

@@ -1,0 +1,81 @@
+"""Energies of tractions of every harmonic on rings, of both bodies and all their layers.
+
+p and q_r go as cos mθ, q_θ as sin mθ, of m = 0 as torsion. P = q_r - q_θ is transformed by J_{m-1},
+Q = q_r + q_θ by J_{m+1}, p by J_m; in these the half-space is that of `ring_energies`, and layers
+add
+
+    ∫ k dk ¼[(F_11 + F_sh)(P² + Q²) + 2 (F_sh - F_11) P Q] + ½ C (P - Q) p + F_22 p²
+
+with every letter for its transform. The closed forms and the combination are this project's;
+Weber–Schafheitlin integrals (DLMF 10.22.56) check them.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from contact_scene.array_types import Array
+from radial.frictional.coupling import Coupling
+from radial.tangential.ring_energies import (
+    blocks,
+    transforms,
+    unit_energies,
+)
+
+
+def ring_compliance(
+    coupling: Coupling, nodes: tuple[float, ...], radius: float, highest: int
+) -> Array:
+    """Energies of hats (M + 1, 3, 3, n + 1, n + 1) [length^6/force], symmetric: displacement along
+    the row's direction, weighted with its hat and r dr, by the column's traction. Directions are r,
+    θ, z; of harmonic 0 torsion, by q_θ, is on its own.
+
+    nodes    x = r/radius, from 0 on
+    highest  M
+    """
+    unit = unit_energies(nodes, highest)
+    found = np.zeros((highest + 1, 3, 3, len(nodes), len(nodes)))
+    mean, difference = (
+        (coupling.direct + coupling.across) / 4,
+        (coupling.across - coupling.direct) / 4,
+    )
+    crossed = coupling.crossed / 2
+    added = _of_layers(coupling, nodes, radius, highest) if coupling.bodies.layered else None
+    for m, block in enumerate(found):
+        below = abs(m - 1)
+        pp, qq = mean * unit.alike[below], mean * unit.alike[m + 1]
+        pq, zz = difference * unit.shifted[m], coupling.direct * unit.alike[m]
+        # Of m = 0 only J_{-1} = -J_1 is left to P.
+        zp = crossed * unit.stepped[below].T if m else -crossed * unit.stepped[0]
+        zq = -crossed * unit.stepped[m]
+        if added is not None:
+            pp, qq, pq, zz, zp, zq = np.add((pp, qq, pq, zz, zp, zq), added[m])
+        block[0, 0] = pp + qq + pq + pq.T
+        block[2, 2], block[2, 0] = zz, zp + zq
+        block[0, 2] = block[2, 0].T
+        block[1, 1] = pp + qq - pq - pq.T
+        block[0, 1], block[2, 1] = qq - pp + pq - pq.T, zq - zp
+        block[1, 0], block[1, 2] = block[0, 1].T, block[2, 1].T
+    return radius**3 * found
+
+
+def _of_layers(coupling: Coupling, nodes: tuple[float, ...], radius: float, highest: int) -> Array:
+    """What layers add to the energies PP, QQ, PQ, zz, zP and zQ (M + 1, 6, n + 1, n + 1), in units
+    of the radius."""
+    found = np.zeros((highest + 1, 6, len(nodes), len(nodes)))
+    waves = coupling.bodies.waves(radius, max(1.0, nodes[-1]))
+    kappa = waves.rule[0]
+    scalars = waves.rule[1] * coupling.added(waves, radius)
+    for some in blocks(kappa, len(nodes), highest):
+        fields = transforms(nodes, highest, kappa[some])
+        along, c12, c22, across = scalars[:, some]
+        mean, apart, half = (along + across) / 4, (across - along) / 4, c12 / 2
+        for m, total in enumerate(found):
+            # Of m = 0 only J_{-1} = -J_1 is there.
+            p, q, z = (1 if m else -1) * fields[abs(m - 1)], fields[m + 1], fields[m]
+            raised = z.T * half
+            total += (
+                (p.T * mean) @ p, (q.T * mean) @ q, (p.T * apart) @ q,
+                (z.T * c22) @ z, raised @ p, -raised @ q,
+            )  # fmt: skip
+    return found

@@ -1,0 +1,156 @@
+"""Energies of hats on rings in each other's fields, harmonic by harmonic, on a unit half-space.
+
+Galerkin's integrals ∬ φ_i K φ_j r s dr ds for hats φ that are linear between nodes x = r/a, over
+pairs of elements with r < s: Duffy's triangles where they share a node, Gauss's rule elsewhere.
+To 1e-10 while neighbours' widths differ by less than a factor 2.5.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import j0, j1
+
+from contact_scene.array_types import Array
+from radial.response.quadrature import unit_gauss
+from radial.tangential.harmonic_kernels import alike
+
+Numbers = NDArray[np.int64]
+# Points of r and s between the numbers of r, s and r's distance s - r, and their weights.
+Pairs = tuple[Numbers, Numbers, Array, Array, Array, Array]
+
+SAME, TOUCHING = 26, (14, 12)
+APART = ((2, 4, 11), (4, 9, 7))  # elements between which there are 2 … 3, 4 … 8, and points each
+FAR, FAR_POINTS = 9, 5
+WAVE_POINTS = 6
+KEPT = 8
+BEYOND = 32  # orders above the highest, where ratios of neighbours begin: J is nothing there
+MAX_AT_ONCE = 1 << 21  # numbers: 16 MiB
+
+
+class Unit(NamedTuple):
+    """Energies of hats i and j (harmonics, n + 1, n + 1) of lengths in units of the radius.
+
+    alike    of G_m, m = 0 … M + 1
+    shifted  of ∫ J_{m-1}(kr_i) J_{m+1}(ks_j) dk, m = 1 … M; m = 0 is -alike[1]
+    stepped  of ∫ J_m(kr_i) J_{m+1}(ks_j) dk, m = 0 … M
+    """
+
+    alike: Array
+    shifted: Array
+    stepped: Array
+
+
+@lru_cache(maxsize=KEPT)
+def unit_energies(nodes: tuple[float, ...], highest: int) -> Unit:
+    """Of hats at nodes 0 = x_0 < … < x_n, harmonics 0 … M = highest."""
+    x = np.array(nodes)
+    size = (len(x), len(x))
+    products = np.zeros((highest + 2, *size))
+    squares = np.zeros((highest + 2, *size))  # of (r/s) G_m
+    steps = np.zeros((highest + 1, *size))
+    for inner, outer, r, s, apart, weights in _pairs(x):
+        kernel = alike(highest + 1, r, s, apart) * weights
+        power = weights * r * (r / s) ** np.arange(highest + 1.0)[:, None, None]
+        for i, at_r in enumerate(_shapes(x, inner, r)):
+            for j, at_s in enumerate(_shapes(x, outer, s)):
+                row, column, both = inner + i, outer + j, at_r * at_s
+                part = (kernel * (both * r * s)).sum(-1)
+                products[:, row, column] += part
+                products[:, column, row] += part
+                squares[:, row, column] += (kernel * (both * r * r)).sum(-1)
+                squares[:, column, row] += (kernel * (both * s * s)).sum(-1)
+                steps[:, row, column] += (power * both).sum(-1)
+    m = np.arange(1.0, highest + 1)[:, None, None]
+    shifted = (2 * m - 1) * products[:highest] - 2 * m * squares[1 : highest + 1]
+    shifted = np.concatenate([-products[1:2], shifted])
+    return Unit(products, shifted, steps)
+
+
+def _shapes(x: Array, element: Numbers, r: Array) -> tuple[Array, Array]:
+    """Hats of an element's inner and outer node at points (elements, points)."""
+    inner, outer = x[element, None], x[element + 1, None]
+    return (outer - r) / (outer - inner), (r - inner) / (outer - inner)
+
+
+def _pairs(x: Array) -> Iterator[Pairs]:
+    """All pairs of points r < s: elements (k,) of each, and r, s, s - r, weights (k, points)."""
+    count = len(x) - 1
+    length = np.diff(x)
+    each = np.arange(count)
+    v, u, weights = _square(SAME, SAME)
+    v, u, weights = v**2, u**4, weights * 2 * v * 4 * u**3
+    off = length[:, None] * v
+    s, apart = x[:-1, None] + off, off * u
+    # What is left of s - x[e] and x[e] is added rather than taken from s: r > 0 for all u < 1.
+    yield each, each, x[:-1, None] + off * (1 - u), s, apart, weights * length[:, None] * off
+    t, y, weights = _square(*TOUCHING)
+    t, weights = t**3, weights * 3 * t**5
+    inner, outer = each[:-1], each[1:]
+    for before, behind in ((t, t * y), (t * y, t)):
+        below, above = length[:-1, None] * before, length[1:, None] * behind
+        shared = x[1:-1, None]
+        area = (length[:-1] * length[1:])[:, None]
+        yield inner, outer, shared - below, shared + above, below + above, weights * area
+    between = each[None, :] - each[:, None]
+    for first, last, points in (*APART, (FAR, count, FAR_POINTS)):
+        inner, outer = np.nonzero((between >= first) & (between < last))
+        v, u, weights = _square(points, points)
+        r = x[inner, None] + length[inner, None] * v
+        s = x[outer, None] + length[outer, None] * u
+        area = (length[inner] * length[outer])[:, None]
+        yield inner, outer, r, s, s - r, weights * area
+
+
+def _square(first: int, second: int) -> tuple[Array, Array, Array]:
+    """Gauss's points and weights on the unit square, one after another."""
+    v, of_v = unit_gauss(first)
+    u, of_u = unit_gauss(second)
+    return np.repeat(v, second), np.tile(u, first), np.outer(of_v, of_u).ravel()
+
+
+def transforms(nodes: tuple[float, ...], highest: int, kappa: Array) -> Array:
+    """∫ φ J_m(κx) x dx for m = 0 … M + 1, shape (M + 2, κ, n + 1)."""
+    x = np.array(nodes)
+    length = np.diff(x)[:, None]
+    v, weights = unit_gauss(WAVE_POINTS)
+    s = x[:-1, None] + length * v
+    at, weights = np.multiply.outer(kappa, s), length * weights * s
+    found = np.zeros((highest + 2, len(kappa), len(x)))
+    for total, values in zip(found, bessel_functions(highest + 1, at), strict=True):
+        part = values * weights
+        total[:, :-1] += part @ (1 - v)
+        total[:, 1:] += part @ v
+    return found
+
+
+def bessel_functions(highest: int, at: Array) -> Iterator[Array]:
+    """J_0 … J_highest: by the recurrence upwards as long as the order is below the argument, from
+    there on by the ratios of neighbours, which the recurrence downwards tells (Gautschi 1967)."""
+    last, now = j0(at), j1(at)
+    yield last
+    if highest:
+        yield now
+    near = at < highest
+    small, safe = at[near], np.maximum(at, 1.0)
+    ratio, ratios = np.zeros_like(small), {}
+    for m in range(highest + BEYOND, 1, -1):
+        ratio = small / (2 * m - small * ratio)
+        if m <= highest:
+            ratios[m] = ratio
+    for m in range(2, highest + 1):
+        last, now = now, 2 * (m - 1) / safe * now - last
+        now[near] = np.where(small < m, ratios[m] * last[near], now[near])
+        yield now
+
+
+def blocks(kappa: Array, nodes: int, highest: int) -> Iterator[slice]:
+    """Of wavenumbers whose transforms fit into little memory."""
+    points = WAVE_POINTS * nodes + (highest + 2) * nodes
+    step = max(MAX_AT_ONCE // points, 1)
+    for start in range(0, len(kappa), step):
+        yield slice(start, start + step)

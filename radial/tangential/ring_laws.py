@@ -1,0 +1,142 @@
+"""The laws of one increment at points as equations."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from contact_scene import CoulombFriction
+from contact_scene.array_types import Array
+from radial.tangential.ring_points import Points
+from radial.tangential.ring_state import (
+    ABOUT,
+    ALONG,
+    DOWN,
+    Held,
+    Loads,
+    carried,
+)
+
+LEAST_FRICTION = 1e-4  # of which the limit is more than round-off of the pressure
+# Of loads that go on as in the last increment: what is round-off of them, how many times as far
+# they go at most (more than twice, so that round-off does not decide about twice), and how much of
+# it aside.
+REST, FURTHEST, ASIDE = 1e-6, 2.1, 0.5
+
+
+class At(NamedTuple):
+    """Tractions and motion x; what is left of the laws; and what is projected."""
+
+    x: Array
+    missed: Array
+    z: Array
+    y: Array
+    limit: Array
+    u: Array
+    worst: float
+
+
+@dataclass(frozen=True)
+class Laws:
+    """The laws of an increment as equations.
+
+    moved, motion  of the state before
+    """
+
+    points: Points
+    friction: CoulombFriction
+    loads: Loads
+    moved: Array
+    motion: Array
+
+    @classmethod
+    def of(
+        cls, points: Points, friction: CoulombFriction, loads: Loads, before: Held | None
+    ) -> Laws:
+        if before is None:
+            return cls(points, friction, loads, np.zeros(2 * len(points.areas)), np.zeros(4))
+        return cls(points, friction, loads, before.moved, before.motion)
+
+    def closed(self) -> Array:
+        """Tractions and motion so deep that what a load may press is closed."""
+        points, size, loads = self.points, len(self.points.areas), self.loads
+        depth = points.bare / points.areas
+        force, approach = loads.forces[DOWN], loads.motions[DOWN]
+        if approach is not None:
+            p = np.maximum(approach - depth, 0.0) / np.diag(points.compliance)[2 * size :]
+            t = np.concatenate([np.zeros(2 * size), 0.1 * p * points.areas])
+            return np.append(t, [0.0, 0.0, 0.0, approach])
+        assert force is not None
+        t = np.concatenate([np.zeros(2 * size), np.full(size, force / points.areas.sum())])
+        open_by = (points.compliance @ t)[2 * size :] / points.areas + depth
+        return np.append(t, [0.0, 0.0, 0.0, np.max(open_by)])
+
+    def starts(self, before: Held) -> list[Array]:
+        """Tractions and motion gone on from the state before as in its increment, where the loads
+        do so, and those of that state."""
+        leads = [force is not None for force in self.loads.forces]
+        ends = zip(self.loads.forces, self.loads.motions, strict=True)
+        led = np.array([motion if force is None else force for force, motion in ends], dtype=float)
+        x = np.append(before.tractions, before.motion)
+        now, last = (
+            np.where(leads, carried(self.points, of[:-4]), of[-4:]) for of in (x, before.changed)
+        )
+        further = led - now
+        for way in (slice(ALONG, ABOUT), slice(ABOUT, DOWN), slice(DOWN, None)):
+            size = max(np.linalg.norm(further[way]), np.linalg.norm(last[way]))
+            rests = size <= REST * np.linalg.norm(led[way])
+            further[way], last[way] = (0.0 if rests else of[way] / size for of in (further, last))
+        if not np.any(last):
+            return [x]
+        share = float(further @ last) / float(last @ last)
+        aside = np.linalg.norm(further - share * last)
+        if not REST < share <= FURTHEST or aside > ASIDE * np.linalg.norm(further):
+            return [x]
+        return [x + share * before.changed, x]
+
+    def at(self, x: Array, u: Array) -> At:
+        """What is left of the laws.
+
+        u  displacements times areas by the tractions of x
+        """
+        points, size, loads = self.points, len(self.points.areas), self.loads
+        t, motion = x[:-4], x[-4:]
+        q, p = t[: 2 * size], t[2 * size :]
+        gap = u[2 * size :] + points.bare - motion[DOWN] * points.areas
+        slipped = self.slipped(u, motion)
+        z = p - gap / points.softness[2 * size :]
+        y = (q - slipped / points.softness[: 2 * size]).reshape(2, -1)
+        limit = self.friction.limit(np.maximum(z, 0.0))
+        missed = np.concatenate([q - (_shortened(y, limit) * y).ravel(), p - np.maximum(z, 0.0)])
+        # Shear is to be as near to its limit as pressure to itself.
+        beyond = np.max(np.abs(missed[: 2 * size])) / max(self.friction.largest, LEAST_FRICTION)
+        peak = np.max(np.abs(p))
+        worst = max(beyond, np.max(np.abs(missed[2 * size :]))) / peak if peak > 0 else np.inf
+        if not np.isfinite(worst):
+            return At(x, missed, z, y, limit, u, np.inf)
+        forces = carried(points, t)
+        most, depth = points.areas @ np.abs(p), abs(motion[DOWN])
+        sizes = (most, most, points.levers @ np.abs(p), most)
+        reaches = (depth, depth, depth / points.radii[-1], depth)
+        for led, now, of in (
+            (loads.forces, forces, sizes),
+            (loads.motions, motion, reaches),
+        ):
+            for wanted, found, size_of in zip(led, now, of, strict=True):
+                if wanted is not None:
+                    worst = max(worst, abs(found - wanted) / size_of)
+        return At(x, missed, z, y, limit, u, float(worst))
+
+    def slipped(self, u: Array, motion: Array) -> Array:
+        """Δs of the increment times area (2 N,) [length³]."""
+        beside = motion[:DOWN] - self.motion[:DOWN]
+        return u[: 2 * len(self.points.areas)] - self.moved - beside @ self.points.ways
+
+
+def _shortened(y: Array, limit: Array) -> Array:
+    """By what vectors (2, …) are multiplied to be no longer than the limit."""
+    length = np.hypot(*y)
+    longer = length > limit
+    return np.where(longer, limit / np.where(longer, length, 1.0), 1.0)

@@ -1,0 +1,87 @@
+"""Rings for a contact whose edge stays about one radius, and the points on them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from contact_scene.array_types import Array
+from contact_scene.geometry import ShapedBody
+from contact_scene.rig import Rig, compliances
+from radial.angular_grid import Circle
+from radial.frictional.coupling import Coupling
+from radial.response.quadrature import unit_gauss
+from radial.tangential.ring_compliance import ring_compliance
+from radial.tangential.ring_points import Points
+
+GRADED = 4  # rings towards the edge from either side, each half as wide as the one before
+LEAST = 0.75  # of the width of a ring: even ones that are nearer to an edge give way
+GROWTH = 1.4  # of rings outside
+REACH, BY_FRICTION = 1.15, 0.5  # how far they reach, in radii: pushed contacts move with friction
+POINTS = 6  # Gauss's of an element
+
+
+def places(count: int, reach: float, edges: Sequence[float]) -> tuple[float, ...]:
+    """Nodes over the radius of the largest contact: even inside, dense about edges.
+
+    count  inside, apart from those about edges
+    reach  at least as far as they go
+    edges  of smaller contacts, over the largest
+    """
+    near = 0.5 ** np.arange(1, GRADED + 1) / count
+    outside = [1 / count]
+    while outside[-1] < reach - 1:
+        outside.append(GROWTH * outside[-1] + 1 / count)
+    dense: list[float] = []
+    for edge in (1.0, *edges):
+        # Near to one that is dense already nothing is gained.
+        if all(abs(edge - other) > min(1 / count, edge, other) for other in dense):
+            dense.append(edge)
+    # Within the first ring they are dense over the radius of the edge itself.
+    about = [edge + off * min(1.0, edge * count) for edge in dense for off in (*-near, 0.0, *near)]
+    even = [*np.arange(1, count) / count, *(1 + np.array(outside))]
+    kept = [x for x in even if all(abs(x - edge) > LEAST / count for edge in dense)]
+    found = sorted([*about, *(x for x in kept if min(abs(x - y) for y in about) > near[-1])])
+    return (0.0, *(float(x) for x in found if x > near[-1] * min(1.0, min(dense) * count)))
+
+
+def laid(
+    coupling: Coupling,
+    indenter: ShapedBody,
+    edges: Sequence[float],
+    count: int,
+    highest: int,
+    circle: Circle,
+    friction: float,
+    rig: Rig | None = None,
+) -> Points:
+    """Points for contacts of these radii [length].
+
+    count    of rings inside the largest
+    highest  harmonic, and angles on a half circle
+    friction  µ
+    rig       springs that displace all points alike
+    """
+    edge = max(edges)
+    over = places(count, REACH + BY_FRICTION * friction, [other / edge for other in edges])
+    radii = edge * np.array(over)
+    scaled = tuple(x / over[-1] for x in over)
+    energies = ring_compliance(coupling, scaled, radii[-1], highest)
+    v, weights = unit_gauss(POINTS)
+    length = np.diff(radii)[:, None]
+    r = radii[:-1, None] + length * v
+
+    def integral(field: Array) -> Array:
+        """∫ φ field dr."""
+        part = field * length * weights
+        return np.append(part @ (1 - v), 0.0) + np.append(0.0, part @ v)
+
+    gap, areas = integral(r * indenter.initial_gap(r, 0.0)), integral(r)
+    down, along = compliances(rig)
+    by_all = np.pi * np.multiply.outer(areas, areas)
+    energies[0, 2, 2] += 2 * down * by_all
+    if highest:
+        signs = np.array([[1.0, -1.0], [-1.0, 1.0]])  # u_r = cos θ and u_θ = -sin θ of a shift
+        energies[1, :2, :2] += along * np.multiply.outer(signs, by_all)
+    return Points(radii, energies, areas, integral(r * r), gap, circle)

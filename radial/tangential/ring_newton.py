@@ -1,0 +1,180 @@
+"""Where the laws of an increment at points would hold if they went on as they are: Newton's method.
+
+Unknown are the displacements that nothing holds, of points that slip and of open ones, and rigid
+motions; tractions follow from displacements, harmonic by harmonic (`Points.tractions`), in whose
+units small rings beside large ones are alike. All is told from the state here on, so that round-off
+goes with what is left of the way.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import lapack
+
+from contact_scene import CoulombFriction
+from contact_scene.array_types import Array
+from radial.tangential.ring_laws import (
+    At,
+    Laws,
+)
+from radial.tangential.ring_state import DOWN
+
+Numbers = NDArray[np.int64]
+
+
+class _Free(NamedTuple):
+    """Points that slip or are open.
+
+    points  their numbers (n,)
+    slips   which of them slip, others are open (n,)
+    c, s    cosine and sine of the way w of the shear, from outward (n, 1)
+    share   of its limit over what would be without one (n, 1)
+    slopes  of the limit, in units of the tractions (n, 1)
+    rests   limit less slope times pressure, likewise (n, 1)
+
+    Share, slopes and rests are zero of open points.
+    """
+
+    points: Numbers
+    slips: NDArray[np.bool_]
+    c: Array
+    s: Array
+    share: Array
+    slopes: Array
+    rests: Array
+
+    def displacements(self, m: int) -> Numbers:
+        """Numbers of those that nothing holds, of m points: outward and around the axis of all,
+        down of the open ones."""
+        apart = self.points[~self.slips]
+        return np.concatenate([self.points, m + self.points, 2 * m + apart])
+
+
+def _free(at: At, m: int, friction: CoulombFriction, units: Array) -> _Free:
+    y, limit = at.y[:, :m], at.limit[:m]
+    length = np.hypot(*y)
+    points = np.flatnonzero((at.z[:m] <= 0) | (length > limit))
+    slips = at.z[points] > 0
+    safe = np.where(slips, length[points], 1.0)
+    c, s = np.where(slips, y[:, points] / safe, [[1.0], [0.0]])
+    across, down = units[points], units[2 * m + points]
+    pressure, most = np.maximum(at.z[points], 0.0), limit[points]
+    slope = friction.slope(pressure)
+    share, slopes, rests = np.where(
+        slips, [most / safe, slope * across / down, (most - slope * pressure) * across], 0.0
+    )
+    return _Free(points, slips, *(of[:, None] for of in (c, s, share, slopes, rests)))
+
+
+def aimed(laws: Laws, at: At) -> Array | None:
+    """Tractions and motion where the laws would hold; None where nowhere."""
+    points, size = laws.points, len(at.z)
+    if laws.loads.forces[DOWN] is not None and not np.any(at.z > 0):
+        return None
+    # No ring further out carries anything.
+    rings = int(np.max(np.flatnonzero(at.z > 0), initial=0)) // points.count + 1
+    K, m = points.tractions(rings), rings * points.count
+    units = np.sqrt(points.of_rings(points.softness, rings))
+    free = _free(at, m, laws.friction, units)
+    own = free.displacements(m)
+    t = points.of_rings(at.x[:-4], rings)
+    led = _led(laws, at, rings, t) / units[:, None]
+    missed = led[own, 4]
+    led[own, 4] = 0.0
+    # What motions carry, and what is carried already: of every displacement, and on the way of
+    # the motions themselves.
+    carried = K @ led
+    by_motion = led.T @ carried
+    carried[:, 4] += t * units
+    by_motion[4] += led.T @ (t * units)
+    found = _solved(
+        _whole(laws, at, free, K, carried, missed), _loads(laws, at, carried[own], by_motion)
+    )
+    if found is None:
+        return None
+    moved = np.zeros(3 * m)
+    moved[own] = found[:-4]
+    t = ((K @ moved + carried @ np.append(found[-4:], 1.0)) / units).reshape(3, m)
+    t[:, at.z[:m] <= 0] = 0.0
+    x = np.append(np.zeros(3 * size), at.x[-4:] + found[-4:])
+    x[:-4].reshape(3, size)[:, :m] = t
+    return x
+
+
+def _led(laws: Laws, at: At, rings: int, t: Array) -> Array:
+    """Displacements times areas that every motion leads, and those that tractions t here miss
+    (3 m, 5)."""
+    points, m = laws.points, rings * laws.points.count
+    whole = np.zeros((3, len(at.z)))
+    whole[:, :m] = t.reshape(3, m)
+    same = np.array_equal(whole.ravel(), at.x[:-4])
+    u = points.of_rings(at.u if same else points.compliance @ whole.ravel(), rings)
+    tied = points.ways.reshape(3, 2, -1)[:, :, :m].reshape(3, -1)
+    moved = laws.moved.reshape(2, -1)[:, :m].ravel() - laws.motion[:DOWN] @ tied
+    led = np.zeros((3 * m, 5))
+    led[: 2 * m, :3], led[2 * m :, 3] = tied.T, points.areas[:m]
+    led[:, 4] = np.append(moved, -points.bare[:m]) + led[:, :4] @ at.x[-4:] - u
+    return led
+
+
+def _whole(
+    laws: Laws, at: At, free: _Free, K: Array, carried: Array, missed: Array
+) -> tuple[Array, Array]:
+    """Laws of what is free, as rows of the unknowns and what is left of them: the limit along w,
+    across it what the law leaves, nothing of what is open.
+
+    carried  by motions, and here
+    missed   by the displacements that are free
+    """
+    n, m = len(free.points), len(K) // 3
+    c, s, share = free.c, free.s, free.share
+    own = free.displacements(m)
+    every = np.concatenate([own[: 2 * n], 2 * m + free.points])
+    across = np.arange(n, 2 * n)
+    found = []
+    # K is symmetric: its rows are near to each other.
+    for by in (K.take(every, axis=0).take(own, axis=1), carried[every]):
+        outward, around, down = by[:n], by[n : 2 * n], by[2 * n :]
+        found.append(np.concatenate([
+            c * outward + s * around - free.slopes * down,
+            (1 - share) * (c * around - s * outward),
+            down[~free.slips],
+        ]))  # fmt: skip
+    rows, left = found
+    left[:n, 4] -= free.rests[:, 0]
+    rows[across, across] += (share * c)[:, 0]
+    rows[across, across - n] -= (share * s)[:, 0]
+    left[across, 4] -= (share * (c * missed[n : 2 * n, None] - s * missed[:n, None]))[:, 0]
+    return rows, left
+
+
+def _loads(laws: Laws, at: At, carried: Array, by_motion: Array) -> Array:
+    """Loads and motions that are prescribed, as rows of the unknowns and what is left of them."""
+    rows = np.concatenate([carried, by_motion]).T[:4]
+    ends = zip(laws.loads.forces, laws.loads.motions, strict=True)
+    for i, (force, motion) in enumerate(ends):
+        # Of what a load leads the row is its equilibrium, else its motion.
+        if force is None:
+            rows[i], rows[i, i - 5], rows[i, -1] = 0.0, -1.0, motion
+            rows[i, -1] -= at.x[i - 4]
+        else:
+            rows[i, -1] -= force
+    return rows
+
+
+def _solved(laws: tuple[Array, Array], loads: Array) -> Array | None:
+    """The unknowns; None where nothing solves for them."""
+    rows, left = laws
+    n = len(rows)
+    whole = np.empty((n + 4, n + 4))
+    whole[:n, :n], whole[:n, n:], whole[n:] = rows, left[:, :4], loads[:, :-1]
+    right = np.append(left[:, 4], loads[:, -1])
+    # Column by column it is the transpose.
+    LU, places, failed = lapack.dgetrf(whole.T, overwrite_a=True)
+    if failed:
+        return None
+    found = lapack.dgetrs(LU, places, -right, trans=1)[0]
+    return found if np.all(np.isfinite(found)) else None

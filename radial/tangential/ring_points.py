@@ -1,0 +1,270 @@
+"""Points where nodes of rings meet angles, and what tractions at them move."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from contact_scene.array_types import Array
+from radial.angular_grid import Circle
+from radial.tangential.stick_border import stick_area
+
+FINER = 16  # places per element, where a front is looked for
+# Nodes that tell an edge: so far from the last one with pressure, over its radius, and how many.
+BESIDE_EDGE, FITTED = 0.15, 4
+FEWEST = 2  # rings of a contact whose edge they tell
+# Inverses that are kept, for contacts whose last ring comes and goes: so many, and as long as there
+# is room [byte]; of ways that angles lack.
+INVERSES, ROOM, ROUND_OFF = 3, 1 << 23, 1e-12
+
+
+@dataclass(frozen=True, eq=False)
+class Points:
+    """Nodes of rings times angles, and what tractions at them do.
+
+    radii     of the nodes (n,) [length]
+    energies  of `ring_compliance` up to harmonic J, of the bodies (J + 1, 3, 3, n, n)
+    weights   ∫ φ r dr (n,) [length²]
+    arms      ∫ φ r² dr (n,) [length³]
+    gap       ∫ φ f r dr at first touch (n,) [length³]
+    circle    what of it the angles cover
+
+    Fields of points are (n count,), angle by angle within a node; vectors (3 n count,), r, θ, z
+    outermost.
+    """
+
+    radii: Array
+    energies: Array
+    weights: Array
+    arms: Array
+    gap: Array
+    circle: Circle
+
+    @property
+    def count(self) -> int:
+        """Of angles."""
+        return len(self.angles)
+
+    @property
+    def highest(self) -> int:
+        """J, the highest harmonic."""
+        return len(self.energies) - 1
+
+    @cached_property
+    def angles(self) -> Array:
+        """Of the points on a ring."""
+        return self.circle.angles(self.highest)
+
+    @cached_property
+    def areas(self) -> Array:
+        """Of every point, with those that it stands for."""
+        return self._at_points(self.weights)
+
+    @cached_property
+    def bare(self) -> Array:
+        """f times the area of a point."""
+        return self._at_points(self.gap)
+
+    @cached_property
+    def levers(self) -> Array:
+        """r times the area of a point."""
+        return self._at_points(self.arms)
+
+    def _at_points(self, of_nodes: Array) -> Array:
+        return np.repeat(of_nodes, self.count) * (2 * np.pi / self.count)
+
+    @cached_property
+    def ways(self) -> Array:
+        """Areas times what rigid motions move, in r and θ (3, 2 n count): along θ = 0, across it,
+        and by a turn about the axis; zero where symmetry has none."""
+        nodes, nothing = len(self.weights), np.zeros_like(self.areas)
+        cos, sin = np.tile(np.cos(self.angles), nodes), np.tile(np.sin(self.angles), nodes)
+        found = np.zeros((3, 2 * len(nothing)))
+        if self.circle is not Circle.ONE:
+            found[0] = np.concatenate([self.areas * cos, -self.areas * sin])
+        if self.circle is Circle.WHOLE:
+            found[1] = np.concatenate([self.areas * sin, self.areas * cos])
+        if self.circle is not Circle.HALF:
+            found[2] = np.concatenate([nothing, self.levers])
+        return found
+
+    @cached_property
+    def compliance(self) -> Array:
+        """Displacements times areas by tractions (3 n count,) * 2 [length^5/force]."""
+        return self._over_harmonics(self._ways, self._energies_of_ways)
+
+    @cached_property
+    def softness(self) -> Array:
+        """Of every traction what it moves where it acts (3 n count,) [length^5/force]; of those
+        along the surface, which turn into each other, the mean."""
+        outward, around, down = np.diagonal(self.compliance).reshape(3, -1)
+        beside = (outward + around) / 2
+        return np.concatenate([beside, beside, down])
+
+    def of_rings(self, field: Array, rings: int) -> Array:
+        """Of a vector (3 n count,) what it is on a number of rings about the axis."""
+        return np.ascontiguousarray(field.reshape(3, -1)[:, : rings * self.count]).ravel()
+
+    @cached_property
+    def tractions(self) -> Callable[[int], Array]:
+        """Of a number of rings about the axis, tractions at their points by displacements times
+        areas (3 rings count,) * 2 where no other point carries any, in units in which `softness` is
+        1 [1]."""
+        kept = max(INVERSES, ROOM // self.compliance.nbytes)
+        return lru_cache(maxsize=kept)(self._tractions)
+
+    def _tractions(self, rings: int) -> Array:
+        """Harmonics do not know of each other: each is inverted alone."""
+        back = np.zeros_like(self._ways)
+        norms = np.sum(self._ways**2, axis=2)
+        has = norms > ROUND_OFF * np.max(norms)
+        back[has] = self._ways[has] / norms[has, None]
+        energies = self._energies_of_ways[..., :rings, :rings]
+        inverses = np.zeros_like(energies)
+        for parts, energy, inverse in zip(has.T, energies, inverses, strict=True):
+            kept, n = np.flatnonzero(parts), int(np.sum(parts)) * rings
+            known = energy[np.ix_(kept, kept)].swapaxes(1, 2).reshape(n, n)
+            units = 1 / np.sqrt(np.diag(known))
+            found = units * np.linalg.inv(units[:, None] * known * units) * units[:, None]
+            found = found.reshape(len(kept), rings, len(kept), rings).swapaxes(1, 2)
+            inverse[np.ix_(kept, kept)] = found
+        found = self._over_harmonics(back, inverses)
+        units = np.sqrt(self.of_rings(self.softness, rings))
+        found *= units
+        found *= units[:, None]
+        return found
+
+    @cached_property
+    def _ways(self) -> Array:
+        """Harmonics by values at the angles (3, ways, count): one family after the other."""
+        return np.concatenate(self.circle.families(self.highest), axis=1)
+
+    @cached_property
+    def _energies_of_ways(self) -> Array:
+        """Energies of `_ways`, with their norms (ways, 3, 3, n, n)."""
+        norms = np.full(len(self.energies), np.pi)
+        norms[[0, -1]] = 2 * np.pi
+        families = self._ways.shape[1] // len(norms)
+        return np.concatenate([norms[:, None, None, None, None] * self.energies] * families)
+
+    @staticmethod
+    def _over_harmonics(ways: Array, of_ways: Array) -> Array:
+        """Of points, what is known of every harmonic."""
+        (_, count, angles), nodes = ways.shape, of_ways.shape[-1]
+        whole = np.empty((3, nodes, angles, 3, nodes, angles))
+        for a, b in np.ndindex(3, 3):
+            both = (ways[a, :, :, None] * ways[b, :, None]).reshape(count, -1)
+            block = of_ways[:, a, b].reshape(count, -1).T @ both
+            whole[a, :, :, b] = block.reshape(nodes, nodes, angles, angles).swapaxes(1, 2)
+        return whole.reshape(3 * nodes * angles, -1)
+
+    @cached_property
+    def round(self) -> Points:
+        """The same nodes, for what is the same all around."""
+        return replace(self, energies=self.energies[:1], circle=Circle.ONE)
+
+    def every_angle(self, field: Array) -> Array:
+        """Of the points, from one (…, n) of `round`; what is times the area still is so."""
+        return np.repeat(field, self.count, axis=-1)
+
+    def tells(self, pressure: Array) -> bool:
+        """Whether the contact is so many rings large that they tell its edge and what sticks."""
+        return bool(np.any(pressure[FEWEST * self.count :] > 0))
+
+    def contact_area(self, pressure: Array) -> float:
+        """Within the edge at which p² would end [length²]: linear in r² between the last two nodes,
+        which stand close where the contact is the same all around; one that is pushed has its edge
+        elsewhere, and the parabola in r² that is nearest to all nodes next to it tells where."""
+        p, r = pressure.reshape(-1, self.count), self.radii
+        area = 0.0
+        for ray in p.T:
+            inside = np.flatnonzero(ray > 0)
+            if len(inside) == 0:
+                continue
+            last = int(inside[-1])
+            further = r[min(last + 1, len(r) - 1)] ** 2
+            if self.circle is Circle.ONE:
+                edge = r[last] ** 2
+                if last and ray[last - 1] > ray[last]:
+                    share = ray[last] ** 2 / (ray[last - 1] ** 2 - ray[last] ** 2)
+                    edge += share * (edge - r[last - 1] ** 2)
+            else:
+                edge = self._fitted_edge(ray, last)
+            area += np.pi * min(edge, further)
+        return area / self.count
+
+    def _fitted_edge(self, ray: Array, last: int) -> float:
+        """r² of the edge on a ray whose last node with pressure is given; that node where too few
+        have any, or where the pressure does not fall to zero near it [length²]."""
+        r = self.radii
+        first = min(int(np.searchsorted(r, (1 - BESIDE_EDGE) * r[last])), last + 1 - FITTED)
+        if first < 0:
+            return float(r[last] ** 2)
+        near = slice(first, last + 1)
+        squares = np.polynomial.Polynomial.fit(
+            r[near] ** 2, ray[near] ** 2, 2, w=np.sqrt(self.weights[near])
+        )
+        zeros = squares.roots()
+        beyond = zeros.real[(zeros.imag == 0) & (zeros.real > r[last - 1] ** 2)]
+        return float(np.min(beyond) if len(beyond) else r[last] ** 2)
+
+    def stick_area(self, share: Array, shear: Array, bound: Array) -> float:
+        """Where nothing slips [length²]: no count of points. What is the same all around ends where
+        the share of the limit, linear in r, is 1; of what is pushed see `stick_border`.
+
+        share  of the limit, as `Held` has it
+        shear  q_r and q_θ (2, n count)
+        bound  µp
+        """
+        sticks = share.reshape(-1, self.count) < 1
+        if self.circle is Circle.ONE:
+            left = np.clip(np.where(np.isfinite(share), 1 - share, -1.0), -1.0, 1.0)
+            parts = (np.arange(FINER) + 0.5) / FINER
+            inside = (1 - parts) * left[:-1, None] + parts * left[1:, None] > 0
+            inner, length = self.radii[:-1, None], np.diff(self.radii)[:, None]
+            edges = inner + length * np.arange(FINER + 1) / FINER
+            return float(np.pi * np.sum(inside * np.diff(edges**2)))
+        q = shear.reshape(2, -1, self.count)
+        p = bound.reshape(-1, self.count)
+        if self.circle is Circle.HALF:
+            q = np.concatenate([q, np.array([1, -1])[:, None, None] * q[..., ::-1]], axis=-1)
+            p, sticks = (np.concatenate([field, field[:, ::-1]], axis=-1) for field in (p, sticks))
+        return stick_area(self.radii, q, p, sticks)
+
+    def shown(self, field: Array, sense: float) -> Array:
+        """A field at the angles of `shown_angles` (n, angles), by a spline in θ.
+
+        sense  1 for what a mirror image has alike, -1 for what it has opposite
+        """
+        return self._around(field.reshape(-1, self.count), sense, self.shown_angles)
+
+    @property
+    def shown_angles(self) -> Array:
+        """With the line along the load."""
+        return self.circle.shown(self.highest)
+
+    def _around(self, field: Array, sense: float, angles: Array) -> Array:
+        """A field (n, count) at other angles."""
+        return field @ self._spline(sense, tuple(angles))
+
+    @cached_property
+    def _spline(self) -> Callable[[float, tuple[float, ...]], Array]:
+        """What values at other angles take of those at `angles` (count, …)."""
+
+        @lru_cache
+        def weights(sense: float, others: tuple[float, ...]) -> Array:
+            every, whole = self.angles, np.eye(self.count)
+            if self.circle is Circle.HALF:
+                every = np.concatenate([every, 2 * np.pi - every[::-1]])
+                whole = np.hstack([whole, sense * whole[:, ::-1]])
+            every = np.append(every, every[0] + 2 * np.pi)
+            whole = np.hstack([whole, whole[:, :1]])
+            return np.ascontiguousarray(
+                CubicSpline(every, whole, axis=1, bc_type="periodic")(np.array(others))
+            )
+
+        return weights

@@ -1,0 +1,352 @@
+"""Contact and friction at points as the march sees them: pressed, pushed and twisted."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from contact_scene import CoulombFriction, LoadRamp, RadialDiscretisation, Scene
+from contact_scene.array_types import Array
+from contact_scene.body_pair import coupling
+from contact_scene.quantities.summary import ContactStatus
+from contact_scene.rig import compliances, of_contact
+from contact_scene.solver_errors import NotConverged, UnsupportedScene
+from contact_scene.stepping.load_stepping import Reached
+from radial.angular_grid import Circle
+from radial.fields import Increment
+from radial.frictional.coupling import Coupling
+from radial.normal.pressing import (
+    Pressed,
+    Target,
+    pressed,
+)
+from radial.normal.surface import pressure
+from radial.output_points import (
+    largest_targets,
+    target,
+    targets,
+    undeformed_gap,
+)
+from radial.plan import ELSEWHERE, Plan
+from radial.response.bodies import Bodies
+from radial.tangential.ring_friction import (
+    MAX_STEPS,
+    held,
+)
+from radial.tangential.ring_layout import laid
+from radial.tangential.ring_points import Points
+from radial.tangential.ring_state import (
+    ABOUT,
+    DOWN,
+    Loads,
+)
+from radial.tangential.tangential_increment import (
+    Pushed,
+    pushed,
+    residuals_of,
+)
+
+Pair = tuple[float, float]
+
+SETTLING, SETTLED = 8, 2  # increments, and layouts, after which the radius of the contact is known
+NARROW = 2.0  # rings: so far apart are those that tell an edge
+PROJECTIONS = 30  # of reported shear; its force then differs by 2e-6 of the friction limit
+EXACT = 0.1  # of the tolerance: what Newton's method is to reach
+NOTHING = (0.0, 0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Pushing:
+    """See `contact_scene.stepping.load_stepping.Solver`.
+
+    direction  along which angles are 0, unit vector
+    twists     whether torque and twist are told
+    points     laid out for the largest contact of the history
+    taken      steps of Newton's method, solve by solve
+    """
+
+    scene: Scene
+    friction: CoulombFriction
+    direction: Pair
+    twists: bool
+    tolerance: float
+    points: Points
+    taken: list[int] = field(default_factory=list)
+    most_spent: float = 4.0 * MAX_STEPS
+
+    @classmethod
+    def of(
+        cls,
+        scene: Scene,
+        asked: RadialDiscretisation,
+        plan: Plan,
+        around: float = 1.0,
+    ) -> Pushing:
+        """That of a scene.
+
+        around  how many times as many angles as the plan has
+        """
+        assert scene.friction is not None
+        assert plan.circle is not None
+        friction, circle = scene.friction, plan.circle
+        count, highest = plan.rings, round(plan.highest * around)
+        both = Coupling.of(scene)
+
+        def smooth(led: Target) -> float:
+            """The radius without friction."""
+            return pressed(both.bodies, scene.indenter, led).contact.radius
+
+        largest = max(map(smooth, largest_targets(scene)))
+        # Contacts within the first ring would have no radius at all.
+        ends = {smooth(led) for led in set(targets(scene))}
+        edges = [largest, *(edge for edge in sorted(ends) if edge * count < NARROW * largest)]
+
+        def at(circle: Circle) -> Pushing:
+            harmonics = 0 if circle is Circle.ONE else highest
+            points = laid(
+                both, scene.indenter, edges, count, harmonics, circle, friction.largest, scene.rig
+            )
+            return cls(scene, friction, plan.direction, plan.twists, asked.tolerance, points)
+
+        for _ in range(SETTLED):
+            edges = at(Circle.ONE)._radii()
+        return at(circle)
+
+    def _radii(self) -> list[float]:
+        """Of the contact that is only pressed, with few increments, at the ends of the steps."""
+        state: Pushed | None = None
+        found = []
+        for ramp in self.scene.load_path():
+            start = state
+            if ramp.normal.end == 0:
+                state = None
+                continue
+            if start and ramp.normal.start == ramp.normal.end:
+                continue
+            for index in range(1, SETTLING + 1):
+                force, approach = self._normal(ramp, start, index / SETTLING)
+                still = None, None, None
+                state = self._at(Loads((*still, force), (0.0, 0.0, 0.0, approach)), state)
+            assert state is not None
+            found.append(state.radius)
+        return found
+
+    @staticmethod
+    def _normal(
+        ramp: LoadRamp, start: Pushed | None, fraction: float
+    ) -> tuple[float | None, float | None]:
+        """W or the approach of a ramp."""
+        reached = (start.forces[DOWN], start.motions[DOWN]) if start else (0.0, 0.0)
+        return ramp.normal.led(fraction, reached)
+
+    def spent(self) -> float:
+        """Steps of Newton's method."""
+        return float(sum(self.taken))
+
+    def advance(
+        self, ramp: LoadRamp, start: Pushed | None, before: Pushed | None, fraction: float
+    ) -> Pushed:
+        """The contact at a fraction of the ramp; raises NotConverged, GrossSliding and
+        ContactAtZoneEdge."""
+        begun = (start.forces, start.motions) if start else (NOTHING, NOTHING)
+        since = self._vector(begun[0]), self._vector(begun[1])
+        beside = [self._from(vector) for vector in ramp.tangential.led(fraction, since)]
+        about = ramp.twisting.led(fraction, (begun[0][ABOUT], begun[1][ABOUT]))
+        down = self._normal(ramp, start, fraction)
+        forces, motions = (
+            (*pair, turn, press) for pair, turn, press in zip(beside, about, down, strict=True)
+        )
+        return self._at(Loads(forces, motions), before)
+
+    def _vector(self, parts: tuple[float, ...]) -> Pair:
+        """In x and y, of what is along and across the direction."""
+        (x, y), (along, across, *_) = self.direction, parts
+        return along * x - across * y, along * y + across * x
+
+    def _from(self, vector: Pair | None) -> tuple[float | None, float | None]:
+        """Along and across the direction."""
+        if vector is None:
+            return None, None
+        (x, y), (of_x, of_y) = self.direction, vector
+        return of_x * x + of_y * y, of_y * x - of_x * y
+
+    def _at(self, loads: Loads, before: Pushed | None) -> Pushed:
+        """The contact under loads."""
+        if before is not None and before.asked == loads:
+            return before
+        beside = (*loads.forces[:ABOUT], *loads.motions[:ABOUT])
+        turned = any(beside) or (before is not None and before.circle is not Circle.ONE)
+        points = self.points if turned else self.points.round
+        self._refuse_within_first(points, loads.motions[DOWN])
+        last = before.held if before else None
+        slip = before.slip if before else np.zeros((2, len(points.areas)))
+        if last is not None and before is not None and before.circle is not points.circle:
+            last, slip = last.every_angle(points), points.every_angle(slip)
+        try:
+            end = held(
+                points, self.friction, _moving(points, loads), last, EXACT * self.tolerance,
+                None if last else self._without_friction(points, loads),
+            )  # fmt: skip
+        except NotConverged as error:
+            self.taken.append(error.iterations)
+            raise
+        self.taken.append(end.steps)
+        smooth = None if points.tells(end.pressure) else self._smooth_radius(loads)
+        return pushed(points, self.friction, end, last, slip, loads, before, smooth)
+
+    def _smooth_radius(self, loads: Loads) -> float:
+        """Without friction [length]."""
+        return self._pressed(loads).contact.radius
+
+    def _pressed(self, loads: Loads) -> Pressed:
+        """The contact without friction."""
+        led = target(self.scene, loads.forces[DOWN], loads.motions[DOWN])
+        return pressed(Bodies.of(self.scene), self.scene.indenter, led)
+
+    def _without_friction(self, points: Points, loads: Loads) -> Array:
+        """Tractions and motion without friction: far fewer steps lead on from them than from a
+        contact that is closed as far as rings go."""
+        found = self._pressed(loads)
+        p = pressure(found.contact, points.radii / found.contact.radius)
+        p[~np.isfinite(p)] = p[1]
+        beside = np.zeros(2 * len(points.areas))
+        return np.concatenate([beside, np.repeat(p, points.count), [0.0, 0.0, 0.0, found.approach]])
+
+    def _refuse_within_first(self, points: Points, approach: float | None) -> None:
+        """Raises UnsupportedScene for an approach at which no ring touches in the mean."""
+        depth = float(np.min(points.bare / points.areas))
+        if approach is not None and approach <= depth:
+            raise UnsupportedScene(
+                f"at an approach of {approach:.3g} m the contact is within the first of the "
+                "rings, laid out for the largest contact, of which none touches below "
+                f"{depth:.3g} m; take fewer increments, or prescribe the normal force"
+            )
+
+    def undeformed_gap(self, last: Increment, tilt: Any) -> Array:
+        """See `contact_scene.stepping.load_stepping.Solver`."""
+        return undeformed_gap(self.scene, last)
+
+    def report(self, reached: Reached[Pushed], last: Increment | None) -> Increment:
+        """The contact on rings and angles; raises NotConverged above the tolerance."""
+        state, end = reached.state, reached.state.held
+        turned = state.circle is not Circle.ONE
+        points = self.points if turned else self.points.round
+        if reached.place.index == reached.place.increments_in_step:
+            self._refuse_narrow(state, reached.place.step)
+        residuals = residuals_of(points, self.friction, state)
+        residuals.require(self.tolerance, "contact and friction on rings", end.steps)
+        p = self._scalar(points, end.pressure)
+        q_r, q_t = self._vectors(points, end.shear)
+        s_r, s_t = self._vectors(points, state.slip)
+        depth = end.approach * points.areas
+        u_z = (points.compliance @ end.tractions)[2 * len(points.areas) :]
+        gap = np.where(end.pressure > 0, 0.0, (u_z + points.bare - depth) / points.areas)
+        force = self._vector(state.forces)
+        down, along = compliances(self.scene.rig)
+        in_springs = down * state.forces[DOWN] ** 2 + along * float(np.dot(force, force))
+        stored = end.energy - 0.5 * in_springs
+        share = np.where(np.isfinite(end.share), end.share, 2.0)
+        p, gap = np.maximum(p, 0.0), np.maximum(self._scalar(points, gap), 0.0)
+        if turned:
+            q_r, q_t = self._admissible(points, np.stack([q_r, q_t]), self.friction.limit(p))
+        increment = Increment(
+            step=reached.place.step,
+            index=reached.place.index,
+            increments_in_step=reached.place.increments_in_step,
+            residuals=residuals,
+            iterations=end.steps,
+            halvings=reached.halvings,
+            normal_force=state.forces[DOWN],
+            approach=state.motions[DOWN],
+            contact_radius=state.radius,
+            peak_pressure=float(np.max(p)),
+            status=state.status,
+            stick_radius=state.stuck,
+            tangential_force=self._vector(state.forces),
+            tangential_shift=self._vector(state.motions),
+            torque=state.forces[ABOUT] if self.twists else None,
+            twist=state.motions[ABOUT] if self.twists else None,
+            dissipated_energy=state.lost,
+            dissipation_uncertainty=state.uncertain,
+            elastic_energy=stored,
+            input_work=stored + state.lost,
+            unresolved_work=state.worked - end.energy - state.lost,
+            radii=points.radii,
+            angles=points.shown_angles if turned else None,
+            pressure=p,
+            gap=np.where(p > 0, 0.0, gap),
+            shear_radial=q_r,
+            shear_circumferential=q_t if turned or self.twists else None,
+            slip_radial=s_r,
+            slip_circumferential=s_t if turned or self.twists else None,
+            in_stick=(self._scalar(points, share) < 1) & (p > 0),
+        )
+        return of_contact(increment, self.scene.rig)
+
+    def _refuse_narrow(self, state: Pushed, step: int) -> None:
+        """Raises UnsupportedScene where pressing leaves an annulus of slip that rings do not see:
+        next to it tractions rise beyond what they carry, and the edge with them."""
+        sticks = state.status is ContactStatus.FULL_STICK
+        if sticks and step == 1 and state.circle is Circle.ONE and coupling(self.scene)[0]:
+            raise UnsupportedScene(
+                f"with a coefficient of friction of {self.friction.largest:g} the annulus that "
+                "slips at the edge is narrower than a ring, and this solver does not tell the "
+                f"edge beside it; give a smaller coefficient, or {ELSEWHERE}"
+            )
+
+    @staticmethod
+    def _admissible(points: Points, shear: Array, limit: Array) -> Array:
+        """Return the shear (2, n, angles) within its limit that is next to an interpolated one and
+        carries the same force and torque on every ring. Interpolation exceeds the limit beside the
+        border of stick."""
+        angles = points.shown_angles
+        cos, sin, one = np.cos(angles), np.sin(angles), np.ones_like(angles)
+        ways = np.stack([[cos, -sin], [sin, cos], [0 * one, one]])
+        shares = one / (2 * points.highest)
+        if points.circle is Circle.HALF:
+            ways, shares = ways[:1], np.append(1.0, np.append(2 * one[2:], 1.0)) * shares
+        within = shear
+        for _ in range(PROJECTIONS):
+            missing = np.einsum("kcj,cnj,j->kn", ways, shear - within, shares)
+            moved = within + np.einsum("kcj,kn->cnj", ways, missing)
+            size = np.hypot(*moved)
+            within = moved * np.minimum(1.0, limit / np.maximum(size, np.finfo(float).tiny))
+        return within
+
+    @staticmethod
+    def _scalar(points: Points, field: Array) -> Array:
+        """At the angles that are shown; the axis has one value."""
+        if points.count == 1:
+            return field
+        shown = points.shown(field, 1.0)
+        shown[0] = np.mean(field[: points.count])
+        return shown
+
+    @staticmethod
+    def _vectors(points: Points, vector: Array) -> tuple[Array, Array]:
+        """Outward and around the axis at the angles that are shown."""
+        if points.count == 1:
+            # The axis has no direction.
+            outward, around = vector * (points.radii > 0)
+            return outward, around
+        outward, around = points.shown(vector[0], 1.0), points.shown(vector[1], -1.0)
+        q_r, q_t = vector[:, : points.count]
+        cos, sin = np.cos(points.angles), np.sin(points.angles)
+        along = np.mean(q_r * cos - q_t * sin)
+        # Of a half circle the mirror image takes it back.
+        across = np.mean(q_r * sin + q_t * cos) if points.circle is Circle.WHOLE else 0.0
+        cos, sin = np.cos(points.shown_angles), np.sin(points.shown_angles)
+        outward[0], around[0] = along * cos + across * sin, across * cos - along * sin
+        return outward, around
+
+
+def _moving(points: Points, loads: Loads) -> Loads:
+    """Without loads on motions that symmetry has not; these rest."""
+    has = [*np.any(points.ways, axis=1), True]
+    forces, motions = (
+        tuple(value if moves else rest for moves, value in zip(has, led, strict=True))
+        for led, rest in ((loads.forces, None), (loads.motions, 0.0))
+    )
+    return Loads(forces, motions)

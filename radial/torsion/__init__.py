@@ -1,0 +1,1 @@
+"""Torsion: shear along the circles of a contact that is twisted."""

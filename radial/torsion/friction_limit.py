@@ -1,0 +1,92 @@
+"""The shear µp of a contact that slips everywhere, as torsion sees it.
+
+Circumferential shear whose Hankel transform of order one is ∫₀ᵃ h(s) sin ks ds has h, by Abel's
+transform, and is had from it, with s = a t and r = a x, by
+
+    h = (2/π) s ∫ₛᵃ q/√(r²-s²) dr,    q = -d/dr ∫ᵣᵃ h/√(s²-r²) ds.
+
+For µp, p = (E*/πa) [G(1)/√(1-x²) - ∫ₓ¹ G'(t)/√(t²-x²) dt], the inner integral is Legendre's K:
+
+    h = (2µE*/π²) t m,    m = G(1) K'(t) - ∫ₜ¹ G'(τ) K'(t/τ) dτ/τ,    K'(t) = K(√(1-t²)).
+
+m has a logarithm at t = 0 and is kept on panels that halve towards there.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
+from scipy.special import ellipkm1
+
+from contact_scene.array_types import Array
+from radial.normal.disc import Disc
+from radial.response.quadrature import unit_gauss
+
+POINTS = 48
+PANELS, NODES = 26, 26  # down to 2^-26; with Chebyshev's points 1e-16 is left of a panel
+
+
+@dataclass(frozen=True)
+class FrictionLimit:
+    """h/t of a contact's pressure at 2^-26 < t <= 1.
+
+    slopes  Chebyshev coefficients on 2^-(n+1) < t < 2^-n (panels, nodes) [force/length]
+    rates   of its derivative times 2^-n
+    """
+
+    slopes: Array
+    rates: Array
+
+    @classmethod
+    def of(cls, contact: Disc) -> FrictionLimit:
+        """Of a pressure that slips with a coefficient of friction of one."""
+        count = NODES + len(contact.layers)
+        points = chebyshev.chebpts1(count)
+        t = (3 + points) / 4 * 0.5 ** np.arange(PANELS)[:, None]
+        fit = chebyshev.chebvander(points, count - 1) * (2.0 / count)
+        fit[:, 0] /= 2
+        slopes = _slope(contact, t) @ fit
+        rates = np.asarray(4 * chebyshev.chebder(slopes, axis=1), dtype=np.float64)
+        return cls(slopes, rates)
+
+    def slope(self, t: Array) -> Array:
+        """h/t (…)."""
+        panel, place = _place(t)
+        return _summed(self.slopes, panel, place)
+
+    def slope_rate(self, t: Array) -> Array:
+        """d(h/t)/dt (…)."""
+        panel, place = _place(t)
+        return np.asarray(_summed(self.rates, panel, place) * 2.0**panel)
+
+
+def _place(t: Array) -> tuple[NDArray[np.int64], Array]:
+    """Panel, and where in it from -1 to 1."""
+    panel = np.clip(np.floor(-np.log2(t)), 0, PANELS - 1).astype(np.int64)
+    return panel, np.asarray(4 * t * 2.0**panel - 3)
+
+
+def _summed(coefficients: Array, panel: NDArray[np.int64], place: Array) -> Array:
+    last, now = np.zeros_like(place), np.zeros_like(place)
+    for column in coefficients.T[:0:-1]:
+        last, now = now, column[panel] + 2 * place * now - last
+    return np.asarray(coefficients[panel, 0] + place * now - last)
+
+
+def _slope(contact: Disc, t: Array) -> Array:
+    """m (…) as it is defined, with τ = t exp(y), times 2E*/π²."""
+    v, weights = unit_gauss(POINTS + len(contact.profile.abel) + 2 * len(contact.layers))
+    furthest = -np.log(t)[..., None]
+    y = furthest * v
+    inner = -contact.rate(np.minimum(t[..., None] * np.exp(y), 1.0)) * _complete(np.exp(-y))
+    found = np.sum(inner * furthest * weights, axis=-1) + contact.edge * _complete(t)
+    return np.asarray(2 * contact.bodies.modulus / pi**2 * found)
+
+
+def _complete(t: Array) -> Array:
+    """K'(t)."""
+    return np.asarray(ellipkm1(t**2))

@@ -1,0 +1,292 @@
+"""A contact twisted monotonically from zero: a disc r < c turns with the indenter, the rest slips.
+
+With h of `friction_limit` over G a, G the torsional modulus, N(t) = h/(G a) is what µp gives beyond
+t = c, and within (Lubkin 1951; with layers as in the pressure's equation, `disc`)
+
+    N = (4/π) φ t - D(t),    D = (2/π) ∫₀^∞ (Y - 1) sin κt N~ dκ,    N~ = ∫₀¹ N sin κt dt,
+
+Y = k G F with F the displacement per unit shear across the waves. D, which layers change, is odd
+and entire: by Galerkin's method from Legendre polynomials P_2n+1(t/c). The shear is finite at c if
+N is continuous, which gives the twist φ.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from math import ceil, log2, pi
+
+import numpy as np
+from numpy.polynomial import legendre
+from scipy.special import j1
+
+from contact_scene import Scene
+from contact_scene.array_types import Array
+from radial.normal.disc import (
+    Disc,
+    orders,
+)
+from radial.response.bodies import (
+    Bodies,
+    added_by,
+)
+from radial.response.quadrature import unit_gauss
+from radial.torsion.friction_limit import FrictionLimit
+from semi_analytical.frf.stack import Stack, stack_of
+
+POINTS = 24
+NO_STICK = 1e-6  # of the stick radius over that of the contact: less is none
+AXIS = 1e-7  # over the radius: an axis is seen from so near that no digit tells
+
+
+@dataclass(frozen=True)
+class Torsion:
+    """A contact that may be twisted.
+
+    contact   its pressure
+    layered   bodies that are not one half-space
+    modulus   G: reciprocal of the sum of 1/G of the outermost materials [force/length²]
+    friction  µ
+    fineness  how many times as many orders and points as it takes
+    """
+
+    contact: Disc
+    layered: Sequence[Stack]
+    modulus: float
+    friction: float
+    fineness: int = 1
+
+    @classmethod
+    def of(cls, scene: Scene, contact: Disc, friction: float, fineness: int = 1) -> Torsion:
+        """Of the bodies of a scene."""
+        stacks = [stack_of(body) for body in (scene.body, scene.indenter)]
+        outer = [stack.outer.shear_modulus for stack in stacks if not stack.is_rigid]
+        modulus = 1 / sum(1 / shear for shear in outer)
+        layered = [stack for stack in stacks if stack.layers]
+        return cls(contact, layered, modulus, friction, fineness)
+
+    def points(self, width: float) -> int:
+        """That carry N, and its waves, over a part of 0 < t < 1."""
+        places, _ = self.waves
+        waves = ceil(places[-1] * width / 2) if len(places) else 0
+        return self.fineness * (POINTS + len(self.contact.layers) + waves)
+
+    def limit(self, t: Array) -> Array:
+        """N/t of µp."""
+        return np.asarray(self._scale * self._limit.slope(t))
+
+    def limit_rate(self, t: Array) -> Array:
+        """d(N/t)/dt of µp."""
+        return np.asarray(self._scale * self._limit.slope_rate(t))
+
+    @cached_property
+    def _limit(self) -> FrictionLimit:
+        return FrictionLimit.of(self.contact)
+
+    @property
+    def _scale(self) -> float:
+        return self.friction / (self.modulus * self.contact.radius)
+
+    @cached_property
+    def whole(self) -> Slipped:
+        """The last state in which all sticks."""
+        return self.slipped(1.0)
+
+    @cached_property
+    def none(self) -> Slipped:
+        """The last state in which anything sticks that counts."""
+        return self.slipped(NO_STICK)
+
+    @cached_property
+    def largest(self) -> float:
+        """The torque at which all slips [force length]."""
+        return self.slipped(0.0).torque
+
+    @cached_property
+    def waves(self) -> tuple[Array, Array]:
+        """κ and weights times Y - 1; none without layers."""
+        if not self.layered:
+            return np.zeros(0), np.zeros(0)
+        a = self.contact.radius
+        of_layers = Bodies(self.layered, self.modulus)
+        waves = of_layers.waves(a, fineness=self.fineness)
+        places, weights = waves.rule
+        added = np.sum([added_by(stack, waves, a).csh for stack in self.layered], axis=0)
+        return places, np.asarray(weights * self.modulus * places / a * added)
+
+    def slipped(self, stick: float) -> Slipped:
+        """The state whose stick disc has a radius of `stick` contact radii, 0 <= stick <= 1."""
+        panels = self._panels(max(stick, AXIS))
+        if stick == 0:
+            return Slipped(self, 0.0, np.inf, np.zeros(1), panels)
+        places, felt = self.waves
+        count = 1
+        if len(places):
+            thickness = min(stack.layers[0].thickness for stack in self.layered)
+            count = orders(thickness / (self.contact.radius * stick), False) * self.fineness
+        t, weights = unit_gauss(self.points(stick) + 2 * count)
+        odd = legendre.legvander(t, 2 * count - 1)[:, 1::2]
+        bases = stick * (odd.T * weights) @ np.sin(np.multiply.outer(stick * t, places))
+        by_annulus = sum((panel.transform(places) for panel in panels), np.zeros_like(places))
+        matrix = 2 / pi * (bases * felt) @ bases.T
+        right = np.stack([4 / pi * stick * matrix[:, 0], 2 / pi * bases @ (felt * by_annulus)])
+        mass = stick / (4 * np.arange(count) + 3)
+        by_twist, alone = np.linalg.solve(matrix + np.diag(mass), right.T).T
+        edge = stick * float(self.limit(np.array([stick]))[0])
+        twist = (edge + np.sum(alone)) / (4 / pi * stick - np.sum(by_twist))
+        layers = twist * by_twist + alone
+        return Slipped(self, stick, float(twist), layers, panels)
+
+    def _panels(self, stick: float) -> list[Panel]:
+        """The annulus, each panel no wider than it is far from the axis."""
+        if stick >= 1:
+            return []
+        edges = np.geomspace(stick, 1.0, ceil(log2(1 / stick)) + 1)
+        made = []
+        for low, high in pairwise(edges):
+            v, _ = unit_gauss(self.points(high - low))
+            t = low + (high - low) * v
+            made.append(Panel(float(low), float(high), t * self.limit(t)))
+        return made
+
+
+@dataclass(frozen=True)
+class Panel:
+    """N on low < t < high by its values at Gauss's points."""
+
+    low: float
+    high: float
+    values: Array
+
+    def integral(self, power: int, factor: int = 1) -> float:
+        """∫ N^factor t^power dt."""
+        v, weights = unit_gauss(len(self.values))
+        width = self.high - self.low
+        t = self.low + width * v
+        return float(width * np.sum(weights * self.values**factor * t**power))
+
+    def transform(self, places: Array) -> Array:
+        """∫ N sin κt dt."""
+        v, weights = unit_gauss(len(self.values))
+        width = self.high - self.low
+        waves = np.sin(np.multiply.outer(self.low + width * v, places))
+        return np.asarray(width * (weights * self.values) @ waves)
+
+
+@dataclass(frozen=True)
+class Slipped:
+    """A state of partial slip.
+
+    of      the contact
+    stick   c/a
+    twist   φ [radian]
+    layers  coefficients of D
+    panels  N of the slipping annulus
+    """
+
+    of: Torsion
+    stick: float
+    twist: float
+    layers: Array
+    panels: Sequence[Panel]
+
+    def inside(self, t: Array) -> Array:
+        """N where it sticks."""
+        every = np.zeros(2 * len(self.layers))
+        every[1::2] = self.layers
+        return np.asarray(4 / pi * self.twist * t - legendre.legval(t / self.stick, every))
+
+    @property
+    def _disc(self) -> list[Panel]:
+        if self.stick == 0:
+            return []
+        v, _ = unit_gauss(self.of.points(self.stick) + 2 * len(self.layers))
+        return [Panel(0.0, self.stick, self.inside(self.stick * v))]
+
+    @cached_property
+    def torque(self) -> float:
+        """4π G a³ ∫ N t dt [force length]."""
+        total = sum(panel.integral(1) for panel in (*self._disc, *self.panels))
+        return 4 * pi * self.of.modulus * self.of.contact.radius**3 * total
+
+    @cached_property
+    def transform(self) -> Array:
+        """N~ at all κ."""
+        places, _ = self.of.waves
+        parts = [panel.transform(places) for panel in (*self._disc, *self.panels)]
+        return np.asarray(np.sum(parts, axis=0))
+
+    @cached_property
+    def elastic_energy(self) -> float:
+        """π G a³ [(π/2) ∫ N² dt + ∫ (Y - 1) N~² dκ]: ½ ∫ q u dA [force length]."""
+        squares = sum(panel.integral(0, 2) for panel in (*self._disc, *self.panels))
+        _, felt = self.of.waves
+        by_layers = float(np.sum(felt * self.transform**2)) if len(felt) else 0.0
+        scale = pi * self.of.modulus * self.of.contact.radius**3
+        return scale * (pi / 2 * squares + by_layers)
+
+    @property
+    def work(self) -> float:
+        """∫ M dφ since the twist began [force length]."""
+        return self.twist * self.torque - self.elastic_energy
+
+    @property
+    def dissipated(self) -> float:
+        """2π ∫ µp |s| r dr: in the annulus µp acts from the beginning of slip [force length]."""
+        return self.twist * self.torque - 2 * self.elastic_energy
+
+    def shear(self, x: Array, limit: Array) -> Array:
+        """q_θ at r = a x (n,) [force/length²]; `limit` is µp there."""
+        found = limit.copy()
+        sticks = x < min(self.stick, 1.0)
+        if not np.any(sticks):
+            return found
+        at = x[sticks]
+        rho = np.maximum(at, AXIS)[:, None]
+        v, weights = unit_gauss(2 * self.of.points(0.0))
+        first, last = np.arccosh(np.maximum(self.stick / rho, 1.0)), np.arccosh(1 / rho)
+        slipping = (last - first) * (
+            self.of.limit_rate(np.minimum(rho * np.cosh(first + (last - first) * v), 1.0)) @ weights
+        )[:, None]
+        total = -slipping[:, 0]
+        if len(self.layers) > 1:
+            y, shares = unit_gauss(2 * POINTS + 2 * len(self.layers))
+            t = np.minimum(rho * np.cosh(first * y), self.stick)
+            total -= first[:, 0] * (self._layers_rate(t) @ shares)
+        if self.of.contact.edge:
+            rim = self.of.limit(np.ones(1)) if self.stick < 1 else self.inside(np.ones(1))
+            total += float(rim[0]) / np.sqrt((1 - at) * (1 + at))
+        found[sticks] = self.of.modulus * at * total
+        return found
+
+    def _layers_rate(self, t: Array) -> Array:
+        """d(-D/t)/dt."""
+        every = np.zeros(2 * len(self.layers))
+        every[1::2] = self.layers
+        x = t / self.stick
+        changed, rate = legendre.legval(x, every), legendre.legval(x, legendre.legder(every))
+        return np.asarray((changed / x - rate) / (x * self.stick**2))
+
+    def slip(self, x: Array) -> Array:
+        """u_θ - φ r at r = a x (n,) within the contact [length]; zero where it sticks."""
+        found = np.zeros_like(x)
+        slips = (x > self.stick) & (x <= 1)
+        if not np.any(slips):
+            return found
+        rho = x[slips][:, None]
+        v, weights = unit_gauss(2 * self.of.points(0.0))
+        border = np.arcsin(self.stick / rho)
+        angle = border + (pi / 2 - border) * v
+        t = np.maximum(rho * np.sin(angle), AXIS)
+        moved = (pi / 2 - border[:, 0]) * (t * self.of.limit(t) * np.sin(angle) @ weights)
+        if self.stick:
+            angle = border * v
+            held = self.inside(rho * np.sin(angle)) * np.sin(angle)
+            moved += border[:, 0] * (held @ weights)
+        places, felt = self.of.waves
+        if len(places):
+            moved += j1(np.multiply.outer(rho[:, 0], places)) @ (felt * self.transform)
+        found[slips] = self.of.contact.radius * (moved - self.twist * rho[:, 0])
+        return found

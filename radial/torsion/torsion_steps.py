@@ -1,0 +1,171 @@
+"""Pressing and then twisting as the march sees it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from contact_scene import ControlKind, LoadRamp, Scene
+from contact_scene.array_types import Array
+from contact_scene.quantities.summary import ContactStatus
+from contact_scene.solver_errors import UnsupportedScene
+from contact_scene.stepping.load_stepping import (
+    Reached,
+    Solver,
+)
+from radial.fields import Increment
+from radial.normal.pressing import Pressed
+from radial.output_points import undeformed_gap
+from radial.plan import ELSEWHERE
+from radial.torsion.torsion import Torsion
+from radial.torsion.twist_path import TwistPath
+
+# Of the largest friction limit: what exceeds it by less is round-off.
+NO_ANNULUS = 1e-9
+
+
+@dataclass(frozen=True)
+class Twisted:
+    """A contact at the end of an increment.
+
+    pressed  its pressure
+    path     of its twists
+    asked    torque [force length] or twist [radian] as it was prescribed, by kind
+    """
+
+    pressed: Pressed
+    path: TwistPath
+    asked: tuple[ControlKind, float]
+
+    @property
+    def torque(self) -> float:
+        """As it was asked for, or what came out [force length]."""
+        kind, value = self.asked
+        return value if kind is ControlKind.FORCE else self.path.torque
+
+    @property
+    def twist(self) -> float:
+        """As it was asked for, or what came out [radian]."""
+        kind, value = self.asked
+        return self.path.twist if kind is ControlKind.FORCE else value
+
+
+@dataclass(frozen=True)
+class Twisting:
+    """See `contact_scene.stepping.load_stepping.Solver`.
+
+    pressing   what solves the pressure, which no twist changes
+    friction   µ
+    fineness   of orders and points
+    tolerance  of every residual
+    """
+
+    scene: Scene
+    pressing: Solver[Pressed, Increment]
+    friction: float
+    fineness: int
+    tolerance: float
+    most_spent: float = 0.0
+
+    def spent(self) -> float:
+        """Nothing that halves would save."""
+        return 0.0
+
+    def advance(
+        self, ramp: LoadRamp, start: Twisted | None, before: Twisted | None, fraction: float
+    ) -> Twisted:
+        """The contact at a fraction of the ramp; raises GrossSliding."""
+        begun = start.pressed if start else None
+        held = before is not None and ramp.normal.start == ramp.normal.end
+        if held and before is not None:
+            pressed = before.pressed
+        else:
+            pressed = self.pressing.advance(ramp, begun, None, fraction)
+        since = (start.torque, start.twist) if start else (0.0, 0.0)
+        torque, twist = ramp.twisting.led(fraction, since)
+        if held and before is not None:
+            path = before.path
+        else:
+            torsion = Torsion.of(self.scene, pressed.contact, self.friction, self.fineness)
+            path = TwistPath(torsion)
+        if twist is None:
+            assert torque is not None
+            return Twisted(pressed, path.to_torque(torque), (ControlKind.FORCE, torque))
+        return Twisted(pressed, path.to_twist(twist), (ControlKind.DISPLACEMENT, twist))
+
+    def undeformed_gap(self, last: Increment, tilt: Any) -> Array:
+        """See `contact_scene.stepping.load_stepping.Solver`."""
+        return undeformed_gap(self.scene, last)
+
+    def report(self, reached: Reached[Twisted], last: Increment | None) -> Increment:
+        """The contact at the rings; raises UnsupportedScene where it slips first within."""
+        state, before = reached.state, reached.before
+        pressed = Reached(
+            reached.place,
+            before.pressed if before else None,
+            state.pressed,
+            reached.halvings,
+            reached.spent,
+        )
+        made = self.pressing.report(pressed, last)
+        x = made.radii / state.pressed.contact.radius
+        shear, slip = self._fields(state.path, x, made.pressure)
+        torque, twist = (last.torque or 0.0, last.twist or 0.0) if last else (0.0, 0.0)
+        assert made.trapezoidal_work is not None
+        assert made.elastic_energy is not None
+        worked = made.trapezoidal_work + 0.5 * (torque + state.torque) * (state.twist - twist)
+        stored = made.elastic_energy + state.path.work - state.path.dissipated
+        lost = state.path.dissipated
+        stick = state.path.stick
+        kind, asked = state.asked
+        largest = self.friction * float(np.max(made.pressure)) or 1.0
+        excess = float(np.max(np.abs(shear) - self.friction * made.pressure)) / largest
+        if excess > NO_ANNULUS:
+            at = made.radii[int(np.argmax(np.abs(shear) - self.friction * made.pressure))]
+            raise UnsupportedScene(
+                f"the twisted contact slips first within, {at:.4g} m from the axis, and this "
+                f"solver takes slip that spreads from the edge; {ELSEWHERE}"
+            )
+        residuals = replace(
+            made.residuals,
+            friction_cone=max(excess, 0.0),
+            torque_equilibrium=abs(state.path.torque - asked) / (state.path.of.largest or 1.0)
+            if kind is ControlKind.FORCE
+            else None,
+        )
+        residuals.require(self.tolerance, "torsion", state.pressed.tried)
+        return replace(
+            made,
+            residuals=residuals,
+            status=_status(stick),
+            torque=state.torque,
+            twist=state.twist,
+            stick_radius=stick * state.pressed.contact.radius,
+            dissipated_energy=lost,
+            elastic_energy=stored,
+            input_work=stored + lost,
+            unresolved_work=worked - stored - lost,
+            shear_circumferential=shear,
+            slip_circumferential=slip,
+            in_stick=x < stick,
+        )
+
+    def _fields(self, path: TwistPath, x: Array, pressure: Array) -> tuple[Array, Array]:
+        """q_θ [force/length²] and slip [length] at r = a x."""
+        shear, slip = np.zeros_like(x), np.zeros_like(x)
+        inside = x < 1
+        for branch in path.branches:
+            if branch.state is not None:
+                share = branch.sense * branch.weight
+                limit = self.friction * pressure[inside]
+                shear[inside] += share * branch.state.shear(x[inside], limit)
+                slip[inside] += share * branch.state.slip(x[inside])
+        return shear, slip
+
+
+def _status(stick: float) -> ContactStatus:
+    if stick >= 1:
+        return ContactStatus.FULL_STICK
+    return ContactStatus.PARTIAL_SLIP if stick else ContactStatus.GROSS_SLIDING

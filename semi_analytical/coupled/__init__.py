@@ -1,0 +1,1 @@
+"""Increments of coupled bodies: pressure and shear act on each other."""

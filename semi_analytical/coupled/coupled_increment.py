@@ -1,0 +1,244 @@
+"""One load increment of bodies whose normal and tangential problems couple."""
+
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from contact_scene.array_types import Field, Mask, VectorField
+from contact_scene.quantities.residuals import worst
+from contact_scene.solver_errors import NotConverged, motion_undefined
+from semi_analytical.coupled.coupled_problem import (
+    CoupledProblem,
+    CoupledSolution,
+)
+from semi_analytical.coupled.globalisation import solve_together
+from semi_analytical.coupled.predictor import predicted
+from semi_analytical.increments.full_slip import (
+    at_limit,
+    force_reaches_limit,
+    refuse_excessive_torque,
+    unresisted,
+)
+from semi_analytical.increments.increment import (
+    State,
+    reached_moment,
+)
+from semi_analytical.increments.normal_solve import (
+    MARGIN,
+    NormalState,
+    NormalTarget,
+    refuse_contact_at_edge,
+    refuse_unresolved_contact,
+    rough_start,
+)
+from semi_analytical.increments.stick_slip import (
+    advanced,
+    shear_residuals,
+)
+from semi_analytical.increments.tangential_solve import (
+    Shearing,
+    TangentialTarget,
+)
+from semi_analytical.increments.tangential_state import (
+    TangentialState,
+    first_motion,
+    rigid,
+    surface_target,
+    untouched,
+)
+from semi_analytical.model import ContactModel
+from semi_analytical.normal.contact_area import covered_cells
+from semi_analytical.operator.box import (
+    Box,
+    box_around,
+)
+from semi_analytical.operator.domain import ReducedDomain
+from semi_analytical.residuals import complementarity, penetration
+
+MAX_ATTEMPTS = 4
+# Of the width of a contact: beyond it the push of a whole step does not move its edge.
+ROOM = 1 / 32
+
+
+def solve_coupled_increment(
+    model: ContactModel,
+    before: State | None,
+    normal: NormalTarget,
+    tangential: TangentialTarget | None,
+    tolerance: float,
+) -> State:
+    """The state at the end of an increment in which pressure and shear act on each other.
+
+    Solved in the box around the contact and checked on the whole window with fresh convolutions.
+    raises  NotConverged, GrossSliding, ContactAtWindowEdge, ContactNotResolved
+    """
+    assert tangential is not None
+    refuse_unresolved_contact(model, normal)
+    last = before.sheared if before is not None and before.sheared is not None else None
+    last = last or untouched(model.grid.cells)
+    if last.shift is None:
+        raise motion_undefined()
+    if tangential.force is not None and normal.force is not None:
+        carried = model.friction.carried(normal.force)
+        if carried is not None:
+            force_reaches_limit(tangential.force, carried)
+    start, shear, iterations = _start(model, before, last, normal, tangential)
+    box = _roomy((start > 0) | (last.shear[0] != 0), model.domain)
+    aim, residual = tolerance, np.inf
+    motion = first_motion(last, tangential)
+    for _ in range(MAX_ATTEMPTS):
+        problem = _problem(model, box, last, normal, tangential)
+        inside = (..., *box.slices)
+        solution = solve_together(problem, start[inside], shear[inside], motion, 0.8 * aim)
+        iterations += solution.iterations
+        trial = _Trial(model, last, normal, tangential, box, solution, iterations)
+        state, g = trial.state()
+        assert state.sheared is not None
+        residual = worst(
+            state.pressing.complementarity,
+            state.pressing.penetration,
+            state.sheared.residuals.worst,
+        )
+        if residual <= tolerance:
+            refuse_contact_at_edge(state.pressing.pressure, model)
+            return state if before is None else replace(state, behind=before.seen())
+        start, shear = state.sheared.pressure, state.sheared.shear
+        overlap_outside = (g < 0) & ~box.mask(model.grid.cells)
+        if np.any(overlap_outside):
+            box = _roomy((start > 0) | overlap_outside, model.domain)
+        else:
+            aim *= 0.1
+    raise NotConverged("the coupled increment", iterations, residual, tolerance)
+
+
+def _roomy(cells: Mask, domain: ReducedDomain) -> Box:
+    """The box around marked cells, with room for the contact to move."""
+    nx, ny = (int(np.count_nonzero(np.any(cells, axis=axis))) for axis in (1, 0))
+    widest = max(domain.window((nx, ny)))
+    return box_around(cells, max(MARGIN, round(ROOM * widest)), domain)
+
+
+def _start(
+    model: ContactModel,
+    before: State | None,
+    last: TangentialState,
+    normal: NormalTarget,
+    tangential: TangentialTarget,
+) -> tuple[Field, VectorField, int]:
+    """First pressure and shear: as the path predicts them; where it does not, the pressure of a
+    frictionless contact, roughly, which knows how far the contact reaches, and the shear
+    of the state before. With the iterations that took."""
+    guess = None if before is None else predicted(model, before, normal, tangential)
+    if guess is not None:
+        return *guess, 0
+    start, iterations = rough_start(model, normal)
+    return start, last.shear, iterations
+
+
+def _problem(
+    model: ContactModel,
+    box: Box,
+    last: TangentialState,
+    normal: NormalTarget,
+    tangential: TangentialTarget,
+) -> CoupledProblem:
+    """The increment in a box of cells."""
+    operator = model.operator(box.shape)
+    target = surface_target(model, last, tangential)
+    rotation = None if tangential.torsion is None else model.rotation[(..., *box.slices)]
+    return CoupledProblem(
+        normal=operator.normal,
+        precondition_normal=operator.precondition,
+        shear=operator.tangential,
+        invert_shear=lambda v: operator.shear_inverse(v),  # built where it is needed
+        normal_by_shear=operator.normal_by_shear,
+        shear_by_pressure=operator.tangential_by_pressure,
+        together=operator.together,
+        precondition_together=operator.inverse,
+        gap=normal.gap(model)[box.slices],
+        friction_limit=partial(model.friction_limit, first=box.first),
+        friction_slope=partial(model.friction_slope, first=box.first),
+        target=target[(..., *box.slices)],
+        normal_load=normal.on(model, box),
+        tangential_load=tangential.on(
+            model.grid.cell_area, rotation, model.domain, model.springs[1]
+        ),
+        self_compliance=model.self_compliance,
+        domain=model.domain,
+    )
+
+
+@dataclass(frozen=True)
+class _Trial:
+    """A solution in a box, to be judged on the whole domain."""
+
+    model: ContactModel
+    last: TangentialState
+    normal: NormalTarget
+    tangential: TangentialTarget
+    box: Box
+    solution: CoupledSolution
+    iterations: int
+
+    def state(self) -> tuple[State, Field]:
+        """The state that the solution would make, and its gap."""
+        model, solution, cells = self.model, self.solution, self.model.grid.cells
+        p, q = self.box.embed(solution.pressure, cells), self.box.embed(solution.shear, cells)
+        u = model.operator(cells).together(np.concatenate([q, p[None]]))
+        u_t, u_z = u[:2], u[2]
+        gap = self.normal.gap(model)
+        load = self.normal.on(model, Box.whole(cells))
+        g = np.where(np.isfinite(gap), gap, np.inf) + u_z - load.closure(solution.closing)
+        overlap = load.overlap(solution.closing, gap, np.isfinite(gap))
+        approach, tilt = self.normal.reached(model, solution.closing)
+        pressing = NormalState(
+            pressure=p,
+            displacement=u_z,
+            approach=approach,
+            complementarity=complementarity(p, g, overlap),
+            penetration=penetration(g, overlap),
+            covered_cells=covered_cells(p, p > 0, model.domain),
+            iterations=self.iterations,
+            tilt=tilt,
+        )
+        normal_force = float(np.sum(p)) * model.grid.cell_area
+        moment = reached_moment(model, self.normal, pressing.pressure)
+        sheared = self._sheared(p, q, u_t)
+        rounds = self.solution.rounds
+        return State(self.normal, normal_force, pressing, sheared, moment, rounds=rounds), g
+
+    def _sheared(self, p: Field, q: VectorField, u_t: VectorField) -> TangentialState:
+        model, solution, cells = self.model, self.solution, self.model.grid.cells
+        bound = model.friction_limit(p)
+        if solution.at_limit:
+            return self._slid(p, bound, u_t)
+        # Where all sticks and none is pushed, pressure and shear move the surface in opposite ways
+        # to nothing, and only one of them tells what little slip is; where one cell touches, what
+        # its pressure does around it.
+        moved = u_t
+        if not np.any(solution.in_slip):
+            moved = np.maximum(np.abs(model.operator(cells).tangential(q)), np.max(np.abs(u_t)))
+        shearing = Shearing(
+            shear=q,
+            displacement=moved,
+            motion=solution.motion,
+            in_slip=self.box.embed(solution.in_slip.astype(np.float64), cells) > 0,
+            iterations=0,
+        )
+        target = surface_target(model, self.last, self.tangential)
+        passed = rigid(model, solution.motion) + target - u_t
+        residuals = shear_residuals(model, shearing, bound, passed, self.tangential, self.last)
+        after = advanced(model, p, bound, self.last, self.tangential, shearing, passed, residuals)
+        return replace(after, displacement=u_t)
+
+    def _slid(self, p: Field, bound: Field, u_t: VectorField) -> TangentialState:
+        """All slips: at the friction limit, or because there is no friction here."""
+        model, last, load = self.model, self.last, self.tangential
+        if load.torsion is not None and load.torsion.torque is not None:
+            refuse_excessive_torque(model, bound, load)
+        elif load.force is not None:
+            force_reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area)
+            if np.any(bound):
+                return replace(at_limit(model, p, last, load), displacement=u_t)
+        return unresisted(model, p, u_t, last, load, self.solution.motion)

@@ -1,0 +1,1 @@
+"""One increment of the load history: pressure, then shear, and their energies."""

@@ -1,0 +1,87 @@
+"""The account of energy, carried on from one solved state to the next."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from semi_analytical.increments.energy import (
+    NOTHING_YET,
+    Configuration,
+    after_increment,
+)
+from semi_analytical.increments.increment import State
+from semi_analytical.increments.tangential_state import rigid
+from semi_analytical.model import ContactModel
+from semi_analytical.tangential.admissible_shear import everywhere
+
+
+def balanced(
+    model: ContactModel, before: State | None, after: State, *, path_matters: bool = True
+) -> State:
+    """The state `after` an increment with its energies; `before` is None at the start.
+
+    Needs no convolution: states know their displacements.
+
+    path_matters  whether `after` depends on how finely its step is cut
+    """
+    end = configuration(model, after)
+    if before is None:
+        spent, start = NOTHING_YET, Configuration.at_rest(model.gap, end)
+    else:
+        spent, start = before.energy, configuration(model, before)
+    dissipated = 0.0 if after.sheared is None else after.sheared.dissipated_energy
+    energy = after_increment(
+        spent, start, end, dissipated, model.grid.cell_area, path_matters=path_matters
+    )
+    return replace(after, energy=energy)
+
+
+def configuration(model: ContactModel, state: State) -> Configuration:
+    """Collect tractions, displacements and loads of a state for the energy balance; without shear
+    its tangential fields are empty. The springs of a rig are no part of the bodies."""
+    pressing, sheared = state.pressing, state.sheared
+    pressure, (down, along) = pressing.pressure, model.springs
+    gap = model.gap + pressing.displacement - pressing.closure(model)
+    spring = down * float(np.sum(pressure))
+    displacement, approach = pressing.displacement - spring, pressing.approach - spring
+    force = state.target.force
+    normal = state.normal_force if force is None else force
+    if sheared is None:
+        nothing = np.zeros((2, 0, 0))
+        return Configuration(
+            pressure=pressure,
+            normal_displacement=displacement,
+            gap=gap,
+            shear=nothing,
+            friction_limit=nothing[0],
+            tangential_displacement=nothing,
+            slipped=nothing,
+            touching=nothing[0],
+            forces=np.array([normal, *(state.moment or ())]),
+            motions=np.array([approach, *(pressing.tilt or ())]),
+        )
+    shift = sheared.shift
+    extension = along * model.domain.resultant(sheared.shear)
+    slipped = motions = None
+    if shift is not None:
+        slipped = sheared.displacement - rigid(model, sheared.motion)
+        motions = np.array(
+            [approach, *(shift - extension), *(pressing.tilt or ()), *_some(sheared.twist)]
+        )
+    moments = *(state.moment or ()), *_some(sheared.torque)
+    return Configuration(
+        pressure=pressure,
+        normal_displacement=displacement,
+        gap=gap,
+        shear=sheared.shear,
+        friction_limit=model.friction_limit(sheared.pressure),
+        tangential_displacement=sheared.displacement - everywhere(extension),
+        slipped=slipped,
+        touching=sheared.touching,
+        forces=np.array([normal, *sheared.force, *moments]),
+        motions=motions,
+    )
+
+
+def _some(value: float | None) -> tuple[float, ...]:
+    return () if value is None else (value,)

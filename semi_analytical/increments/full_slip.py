@@ -1,0 +1,128 @@
+"""Where all of a contact slips: the limit of friction, and contacts without friction."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from contact_scene.array_types import Field, Vector, VectorField
+from contact_scene.quantities.residuals import ShearResiduals
+from contact_scene.quantities.summary import ContactStatus
+from contact_scene.solver_errors import GrossSliding
+from semi_analytical.increments.tangential_solve import TangentialTarget
+from semi_analytical.increments.tangential_state import (
+    TangentialState,
+    rigid,
+    torsion_reached,
+    touching_share,
+)
+from semi_analytical.model import ContactModel
+from semi_analytical.residuals import friction_cone
+from semi_analytical.tangential.admissible_shear import AT_LIMIT
+
+
+def force_reaches_limit(force: Vector, limit: float) -> bool:
+    """Whether a force is at the friction limit; GrossSliding if it is beyond."""
+    magnitude = float(np.hypot(*force))
+    if magnitude > limit * (1 + AT_LIMIT):
+        raise GrossSliding(
+            f"tangential force {magnitude:.6g} N exceeds the friction limit {limit:.6g} N: gross "
+            f"sliding; prescribe tangential_shift instead"
+        )
+    return magnitude >= limit * (1 - AT_LIMIT)
+
+
+def refuse_excessive_torque(model: ContactModel, bound: Field, load: TangentialTarget) -> None:
+    """Raise GrossSliding if friction cannot carry a given torque beside the other loads."""
+    assert load.torsion is not None
+    assert load.torsion.torque is not None
+    torque, force = abs(load.torsion.torque), load.force
+    if torque == 0 and (force is None or not np.any(force)):
+        return
+    if not np.any(bound):
+        raise GrossSliding(f"torque {torque:.6g} N m on a contact without friction")
+    from semi_analytical.tangential.torsion import ShearMoments
+
+    held = load.on(model.grid.cell_area, model.rotation, model.domain)
+    assert isinstance(held, ShearMoments)
+    if not held.exhausts(bound):
+        return
+    times = held.limit(bound)[0]
+    if force is None or not np.any(force):
+        reached = f"torque {torque:.6g} N m reaches the friction limit {times * torque:.6g} N m"
+    else:
+        reached = (
+            f"torque {torque:.6g} N m and tangential force {np.hypot(*force):.6g} N together reach "
+            f"the friction limit, which is {times:.6g} times both"
+        )
+    raise GrossSliding(f"{reached}: gross sliding; prescribe twist or tangential_shift instead")
+
+
+def at_limit(
+    model: ContactModel, pressure: Field, last: TangentialState, load: TangentialTarget
+) -> TangentialState:
+    """Force control at the friction limit: the traction is known, the shift is not."""
+    bound, force = model.friction_limit(pressure), load.force
+    assert force is not None
+    q = bound * (force / np.hypot(*force))[:, None, None]
+    defect = model.domain.resultant(q) - force / model.grid.cell_area
+    twist, torque = torsion_reached(model, load, np.zeros(2), q)
+    return replace(
+        last,
+        shear=q,
+        pressure=pressure,
+        displacement=model.operator(bound.shape).tangential(q),
+        shift=None,
+        in_stick=np.zeros_like(bound, dtype=bool),
+        dissipated_energy=None,
+        status=ContactStatus.GROSS_SLIDING,
+        force=force,
+        residuals=ShearResiduals(
+            friction_cone(q, bound),
+            None,
+            float(np.hypot(*defect) / np.sum(bound)),
+        ),
+        iterations=0,
+        twist=twist,
+        torque=torque,
+    )
+
+
+def unresisted(
+    model: ContactModel,
+    pressure: Field,
+    displacement: VectorField,
+    last: TangentialState,
+    load: TangentialTarget,
+    motion: Vector,
+) -> TangentialState:
+    """Friction vanishes all over the contact: all of it slips, for nothing.
+
+    displacement  u_t (2, nx, ny) without shear, by the pressure alone
+    motion        of the load
+    """
+    nothing = np.zeros_like(last.shear)
+    touching = touching_share(last.pressure, pressure, model.gap)
+    twist, torque = torsion_reached(model, load, motion, nothing)
+    after = replace(
+        last,
+        shear=nothing,
+        pressure=pressure,
+        touching=touching,
+        displacement=displacement,
+        shift=motion[:2],
+        in_stick=np.zeros_like(last.in_stick),
+        status=ContactStatus.GROSS_SLIDING,
+        force=np.zeros(2),
+        residuals=ShearResiduals(0.0, 0.0, 0.0),
+        iterations=0,
+        twist=twist,
+        torque=torque,
+    )
+    passed = rigid(model, after.motion) - rigid(model, last.motion)
+    passed = passed + last.displacement - displacement
+    slipped = np.where((pressure > 0) | (last.pressure > 0), touching * passed, 0.0)
+    return replace(
+        after,
+        slip=last.slip - slipped,
+        slip_distance=last.slip_distance + np.hypot(*slipped),
+    )

@@ -1,0 +1,204 @@
+"""One load increment: the pressure problem, then the shear problem at that pressure."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from contact_scene import LoadRamp
+from contact_scene.array_types import Field
+from contact_scene.quantities.residuals import Residuals
+from semi_analytical.edge.corrected import Corrected, EdgeReport
+from semi_analytical.increments.energy import (
+    NOTHING_YET,
+    Energy,
+)
+from semi_analytical.increments.increment_history import (
+    PreviousIncrement,
+    further_shear,
+)
+from semi_analytical.increments.normal_solve import (
+    NormalState,
+    NormalTarget,
+    Pair,
+    Tilting,
+    press,
+)
+from semi_analytical.increments.stick_slip import slip_and_stick
+from semi_analytical.increments.tangential_solve import (
+    TangentialTarget,
+    Torsion,
+)
+from semi_analytical.increments.tangential_state import (
+    TangentialState,
+    untouched,
+)
+from semi_analytical.model import ContactModel
+from semi_analytical.tangential.admissible_shear import magnitude
+
+
+@dataclass(frozen=True)
+class State:
+    """Everything that the next increment needs of this one.
+
+    target        the normal load that was reached
+    normal_force  Σp times the cell area [force]
+    pressing      pressure, normal displacement and approach
+    sheared       the tangential part; None where no shear arises
+    moment        (Σp y, Σp x) times the cell area [force length]; None where nothing tilts
+    energy        since the start of the history; the march over the increments keeps the account
+    rounds        steps for pressure and shear together that it took; 0 without
+    corrected     the same with its edges inside the cells, which no later state knows of; None
+                  where that was not asked for, or is not safe
+    edge_report   outcome of the edge correction; None where it was not attempted
+    behind        the state before, where the next one is predicted
+    """
+
+    target: NormalTarget
+    normal_force: float
+    pressing: NormalState
+    sheared: TangentialState | None
+    moment: Pair | None = None
+    energy: Energy = NOTHING_YET
+    rounds: int = 0
+    corrected: Corrected | None = None
+    edge_report: EdgeReport | None = None
+    behind: PreviousIncrement | None = None
+
+    def seen(self) -> PreviousIncrement | None:
+        """This state as seen from ahead; None without shear, or where the shift is undefined."""
+        pressing, sheared = self.pressing, self.sheared
+        if sheared is None or sheared.shift is None:
+            return None
+        return PreviousIncrement(
+            target=self.target,
+            pressure=pressing.pressure,
+            shear=sheared.shear,
+            displacement=sheared.displacement,
+            normal_force=self.normal_force,
+            approach=pressing.approach,
+            covered_cells=pressing.covered_cells,
+            force=sheared.force,
+            shift=sheared.shift,
+        )
+
+    @property
+    def iterations(self) -> int:
+        """Of the pressure and shear solvers, in the increment."""
+        return self.pressing.iterations + (self.sheared.iterations if self.sheared else 0)
+
+
+def moment_of(model: ContactModel, pressure: Field) -> Pair:
+    """(Σp y, Σp x) times the cell area [force length]."""
+    M_x, M_y = np.sum(pressure * model.arms, axis=(1, 2)) * model.grid.cell_area
+    return float(M_x), float(M_y)
+
+
+def reached_moment(model: ContactModel, target: NormalTarget, pressure: Field) -> Pair | None:
+    """The moment as it is given, or as the pressure has it; None where nothing tilts."""
+    if target.tilting is None:
+        return None
+    return target.tilting.moment or moment_of(model, pressure)
+
+
+def residuals_of(model: ContactModel, state: State) -> Residuals:
+    """How well a state fulfils its equations and carries its load."""
+    pressing, force = state.pressing, state.target.force
+    pressed = Residuals(
+        pressing.complementarity,
+        pressing.penetration,
+        None if force is None else abs(state.normal_force - force) / force,
+        moment_equilibrium=_moment_equilibrium(model, state),
+    )
+    return pressed if state.sheared is None else pressed.with_shear(state.sheared.residuals)
+
+
+def _moment_equilibrium(model: ContactModel, state: State) -> float | None:
+    """|Σp (y, x) - M| / Σp r where a moment is given."""
+    tilting, p = state.target.tilting, state.pressing.pressure
+    if tilting is None or tilting.moment is None:
+        return None
+    missing = np.subtract(moment_of(model, p), tilting.moment)
+    return float(np.hypot(*missing) / (np.sum(p * magnitude(model.arms)) * model.grid.cell_area))
+
+
+def solve_increment(
+    model: ContactModel,
+    before: State | None,
+    normal: NormalTarget,
+    tangential: TangentialTarget | None,
+    tolerance: float,
+) -> State:
+    """The state at the end of an increment; `tangential_problem` is None where no shear arises.
+
+    raises  NotConverged, GrossSliding, ContactAtWindowEdge
+    """
+    if before is not None and before.target == normal:
+        pressing = replace(before.pressing, iterations=0)
+    else:
+        pressing = press(model, normal, tolerance)
+    normal_force = float(np.sum(pressing.pressure)) * model.grid.cell_area
+    moment = reached_moment(model, normal, pressing.pressure)
+    if tangential is None:
+        return State(normal, normal_force, pressing, None, moment)
+    last = before.sheared if before is not None else None
+    seen = before.seen() if before is not None else None
+    ahead = behind = None
+    if before is not None and seen is not None and seen.target == normal:
+        ahead, behind = further_shear(seen, before.behind, tangential), seen
+    sheared = slip_and_stick(
+        model,
+        pressing.pressure,
+        last or untouched(model.grid.cells),
+        tangential,
+        tolerance,
+        ahead,
+    )
+    return State(normal, normal_force, pressing, sheared, moment, behind=behind)
+
+
+def normal_target(
+    ramp: LoadRamp, start: State | None, fraction: float, tilts: bool
+) -> NormalTarget:
+    """Normal force or approach, and the tilt where the plan says so.
+
+    start  the state at the start of the step; None before first touch
+    """
+    reached = (0.0, 0.0) if start is None else (start.normal_force, start.pressing.approach)
+    force, approach = ramp.normal.led(fraction, reached)
+    return NormalTarget(force, approach, _tilting(ramp, start, fraction) if tilts else None)
+
+
+def tangential_target(
+    ramp: LoadRamp, start: State | None, fraction: float, twists: bool
+) -> TangentialTarget:
+    """Tangential force or shift, and the torsion where the plan says so."""
+    sheared = start.sheared if start is not None else None
+    reached: tuple[Pair, Pair | None] = ((0.0, 0.0), (0.0, 0.0))
+    if sheared is not None:
+        reached = _pair(sheared.force), None if sheared.shift is None else _pair(sheared.shift)
+    force, shift = ramp.tangential.led(fraction, reached)
+    return TangentialTarget(
+        None if force is None else np.array(force),
+        None if shift is None else np.array(shift),
+        _torsion(ramp, start, fraction) if twists else None,
+    )
+
+
+def _tilting(ramp: LoadRamp, start: State | None, fraction: float) -> Tilting:
+    reached: tuple[Pair, Pair] = ((0.0, 0.0), (0.0, 0.0))
+    if start is not None:
+        reached = start.moment or reached[0], start.pressing.tilt or reached[1]
+    return Tilting(*ramp.tilting.led(fraction, reached))
+
+
+def _torsion(ramp: LoadRamp, start: State | None, fraction: float) -> Torsion:
+    sheared = start.sheared if start is not None else None
+    reached = (0.0, 0.0)
+    if sheared is not None:
+        reached = sheared.torque or 0.0, sheared.twist or 0.0
+    return Torsion(*ramp.twisting.led(fraction, reached))
+
+
+def _pair(vector: np.ndarray) -> Pair:
+    x, y = map(float, vector)
+    return x, y

@@ -1,0 +1,197 @@
+"""The tangential half of an increment: stick, slip, and what the surfaces remember."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from contact_scene.array_types import Field, VectorField
+from contact_scene.friction import sliding_friction
+from contact_scene.quantities.residuals import ShearResiduals
+from contact_scene.quantities.summary import ContactStatus
+from contact_scene.solver_errors import NotConverged, motion_undefined
+from semi_analytical.increments.full_slip import (
+    at_limit,
+    force_reaches_limit,
+    refuse_excessive_torque,
+    unresisted,
+)
+from semi_analytical.increments.tangential_solve import (
+    Shearing,
+    TangentialTarget,
+    shear,
+)
+from semi_analytical.increments.tangential_state import (
+    TangentialState,
+    first_motion,
+    rigid,
+    surface_target,
+    torque_of,
+    torsion_reached,
+    touching_share,
+)
+from semi_analytical.model import ContactModel
+from semi_analytical.residuals import friction_cone, slip_direction
+from semi_analytical.tangential.admissible_shear import magnitude
+from semi_analytical.tangential.linearised_shear import Point
+
+MAX_ATTEMPTS = 3
+SLIDING = 1e-6
+# Slip is what the motion and the displacement differ by, so known no better than to their last
+# digits: without any displacement, as below a single cell, this part of the motion is its scale.
+OF_MOTION = 1e-4
+
+
+def slip_and_stick(
+    model: ContactModel,
+    pressure: Field,
+    last: TangentialState,
+    load: TangentialTarget,
+    tolerance: float,
+    ahead: Point | None = None,
+) -> TangentialState:
+    """Shear the contact from the state `last` to a force or shift, at a given pressure.
+
+    ahead   a first guess of the shear with its displacement; that of the last state if absent
+    raises  NotConverged; GrossSliding if a force exceeds what friction can carry
+    """
+    bound = model.friction_limit(pressure)
+    if last.shift is None:
+        raise motion_undefined()
+    ended = _without_solving(model, pressure, bound, last, load)
+    if ended is not None:
+        return ended
+    target = surface_target(model, last, load)
+    start, motion = ahead or Point(last.shear, last.displacement), first_motion(last, load)
+    aim, iterations = tolerance, 0
+    for _ in range(MAX_ATTEMPTS):
+        solution = shear(model, bound, target, load, start, motion, 0.5 * aim)
+        iterations += solution.iterations
+        # How far the indenter's particles moved past the body's in this increment.
+        passed = rigid(model, solution.motion) + target - solution.displacement
+        residuals = shear_residuals(model, solution, bound, passed, load, last)
+        if residuals.worst <= tolerance:
+            return advanced(model, pressure, bound, last, load, solution, passed, residuals)
+        start, motion = Point(solution.shear, solution.displacement), solution.motion
+        aim *= 0.1
+    raise NotConverged("the shear", iterations, residuals.worst, tolerance)
+
+
+def _without_solving(
+    model: ContactModel,
+    pressure: Field,
+    bound: Field,
+    last: TangentialState,
+    load: TangentialTarget,
+) -> TangentialState | None:
+    """The state where nothing has moved yet, or all slips; None where there is more to it."""
+    nothing = np.zeros_like(last.shear)
+    if load.torsion is not None and load.torsion.torque is not None:
+        refuse_excessive_torque(model, bound, load)
+        if np.any(bound):
+            return None
+        return unresisted(model, pressure, nothing, last, load, first_motion(last, load))
+    if load.force is None:
+        assert load.shift is not None
+        return (
+            None if np.any(bound) else unresisted(model, pressure, nothing, last, load, load.shift)
+        )
+    moved = last.shear, last.shift, last.displacement
+    if load.torsion is None and not any(np.any(a) for a in (load.force, *moved)):
+        return replace(last, pressure=pressure, in_stick=bound > 0, iterations=0)
+    if not force_reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area):
+        return None
+    if np.any(bound):
+        return at_limit(model, pressure, last, load)
+    return unresisted(model, pressure, nothing, last, load, first_motion(last, load))
+
+
+def shear_residuals(
+    model: ContactModel,
+    solution: Shearing,
+    bound: Field,
+    passed: VectorField,
+    load: TangentialTarget,
+    last: TangentialState,
+) -> ShearResiduals:
+    """How well a solution obeys friction and carries its load.
+
+    passed  how far the indenter's particles moved past the body's (2, nx, ny)
+    last    the state before; where the load returns to nothing only that one shows a scale
+    """
+    q = solution.shear
+    equilibrium = None
+    if load.force is not None:
+        defect = model.domain.resultant(q) - load.force / model.grid.cell_area
+        equilibrium = float(np.hypot(*defect) / np.sum(bound))
+    torque_equilibrium = None
+    if load.torsion is not None and load.torsion.torque is not None:
+        missing = torque_of(model, q) - load.torsion.torque
+        limit = np.sum(bound * magnitude(model.rotation)) * model.grid.cell_area
+        torque_equilibrium = float(abs(missing) / limit)
+    moved = np.maximum(np.abs(solution.displacement), np.abs(last.displacement))
+    moved = np.maximum(moved, OF_MOTION * np.abs(rigid(model, solution.motion)))
+    return ShearResiduals(
+        friction_cone(q, bound),
+        slip_direction(q, bound, passed, moved),
+        equilibrium,
+        torque_equilibrium,
+    )
+
+
+def advanced(
+    model: ContactModel,
+    pressure: Field,
+    bound: Field,
+    last: TangentialState,
+    load: TangentialTarget,
+    solution: Shearing,
+    passed: VectorField,
+    residuals: ShearResiduals,
+) -> TangentialState:
+    """The accepted state: slip and dissipation are added to those of the state before."""
+    q = solution.shear
+    # A residual of the solver may point against the shear; friction lets nothing slip that way.
+    backward = q[0] * passed[0] + q[1] * passed[1] < 0
+    in_stick = (bound > 0) & (~solution.in_slip | backward)
+    touching = touching_share(last.pressure, pressure, model.gap)
+    slips = ((pressure > 0) | (last.pressure > 0)) & ~in_stick
+    slipped = np.where(slips, touching * passed, 0.0)
+    friction = sliding_friction(last.shear, q, passed, model.friction_limit(last.pressure), bound)
+    lost = np.sum(friction * slipped, axis=0)
+    force = model.domain.resultant(q) * model.grid.cell_area
+    assert last.dissipated_energy is not None
+    twist, torque = torsion_reached(model, load, solution.motion, q)
+    after = TangentialState(
+        shear=q,
+        pressure=pressure,
+        touching=touching,
+        displacement=solution.displacement,
+        shift=solution.motion[:2],
+        slip=last.slip - slipped,
+        slip_distance=last.slip_distance + np.hypot(*slipped),
+        dissipation=last.dissipation + lost,
+        in_stick=in_stick,
+        dissipated_energy=last.dissipated_energy + float(np.sum(lost)) * model.grid.cell_area,
+        status=ContactStatus.NO_STICK_AREA_LEFT,
+        force=force if load.force is None else load.force,
+        residuals=residuals,
+        iterations=solution.iterations,
+        twist=twist,
+        torque=torque,
+    )
+    return replace(after, status=_status(model, after, bound, last))
+
+
+def _status(
+    model: ContactModel, after: TangentialState, bound: Field, last: TangentialState
+) -> ContactStatus:
+    if np.any(after.in_stick):
+        everything = np.count_nonzero(after.in_stick) == np.count_nonzero(bound)
+        return ContactStatus.FULL_STICK if everything else ContactStatus.PARTIAL_SLIP
+    if after.twist is None:
+        work, power = float(np.hypot(*after.force)) / model.grid.cell_area, float(np.sum(bound))
+    else:
+        moved = rigid(model, after.motion) - rigid(model, last.motion)
+        work, power = float(np.sum(after.shear * moved)), float(np.sum(bound * magnitude(moved)))
+    sliding = work >= power * (1 - SLIDING)
+    return ContactStatus.GROSS_SLIDING if sliding else ContactStatus.NO_STICK_AREA_LEFT

@@ -1,0 +1,118 @@
+"""The shear of a model at a given pressure, solved in the box around the contact."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from contact_scene.array_types import Field, Mask, Vector, VectorField
+from semi_analytical.model import ContactModel
+from semi_analytical.operator.box import box_around
+from semi_analytical.operator.domain import WINDOW, ReducedDomain
+from semi_analytical.tangential.admissible_shear import (
+    FixedShift,
+    ShearSum,
+    SprungShift,
+    TangentialLoad,
+)
+from semi_analytical.tangential.linearised_shear import Point
+from semi_analytical.tangential.tangential_problem import solve_tangential
+
+
+@dataclass(frozen=True)
+class Shearing:
+    """Shear and its displacement, the motion of the load, slip zone, and iterations."""
+
+    shear: VectorField
+    displacement: VectorField
+    motion: Vector
+    in_slip: Mask
+    iterations: int
+
+
+@dataclass(frozen=True)
+class Torsion:
+    """Exactly one of the two controls: torque M_z [force length] or twist."""
+
+    torque: float | None = None
+    twist: float | None = None
+
+
+@dataclass(frozen=True)
+class TangentialTarget:
+    """Exactly one of the two controls: force T [force] or shift [length], each (2,); and the
+    torsion, None where nothing twists."""
+
+    force: Vector | None = None
+    shift: Vector | None = None
+    torsion: Torsion | None = None
+
+    def on(
+        self,
+        cell_area: float,
+        rotation: VectorField | None,
+        domain: ReducedDomain = WINDOW,
+        spring: float = 0.0,
+    ) -> TangentialLoad:
+        """The load as the solver sees it on cells of this area.
+
+        rotation  (-y, x) of the cells (2, nx, ny) [length]; None where nothing twists
+        domain    that the cells are of
+        spring    displacement by a rig's spring per sum of the shear [length^3/force]
+        """
+        total = None if self.force is None else self.force / cell_area
+        if self.torsion is not None and self.torsion.torque is not None:
+            assert rotation is not None
+            from semi_analytical.tangential.torsion import ShearMoments
+
+            shift = self.shift
+            if not any(domain.summed):  # without resultants nothing shifts
+                total, shift = None, np.zeros(2)
+            return ShearMoments(rotation, self.torsion.torque / cell_area, total, shift)
+        if total is not None:
+            return ShearSum(total, domain.summed)
+        assert self.shift is not None
+        if spring and any(domain.summed):
+            return SprungShift(self.shift, spring, domain.summed)
+        return FixedShift(self.shift)
+
+
+def shear(
+    model: ContactModel,
+    bound: Field,
+    target: VectorField,
+    load: TangentialTarget,
+    start: Point,
+    motion: Vector,
+    tolerance: float,
+) -> Shearing:
+    """Solve the shear problem of one increment.
+
+    bound          friction limit µp, not zero everywhere
+    target         c, from the state before (see tangential.solve_tangential)
+    start, motion  first guesses
+    raises         NotConverged
+    """
+    cells = bound.shape
+    box = box_around(bound > 0, 0, model.domain)
+    operator = model.operator(box.shape)
+    inside = (..., *box.slices)
+    rotation = None if load.torsion is None else model.rotation[inside]
+    solution = solve_tangential(
+        operator.tangential,
+        operator.shear_inverse,
+        bound[box.slices],
+        target[inside],
+        load.on(model.grid.cell_area, rotation, model.domain, model.springs[1]),
+        Point(start.shear[inside], start.displacement[inside]),
+        motion,
+        model.self_compliance,
+        tolerance,
+    )
+    q, u = box.embed(solution.shear, cells), solution.displacement
+    return Shearing(
+        shear=q,
+        displacement=u if box.shape == cells else model.operator(cells).tangential(q),
+        motion=solution.motion,
+        in_slip=box.embed(solution.in_slip.astype(np.float64), cells) > 0,
+        iterations=solution.iterations,
+    )

@@ -1,0 +1,1 @@
+"""The normal problem: pressure for given shear, from arrays and operators alone."""

@@ -1,0 +1,242 @@
+"""The pressure problem: p >= 0, gap >= 0, p gap = 0, under a given load or approach.
+
+Among all admissible pressures the contact pressure has the least energy ½ p·A p + h·p (Kalker
+1990, chapter 4). Each step guesses the contact set from the state (p > 0, or the bodies overlap),
+solves the linear problem on it by preconditioned conjugate gradients and makes the answer
+admissible: an active-set Newton step. It is taken, or part of it, when the energy goes down enough;
+otherwise cells let go one after the other, so that the guesses cannot cycle.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from contact_scene.array_types import Field, Mask
+from contact_scene.solver_errors import NotConverged
+from semi_analytical.normal.normal_load import (
+    Map,
+    Motion,
+    NormalLoad,
+    Projection,
+)
+
+MAX_STEPS = 200
+MAX_ITERATIONS_PER_STEP = 200
+# In one solve; the pressures of plate-like films on 48 x 48 cells were found within 8 000.
+MAX_ITERATIONS = 20_000
+MAX_HALVINGS = 5
+# Part of the residual that solves leave while cells still come and go, and while they still let go:
+# those answers are not kept.
+MOVING = 0.3
+ROUGHLY = 0.5
+# Part of what the slope promises by which the energy must fall.
+LEAST_FALL = 0.1
+
+
+@dataclass(frozen=True)
+class NormalSolution:
+    """Pressure (nx, ny), its displacement u_z (nx, ny), the motion of the load, the iterations
+    spent, and the residual of the start."""
+
+    pressure: Field
+    displacement: Field
+    motion: Motion
+    iterations: int
+    first_residual: float
+
+    @property
+    def approach(self) -> float:
+        """Approach of the bodies at the origin [length]."""
+        return float(np.ravel(self.motion)[0])
+
+
+@dataclass(frozen=True)
+class _Problem:
+    displace: Map
+    precondition: Map
+    h: Field
+    allowed: Mask
+    load: NormalLoad
+
+    def residual(self, p: Field, g: Field, overlap: float) -> float:
+        """The larger of complementarity and penetration, relative to the overlap."""
+        total = p.sum()  # zero where a step under a fixed approach has overshot
+        complementarity = np.vdot(np.abs(g), p) / total if total > 0 else 0.0
+        penetration = -np.where(self.allowed, g, 0.0).min()
+        # A NaN is larger than any number.
+        return float(np.maximum(complementarity, penetration) / overlap)
+
+
+def solve_normal(
+    displace: Map,
+    precondition: Map,
+    gap: Field,
+    load: NormalLoad,
+    start: Field,
+    tolerance: float,
+    enough: float = 0.0,
+) -> NormalSolution:
+    """Pressure and motion of the load for an undeformed gap.
+
+    displace      pressure (nx, ny) -> normal displacement (nx, ny); symmetric, positive definite
+    precondition  roughly the inverse of `displace`; symmetric, positive definite
+    gap           undeformed gap (nx, ny) [length]; infinite where the bodies can never touch
+    load          what leads the indenter: Σp or the approach
+    start         a first pressure (nx, ny), not zero everywhere
+    tolerance     on complementarity Σ|g|p / (δ Σp) and penetration max(-g) / δ, dimensionless;
+                  δ is the overlap of the undeformed bodies
+    enough        part of the residual of the start at which to stop before the tolerance
+    raises        NotConverged
+    """
+    allowed = np.isfinite(gap)
+    h = np.where(allowed, gap, 0.0)
+    problem = _Problem(displace, precondition, h, allowed, load)
+    p = load.admissible(np.where(allowed, start, 0.0))
+    u = displace(p)
+    iterations, first, last = 0, np.inf, None
+    for number in range(MAX_STEPS):
+        s = u + h
+        motion = load.motion(p, s)
+        g = s - load.closure(motion)
+        residual = problem.residual(p, g, load.overlap(motion, h, allowed))
+        first = residual if number == 0 else first
+        aim = max(tolerance, enough * first)
+        if residual <= aim:
+            return NormalSolution(p, u, motion, iterations, first)
+        if iterations > MAX_ITERATIONS:
+            break
+        contact = allowed & ((p > 0) | (g < 0))
+        # Deep enough to reach the tolerance once the contact set is right, shallow while it moves.
+        settled = last is not None and bool((contact == last).all())
+        depth = max(0.0 if settled else MOVING, 0.3 * aim / residual)
+        last = contact
+        newton, newton_u, spent = _solve_on(contact, problem, p, u, g, depth)
+        iterations += spent
+        p, u, spent = _step_toward(newton, newton_u, problem, p, u, g)
+        iterations += spent
+    raise NotConverged("the pressure", iterations, residual, tolerance)
+
+
+def _solve_on(
+    contact: Mask, problem: _Problem, p: Field, u: Field, g: Field, depth: float
+) -> tuple[Field, Field, int]:
+    """Close the gap g on a contact set that holds all pressed cells; returns pressure,
+    displacement, iterations.
+
+    Conjugate gradients until the residual norm has fallen by the factor `depth`.
+    """
+    projected = problem.load.projection(contact.astype(np.float64))
+    return close_gap(problem.displace, problem.precondition, projected, p, u, g, depth)
+
+
+def close_gap(
+    displace: Map,
+    precondition: Map,
+    projected: Projection,
+    p: Field,
+    u: Field,
+    g: Field,
+    depth: float,
+) -> tuple[Field, Field, int]:
+    """The same in the cells, and under the load, of a projection."""
+    p, u, r = p.copy(), u.copy(), projected(-g)
+    t = z = projected(precondition(r))
+    rz = first = np.vdot(r, z)
+    iterations = 0
+    while rz > depth**2 * first and iterations < MAX_ITERATIONS_PER_STEP:
+        iterations += 1
+        A_t = displace(t)
+        step = rz / np.vdot(t, A_t)
+        p += step * t
+        u += step * A_t
+        r -= step * projected(A_t)
+        z = projected(precondition(r))
+        rz, last = np.vdot(r, z), rz
+        t = z + (rz / last) * t
+    return p, u, iterations
+
+
+def _step_toward(
+    newton: Field,
+    newton_u: Field,
+    problem: _Problem,
+    p: Field,
+    u: Field,
+    g: Field,
+) -> tuple[Field, Field, int]:
+    """To the Newton point, cut off at zero, or half as far until the energy falls enough.
+
+    Under a stiff coating pressed cells lift others; cutting off their tension all at once may
+    raise the energy again and again. Returns pressure, displacement, iterations.
+    """
+    step = 1.0
+    for _ in range(MAX_HALVINGS):
+        target = newton if step == 1 else p + step * (newton - p)
+        target_u = newton_u if step == 1 else u + step * (newton_u - u)
+        if target.min() < 0:
+            target = problem.load.admissible(target)
+            target_u = problem.displace(target)
+        if _falls(target - p, target_u - u, g):
+            return target, target_u, 0
+        step /= 2
+    lower, lower_u, spent = _let_go(newton, newton_u, problem, p, u, g)
+    if np.sum((lower - p) * g) < 0:
+        return lower, lower_u, spent
+    return *_gradient_step(problem, p, u, g), spent
+
+
+def _let_go(
+    newton: Field,
+    newton_u: Field,
+    problem: _Problem,
+    p: Field,
+    u: Field,
+    g: Field,
+) -> tuple[Field, Field, int]:
+    """Towards the Newton point until the first cells let go, then without these towards the next
+    one, until none is in tension (Lawson and Hanson 1974, chapter 23).
+
+    Up to half of the cells in tension let go at once, cut off at zero, as long as the energy falls
+    enough: where many must go, one after the other would take a solve each. It falls in any case
+    up to the first, so every part rids the contact of a cell.
+    """
+    contact = (p > 0) | (newton != 0)
+    iterations, many = 0, newton.size
+    while np.any(newton < 0):
+        if iterations > MAX_ITERATIONS:
+            return p, u, iterations
+        # How far each cell in tension still is pressed; not at all if it was not before.
+        part_of_way = np.where(newton < 0, p / np.where(newton < 0, p - newton, 1.0), np.inf)
+        parts = np.sort(part_of_way[newton < 0])
+        many = max(1, min(2 * many, len(parts) // 2))
+        while True:
+            part = parts[many - 1]
+            target, target_u = p + part * (newton - p), u + part * (newton_u - u)
+            if part == parts[0]:
+                break
+            target = problem.load.admissible(target)
+            target_u = problem.displace(target)
+            iterations += 1
+            if _falls(target - p, target_u - u, g):
+                break
+            many //= 2
+        contact = contact & (part_of_way > part)
+        p, u, g = np.where(contact, target, 0.0), target_u, g + (target_u - u)
+        newton, newton_u, spent = _solve_on(contact, problem, p, u, g, ROUGHLY)
+        iterations += spent
+    return newton, newton_u, iterations
+
+
+def _falls(d: Field, d_u: Field, g: Field) -> bool:
+    """Whether a change of the pressure lowers the energy as much as its slope promises."""
+    slope = np.vdot(d, g)
+    return bool(slope + 0.5 * np.vdot(d, d_u) <= LEAST_FALL * slope)
+
+
+def _gradient_step(problem: _Problem, p: Field, u: Field, g: Field) -> tuple[Field, Field]:
+    """Down the projected gradient to the lowest energy on the way: never fails, never fast."""
+    unit = np.sum(p) / np.sum(np.abs(u))
+    d = problem.load.admissible(np.where(problem.allowed, p - unit * g, 0.0)) - p
+    d_u = problem.displace(d)
+    step = min(1.0, -np.sum(d * g) / np.sum(d * d_u))
+    return p + step * d, u + step * d_u

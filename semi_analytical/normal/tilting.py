@@ -1,0 +1,198 @@
+"""Tilt of the indenter, led by its moments or by itself. Not imported where nothing tilts.
+
+A given tilt only changes the gap. A given moment Σ p (y, x) Δ is a force like the normal force: the
+tilt is its multiplier, as the approach is that of Σp (CONVENTIONS, "generalised coordinates").
+"""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from contact_scene.array_types import Field, Mask, Vector
+from contact_scene.solver_errors import NotConverged
+from semi_analytical.multipliers import MAX_SWEEPS, find_multiplier
+from semi_analytical.normal.normal_load import (
+    FixedApproach,
+    Motion,
+    NormalLoad,
+    PressureSum,
+    Projection,
+)
+
+# What rounding leaves of a sum of pressures and its moments, relative to the sum.
+ROUND_OFF = 1e-14
+
+
+@dataclass(frozen=True)
+class PressureMoments:
+    """Force control of the tilt: Σp y and Σp x, and of the approach or not.
+
+    arms      (y, x) of the cells (2, nx, ny) [length]
+    cells     those that can ever touch (nx, ny)
+    moments   (Σp y, Σp x) = (M_x, M_y) / cell area, shape (2,)
+    total     Σp = W / cell area; None where the approach is given
+    approach  of the bodies at the origin; None where Σp is given
+    The motion is (approach, tilt x, tilt y).
+    """
+
+    arms: Field
+    cells: Mask
+    moments: Vector
+    total: float | None = None
+    approach: float | None = None
+
+    @cached_property
+    def reach(self) -> float:
+        """Largest arm: with it as unit a tilt compares with the approach [length]."""
+        return float(np.max(np.abs(self.arms)))
+
+    @cached_property
+    def shapes(self) -> Field:
+        """Closures by unit motions of given force (k, nx, ny): 1 if Σp is given, y and x over the
+        reach."""
+        slopes = self.arms / self.reach
+        return slopes if self.total is None else np.stack([np.ones_like(slopes[0]), *slopes])
+
+    @cached_property
+    def sums(self) -> Vector:
+        """What the shapes, weighed by the pressure, must add up to (k,)."""
+        moments = self.moments / self.reach
+        return moments if self.total is None else np.array([self.total, *moments])
+
+    def touches(self, gap: Field) -> bool:
+        """Whether there are bodies to press on, on all sides of where the force acts."""
+        return self._is_carried_on(self.cells & np.isfinite(gap))
+
+    def bearing_depth(self, gaps: Vector, stiffness: Vector) -> float:
+        """As if the force acted at the origin."""
+        if self.total is None:
+            return FixedApproach(self.approach or 0.0).bearing_depth(gaps, stiffness)
+        return PressureSum(self.total).bearing_depth(gaps, stiffness)
+
+    def motion(self, p: Field, s: Field) -> Motion:
+        """The least squares of the gap left, weighed by the pressure."""
+        shapes = self.shapes
+        metric = _products(p * shapes, shapes)
+        right = np.array([np.sum(p * shape * (s - (self.approach or 0.0))) for shape in shapes])
+        fit = np.linalg.pinv(metric, rcond=1e-14, hermitian=True) @ right
+        approach = fit[0] if self.approach is None else self.approach
+        return np.array([approach, *(fit[-2:] / self.reach)])
+
+    def closure(self, motion: Motion) -> float | Field:
+        """A plane."""
+        approach, tilt_x, tilt_y = np.ravel(motion)
+        return np.asarray(approach + tilt_x * self.arms[0] + tilt_y * self.arms[1])
+
+    def overlap(self, motion: Motion, gap: Field, allowed: Mask) -> float:
+        """Where it is deepest."""
+        return float(np.max(self.closure(motion) - gap, where=allowed, initial=-np.inf))
+
+    def admissible(self, p: Field) -> Field:
+        """Cut off at zero and scaled by a plane to the sums; where no plane does it, also moved to
+        cells that carried nothing.
+
+        raises  NotConverged where no pressure has the sums
+        """
+        p = np.maximum(p, 0.0)
+        if self.total is not None:
+            p = p * (self.total / np.sum(p))
+        carrying = self._carrying(p, p)
+        if carrying is None:
+            carrying = self._carrying(p, self.cells * np.mean(p))
+        if carrying is None:
+            raise NotConverged("the pressure under its moments", MAX_SWEEPS, np.inf, ROUND_OFF)
+        return carrying
+
+    def _is_carried_on(self, cells: Mask) -> bool:
+        """Whether some pressure on these cells has the sums: whether they lie on all sides of the
+        point where Σp acts, or of the direction of the moments if Σp is open."""
+        y, x = self.arms[:, cells]
+        M_x, M_y = self.moments
+        if self.total is not None:
+            angles = np.sort(np.arctan2(y - M_x / self.total, x - M_y / self.total))
+            gaps = np.diff(angles, append=angles[:1] + 2 * np.pi)
+            return bool(gaps.size and np.max(gaps) < np.pi)
+        if M_x == 0 and M_y == 0:
+            return True
+        aside = np.angle(np.exp(1j * (np.arctan2(y, x) - np.arctan2(M_x, M_y))))
+        left = np.min(aside, where=aside >= 0, initial=np.inf)
+        right = np.max(aside, where=aside <= 0, initial=-np.inf)
+        return bool(left - right < np.pi)
+
+    def _carrying(self, p: Field, weight: Field) -> Field | None:
+        """The pressure >= 0 nearest to p in the metric 1 / weight that has the sums, if any."""
+        if not self._is_carried_on(weight > 0):
+            return None
+        shapes, sums = self.shapes, self.sums
+
+        def shifted_by(multiplier: Vector) -> "_Shifted":
+            return _Shifted.by(multiplier, p, weight, shapes, sums)
+
+        shifted, multiplier = find_multiplier(shifted_by, np.zeros(len(sums)))
+        return shifted.p if shifted.settled(multiplier) else None
+
+    def projection(self, inside: Field) -> Projection:
+        """What is left of a least-squares fit of the rigid motions."""
+        units = inside * self.shapes
+        inverse = np.linalg.pinv(_products(units, units), rcond=1e-14, hermitian=True)
+
+        def projected(field: Field) -> Field:
+            shares = inverse @ np.array([np.sum(unit * field) for unit in units])
+            motion = sum(share * unit for share, unit in zip(shares, units, strict=True))
+            return np.asarray(field * inside - motion)
+
+        return projected
+
+    def less(self, carried: Field) -> NormalLoad:
+        """What is left of the sums."""
+        return replace(
+            self,
+            cells=self.cells & (carried == 0),
+            moments=self.moments - np.sum(carried * self.arms, axis=(1, 2)),
+            total=None if self.total is None else self.total - float(np.sum(carried)),
+        )
+
+    def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
+        """The shapes."""
+        return tuple(self.shapes)
+
+
+def _products(a: Field, b: Field) -> Field:
+    """Sums of the products of fields (k, nx, ny) with fields (k, nx, ny), symmetric (k, k)."""
+    sums = np.array([[np.sum(one * other) for other in b] for one in a])
+    return 0.5 * (sums + sums.T)
+
+
+@dataclass(frozen=True)
+class _Shifted:
+    """max(0, p + weight Σ λ shape): see multipliers.py."""
+
+    p: Field
+    slack: Field
+    shapes: Field
+    sums: Vector
+    defect: Vector
+
+    @classmethod
+    def by(
+        cls, multiplier: Vector, p: Field, weight: Field, shapes: Field, sums: Vector
+    ) -> "_Shifted":
+        """Shift p by multipliers and cut off what pulls."""
+        plane = sum(m * shape for m, shape in zip(multiplier, shapes, strict=True))
+        shifted = p + weight * plane
+        pressed = (shifted > 0) & (weight > 0)
+        q = np.where(pressed, shifted, 0.0)
+        defect = np.array([np.sum(q * shape) for shape in shapes]) - sums
+        return cls(q, np.where(pressed, weight, 0.0), shapes, sums, defect)
+
+    def settled(self, multiplier: Vector) -> bool:
+        """Whether the defect is round-off."""
+        size = float(np.sum(self.p)) + float(np.max(np.abs(self.sums)))
+        return bool(np.sum(np.abs(self.defect)) <= ROUND_OFF * size)
+
+    def newton_step(self) -> Vector:
+        """Change of the multipliers that removes the defect to first order; of least length where
+        the cells that press do not determine it."""
+        metric = _products(self.slack * self.shapes, self.shapes)
+        return np.asarray(-np.linalg.pinv(metric, rcond=1e-14, hermitian=True) @ self.defect)

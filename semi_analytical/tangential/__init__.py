@@ -1,0 +1,1 @@
+"""The tangential problem: shear for given pressure, from arrays and operators alone."""

@@ -1,0 +1,101 @@
+"""Stick and slip, and the shear problem linearised in these zones.
+
+Where a cell sticks both components of the shear are free, where it slips q = µp n + s t: n along
+the natural map's z, and s across it, which takes besides the stiffness d = (|z| - µp) / (γ µp) that
+the curvature of the disc adds. On free shears the derivative is Π A Π + d, Π the projection on
+them.
+"""
+
+from collections.abc import Callable
+from functools import cached_property
+
+import numpy as np
+
+from contact_scene.array_types import Field, VectorField
+from semi_analytical.operator.slip_compliance_bins import (
+    beyond,
+    shares,
+)
+from semi_analytical.tangential.admissible_shear import magnitude
+
+Map = Callable[[VectorField], VectorField]
+
+# Of the self-compliance: a cell that is held back more does not turn.
+STIFFEST = 1e6
+
+
+class ShearZones:
+    """The zones in which a point z of the natural map lies.
+
+    slip     where it slips (nx, ny)
+    pulled   µp n there (2, nx, ny)
+    turning  d there (nx, ny) [length^3/force]
+    """
+
+    def __init__(self, z: VectorField, bound: Field, self_compliance: float) -> None:
+        length = magnitude(z)
+        self._open = bound > 0
+        self._self_compliance = self_compliance
+        self.slip = self._open & (length > bound)
+        normal = z * np.divide(1.0, length, out=np.zeros_like(length), where=self.slip)
+        self.pulled = bound * normal
+        excess = np.where(self.slip, length - bound, 0.0)
+        least = excess / STIFFEST
+        self.turning = self_compliance * np.divide(
+            excess, np.maximum(bound, least), out=np.zeros_like(excess), where=self.slip
+        )
+        self._tangent = np.stack([-normal[1], normal[0]])
+        self._stick = (self._open & ~self.slip).astype(np.float64)
+        self._xx = self._stick + self._tangent[0] ** 2
+        self._yy = self._stick + self._tangent[1] ** 2
+        self._xy = self._tangent[0] * self._tangent[1]
+
+    def free(self, v: VectorField) -> VectorField:
+        """Π v."""
+        across = self._xy * v
+        free = np.empty_like(across)
+        np.multiply(self._xx, v[0], out=free[0])
+        np.multiply(self._yy, v[1], out=free[1])
+        free += across[::-1]
+        return free
+
+    def same(self, other: "ShearZones | None") -> bool:
+        """Whether the same cells slip."""
+        return other is not None and np.array_equal(self.slip, other.slip)
+
+    @cached_property
+    def _shares(self) -> Field:
+        found = shares(self.turning / self._self_compliance) * self.slip
+        found[-1] *= np.sqrt(1 - self._beyond)
+        return found
+
+    @cached_property
+    def _beyond(self) -> Field:
+        return beyond(self.turning / self._self_compliance)
+
+    @cached_property
+    def _alone(self) -> Field:
+        return self._beyond / (self._self_compliance + self.turning)
+
+    def preconditioned(self, v: VectorField, inverse: Map) -> VectorField:
+        """Roughly the free shear that the derivative makes free displacements v of,
+
+            M = Π χ_0 F⁻¹ χ_0 Π + Σ_j χ_j t (f + d_j)⁻¹ t χ_j,    χ_0 = 1 where it sticks
+
+        with F, f and the shares χ_j of grades as in `ApproximateInverse` and
+        `slip_compliance_bins`. Far beyond the last grade f is nothing beside d: there M goes over
+        to t (K₀ + d)⁻¹ t.
+
+        inverse  F⁻¹ of two components, then the (f + d_j)⁻¹ of one each
+        """
+        given = np.empty((len(self._shares) + 1, *v.shape[1:]))
+        unheld = self._shares[0] + self._stick
+        np.multiply(unheld, v, out=given[:2])
+        along = self._tangent[0] * v[0] + self._tangent[1] * v[1]
+        np.multiply(self._shares[1:], along, out=given[2:])
+        found = inverse(given)
+        free = self.free(unheld * found[:2])
+        turned = np.einsum("kij,kij->ij", self._shares[1:], found[2:])
+        turned += self._alone * along
+        free += self._tangent * turned
+        return free

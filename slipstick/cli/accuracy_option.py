@@ -1,0 +1,150 @@
+"""An accuracy that is asked for, on the command line or in the scene, and the way to it."""
+
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from math import inf
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
+
+import typer
+
+from slipstick.cli.errors import ExitCode
+from slipstick.cli.options import optional
+
+if TYPE_CHECKING:
+    from contact_errors.adaptive_refinement import Refined
+    from contact_results.directory.checkpoint import CheckpointDirectory
+    from contact_scene import SceneFile
+    from contact_scene.accuracy import AccuracyRequest
+    from contact_scene.quantities.accuracy_reached import AccuracyReached
+    from slipstick.solvers.solver import Progress, Solver
+
+AccuracyOption: TypeAlias = Annotated[
+    str | None,
+    optional(
+        "--accuracy",
+        metavar="SHARES",
+        help='Refine until errors are this small: "0.1%", or by name: "peak_pressure 0.1%, '
+        'dissipated_energy 1%". Absent: what the table [accuracy] of the scene asks, if it has '
+        "one.",
+    ),
+]
+
+MostSecondsOption: TypeAlias = Annotated[
+    float | None,
+    optional(
+        "--most-seconds",
+        metavar="S",
+        min=0,
+        help="With an accuracy: begin no finer solve that would exceed this time all together; "
+        "the best result is kept, with exit code 4. Absent: as long as it takes.",
+    ),
+]
+
+# Files in the directory of the results: state of a refinement, and checkpoints of its solves.
+ROUNDS, OF_ROUND = "rounds", "checkpoint-"
+
+
+def requested_accuracy(
+    contents: "SceneFile", option: str | None, most_seconds: float | None
+) -> "AccuracyRequest | None":
+    """What the option asks for, or else the scene file; a limit of time alone is refused."""
+    if option is not None:
+        from contact_scene.reading.scene_file import read_accuracy
+
+        return read_accuracy(option, "--accuracy")
+    if most_seconds is not None and contents.accuracy is None:
+        raise typer.BadParameter("--most-seconds is of --accuracy; leave it or give an accuracy")
+    return contents.accuracy
+
+
+def refuse_without_error(error: bool) -> None:
+    """Refuse --no-error beside an accuracy, which needs the errors."""
+    if not error:
+        raise typer.BadParameter(
+            "--no-error cannot be met beside an accuracy; leave it or --accuracy (and the table "
+            "[accuracy]) out"
+        )
+
+
+def leave_unless_met(accuracy: "AccuracyReached | None") -> None:
+    """Leave with the exit code of a limit where less was reached than was asked for."""
+    from slipstick.cli.terminal import tell
+
+    if accuracy is not None and not accuracy.met:
+        tell(f"error: the accuracy was not reached: {accuracy.stopped}; the best result is kept")
+        raise typer.Exit(ExitCode.RESOURCES_REFUSED)
+
+
+def forget_rounds(output: Path) -> None:
+    """Remove what a killed run with an accuracy has left beside results that are not its own."""
+    from contact_results.directory.checkpoint import checkpointed
+    from contact_results.directory.resume_file import kept_value
+    from slipstick.cli.terminal import tell
+
+    target = output.resolve()
+    of_rounds = f".{target.name}.{OF_ROUND}"
+    left = [path for place in (target, target.parent) for path in place.glob(f"{of_rounds}*")]
+    for path in left:
+        with checkpointed(output, "", tell, path.name.removeprefix(f".{target.name}.")):
+            pass
+    with kept_value(output, "", tell, ROUNDS):
+        pass
+
+
+@contextmanager
+def refined_to(
+    request: "AccuracyRequest",
+    solver: "Solver",
+    contents: "SceneFile",
+    output: Path,
+    most_seconds: float | None,
+    *,
+    step: int | None = None,
+) -> "Iterator[Refined]":
+    """The scene solved ever finer until a request is met. Beside the results every round leaves
+    its own checkpoint if it is killed, and all of them where the next one goes on; those of the
+    last round stay until the block is done, in which the results are written.
+
+    step  at whose end the stress below the surface is wanted; the last if absent
+    """
+    from contact_errors.adaptive_refinement import Levels, refine
+    from contact_results.directory.checkpoint import checkpointed
+    from contact_results.directory.code_digest import SOLVERS, code_digest, solve_identity
+    from contact_results.directory.resume_file import kept_value
+    from slipstick.cli.progress import solve_progress, tell_round
+    from slipstick.cli.terminal import tell
+
+    tried = 0  # in this round, whose grid may be outgrown
+
+    @contextmanager
+    def keeping(fineness: Any) -> "Iterator[CheckpointDirectory]":
+        nonlocal tried
+        tried += 1
+        identity = solve_identity(contents.scene, fineness, vars(solver))
+        yield of_round.enter_context(checkpointed(output, identity, tell, f"{OF_ROUND}{tried}"))
+
+    @contextmanager
+    def watching(fineness: Any) -> "Iterator[Progress]":
+        with solve_progress(fineness.increments) as observe:
+            yield observe
+
+    fineness = solver.fineness(contents)
+    stress_at = (step or len(contents.scene.loading)) if request.binds_stress else None
+    refined = solver.refined(contents.scene, fineness, stress=request.binds_stress)
+    levels = Levels(refined, stress_at, watching, keeping)
+    asked = (contents.scene, fineness, vars(solver), request, step)
+    identity = solve_identity(*asked, code_digest((*SOLVERS, "contact_results", "contact_errors")))
+    with kept_value(output, identity, tell, ROUNDS) as kept, ExitStack() as of_round:
+
+        def between(way: Any) -> None:
+            nonlocal tried
+            tried = 0
+            kept.keep(way)
+            of_round.close()
+
+        begun = kept.last()
+        if begun is not None:
+            tell(f"going on after round {begun.rounds} of an interrupted run ({kept.path})")
+        most = inf if most_seconds is None else most_seconds
+        yield refine(levels, request, most, tell_round, begun, between)

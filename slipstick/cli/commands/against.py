@@ -1,0 +1,86 @@
+"""`slipstick against`: compare a run with a measured loop or profile."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Annotated, Any
+
+import typer
+
+from contact_results.files.measured_table import read_measured
+from contact_results.files.stored_run import load
+from contact_results.number_text import Uncertainty, number_text
+from contact_scene import read_scene_file
+from contact_scene.reading.engineering_units import engineering_unit
+from slipstick.against import NothingToCompare, comparison
+from slipstick.cli.options import SetOption, SolverOption, optional
+from slipstick.cli.terminal import print_table
+from slipstick.solvers.names import SolverName
+from slipstick.solving import save, solve, stated_errors
+
+
+def against(
+    table: Annotated[
+        Path,
+        typer.Argument(
+            metavar="TABLE", show_default=False, help="CSV with a line of heads: name [unit]."
+        ),
+    ],
+    source: Annotated[
+        Path,
+        typer.Argument(
+            metavar="RUN_DIR|SCENE",
+            show_default=False,
+            help="Output of 'slipstick run', or a scene file to solve first.",
+        ),
+    ],
+    step: Annotated[
+        int | None,
+        optional(
+            "--step",
+            metavar="N",
+            min=1,
+            help="Loading step at whose end profiles are compared; the last if absent.",
+        ),
+    ] = None,
+    overrides: SetOption = None,
+    solver: SolverOption = SolverName.SEMI_ANALYTICAL,
+) -> None:
+    """Compare a run with a measured loop or profile, and state our part of every difference.
+
+    A loop has the columns shift and T, such as 'shift [um],T [N]'; the last load cycle of the run
+    is compared. A profile has x with p, q or both, along y = 0. Other columns are ignored.
+    """
+    try:
+        measured = read_measured(table)
+        with TemporaryDirectory() as solved:
+            directory = source
+            if not source.is_dir():
+                result: Any = solve(read_scene_file(source, overrides or ()), solver.value)
+                directory = Path(solved) / "run"
+                save(result, directory, figures="none", errors=stated_errors(result))
+            run = load(directory)
+            if step is not None and step > len(run.summary.steps):
+                raise NothingToCompare(
+                    f"there is no step {step}; the run has {len(run.summary.steps)}"
+                )
+            compared = comparison(measured, run, step)
+    except ValueError as error:
+        raise typer.BadParameter(str(error)) from None
+    rows = []
+    for each in compared:
+        unit = engineering_unit(max(abs(each.measured), abs(each.computed)), each.unit)
+        stated = Uncertainty(each.error, True) if each.error else None
+        rows.append(
+            (
+                f"{each.name} ({unit.name})",
+                number_text(each.measured, None, unit.size),
+                number_text(each.computed, stated, unit.size),
+                "–" if each.ratio is None else f"{each.ratio:.4f}",
+                number_text(each.gap, None, unit.size),
+                "unknown" if each.ours is None else f"{100 * each.ours:.1f} %",
+            )
+        )
+    heads = ("number", "measured", "computed", "ratio", "difference", "ours\nat most")
+    print_table(heads, rows, numbers=True)

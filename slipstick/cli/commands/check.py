@@ -1,0 +1,55 @@
+"""`slipstick check`: is this scene valid, and what does it describe?"""
+
+import json
+from dataclasses import asdict
+from typing import Annotated
+
+import typer
+
+from slipstick.cli.errors import ExitCode
+from slipstick.cli.options import SceneArgument, SetOption, odd_numbers
+
+
+def check(
+    scene: SceneArgument,
+    overrides: SetOption = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the outcome as JSON, for editors and scripts.")
+    ] = False,
+) -> None:
+    """Validate a scene file and say what it describes.
+
+    Every mistake is listed with file, line and key, and of a valid scene every number that is
+    hardly what was meant. Nothing is solved. Exit code 0 if the scene is valid, 2 if it is not.
+    """
+    from contact_scene import SceneError, read_scene_file
+
+    try:
+        contents = read_scene_file(scene, overrides or ())
+    except SceneError as error:
+        if not as_json:
+            raise
+        problems = [{"key": p.key, **_without_path(asdict(p))} for p in error.problems]
+        typer.echo(json.dumps({"valid": False, "problems": problems}, indent=2))
+        raise typer.Exit(ExitCode.INVALID) from None
+    remarks = odd_numbers(contents)
+    if as_json:
+        typer.echo(json.dumps({"valid": True, "problems": [], "remarks": remarks}, indent=2))
+        return
+
+    from contact_scene.reading.scene_text import describe
+    from slipstick.cli.terminal import print_pairs, tell
+
+    typer.echo(f"{scene}: valid")
+    print_pairs(describe(contents.scene, contents.semi_analytical, contents.fem_reference))
+    if contents.accuracy is not None:
+        shares = contents.accuracy.shares().items()
+        print_pairs(
+            [("accuracy", ", ".join(f"{name} {100 * share:.3g} %" for name, share in shares))]
+        )
+    for remark in remarks:
+        tell(f"warning: {remark}")
+
+
+def _without_path(problem: dict[str, object]) -> dict[str, object]:
+    return {name: value for name, value in problem.items() if name != "path"}

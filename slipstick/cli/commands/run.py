@@ -1,0 +1,185 @@
+"""`slipstick run`: from a scene to a directory of results."""
+
+from contextlib import ExitStack
+from enum import StrEnum
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from slipstick.cli.accuracy_option import (
+    AccuracyOption,
+    MostSecondsOption,
+    forget_rounds,
+    leave_unless_met,
+    refined_to,
+    refuse_without_error,
+    requested_accuracy,
+)
+from slipstick.cli.options import (
+    OutputOption,
+    SceneArgument,
+    SetOption,
+    SolverOption,
+    warn_of_odd_numbers,
+)
+from slipstick.solvers.names import SolverName
+
+if TYPE_CHECKING:
+    from contact_results.surface import Result
+    from contact_scene.quantities.accuracy_reached import AccuracyReached
+    from contact_scene.quantities.stated_error import StatedErrors
+    from slipstick.solvers.solver import Solver
+
+
+class Figures(StrEnum):
+    """Pictures that a run draws."""
+
+    NONE = "none"
+    OVERVIEW = "overview"
+    ALL = "all"
+
+
+def run(
+    scene: SceneArgument,
+    output: OutputOption,
+    overrides: SetOption = None,
+    solver: SolverOption = SolverName.SEMI_ANALYTICAL,
+    figures: Annotated[
+        Figures,
+        typer.Option(
+            "--figures",
+            metavar="NAME",
+            help="overview: one picture, and the page index.html; all: maps, profiles and loops, "
+            "too; none: neither.",
+        ),
+    ] = Figures.OVERVIEW,
+    overwrite: Annotated[
+        bool,
+        typer.Option("--overwrite", help="Replace files in DIR that are not of an earlier run."),
+    ] = False,
+    error: Annotated[
+        bool,
+        typer.Option(
+            "--error/--no-error",
+            help="State an error for every number, by coarser solves beside the run; or leave "
+            "them out.",
+        ),
+    ] = True,
+    all_fields: Annotated[
+        bool,
+        typer.Option(
+            "--all-fields",
+            help="Store the fields of every increment in result.h5, not only those at the ends of "
+            "load steps.",
+        ),
+    ] = False,
+    accuracy: AccuracyOption = None,
+    most_seconds: MostSecondsOption = None,
+) -> None:
+    """Solve a scene and write summary, fields, tables, a picture and a page into DIR.
+
+    DIR appears whole or not at all. The results of an earlier run in it are replaced once the new
+    ones are there; other files in it are left alone. A run that takes longer leaves checkpoints
+    beside DIR while it lasts: the same command goes on from there if it was killed.
+
+    With --accuracy, or a table [accuracy] in the scene, the scene is solved on ever finer cells and
+    increments until the errors are as small as asked; cells and increments of the scene are where
+    that begins, not where it ends.
+    """
+    from contact_results.directory.checkpoint import checkpointed
+    from contact_results.directory.code_digest import solve_identity
+    from contact_results.directory.run_directory import run_directory
+    from contact_results.directory.stop_signals import NOTHING_KEPT, cleaned_up_when_stopped
+    from contact_results.directory.timing import Stopwatch, write_timing
+    from contact_scene import read_scene_file
+    from slipstick.cli.terminal import tell
+
+    stopwatch = Stopwatch()
+    with stopwatch.phase("read"):
+        contents = read_scene_file(scene, overrides or ())
+        request = requested_accuracy(contents, accuracy, most_seconds)
+        told = warn_of_odd_numbers(contents)
+    if request is not None:
+        refuse_without_error(error)
+    with stopwatch.phase("import"):
+        chosen = solver.solver
+        from slipstick.cli.progress import solve_progress
+    fineness = chosen.fineness(contents)
+    identity = solve_identity(contents.scene, fineness, solver)
+    with (
+        cleaned_up_when_stopped(kept=lambda: NOTHING_KEPT),
+        checkpointed(output, identity, tell) as store,
+        ExitStack() as until_written,
+        run_directory(output, overwrite=overwrite) as staging,
+    ):
+        decided = chosen.plan(contents.scene, fineness)
+        stated = reached = None
+        with stopwatch.phase("solve"):
+            if request is not None:
+                refined = until_written.enter_context(
+                    refined_to(
+                        request,
+                        chosen,
+                        contents,
+                        output,
+                        most_seconds,
+                    )
+                )
+                result, stated = refined.level.result, refined.level.stated
+                reached = refined.accuracy
+            else:
+                with solve_progress(decided.increments) as observe:
+                    result = chosen.solve(contents.scene, fineness, decided, observe, store)
+        if error and stated is None:
+            with stopwatch.phase("error"):
+                stated = _stated_errors(chosen, result)
+        with stopwatch.phase("write"):
+            from contact_results.result_files import write_result
+
+            write_result(
+                result,
+                staging,
+                figures=figures.value,
+                errors=stated,
+                accuracy=reached,
+                all_fields=all_fields,
+            )
+        write_timing(stopwatch, staging, result.increments)
+    from contact_results.result_warnings import remarks
+
+    if request is None:
+        forget_rounds(output)
+    _print_outcome(chosen, result, stated, reached, stopwatch.wall_seconds)
+    for remark in remarks(result):
+        if remark not in told:
+            tell(f"warning: {remark}")
+    if not error:
+        typer.echo("  no errors: --no-error left them out")
+    typer.echo(f"results in {output}")
+    leave_unless_met(reached)
+
+
+def _stated_errors(solver: "Solver", result: "Result") -> "StatedErrors":
+    from slipstick.cli.progress import coarse_solves_shown
+
+    with coarse_solves_shown():
+        return solver.errors(result)
+
+
+def _print_outcome(
+    solver: "Solver",
+    result: "Result",
+    stated: "StatedErrors | None",
+    reached: "AccuracyReached | None",
+    seconds: dict[str, float],
+) -> None:
+    from contact_results.key_numbers import outcome_columns
+    from slipstick.cli.outcome_text import how_accurate, how_stated, solved_in
+    from slipstick.cli.terminal import print_pairs, print_table
+
+    stated_in = () if stated is None else how_stated(stated, seconds.get("error"))
+    accurate = () if reached is None else how_accurate(reached)
+    solved = solved_in(result, seconds["solve"])
+    print_pairs([*solver.layout(result), *solved, *stated_in, *accurate])
+    columns = outcome_columns(result.steps, stated.steps if stated else None)
+    print_table(columns, zip(*columns.values(), strict=True), numbers=True)

@@ -1,0 +1,349 @@
+"""`slipstick stress`: displacement and stress below the surface."""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from slipstick.cli.accuracy_option import (
+    AccuracyOption,
+    MostSecondsOption,
+    leave_unless_met,
+    refined_to,
+    refuse_without_error,
+    requested_accuracy,
+)
+from slipstick.cli.options import (
+    AskedSolver,
+    OutputOption,
+    SetOption,
+    optional,
+    warn_of_odd_numbers,
+)
+from slipstick.solvers.names import SolverName
+
+if TYPE_CHECKING:
+    from contact_results.stress.loaded_bodies import LoadedBodies
+    from contact_results.stress.points import StressField
+    from contact_results.stress.stress_maxima import Extreme
+    from contact_results.surface import Result
+    from contact_scene import SceneFile
+    from contact_scene.accuracy import AccuracyRequest
+    from contact_scene.quantities.accuracy_reached import AccuracyReached
+    from contact_scene.quantities.stated_error import (
+        StatedError,
+        StatedErrors,
+    )
+
+
+class Figures(StrEnum):
+    """Figures that the command draws."""
+
+    NONE = "none"
+    ALL = "all"
+
+
+def stress(
+    source: Annotated[
+        Path,
+        typer.Argument(
+            metavar="RUN_DIR|SCENE",
+            help="Output of 'slipstick run', or a scene file to solve first.",
+            show_default=False,
+        ),
+    ],
+    output: OutputOption,
+    step: Annotated[
+        int | None,
+        optional(
+            "--step",
+            metavar="N",
+            min=1,
+            help="Loading step at the end of which the stress is taken; the last if absent.",
+        ),
+    ] = None,
+    depths: Annotated[
+        str | None,
+        optional(
+            "--depths",
+            metavar="Z,Z,...",
+            help="Depths such as '0,0.1 mm,0.2 mm'; fitted to contact and layers if absent. Both "
+            "sides of every interface are always there.",
+        ),
+    ] = None,
+    indenter: Annotated[
+        bool, typer.Option("--indenter", help="The indenter instead of the body; z points up.")
+    ] = False,
+    volume: Annotated[
+        bool, typer.Option("--volume", help="Write the whole volume as VTU too, not only y = 0.")
+    ] = False,
+    figures: Annotated[
+        Figures, typer.Option("--figures", metavar="NAME", help="all: draw figures; none: do not.")
+    ] = Figures.ALL,
+    error: Annotated[
+        bool,
+        typer.Option(
+            "--error/--no-error", help="State an error for every maximum, or leave them out."
+        ),
+    ] = True,
+    accuracy: AccuracyOption = None,
+    most_seconds: MostSecondsOption = None,
+    overrides: SetOption = None,
+    solver: AskedSolver = None,
+) -> None:
+    """Stress in layers and substrate: maxima, sections, lines, and both sides of interfaces.
+
+    Writes stress.json, tables (CSV), the section y = 0 for ParaView (VTU) and figures into DIR.
+
+    With --accuracy, or a table [accuracy] in the scene, the scene is solved as by 'run';
+    "max_principal 1%" binds the largest tension in the body.
+    """
+    from contact_results.directory.run_directory import refuse_files_above
+
+    refuse_files_above(output)
+    asked = None if depths is None else [_length(text) for text in depths.split(",")]
+    chosen = solver or SolverName.SEMI_ANALYTICAL
+    if source.is_dir():
+        given: dict[str, object] = {"--set": overrides, "--solver": solver}
+        _refuse_beside_run(given | {"--accuracy": accuracy, "--most-seconds": most_seconds})
+    else:
+        _refuse_beside_section(chosen, asked, volume)
+    from contact_results.stress.stress_maxima import extremes
+    from contact_results.stress_files import write_stress
+    from contact_scene import read_scene_file
+
+    reached = None
+    with ExitStack() as until_written:
+        if source.is_dir():
+            state = _state_of_run_directory(source, step)
+        else:
+            contents = read_scene_file(source, overrides or ())
+            warn_of_odd_numbers(contents)
+            request = requested_accuracy(contents, accuracy, most_seconds)
+            if indenter and request is not None and request.binds_stress:
+                raise typer.BadParameter(
+                    "an accuracy of max_principal is of the body, not --indenter"
+                )
+            if asked is not None and request is not None and request.binds_stress:
+                raise typer.BadParameter(
+                    "an accuracy of max_principal is of the largest at all depths: leave --depths "
+                    "out, or bind other quantities"
+                )
+            state, reached = _state_of_scene(
+                contents,
+                step,
+                chosen,
+                error=error,
+                request=request,
+                most_seconds=most_seconds,
+                output=output,
+                until_written=until_written,
+            )
+        which, body = ("indenter", state.indenter) if indenter else ("body", state.body)
+        if not body.deforms:
+            raise typer.BadParameter(f"the {which} is rigid: there is no stress in it")
+        field = _below(state, asked, indenter=indenter, volume=volume)
+        found = extremes(field, body)
+        errors = _errors(state, field, found, indenter) if error else None
+        write_stress(
+            state,
+            which,
+            field,
+            found,
+            output,
+            with_figures=figures is Figures.ALL,
+            errors=errors,
+            accuracy=reached,
+        )
+    from contact_results.stress.radial_body import is_sheared
+
+    # Pressure alone, on a disc, has no path.
+    on_disc = state.pressed is not None and not is_sheared(state)
+    by_increments = 0.0 if on_disc else state.by_increments
+    _print(found, errors, by_increments, reached, field.how.get("edge"), output)
+    leave_unless_met(reached)
+
+
+def _state_of_run_directory(directory: Path, step: int | None) -> LoadedBodies:
+    """At the end of a loading step of a run, None for the last."""
+    from contact_results.stress.loaded_bodies import NoSuchState, state_of_run
+
+    try:
+        return state_of_run(directory, step)
+    except NoSuchState as error:
+        raise typer.BadParameter(str(error)) from None
+
+
+def _state_of_scene(
+    contents: SceneFile,
+    step: int | None,
+    solver: SolverName,
+    *,
+    error: bool,
+    request: AccuracyRequest | None,
+    most_seconds: float | None,
+    output: Path,
+    until_written: ExitStack,
+) -> tuple[LoadedBodies, AccuracyReached | None]:
+    """The same of a scene, solved as finely as it says or as a request needs; and how well that
+    was met.
+
+    until_written  keeps the state of the refinement until the results are written
+    """
+    from contact_results.stress.loaded_bodies import state_of_result
+
+    if step is not None and step > len(contents.scene.loading):
+        raise typer.BadParameter(
+            f"there is no step {step}; the scene has steps 1 to {len(contents.scene.loading)}"
+        )
+    stated: StatedErrors | None
+    if request is None:
+        result, stated = _solved(contents, solver, error)
+        reached = None
+    else:
+        refuse_without_error(error)
+        output.parent.mkdir(parents=True, exist_ok=True)
+        refined = until_written.enter_context(
+            refined_to(request, solver.solver, contents, output, most_seconds, step=step)
+        )
+        result, stated = refined.level.result, refined.level.stated
+        reached = refined.accuracy
+    return state_of_result(result, step, stated), reached
+
+
+def _solved(
+    contents: SceneFile, name: SolverName, error: bool
+) -> tuple[Result, StatedErrors | None]:
+    from slipstick.cli.progress import coarse_solves_shown, solve_progress
+
+    chosen = name.solver
+    fineness = chosen.fineness(contents)
+    decided: Any = chosen.plan(contents.scene, fineness)
+    if name is SolverName.RADIAL:
+        from contact_results.stress.radial_body import refuse_infinite, refuse_turned
+        from radial.angular_grid import Circle
+        from radial.largest_contact import expected_radius
+
+        if decided.sheared:
+            refuse_infinite(contents.scene.indenter, expected_radius(contents.scene))
+        if decided.circle is Circle.WHOLE:
+            refuse_turned()
+    with solve_progress(decided.increments) as observe:
+        result = chosen.solve(contents.scene, fineness, decided, observe)
+    if not error:
+        return result, None
+    with coarse_solves_shown():
+        return result, chosen.errors(result)
+
+
+def _refuse_beside_run(given: dict[str, object]) -> None:
+    for option, value in given.items():
+        if value:
+            raise typer.BadParameter(
+                f"{option} says what to solve or how, and this is a run that was solved: leave it "
+                "out, or give the scene file"
+            )
+
+
+def _refuse_beside_section(solver: SolverName, depths: list[float] | None, volume: bool) -> None:
+    if solver.is_fem and (depths is not None or volume):
+        raise typer.BadParameter(
+            "finite elements give the stress at their nodes in one plane: leave --depths and "
+            "--volume out"
+        )
+    if solver is SolverName.RADIAL and volume:
+        raise typer.BadParameter(
+            "the radial solver gives the stress in one plane through the axis: leave --volume out"
+        )
+
+
+def _below(
+    state: LoadedBodies, depths: list[float] | None, *, indenter: bool, volume: bool
+) -> StressField:
+    from contact_results.stress.on_cells import stress_on_cells
+    from contact_results.stress.on_disc import stress_on_disc
+    from contact_results.stress.on_section import stress_on_section
+
+    if state.pressed is not None:
+        _refuse_beside_section(SolverName.RADIAL, depths, volume)
+    elif state.on_rings:
+        _refuse_beside_section(SolverName.FEM, depths, volume)
+        return stress_on_section(state, indenter=indenter)
+    try:
+        if state.pressed is not None:
+            return stress_on_disc(state, indenter=indenter, depths=depths)
+        return stress_on_cells(state, indenter=indenter, depths=depths, volume=volume)
+    except ValueError as error:
+        if depths is None:
+            raise
+        raise typer.BadParameter(f"--depths: {error}") from None
+
+
+def _errors(
+    state: LoadedBodies, field: StressField, found: tuple[Extreme, ...], indenter: bool
+) -> tuple[StatedError, ...]:
+    from contact_errors.stress_errors import stress_errors
+
+    return stress_errors(state, field, found, indenter=indenter)
+
+
+def _length(text: str) -> float:
+    """A plain number in metres, or a number with a unit."""
+    from pydantic import TypeAdapter, ValidationError
+
+    from contact_scene.reading.quantity import Length
+
+    try:
+        return float(text)
+    except ValueError:
+        pass
+    try:
+        return TypeAdapter(Length).validate_python(text)
+    except ValidationError as error:
+        reason = error.errors()[0]["msg"]
+        raise typer.BadParameter(f"--depths: {reason}") from None
+
+
+def _print(
+    found: tuple[Extreme, ...],
+    errors: tuple[StatedError, ...] | None,
+    by_increments: float | None,
+    reached: AccuracyReached | None,
+    edge: Any,
+    output: Path,
+) -> None:
+    import numpy as np
+
+    from contact_results.number_text import number_text, uncertainty
+    from contact_scene.reading.engineering_units import (
+        engineering_unit,
+        quantity,
+    )
+    from slipstick.cli.outcome_text import how_accurate
+    from slipstick.cli.terminal import print_pairs, print_table
+
+    if reached is not None:
+        print_pairs(how_accurate(reached))
+    unit = engineering_unit(float(np.max([abs(e.value) for e in found])), "Pa")
+    columns = ("region", "measure", f"largest\n{unit.name}", "x\n", "y\n", "depth\n")
+    rows = (
+        (
+            e.region,
+            e.measure,
+            number_text(e.value, uncertainty(error), unit.size),
+            *(quantity(length, "m") for length in (e.x, e.y, e.depth)),
+        )
+        for e, error in zip(found, errors or [None] * len(found), strict=True)
+    )
+    print_table(columns, rows, numbers=True)
+    if edge is not None and not edge["fitted"]:
+        typer.echo(f"  stress near the edge of the contact by cells alone: {edge['because']}")
+    if errors is None:
+        typer.echo("  no errors: --no-error left them out")
+    elif by_increments is None:
+        typer.echo("  errors by cells alone: the run states none by increments")
+    typer.echo(f"results in {output}")

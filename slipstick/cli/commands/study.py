@@ -1,0 +1,248 @@
+"""`slipstick maintain study`: compute a study's cases and write what follows from them."""
+
+from __future__ import annotations
+
+import shlex
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from slipstick.cli.errors import ExitCode
+from slipstick.cli.options import (
+    LevelName,
+    SchedulerOption,
+    SetOption,
+    directory,
+    optional,
+    workers_at,
+)
+from slipstick.solvers.names import SolverName
+
+if TYPE_CHECKING:
+    from verification.running.case_pool import Workers
+    from verification.running.record import StudyRecord
+    from verification.running.study import Settings, Study
+
+LEAST_CELLS = 16
+LEAST_LEVELS, MAX_LEVELS = 4, 10
+
+
+def study(
+    name: Annotated[
+        str | None, typer.Argument(metavar="NAME", help="The study; --list names them.")
+    ] = None,
+    scene: Annotated[
+        Path | None,
+        typer.Argument(
+            metavar="SCENE",
+            show_default=False,
+            help="Scene file (TOML) of the studies that refine something in it.",
+        ),
+    ] = None,
+    overrides: SetOption = None,
+    step: Annotated[
+        int | None,
+        optional(
+            metavar="N",
+            min=1,
+            help="Loading step of SCENE at whose end quantities are read; the last if absent.",
+        ),
+    ] = None,
+    solver: Annotated[
+        SolverName | None,
+        optional(
+            "--solver",
+            metavar="NAME",
+            help="What solves SCENE: 'semi-analytical', or finite elements, 'fem' with a penalty "
+            "and 'fem-complementarity' without one; the study's own if absent.",
+        ),
+    ] = None,
+    levels: Annotated[
+        int | None,
+        optional(
+            metavar="N",
+            min=LEAST_LEVELS,
+            max=MAX_LEVELS,
+            help="Levels of refinement of SCENE. Default: 5 to 7 by --level.",
+        ),
+    ] = None,
+    output: Annotated[
+        Path | None, directory("Where everything goes; out/study-NAME-LEVEL if absent.")
+    ] = None,
+    cells: Annotated[
+        int | None,
+        optional(
+            metavar="N",
+            min=LEAST_CELLS,
+            help="Cells of the finest grid along each side, even, or elements of the finest mesh "
+            "per contact radius; scene and level decide if absent.",
+        ),
+    ] = None,
+    level: Annotated[
+        LevelName, typer.Option("--level", help="How much is computed, and how finely.")
+    ] = LevelName.QUICK,
+    workers: Annotated[
+        int, typer.Option("--workers", metavar="N", min=1, help="Processes at a time.")
+    ] = 2,
+    scheduler: SchedulerOption = None,
+    list_studies: Annotated[
+        bool, typer.Option("--list", help="List the studies and stop.")
+    ] = False,
+) -> None:
+    """Compute the cases of a study on a pool of processes and write its page.
+
+    Every finished case leaves a record in DIR/cases: the same command goes on where a killed one
+    stopped. DIR receives index.html, study.json, figures and tables; earlier ones of the first two
+    wait in DIR/earlier meanwhile. Exit code 1 if a statement failed or a case was lost.
+    """  # fmt: skip
+    from slipstick.cli.options import unknown_names
+    from verification.judging.case import Level
+    from verification.running.study import Settings
+    from verification.studies.catalogue import SCENE_STUDIES, STUDIES
+
+    if list_studies:
+        from slipstick.cli.terminal import print_table
+
+        rows = [(known.name, known.title) for known in STUDIES.values()]
+        rows += [(f"{known} SCENE", study.title) for known, study in SCENE_STUDIES.items()]
+        print_table(("study", "title"), rows)
+        return
+    known = [*STUDIES, *SCENE_STUDIES]
+    if name is None:
+        raise typer.BadParameter(f"name a study; there are {', '.join(known)}")
+    if problem := unknown_names("study", [name], known, "slipstick maintain study --list"):
+        raise typer.BadParameter(problem)
+    if (scene is None) == (name in SCENE_STUDIES):
+        problem = "needs a scene file" if scene is None else "takes no scene file"
+        raise typer.BadParameter(f"study {name} {problem}")
+    settings = Settings(Level[level.name], cells, levels)
+    if scene is None:
+        _refuse_without_scene(name, step=step, levels=levels, solver=solver, set=overrides)
+        _refuse_odd(cells)
+        chosen, where = STUDIES[name], f"study-{name}-{level}"
+    else:
+        chosen = _scene_study(name, scene, overrides or [], step, solver, settings)
+        by = "" if solver is None else f"-{solver}"
+        where = f"study-{name}-{scene.stem}{by}-{level}"
+    directory = output or Path("out") / where
+    command = _command(name, level, cells, scene, overrides or [], step, levels, solver)
+    pool = workers_at(scheduler, workers)
+    record = _studied(chosen, settings, command, directory, pool)
+    _print_outcome(record, directory)
+    if record.status == "fail":
+        raise typer.Exit(ExitCode.ACCURACY)
+
+
+def _studied(
+    study: Study, settings: Settings, command: str, directory: Path, workers: int | Workers
+) -> StudyRecord:
+    from contact_results.directory.run_lock import in_sole_use
+    from slipstick.cli.case_progress import case_progress, how_it_ended, resume_hint
+    from verification.report.files import CASES, refuse_if_unwritable, set_aside, write_study
+    from verification.running.case_pool import run_cases
+    from verification.running.case_store import CaseStore
+    from verification.running.provenance import provenance
+    from verification.running.record import StudyRecord
+    from verification.running.row import CaseRecord
+    from verification.running.row_files import row_files
+
+    refuse_if_unwritable(directory)
+    with in_sole_use(directory):
+        cases = study.cases(settings)
+        set_aside(directory)
+        store = CaseStore(directory / CASES)
+        with (
+            case_progress({case.name: 1 for case in cases}, how_it_ended) as observe,
+            resume_hint(tuple(cases), store),
+        ):
+            ends = run_cases(cases, store, workers, observe)
+        records = {end.case.name: end.record for end in ends if isinstance(end.record, CaseRecord)}
+        seconds = {name: record.seconds for name, record in records.items()}
+        record = StudyRecord(
+            name=study.name,
+            title=study.title,
+            question=study.question,
+            level=settings.level.name.lower(),
+            conclusion=study.conclude(settings, records),
+            lost=tuple(end.lost for end in ends if end.lost is not None),
+            own_cells=settings.cells is not None,
+            provenance=provenance(
+                command,
+                seconds,
+                modules=(study.cases.__module__,),
+            ),
+        )
+        write_study(record, row_files(records, record.conclusion.rows), directory)
+    return record
+
+
+def _refuse_odd(cells: int | None) -> None:
+    if cells is not None and cells % 2:
+        raise typer.BadParameter(f"--cells {cells} is odd, and half of them are needed too")
+
+
+def _refuse_without_scene(name: str, **options: object) -> None:
+    """Options that say something of a scene."""
+    for option, value in options.items():
+        if value is not None:
+            raise typer.BadParameter(f"--{option} is of a scene, and study {name} takes none")
+
+
+def _scene_study(
+    name: str,
+    scene: Path,
+    overrides: list[str],
+    step: int | None,
+    solver: SolverName | None,
+    settings: Settings,
+) -> Study:
+    """The study of a scene, once it is clear that it can be made as asked."""
+    from verification.studies.catalogue import SCENE_STUDIES
+    from verification.studies.refinement.scene_level import CELLS, CannotRefine
+
+    known = SCENE_STUDIES[name]
+    chosen = known.solvers[0] if solver is None else solver.value
+    if chosen not in known.solvers:
+        able = " or ".join(known.solvers)
+        raise typer.BadParameter(f"study {name} is of {able}, and --solver is {solver}")
+    if chosen == CELLS:
+        _refuse_odd(settings.cells)
+    try:
+        study = known.of(scene, overrides, step, chosen)
+        study.cases(settings)
+    except CannotRefine as error:
+        raise typer.BadParameter(str(error)) from None
+    return study
+
+
+def _command(
+    name: str,
+    level: LevelName,
+    cells: int | None,
+    scene: Path | None,
+    overrides: list[str],
+    step: int | None,
+    levels: int | None,
+    solver: SolverName | None,
+) -> str:
+    """The command that makes the same study again."""
+    words = ["slipstick", "maintain", "study", name, *([] if scene is None else [str(scene)])]
+    words += ["--level", level.value, *(w for change in overrides for w in ("--set", change))]
+    words += [] if solver is None else ["--solver", solver.value]
+    for option, value in (("--cells", cells), ("--step", step), ("--levels", levels)):
+        words += [] if value is None else [option, str(value)]
+    return shlex.join(words)
+
+
+def _print_outcome(record: StudyRecord, directory: Path) -> None:
+    from verification.judging.status_words import SYMBOLS, WORDS
+    from verification.report.files import PAGE
+
+    for lost in record.lost:
+        typer.echo(f"LOST {lost.name}: {lost.reason}")
+    for statement in record.conclusion.statements:
+        outcome = statement.outcome
+        judged = "· finding" if outcome is None else f"{SYMBOLS[outcome]} {WORDS[outcome]}"
+        typer.echo(f"{judged}: {statement.claim}: {statement.measured}")
+    typer.echo(f"study: {directory / PAGE}")

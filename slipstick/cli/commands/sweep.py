@@ -1,0 +1,167 @@
+"""`slipstick sweep`: solve a scene for every combination of values of its keys."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import product
+from math import isnan
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+
+from contact_results.directory.atomic_file import atomic_file
+from contact_results.directory.run_lock import in_sole_use
+from contact_results.number_text import Uncertainty, number_text
+from contact_scene import read_scene_file
+from slipstick.cli.case_progress import case_progress, how_it_ended, resume_hint
+from slipstick.cli.commands.plan import by_radii
+from slipstick.cli.errors import ExitCode
+from slipstick.cli.options import (
+    OutputOption,
+    SceneArgument,
+    SchedulerOption,
+    SetOption,
+    SolverOption,
+    unknown_names,
+    workers_at,
+)
+from slipstick.cli.terminal import print_pairs, print_table, tell
+from slipstick.solvers.names import SolverName
+from slipstick.sweep import SweepError, Variation, points, quantities
+from slipstick.sweep_chart import (
+    MAX_KEYS,
+    PERCENTILES,
+    SweptQuantity,
+    write_sweep_chart,
+)
+from verification.running.case_pool import run_cases
+from verification.running.case_store import CaseStore
+from verification.running.row import CaseRecord
+from verification.running.row_files import ROWS, row_files
+
+TABLE, CHART, CASES = "sweep.csv", "sweep.png", "points"
+
+
+def sweep(
+    scene: SceneArgument,
+    output: OutputOption,
+    vary: Annotated[
+        list[str],
+        typer.Option(
+            "--vary",
+            metavar="KEY=VALUES",
+            help="a..b [unit] [log] N spaced values, such as body.layers[1].thickness=1..64 um log "
+            "4; or normal(mean,deviation) [unit] N, a sample. Any number of times.",
+        ),
+    ],
+    get: Annotated[
+        str,
+        typer.Option(
+            "--get",
+            metavar="NAME,NAME,...",
+            help="Scalars of summary.json at the end of the last step, vectors by component; or "
+            "MEASURE@REGION, a largest stress: max_principal@body, max_shear@1 (interface 1).",
+        ),
+    ] = "peak_pressure",
+    overrides: SetOption = None,
+    solver: SolverOption = SolverName.SEMI_ANALYTICAL,
+    error: Annotated[
+        bool,
+        typer.Option(
+            "--error/--no-error", help="State an error for every number, or leave them out."
+        ),
+    ] = True,
+    workers: Annotated[
+        int, typer.Option("--workers", metavar="N", min=1, help="Processes at a time.")
+    ] = 2,
+    scheduler: SchedulerOption = None,
+) -> None:
+    """Solve a scene for every combination of values of its keys; write a table and a chart.
+
+    DIR receives sweep.csv, a row for every point with errors and scene, and sweep.png. Every
+    finished point leaves a record in DIR/points: the same command goes on where a killed one
+    stopped. Exit code 3 if a point has no answer.
+    """
+    try:
+        variations = [Variation.of(text) for text in vary]
+        names = tuple(name.strip() for name in get.split(","))
+        made = points(scene, overrides or (), variations, names, solver.value, with_error=error)
+    except SweepError as refused:
+        raise typer.BadParameter(str(refused)) from None
+    first = read_scene_file(scene, made[0].overrides).scene
+    listing = "slipstick maintain schema summary"
+    if problem := unknown_names("quantity", names, quantities(first.body), listing):
+        raise typer.BadParameter(problem)
+    print_pairs([("points", str(len(made))), ("solver", solver.value)])
+    if solver is not SolverName.RADIAL and (how := by_radii(first)):
+        print_pairs([("radial", f"--solver radial would do: {how}")])
+    output.mkdir(parents=True, exist_ok=True)
+    with in_sole_use(output):
+        store, cases = CaseStore(output / CASES), {point.name: point for point in made}
+        distinct = tuple(cases.values())
+        with (
+            case_progress(dict.fromkeys(cases, 1), how_it_ended) as observe,
+            resume_hint(distinct, store),
+        ):
+            ends = run_cases(distinct, store, workers_at(scheduler, workers), observe)
+        found = {end.case.name: end.record for end in ends if isinstance(end.record, CaseRecord)}
+        lost = {
+            end.lost.name: cases[end.lost.name].record(end.lost.reason) for end in ends if end.lost
+        }
+        records = [(found | lost)[point.name] for point in made]
+        title = first.title or scene.name
+        _write(records, variations, names, output, title)
+    typer.echo(f"results in {output}")
+    if missing := sum(bool(record.words["refused"]) for record in records):
+        tell(f"{missing} of {len(records)} points have no answer; column refused has the reasons")
+        raise typer.Exit(ExitCode.NOT_CONVERGED)
+
+
+def _write(
+    records: Sequence[CaseRecord],
+    variations: Sequence[Variation],
+    names: Sequence[str],
+    directory: Path,
+    title: str,
+) -> None:
+    """Write the table and the chart; print percentiles of a sample."""
+    with atomic_file(directory / TABLE) as path:
+        numbered = {str(number): record for number, record in enumerate(records, 1)}
+        path.write_text(row_files(numbered)[ROWS], encoding="utf-8")
+    spaced = [each for each in variations if not each.is_sample]
+    shape = (*(len(each.values) for each in spaced), -1)
+    swept = []
+    for name in names:
+        values, errors = (
+            np.array([record.measures.get(column) for record in records], dtype=float)
+            for column in (name, f"{name} error")
+        )
+        unit = next((record.units[name] for record in records if record.units), "")
+        swept.append(SweptQuantity(name, unit, values.reshape(shape), errors.reshape(shape)))
+    if len(spaced) < len(variations):
+        _print_percentiles(spaced, swept)
+    if len(spaced) > MAX_KEYS:
+        tell(f"{len(spaced)} keys are spaced, and a chart has at most {MAX_KEYS}; see {TABLE}")
+    else:
+        write_sweep_chart(spaced, swept, directory / CHART, title)
+
+
+def _print_percentiles(spaced: Sequence[Variation], swept: Sequence[SweptQuantity]) -> None:
+    """Print a row for every quantity at every combination of the spaced values."""
+    heads = [*(each.label for each in spaced), "quantity", *(f"{p:g} %" for p in PERCENTILES)]
+    rows = []
+    for each in swept:
+        flat = each.percentiles.reshape(3, len(PERCENTILES), -1)
+        for n, at in enumerate(product(*(key.values for key in spaced))):
+            texts = [
+                number_text(
+                    value,
+                    Uncertainty(None if isnan(high) else max(value - low, high - value), True),
+                    1.0,
+                )
+                for value, low, high in flat[:, :, n].T.tolist()
+            ]
+            rows.append([*(f"{v:.6g}" for v in at), each.suited.labelled(each.name), *texts])
+    print_table(heads, rows)

@@ -1,0 +1,251 @@
+"""`slipstick verify`: measure the accuracy and write the report."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from slipstick.cli.errors import ExitCode
+from slipstick.cli.options import LevelName, SchedulerOption, directory, optional, workers_at
+
+if TYPE_CHECKING:
+    from verification.exhibits.picture import Picture
+    from verification.judging.case import Case
+    from verification.judging.outcome import CaseOutcome
+    from verification.running.case_pool import CaseEnd, Workers
+    from verification.running.report_record import Report
+
+
+MAX_WARNINGS = 20
+MODULES = ("verification.cases", "verification.judging.judgement")
+CASES = "cases"  # of the report's directory: the records of finished cases
+
+
+def verify(
+    names: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="CASE", help="Cases to run; none means all."),
+    ] = None,
+    level: Annotated[
+        LevelName, typer.Option("--level", help="How fine: quick takes about two minutes.")
+    ] = LevelName.QUICK,
+    output: Annotated[
+        Path | None,
+        directory(
+            "Where the report goes; reports/LEVEL if absent, with -selection for some cases."
+        ),
+    ] = None,
+    list_cases: Annotated[
+        bool, typer.Option("--list", help="List the cases of the level and stop.")
+    ] = False,
+    workers: Annotated[
+        int | None,
+        optional(
+            "--workers",
+            metavar="N",
+            min=1,
+            help="Cases at a time, each in a process of its own; one per core if absent, "
+            "and for a case alone none.",
+        ),
+    ] = None,
+    fresh: Annotated[
+        bool, typer.Option("--fresh", help="Compute again what earlier runs have left in DIR.")
+    ] = False,
+    scheduler: SchedulerOption = None,
+    studies: Annotated[
+        Path | None,
+        optional(
+            "--studies",
+            metavar="DIR",
+            help="Folder whose studies the report shows; reports/studies and out if absent.",
+        ),
+    ] = None,
+) -> None:
+    """Measure the accuracy against closed forms and write the report.
+
+    Exit code 0 if nothing failed, 1 if a verdict failed, if fewer than 95 % of the stated errors of
+    a full report cover, or if a study failed that these same sources have made. What is new since
+    the baseline is printed and is no failure ('slipstick maintain compare' has an exit code for
+    it). DIR receives index.html (the report, to be opened in a browser) with sheets.html,
+    report.json, junit.xml and summary.md.
+
+    Every finished case leaves a record in DIR/cases: the same command goes on where a killed one
+    stopped, and computes again what other sources or libraries made; a case that was running is
+    begun anew. An earlier report waits in DIR/earlier until the new one is whole, so that what a
+    killed verification leaves cannot be taken for its result. A case whose worker dies has failed;
+    the others are finished.
+    """  # fmt: skip
+    from contact_results.blas_threads import is_one_thread
+    from slipstick.cli.options import unknown_names
+    from verification.cases.catalogue import CASES as KNOWN
+    from verification.cases.catalogue import choose
+    from verification.judging.case import Level
+    from verification.judging.outcome import Status
+    from verification.running.local_workers import ThisProcess, cores
+
+    chosen = Level[level.name]
+    listing = f"slipstick verify --list --level {level}"
+    if problem := unknown_names("case", names or (), KNOWN, listing):
+        raise typer.BadParameter(problem)
+    cases = choose(chosen, names or ())
+    if list_cases:
+        _print_list(cases)
+        return
+    directory = output or Path("reports") / (f"{level}-selection" if names else level)
+    places = None if studies is None else (studies,)
+    pool = workers_at(scheduler, workers or cores())
+    if len(cases) == 1 and workers is None and scheduler is None and is_one_thread():
+        pool = ThisProcess()  # records depend on the number of threads
+    report = _verified(cases, level, names or [], directory, pool, places, fresh=fresh)
+    _print_outcome(report, directory)
+    if report.status is Status.FAIL:
+        raise typer.Exit(ExitCode.ACCURACY)
+
+
+def _verified(
+    cases: tuple[Case, ...],
+    level: LevelName,
+    names: list[str],
+    directory: Path,
+    workers: int | Workers,
+    places: tuple[Path, ...] | None,
+    *,
+    fresh: bool,
+) -> Report:
+    from contact_results.directory.run_lock import in_sole_use
+    from verification.regression.baseline_files import read_baselines
+    from verification.regression.comparison import compared
+    from verification.report.files import refuse_if_unwritable, set_aside_report, write_report
+    from verification.report.omissions import OMISSIONS
+    from verification.report.sections import PLACES, stored_records
+    from verification.running.provenance import provenance
+    from verification.running.report_record import Report, count
+
+    refuse_if_unwritable(directory)
+    with in_sole_use(directory):
+        baselines = read_baselines()  # a damaged one is better known before hours of work
+        kept = () if names else PLACES  # what is asked of a case is no report of the whole
+        try:
+            studies = stored_records(*((kept, _left_out) if places is None else (places,)))
+        except ValueError as error:
+            typer.echo(f"error: {error}", err=True)
+            raise typer.Exit(ExitCode.INVALID) from None
+        set_aside_report(directory)
+        outcomes, seconds = judged(cases, level.name, directory, workers, fresh=fresh)
+        command = " ".join(["slipstick verify", *names, f"--level {level}"])
+        measured = Report(
+            level=level,
+            counts=count(outcomes),
+            cases=outcomes,
+            omissions=OMISSIONS,
+            provenance=provenance(command, seconds, modules=MODULES),
+            studies=studies,
+            chosen=bool(names),
+            pictures=() if names else _pictures(),
+        )
+        report = compared(measured, baselines)
+        write_report(report, directory)
+    return report
+
+
+def judged(
+    cases: tuple[Case, ...], level: str, directory: Path, workers: int | Workers, *, fresh: bool
+) -> tuple[tuple[CaseOutcome, ...], dict[str, float]]:
+    """The outcomes in the order of the cases, and of those that have a record the wall seconds.
+
+    level      by name, in capitals
+    directory  of the report
+    workers    processes of this machine at a time, or others
+    fresh      take nothing from earlier runs
+
+    Raises OutputRefused, before any work, where nothing can be written.
+    """
+    from slipstick.cli.case_progress import case_progress, resume_hint
+    from verification.cases.judged_case import CaseToJudge, JudgedCase, lost
+    from verification.regression.tolerances import held_to, read_tolerances
+    from verification.report.files import refuse_if_unwritable
+    from verification.running.case_pool import run_cases
+    from verification.running.case_store import CaseStore
+
+    tolerances = read_tolerances(level.lower())
+    asked = [CaseToJudge(case.name, level) for case in cases]
+    refuse_if_unwritable(directory / CASES)
+    store = CaseStore(directory / CASES, JudgedCase)
+    with (
+        case_progress({case.name: max(1, len(case.runs)) for case in cases}, _verdict) as observe,
+        resume_hint(tuple(asked), store, fresh=fresh),
+    ):
+        ends = run_cases(asked, store, workers, observe, fresh=fresh)
+    outcomes: list[CaseOutcome] = []
+    seconds: dict[str, float] = {}
+    for case, end in zip(cases, ends, strict=True):
+        if isinstance(end.record, JudgedCase):
+            outcomes.append(end.record.outcome)
+            seconds[case.name] = end.record.seconds
+        else:
+            outcomes.append(lost(case, end.lost.reason if end.lost else "it has no record"))
+    return held_to(outcomes, tolerances), seconds
+
+
+def _verdict(end: CaseEnd) -> str:
+    """State the verdict of a case, with its counts and seconds."""
+    from slipstick.cli.case_progress import how_it_ended
+    from verification.cases.judged_case import JudgedCase
+    from verification.judging.status_words import SYMBOLS, WORDS
+
+    if not isinstance(end.record, JudgedCase):
+        return how_it_ended(end)
+    outcome, seconds = end.record.outcome, f"{end.record.seconds:6.1f} s"
+    took = "already there" if end.stored else seconds
+    return (
+        f"{SYMBOLS[outcome.status]} {WORDS[outcome.status]:12} {outcome.name:24} "
+        f"{len(outcome.verdicts):3} verdicts, {len(outcome.runs):3} solves, {took}"
+    )
+
+
+def _pictures() -> tuple[Picture, ...]:
+    from verification.showcase import showcase
+
+    return showcase()
+
+
+def _print_list(cases: tuple[Case, ...]) -> None:
+    from slipstick.cli.terminal import print_table
+
+    rows = ((case.name, str(len(case.runs)), case.title) for case in cases)
+    print_table(("case", "solves", "title"), rows)
+
+
+def _left_out(problem: str) -> None:
+    typer.echo(f"WARN {problem}: left out; --studies names another folder", err=True)
+
+
+def _print_outcome(report: Report, directory: Path) -> None:
+    from verification.judging.change import ChangeKind
+    from verification.judging.status_words import SYMBOLS, WORDS
+    from verification.report.changes import change_rows, changes_text
+    from verification.report.files import PAGE
+    from verification.report.summary_text import counts_text, failure_lines, uncovered_lines
+
+    for line in failure_lines(report):
+        typer.echo(line)
+    if not report.errors_too_small:
+        for line in uncovered_lines(report)[:MAX_WARNINGS]:
+            typer.echo(f"WARN {line}")
+    failed = {(case.name, verdict.name, verdict.run) for case, verdict in report.failures}
+    rows = [
+        row
+        for row in change_rows(report)
+        if row.kind is not ChangeKind.OUTSIDE or (row.case, row.name, row.run) not in failed
+    ]
+    for row in rows[:MAX_WARNINGS]:
+        typer.echo(f"WARN {row.line}")
+    if len(rows) > MAX_WARNINGS:
+        some = " --chosen" if report.chosen else ""
+        more = f"slipstick maintain compare {directory}{some}"
+        typer.echo(f"WARN and {len(rows) - MAX_WARNINGS} more: {more}")
+    typer.echo(f"since the baseline: {changes_text(report)}")
+    typer.echo(f"{SYMBOLS[report.status]} {WORDS[report.status]}: {counts_text(report)}")
+    typer.echo(f"report: {directory / PAGE}")

@@ -1,0 +1,263 @@
+"""Filled files, read with every mistake named by file and line."""
+
+from __future__ import annotations
+
+import json
+import math
+import tomllib
+from collections.abc import Iterator
+from decimal import Context, Decimal, InvalidOperation
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from contact_results.directory.refusal import Refused
+from contact_scene.reading.units import (
+    LENGTH,
+    MOMENT,
+    PRESSURE,
+    ROTATION,
+    Kind,
+    UnknownUnit,
+)
+from verification.challenge.answer import SAMPLINGS, Answer, Key, Solver, Vector
+from verification.challenge.answer_files import IN_ONE, rows, text_of
+from verification.challenge.cases import challenges
+from verification.challenge.export import (
+    ANSWER_COLUMNS,
+    ANSWERS,
+    GIVEN,
+    LEVEL_COLUMNS,
+    LEVELS,
+    MANIFEST,
+    POINT,
+    POINTS,
+    SCHEMA,
+    SOLVER,
+    digest,
+)
+from verification.challenge.field_tables import read_fields
+from verification.challenge.requested_quantities import (
+    AskedPoints,
+    Challenge,
+    Grade,
+)
+
+_ENERGIES = {"J": "1", "mJ": "1e-3", "uJ": "1e-6", "µJ": "1e-6", "N m": "1", "N mm": "1e-3"}
+ENERGY = Kind("J", '"3 uJ"', MappingProxyType({unit: Decimal(f) for unit, f in _ENERGIES.items()}))
+KINDS = {"m": LENGTH, "Pa": PRESSURE, "J": ENERGY, "N m": MOMENT, "rad": ROTATION}
+EXACT = Context(prec=40)
+SOLVED, GAVE_UP = "solved", "gave up"
+
+
+def read_answers(directory: Path) -> tuple[Challenge, Solver, tuple[Answer, ...]]:
+    """The challenge, who answers, and the levels that have an answer, coarse to fine.
+
+    Raises Refused with file, line, what came and what is expected.
+    """
+    challenge = _challenge(directory)
+    file = directory / (IN_ONE if (directory / IN_ONE).exists() else ANSWERS)
+    solver = _solver(directory / SOLVER)
+    levels = dict(_levels(directory, challenge.window))
+    values: dict[str, dict[Key, float | tuple[float, float]]] = {name: {} for name in levels}
+    at_places: dict[str, dict[Key, Vector]] = {name: {} for name in levels}
+    filled: set[tuple[str, Key, int]] = set()
+    for where, level, key, point, value in _values(directory, challenge):
+        if level not in levels:
+            known = ", ".join(levels) or "none"
+            raise Refused(f"{where}: level {level!r} is not in {LEVELS}; there are {known}")
+        if (level, key, point) in filled:
+            raise Refused(f"{where}: {key[0]} of step {key[1]} twice on level {level}")
+        filled.add((level, key, point))
+        asked = challenge.one(*key)
+        if isinstance(asked, AskedPoints):
+            each = at_places[level].setdefault(key, np.zeros(len(asked.places)))
+            each[point - 1] = value
+        else:
+            values[level][key] = value
+    for level, found in at_places.items():
+        for key, each in found.items():
+            open_ones = [n for n in range(1, 1 + len(each)) if (level, key, n) not in filled]
+            if open_ones:
+                raise Refused(
+                    f"{file}: {key[0]} of step {key[1]} on level {level} has no "
+                    f"value at point {', '.join(map(str, open_ones))}; fill in all or none"
+                )
+    fields = read_fields(directory, challenge, levels)
+    answers = tuple(
+        Answer(
+            scalars=values[name], points=at_places[name], fields=fields.get(name, {}),
+            label=name, **level,
+        )
+        for name, level in levels.items()
+    )  # fmt: skip
+    if not any(a.scalars or a.points or a.fields or a.gave_up for a in answers):
+        raise Refused(f"{file}: no value is filled in; there is nothing to judge")
+    return challenge, solver, answers
+
+
+def _challenge(directory: Path) -> Challenge:
+    path = directory / MANIFEST
+    if not path.exists():
+        raise Refused(
+            f"{path}: no such file; expected the folder of 'slipstick challenge export', or "
+            "FILE.py:FUNCTION"
+        )
+    try:
+        manifest = json.loads(text_of(path))
+        schema, name, version = (manifest[key] for key in ("schema", "case", "case_version"))
+        files = {given: manifest["files"][given] for given in GIVEN}
+    except (ValueError, KeyError, TypeError, RecursionError) as error:
+        raise Refused(
+            f"{path}: not the manifest of a challenge ({error}); export it again"
+        ) from None
+    if schema != SCHEMA or name not in challenges():
+        raise Refused(f"{path}: {schema!r} {name!r} is no challenge that is known here")
+    challenge = challenges()[name]
+    if challenge.version != version:
+        raise Refused(
+            f"{path}: the answers are for version {version} of {name}, here it is "
+            f"{challenge.version}; export it again"
+        )
+    for given, sha in files.items():
+        if digest(text_of(directory / given)) != sha:
+            raise Refused(f"{directory / given}: differs from what was exported; export it again")
+    return challenge
+
+
+def _solver(path: Path) -> Solver:
+    try:
+        content = tomllib.loads(text_of(path))
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise Refused(f"{path}: {error}") from None
+    tables = {key: content.get(key, {}) for key in ("solver", "convention", "claims")}
+    for key, given in tables.items():
+        if not isinstance(given, dict):
+            raise Refused(f"{path}: {key} is {given!r}, expected a table [{key}]")
+    who, convention, claims = tables.values()
+    name = str(who.get("name", "")).strip()
+    if not name:
+        raise Refused(f"{path}: solver.name is empty; say who answers")
+    sampling = convention.get("sampling", SAMPLINGS[0])
+    if sampling not in SAMPLINGS:
+        raise Refused(
+            f"{path}: convention.sampling is {sampling!r}, expected {' or '.join(SAMPLINGS)}"
+        )
+    grade = claims.get("grade")
+    if grade is not None and grade not in list(Grade):
+        raise Refused(f"{path}: claims.grade is {grade!r}, expected {', '.join(Grade)}")
+    knows = convention.get("knows_answer", [])
+    if not isinstance(knows, list):
+        raise Refused(f"{path}: convention.knows_answer is {knows!r}, expected a list of words")
+    orders = claims.get("order", {})
+    if not isinstance(orders, dict) or not all(isinstance(v, int | float) for v in orders.values()):
+        raise Refused(f"{path}: claims.order is {orders!r}, expected numbers by quantity")
+    return Solver(
+        name, str(who.get("version", "")), str(who.get("url", "")), sampling,
+        tuple(map(str, knows)), grade, orders,
+        convention.get("meshless") is True,
+    )  # fmt: skip
+
+
+def _levels(folder: Path, window: float) -> Iterator[tuple[str, dict[str, Any]]]:
+    seen: set[str] = set()
+    coarser = window
+    for where, row in rows(folder, LEVELS, LEVEL_COLUMNS):
+        name, status = row["level"], row["status"]
+        if not name or name in seen:
+            raise Refused(f"{where}: level {name!r} {'twice' if name else 'has no name'}")
+        seen.add(name)
+        if status not in (SOLVED, GAVE_UP):
+            raise Refused(f"{where}: status {status!r}, expected {SOLVED!r} or {GAVE_UP!r}")
+        unknowns, seconds = (_counted(where, k, row[k]) for k in ("unknowns", "cpu_seconds"))
+        h = _si(where, row["h"], row["h_unit"], LENGTH)
+        if not 0 < h <= coarser:
+            than = "its window" if coarser == window else "the level before"
+            raise Refused(
+                f"{where}: h is {h:g} m, expected a length of at most {coarser:g} m, that of "
+                f"{than}: levels go from coarse to fine"
+            )
+        coarser = h
+        yield (
+            name,
+            {
+                "h": h,
+                "gave_up": {0: row["reason"] or "no reason given"} if status == GAVE_UP else {},
+                "unknowns": None if unknowns is None else int(unknowns),
+                "seconds": seconds,
+            },
+        )
+
+
+def _values(
+    folder: Path, challenge: Challenge
+) -> Iterator[tuple[str, str, Key, int, float | tuple[float, float]]]:
+    """Place in the file, level, key, point (0: none), value with u if one is given."""
+    for where, row in rows(folder, ANSWERS, ANSWER_COLUMNS):
+        if not row["value"]:
+            continue
+        step = _step(where, row["load_step"])
+        asked = challenge.one(row["quantity"], step)
+        if asked is None:
+            known = ", ".join(v.quantity for v in challenge.numbers if v.step == step) or "nothing"
+            raise Refused(
+                f"{where}: {row['quantity']!r} is not asked in step {step}; asked: {known}"
+            )
+        kind = KINDS[asked.unit]
+        value = _si(where, row["value"], row["unit"], kind)
+        key = asked.quantity, step
+        if isinstance(asked, AskedPoints):
+            yield where, row["level"], key, _point(where, row.get(POINT, ""), asked), value
+        elif row.get(POINT):
+            raise Refused(f"{where}: {asked.quantity} is one number and has no points")
+        elif row["u"]:
+            u = _si(where, row["u"], row["unit"], kind)
+            if not 0 <= u < math.inf:
+                raise Refused(f"{where}: u is {row['u']}, expected a positive uncertainty, or none")
+            yield where, row["level"], key, 0, (value, u)
+        else:
+            yield where, row["level"], key, 0, value
+
+
+def _point(where: str, text: str, asked: AskedPoints) -> int:
+    if not text.isdigit() or len(text) > 6 or not 1 <= int(text) <= len(asked.places):
+        raise Refused(f"{where}: point {text!r}, expected 1 to {len(asked.places)} of {POINTS}")
+    return int(text)
+
+
+def _step(where: str, text: str) -> int:
+    if not text.isdigit() or len(text) > 6:
+        raise Refused(f"{where}: load_step {text!r}, expected a whole number from 1")
+    return int(text)
+
+
+def _number(where: str, text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise Refused(f"{where}: {text!r} is no number") from None
+
+
+def _counted(where: str, name: str, text: str) -> float | None:
+    """None where nobody counted."""
+    if not text:
+        return None
+    number = _number(where, text)
+    if not 0 <= number < math.inf:
+        raise Refused(f"{where}: {name} is {text}, expected a positive number, or none")
+    return number
+
+
+def _si(where: str, text: str, unit: str, kind: Kind) -> float:
+    """A number with its unit; one that is not finite stays what it is, and fails where it is
+    judged."""
+    value = _number(where, text)
+    if not unit:
+        raise Refused(f"{where}: {text} has no unit; give one such as {kind.si}")
+    try:
+        factor = kind.to_si(Decimal(1), unit, EXACT)
+    except (UnknownUnit, InvalidOperation):
+        raise Refused(f"{where}: unit {unit!r} does not measure what {kind.si} does") from None
+    return value * factor

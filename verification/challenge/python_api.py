@@ -1,0 +1,158 @@
+"""The same from Python: a function that answers, without files."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import cache
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from contact_results.directory.refusal import Refused
+from verification.challenge.answer import Answer, Key, Solver, Vector
+from verification.challenge.cases import challenges
+from verification.challenge.judgement import Judgement, judged
+from verification.challenge.requested_quantities import (
+    Challenge,
+    Grade,
+)
+
+LEVELS = 4
+
+
+class CannotDo(Exception):
+    """Raised by a solver: it has no such problem."""
+
+
+@dataclass(frozen=True)
+class Posed:
+    """A challenge without its reference.
+
+    scene   SI numbers, as in a scene file; a body and a `patch` where the traction is given
+    loads   at the end of every loading step: normal and tangential force [N], NaN where a motion
+            is prescribed; `scene["loading"]` has the rest
+    asked   quantity and loading step, with its unit
+    since   of what is counted from the end of an earlier loading step: which
+    places  (points, 3) where numbers are asked at x, y and depth z, by quantity and step [m]
+    fields  tractions that are wanted at own points
+    window  side of a square in which all of it happens, with room [m]
+    """
+
+    name: str
+    scene: Mapping[str, Any]
+    loads: tuple[tuple[float, tuple[float, float]], ...]
+    asked: Mapping[Key, str]
+    since: Mapping[Key, int]
+    places: Mapping[Key, Vector]
+    fields: tuple[Key, ...]
+    window: float
+
+
+def posed(name: str) -> Posed:
+    """What a solver is told; KeyError names the challenges there are."""
+    if name not in challenges():
+        raise KeyError(f"no challenge {name!r}; there are {', '.join(challenges())}")
+    challenge = challenges()[name]
+    return Posed(
+        name,
+        challenge.document,
+        tuple(challenge.loads),
+        {(v.quantity, v.step): v.unit for v in challenge.values},
+        {(v.quantity, v.step): v.since for v in challenge.values if v.since is not None},
+        {(p.quantity, p.step): p.places for p in challenge.points},
+        tuple((f.quantity, f.step) for f in challenge.fields),
+        challenge.window,
+    )
+
+
+def judge(
+    name: str,
+    solve: Callable[[Posed, int], Answer],
+    levels: int = LEVELS,
+    at_least: str | None = None,
+    solver: Solver | None = None,
+) -> Judgement:
+    """How good a solver is on a challenge.
+
+    Parameters
+    ----------
+    solve
+        Problem and level 0, 1, 2, … (you choose what finer means) -> `Answer`; raises `CannotDo`
+        where it has no such problem.
+    at_least
+        Class "A", "B" or "C" that every error must meet; None: the par of each.
+    solver
+        Who it is; None: the function's name.
+
+    Raises what `solve` raises, Refused for what is no answer to this challenge, and KeyError for an
+    unknown challenge.
+    """
+    problem, answers = posed(name), []
+    for level in range(levels):
+        started = time.process_time()
+        answer = _checked(solve(problem, level), challenges()[name], level)
+        spent = time.process_time() - started
+        seconds = spent if answer.seconds is None else answer.seconds
+        answers.append(replace(answer, label=answer.label or str(level), seconds=seconds))
+    found = [one for one in answers if 0 not in one.gave_up]
+    for coarse, fine in pairwise(found):
+        if fine.h > coarse.h:
+            raise Refused(
+                f"h is {fine.h:g} m on level {fine.label} after {coarse.h:g} m on level "
+                f"{coarse.label}; levels go from coarse to fine"
+            )
+    if not any(one.scalars or one.points or one.fields or one.gave_up for one in answers):
+        raise Refused("nothing is answered; there is nothing to judge")
+    who = solver or Solver(getattr(solve, "__name__", "solver"))
+    grade = None if at_least is None else Grade(at_least)
+    return judged(challenges()[name], who, answers, grade)
+
+
+def _checked(answer: object, challenge: Challenge, level: int) -> Answer:
+    """What a function returned, in numbers. More than is asked is let pass, but by names that some
+    challenge asks for: others are slips."""
+    if not isinstance(answer, Answer):
+        raise Refused(f"level {level}: {type(answer).__name__} came back, expected an Answer")
+    if not 0 < answer.h < math.inf:
+        raise Refused(f"level {level}: h is {answer.h!r}, expected a positive length [m]")
+    steps = max((ramp.step for ramp in challenge.ramps), default=1)
+    keys: tuple[Any, ...] = (*answer.scalars, *answer.fields, *answer.points)
+    for key in keys:
+        if not isinstance(key, tuple) or len(key) != 2:
+            raise Refused(f"level {level}: {key!r}, expected a quantity and a loading step")
+        if key[0] not in _names() or key[1] not in range(1, steps + 1):
+            known = ", ".join(map(repr, _asked(challenge)))
+            raise Refused(f"level {level}: {key!r} is not asked; asked: {known}")
+    scalars: dict[Key, float | tuple[float, float]] = {}
+    given: dict[Key, Any] = {**answer.scalars}
+    for key, value in given.items():
+        if value is None:
+            continue
+        try:
+            numbers = np.ravel(np.asarray(value, dtype=np.float64))
+        except (ValueError, TypeError):
+            raise Refused(f"level {level}: {key!r} is {value!r}, expected a number") from None
+        if numbers.size == 1:
+            scalars[key] = float(numbers[0])
+        elif isinstance(value, tuple) and numbers.size == 2:
+            scalars[key] = float(numbers[0]), float(numbers[1])
+        else:
+            raise Refused(
+                f"level {level}: {key!r} has {numbers.size} numbers, expected one, or a pair "
+                "with its uncertainty"
+            )
+    return replace(answer, scalars=scalars)
+
+
+def _asked(challenge: Challenge) -> list[Key]:
+    return [(one.quantity, one.step) for one in (*challenge.numbers, *challenge.fields)]
+
+
+@cache
+def _names() -> frozenset[str]:
+    """Quantities that challenges ask for."""
+    return frozenset(name for one in challenges().values() for name, _ in _asked(one))
