@@ -4,18 +4,29 @@ from itertools import groupby
 
 import numpy as np
 import pytest
-from contact_scenes import APPROACH, LIMIT, MU, grid, paraboloid
+from contact_scenes import APPROACH, LIMIT, LOAD, MU, RADIUS, A, grid, paraboloid, steel
 from contact_scenes import scene as alike_scene
 from coupled_scenes import (
     SUBSTRATE,
     bulk,
+    coated,
     coupled_increments,
     press,
     push,
     scene,
 )
 
-from contact_scene import RIGID, Body, IsotropicMaterial, Paraboloid
+from contact_scene import (
+    RIGID,
+    Body,
+    Cone,
+    Ellipsoid,
+    FlatPunch,
+    HeightMap,
+    IsotropicMaterial,
+    Layer,
+    Paraboloid,
+)
 from contact_scene.quantities.summary import ContactStatus
 from semi_analytical import SurfaceGrid, solve
 
@@ -117,3 +128,142 @@ def test_a_contact_of_one_or_five_cells_is_an_ordinary_state(cells):
         assert np.count_nonzero(increments[0].in_contact) == 1
         assert np.max(np.abs(increments[0].shear)) < 1e-9 * increments[0].peak_pressure
         assert np.count_nonzero(increments[-1].in_contact) >= 5
+
+
+# ---- Coupled bodies through hard and easy histories: every increment obeys all the equations.
+
+
+CELLS = 48
+SPACING = 3 * A / CELLS
+POSITIONS = (np.arange(CELLS) - 0.5 * (CELLS - 1)) * SPACING
+
+
+def slide(x, increments=3) -> dict:
+    """A tangential shift in units of a tenth of the approach."""
+    return {"tangential_shift": (0.1 * x * APPROACH, 0.0), "increments": increments}
+
+
+def to(x, load, increments=4) -> dict:
+    """Both forces at once, in parts of the friction limit under full load and of that load."""
+    force = {"tangential_force": (x * LIMIT, 0.0), "normal_force": load * LOAD}
+    return {**force, "increments": increments}
+
+
+def height_map(heights):
+    return HeightMap(file=heights, spacing=SPACING, material=RIGID)
+
+
+def two_bumps():
+    one, other = ((POSITIONS[:, None] - c) ** 2 + POSITIONS**2 for c in (-0.7 * A, 0.7 * A))
+    return height_map(np.minimum(one, other) / (2 * RADIUS))
+
+
+def rough():
+    noise = np.random.default_rng(3).standard_normal((CELLS, CELLS))
+    heights = (POSITIONS[:, None] ** 2 + POSITIONS**2) / (2 * RADIUS)
+    return height_map(heights + 0.02 * APPROACH * noise)
+
+
+def patchy_friction():
+    values = np.random.default_rng(4).uniform(0, 2 * MU, (CELLS, CELLS))
+    values[values < 0.3 * MU] = 0
+    return {"map": values, "spacing": SPACING}
+
+
+def greased_centre():
+    values = np.where(np.hypot(POSITIONS[:, None], POSITIONS) < 0.5 * A, 0.0, MU)
+    return {"map": values, "spacing": SPACING}
+
+
+def layered_ball():
+    film = Layer(thickness=0.3 * A, material=steel(0.35, 100e9))
+    return Paraboloid(radius=RADIUS, material=steel(0.2), layers=(film,))
+
+
+def strong(friction, poisson_ratio, part):
+    """Pushed by a part of the limit on a homogeneous body: µ|beta| of one and more."""
+    loading = press(), push(part, friction=friction)
+    return loading, {"body": bulk(poisson_ratio), "friction": friction}, 2.5
+
+
+PATH = (press(), push(0.6))
+ANGLES = np.linspace(0, 2 * np.pi, 5)
+CIRCLE = [push(0.8 * np.cos(t), 0.8 * np.sin(t)) for t in ANGLES]
+# Loading steps, the scene, and the half window in contact radii if the contact is larger.
+HISTORIES = {
+    "µ = 2, ν = 0": strong(2.0, 0.0, 0.6),
+    "µ = 5, ν = 0": strong(5.0, 0.0, 0.3),
+    "µ = 5, ν = 0.3": strong(5.0, 0.3, 0.6),
+    "mapped friction with zeros": (
+        (press(), push(0.6), push(-0.6)),
+        {"friction": patchy_friction()},
+    ),
+    "no friction at the centre": (
+        (press(0.01), press(), push(0.3)),
+        {"friction": greased_centre()},
+    ),
+    "hardly any friction": ((press(), push(0.6, friction=1e-6)), {"friction": 1e-6}),
+    "friction coefficient of zero": ((press(), slide(1)), {"friction": 0.0}),
+    "two contacts": ((press(0.1), push(0.07), push(-0.07)), {"indenter": two_bumps()}),
+    "rough surface": ((press(), push(0.6), push(-0.3, 0.4)), {"indenter": rough()}),
+    "W and T reversed together": ((press(), push(0.8), to(-0.8, 0.85, 6)), {}),
+    "all slip at the start": ((press(), push(0.8, increments=4)), {"body": coated(4.0)}),
+    "T to 0.9999 of the limit at once": ((press(), push(0.9999, increments=1)), {}),
+    "T at the limit": ((press(), push(0.9), push(1.0)), {}),
+    **{
+        f"E1/E2 = {ratio:g}": (PATH, {"body": coated(ratio)}, wide)
+        for ratio, wide in ((1e-3, 12), (0.05, 3), (0.5, 1.5), (20, 1.2), (1e3, 0.3))
+    },
+    **{f"h/a = {h}": (PATH, {"body": coated(2.0, h)}) for h in (0.01, 0.1, 10)},
+    **{f"layer of ν = {nu}": (PATH, {"body": coated(2.0, 1.0, nu)}) for nu in (0.499, 0.5)},
+    "thin soft incompressible layer": (PATH, {"body": coated(0.1, 0.2, 0.5)}, 2),
+    "a ten-thousandth of the load": ((press(1e-4), push(0.6e-4)), {}),
+    "approach control": (({"approach": APPROACH, "increments": 3}, push(0.5)), {}),
+    "shift far beyond sliding and back": ((press(), slide(1), slide(100), slide(0)), {}),
+    "controls in turn": (
+        ({"approach": APPROACH, "increments": 2}, slide(0.5), push(0.3), press(), slide(-0.5)),
+        {},
+    ),
+    "unloading and reloading": ((press(), press(0.01, 6), press(1, 4)), {}),
+    "unloading and reloading, sheared": ((press(), push(0.5), to(0, 0.01), to(0.5, 1)), {}),
+    "W falls at constant T": ((press(), push(0.5), press(0.5 / 0.98)), {}),
+    "T on a circle": ((press(), *CIRCLE), {}),
+    "cone": (
+        (press(), push(0.8), push(-0.8)),
+        {"indenter": Cone(slope_angle=0.02, material=RIGID)},
+    ),
+    "flat punch": (
+        (press(), push(0.8), push(-0.8)),
+        {"indenter": FlatPunch(radius=A, material=RIGID)},
+    ),
+    "ellipsoid, obliquely": (
+        (press(0.3), push(0.15, 0.15)),
+        {"indenter": Ellipsoid(radii=(RADIUS, 4 * RADIUS), material=RIGID)},
+    ),
+    "elastic ball with its own layer": (PATH, {"indenter": layered_ball()}, 2),
+}
+
+
+@pytest.mark.parametrize("history", HISTORIES.values(), ids=HISTORIES)
+def test_every_increment_obeys_all_equations(history):
+    loading, more, *wide = history
+    energy = 0.0
+    for increment in solve(scene(*loading, **more), grid(CELLS, *wide), TOLERANCE).increments:
+        assert increment.residuals.worst <= TOLERANCE
+        assert increment.halvings == 0
+        assert np.all(np.isfinite(increment.pressure))
+        assert np.all(np.isfinite(increment.shear))
+        assert increment.stick_area <= increment.contact_area
+        if increment.dissipated_energy is not None:
+            assert increment.dissipated_energy >= energy
+            energy = increment.dissipated_energy
+
+
+def test_contact_that_falls_apart_under_coupling_is_found_with_caution():
+    """Below it, µ = 2 on a soft incompressible film, shear lifts the surface more than pressure."""
+    described = scene(
+        press(), push(0.9, friction=2.0, increments=1), body=coated(1e-3, 0.01, 0.5), friction=2.0
+    )
+    for increment in solve(described, grid(CELLS, 1.3), TOLERANCE).increments:
+        assert increment.residuals.worst <= TOLERANCE
+        assert increment.halvings == 0

@@ -2,12 +2,18 @@
 
 That of the README runs on few cells."""
 
+import json
 import re
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
+from gallery_claims import SCENES, Claim, Found, Verdict, found
+from gallery_entries import ENTRIES
+from made_gallery import Unexpected, refuse_unexpected
+from made_notebooks import notebook
 
 ROOT = Path(__file__).resolve().parents[1]
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
@@ -37,3 +43,82 @@ def test_python_in_the_readme_runs(tmp_path: Path) -> None:
     script = tmp_path / "readme.py"
     script.write_text(block.replace(fine, "cells=(24, 24)"), encoding="utf-8")
     assert_runs(script, tmp_path)
+
+
+# ---- The gallery: every verdict is the one that its page speaks of.
+
+
+DOCS = Path(__file__).resolve().parents[1] / "docs"
+sys.path.append(str(DOCS))
+
+
+@pytest.mark.parametrize("entry", ENTRIES, ids=lambda entry: entry.scene)
+def test_verdicts_are_those_expected(entry) -> None:
+    judged = [found(entry, claim) for claim in entry.claims]
+    assert judged
+    refuse_unexpected(entry, judged)
+
+
+def test_every_scene_of_the_gallery_has_its_page() -> None:
+    assert {path.stem for path in SCENES.glob("*.toml")} == {entry.scene for entry in ENTRIES}
+    assert len(ENTRIES) >= 12
+
+
+def claim(published: float, reading: float, verdict: Verdict = Verdict.AGREES) -> Claim:
+    return Claim(
+        "a number", "somebody", published, reading, lambda solved: (1.0, 0.01), "", 1.0, (), verdict
+    )
+
+
+@pytest.mark.parametrize(
+    ("published", "reading", "error", "verdict"),
+    [
+        (1.02, 0.0, 0.019, Verdict.DIFFERS),
+        (1.02, 0.002, 0.019, Verdict.AGREES),
+        (1.02, 0.0, 0.021, Verdict.AGREES),
+        (1.02, 0.0, 0.2, Verdict.CANNOT_TELL),
+        (1.21, 0.0, 0.2, Verdict.DIFFERS),
+        (1.02, 0.0, float("inf"), Verdict.CANNOT_TELL),
+    ],
+)
+def test_numbers_agree_within_what_both_may_be_off(
+    published: float, reading: float, error: float, verdict: Verdict
+) -> None:
+    assert Found(claim(published, reading), 1.0, error).verdict is verdict
+
+
+def test_another_verdict_than_the_page_speaks_of_is_refused() -> None:
+    one = Found(claim(2.0, 0.1), 1.0, 0.01)
+    with pytest.raises(Unexpected, match=r"ours 1 ± 0\.01, somebody 2 .*differs, expected: agrees"):
+        refuse_unexpected(ENTRIES[0], [one])
+
+
+def code_of(entry) -> list[str]:
+    contents = json.loads(notebook(entry))
+    assert (contents["nbformat"], contents["nbformat_minor"]) == (4, 5)
+    assert len({cell["id"] for cell in contents["cells"]}) == len(contents["cells"])
+    return ["".join(c["source"]) for c in contents["cells"] if c["cell_type"] == "code"]
+
+
+@pytest.mark.parametrize("entry", ENTRIES, ids=lambda entry: entry.scene)
+def test_every_notebook_holds_its_scene_and_code_that_compiles(entry) -> None:
+    cells = code_of(entry)
+    for cell in cells:
+        compile(cell, entry.scene, "exec")
+    names: dict[str, str] = {}
+    exec(cells[0], names)
+    assert names["SCENE"] == (SCENES / f"{entry.scene}.toml").read_text(encoding="utf-8")
+
+
+def test_a_notebook_solves_its_scene_and_shows_its_figures(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    shown: list[Path] = []
+    stub = SimpleNamespace(Image=lambda path: path, display=shown.append)
+    monkeypatch.setitem(sys.modules, "IPython.display", stub)
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, object] = {}
+    for cell in code_of(next(entry for entry in ENTRIES if entry.scene == "paper_ball")):
+        exec(cell, names)
+    assert {path.name for path in shown} >= {"overview.png", "profiles.png"}
+    assert "peak_pressure: 3168" in capsys.readouterr().out

@@ -4,21 +4,32 @@ import numpy as np
 import pytest
 from contact_scenes import (
     INDENTERS,
+    LIMIT,
     LOAD,
+    MU,
     NU,
     PRESS,
     RADIUS,
     RIGID_BALL,
     YOUNG,
     A,
+    hertz,
+    push,
     scene,
+    steel,
 )
 from fem_scenes import both_laws, elements, end, solved
 
 from contact_scene import Body, IsotropicMaterial, Layer, LoadStep, Paraboloid, Scene
-from contact_scene.solver_errors import ContactNotResolved
-from fem_reference import ContactAtZoneEdge, Method, solve
+from contact_scene.quantities.summary import ContactStatus
+from contact_scene.solver_errors import ContactNotResolved, GrossSliding, SurfacesOverlap
+from fem_reference import ContactAtZoneEdge, Increment, Method, Result, solve
+from fem_reference.contact.increment import AT_EDGE
 from fem_reference.expected_radius import expected_radius
+from verification.closed_forms.cattaneo_mindlin import PartialSlip
+from verification.closed_forms.moduli import tangential_modulus
+from verification.closed_forms.torsion import TorsionalPartialSlip
+from verification.quantities import shift_along_x
 
 SMOOTH = scene(PRESS, friction=None)
 
@@ -140,3 +151,168 @@ def test_unloading_dissipates_and_turns_the_shear(law: Method) -> None:
     assert np.all(np.diff(energy) >= 0)
     assert np.min(found[-1].shear_radial) < 0
     assert max(increment.residuals.worst for increment in found) < 1e-10
+
+
+# ---- Contact pushed sideways or twisted, by finite elements: partial slip and its memory.
+
+
+G = steel().shear_modulus
+HERTZ = hertz()
+VIRGIN = PartialSlip(
+    LOAD, A, MU, tangential_modulus((YOUNG, NU), (YOUNG, NU)), 0.0
+)  # fmt: skip
+UNTWISTED = TorsionalPartialSlip(A, HERTZ.peak_pressure, MU, G / 2, A)
+EXACT, PENALTY = Method.COMPLEMENTARITY, Method.PENALTY
+
+
+def test_mirrored_load_has_the_mirrored_answer() -> None:
+    right, left = end(scene(PRESS, push(0.7))), end(scene(PRESS, push(-0.7)))
+    assert left.tangential_shift == pytest.approx([-x for x in right.tangential_shift])
+    # The plan measures along the load, so that to it the two are one and the same.
+    assert np.array_equal(left.shear_along_load, right.shear_along_load)
+    back = end(scene(PRESS, push(0.2), push(-0.7)))
+    forth = end(scene(PRESS, push(-0.2), push(0.7)))
+    assert np.array_equal(back.shear_along_load, forth.shear_along_load)
+
+
+def test_oblique_load_is_the_same_along_its_line() -> None:
+    along, oblique = end(scene(PRESS, push(0.5))), end(scene(PRESS, push(0.3, 0.4)))
+    assert oblique.shear_along_load == pytest.approx(along.shear_along_load, rel=1e-9, abs=1.0)
+    x, y = oblique.tangential_shift
+    assert np.hypot(x, y) == pytest.approx(shift_along_x(along), rel=1e-9)
+    assert y / x == pytest.approx(4 / 3, rel=1e-12)
+
+
+def test_force_and_shift_lead_to_the_same_state() -> None:
+    by_force = end(scene(PRESS, push(0.7)))
+    by_shift = end(scene(PRESS, {"tangential_shift": by_force.tangential_shift}))
+    assert by_shift.tangential_force == pytest.approx((0.7 * LIMIT, 0.0), rel=1e-9)
+    assert by_shift.shear_along_load == pytest.approx(by_force.shear_along_load, rel=1e-8, abs=1.0)
+
+
+@both_laws
+def test_sliding_contact_carries_all_that_friction_can(law: Method) -> None:
+    sliding = end(scene(PRESS, {"tangential_shift": (3 * VIRGIN.sliding_shift, 0.0)}), law=law)
+    assert sliding.status is ContactStatus.GROSS_SLIDING
+    assert sliding.tangential_force[0] == pytest.approx(LIMIT, rel=1e-9)
+    assert sliding.stick_radius == 0
+    at_limit = end(scene(PRESS, push(1.0)), law=law)
+    assert at_limit.status is ContactStatus.GROSS_SLIDING
+    assert at_limit.tangential_shift is None
+    assert at_limit.dissipated_energy is None
+    assert at_limit.shear_along_load == pytest.approx(sliding.shear_along_load)
+
+
+@both_laws
+def test_gross_sliding_under_force_is_refused_by_name(law: Method) -> None:
+    """Unloading by approach leaves too little pressure: nothing in the scene gives that away."""
+    asked = scene(PRESS, push(0.5), {"approach": 0.2 * HERTZ.approach, "increments": 5})
+    with pytest.raises(GrossSliding, match="prescribe the shift") as caught:
+        solved(asked, law=law)
+    assert caught.value.where.startswith("step 3, increment")
+    assert caught.value.last_state.tangential_force == (0.5 * LIMIT, 0.0)
+
+
+@both_laws
+def test_less_pressure_under_constant_shear_slips_inwards(law: Method) -> None:
+    result = solved(
+        scene(PRESS, push(0.5), {"normal_force": 0.6 * LOAD, "increments": 10}), law=law
+    )
+    radii = [step.stick_radius for step in result.increments[1:]]
+    assert np.all(np.diff(radii) < 0)
+    shifts = [shift_along_x(step) for step in result.increments[1:]]
+    assert np.all(np.diff(shifts) > 0)
+    assert max(i.residuals.worst for i in result.increments) < 1e-11
+
+
+def test_torque_and_twist_lead_to_the_same_state() -> None:
+    torque = 0.6 * UNTWISTED.sliding_moment
+    by_torque = end(scene(PRESS, {"torque": torque}))
+    by_twist = end(scene(PRESS, {"twist": by_torque.twist}))
+    assert by_twist.torque == pytest.approx(torque, rel=1e-9)
+    with pytest.raises(GrossSliding, match="torque"):
+        end(scene(PRESS, {"torque": 1.2 * UNTWISTED.sliding_moment}))
+
+
+# The gap of springs is the small difference of a large overlap and their strain.
+ROUND_OFF = {EXACT: 1e-11, PENALTY: 1e-10}
+
+
+@both_laws
+def test_sheared_equations_hold_to_round_off(law: Method) -> None:
+    loop = scene(PRESS, push(0.9), push(-0.9), push(0.9))
+    twisted = scene(PRESS, {"torque": 0.01}, {"torque": -0.01}, {"twist": 0.0})
+    for asked in (loop, twisted):
+        result = solved(asked, law=law)
+        assert max(i.residuals.worst for i in result.increments) < ROUND_OFF[law]
+        energy = [i.dissipated_energy for i in result.increments]
+        assert np.all(np.diff(energy) >= 0)
+
+
+# ---- Scenes solved with a penalty: closed forms, the error that a penalty makes, history, ref
+
+
+def penalised(asked: Scene, per_radius: int = 16, **more) -> Result:
+    """With a number of augmentations, whatever they leave."""
+    if "augmentations" in more:
+        more = {"overlap": 1.0, **more}
+    return solve(asked, elements(per_radius, **more), method=Method.PENALTY)
+
+
+def penalised_state(asked: Scene, per_radius: int = 16, **more) -> Increment:
+    return penalised(asked, per_radius, **more).increments[-1]
+
+
+def test_error_falls_with_the_penalty() -> None:
+    """p0 −0.54/k and approach +0.31/k with k = c N: pure springs under Hertz's ball."""
+    asked, per_radius = scene(PRESS, friction=None), 32
+    for factor in (5.0, 10.0, 20.0):
+        found = penalised_state(asked, per_radius, penalty=factor, augmentations=0)
+        k = factor * per_radius
+        assert (found.peak_pressure / HERTZ.peak_pressure - 1) * k == pytest.approx(-0.54, abs=0.06)
+        assert (found.approach / HERTZ.approach - 1) * k == pytest.approx(0.31, abs=0.03)
+
+
+@pytest.mark.parametrize("factor", [0.1, 1.0])
+def test_penalty_does_not_decide_the_answer(factor: float) -> None:
+    """Soft springs are corrected until they leave hardly any overlap."""
+    asked = scene(PRESS, friction=None)
+    found = penalised_state(asked, 32, penalty=factor)
+    assert found.augmentations > 1
+    assert found.overlap < 1e-3 * found.approach
+    assert found.approach == pytest.approx(HERTZ.approach, rel=2e-4)
+    assert found.peak_pressure == pytest.approx(HERTZ.peak_pressure, rel=5e-4)
+    # Springs that overlap by a part of the approach enlarge the contact by about as much.
+    assert found.contact_radius == pytest.approx(A, rel=AT_EDGE)
+
+
+@pytest.mark.parametrize("augmentations", [0, 1])
+def test_springs_that_leave_overlap_are_refused(augmentations: int) -> None:
+    asked = scene({**PRESS, "increments": 2}, friction=None)
+    with pytest.raises(SurfacesOverlap, match=r"larger penalty or more augmentations"):
+        solve(asked, elements(penalty=0.1, augmentations=augmentations), method=Method.PENALTY)
+
+
+@pytest.mark.parametrize("share", [0.5, 0.1, 0.01])
+def test_residual_shear_is_unloaded_with_the_contact(share: float) -> None:
+    """The displacement of residual shear is too small a scale for the strain of springs."""
+    unload = {"normal_force": share * LOAD, "increments": 16}
+    asked = scene(PRESS, push(0.4, increments=4), push(0.0, increments=4), unload)
+    found = penalised(asked)
+    exact = solve(asked, elements(), method=Method.COMPLEMENTARITY).steps[-1]
+    last, hertz_approach = found.steps[-1], HERTZ.approach * share ** (2 / 3)
+    assert last.approach == pytest.approx(hertz_approach, abs=1e-3 * HERTZ.approach)
+    assert last.dissipated_energy == pytest.approx(exact.dissipated_energy, rel=0.08)
+    largest = max(abs(step.tangential_shift[0]) for step in found.steps)
+    assert last.tangential_shift == pytest.approx(exact.tangential_shift, abs=5e-3 * largest)
+
+
+def test_overlap_is_reported() -> None:
+    """Springs alone overlap by p0/ε; augmentation leaves a small part of it."""
+    asked = scene(PRESS, friction=None)
+    springs, augmented = (penalised_state(asked, augmentations=n) for n in (0, 1))
+    modulus = steel().plane_strain_modulus / 2
+    stiffness = 10.0 * modulus * 16 / A
+    assert springs.overlap == pytest.approx(springs.peak_pressure / stiffness, rel=1e-2)
+    assert augmented.overlap < 0.1 * springs.overlap
+    assert np.all(springs.gap >= 0)

@@ -1,15 +1,28 @@
 """What the residuals of the finite-element reference say about states that are wrong."""
 
-from dataclasses import replace
+from collections.abc import Callable
+from dataclasses import fields, replace
+from functools import cache, partial
+from typing import Any
 
 import numpy as np
 import pytest
-from contact_scenes import MU, PRESS, push, scene
+from contact_scenes import APPROACH, LIMIT, LOAD, MU, PRESS, RIGID_BALL, A, grid, push, scene
 from fem_scenes import elements
 
+from contact_scene import Scene
+from contact_scene.quantities.residuals import (
+    Residuals,
+    ShearResiduals,
+    worst,
+)
 from contact_scene.solver_errors import NotConverged
 from fem_reference import Method, residuals, solve
+from fem_reference import residuals as of_rings
+from fem_reference import solve as solve_by_elements
 from fem_reference.contact import increment
+from semi_analytical import residuals as of_cells
+from semi_analytical import solve as solve_by_superposition
 from semi_analytical.residuals import complementarity, friction_cone, penetration, slip_direction
 
 WEIGHTS = np.array([0.1, 0.4, 0.5])
@@ -82,3 +95,117 @@ def test_slip_at_an_angle_to_the_shear_is_seen(angle):
     u = np.ones((2, 2, 2))
     found = slip_direction(along(0.3), BOUND, along(0.3 + angle, np.ones((2, 2))), u)
     assert found == pytest.approx(1 - np.cos(angle), abs=1e-12)
+
+
+# ---- A residual that is not a number is the worst of all: no solver, by no method, accepts it
+
+
+NAMES = tuple(field.name for field in fields(Residuals))
+TWIST = {"torque": 0.1 * LIMIT * A}
+COUPLED = partial(scene, indenter=RIGID_BALL)
+PRESS_ONCE = {**PRESS, "increments": 1}
+SCENES = {
+    "pressed at an approach": scene({"approach": APPROACH}, friction=None),
+    "sheared": scene(PRESS, push(0.5)),
+    "twisted": scene(PRESS, TWIST),
+    "coupled and sheared": COUPLED(PRESS_ONCE, push(0.3, increments=1)),
+}
+TILTED = scene({"normal_force": LOAD, "moment": (0.0, 0.1 * LOAD * A)}, friction=None)
+
+
+def by_superposition(described: Scene) -> Any:
+    return solve_by_superposition(described, grid(16), 1e-8)
+
+
+def by_elements(described: Scene, method: Method) -> Any:
+    return solve_by_elements(described, elements(4, harmonics=2, box=10.0), method)
+
+
+SOLVERS: dict[str, Callable[[Scene], Any]] = {
+    "semi-analytical": by_superposition,
+    **{method.value: partial(by_elements, method=method) for method in Method},
+}
+CASES = {
+    **{(solver, name): SCENES[name] for solver in SOLVERS for name in SCENES},
+    ("semi-analytical", "tilted"): TILTED,
+}
+
+
+@cache
+def measured(case: tuple[str, str]) -> frozenset[str]:
+    """Names of the residuals that some increment of a healthy solve has."""
+    result = SOLVERS[case[0]](CASES[case])
+    return frozenset(
+        name for i in result.increments for name in NAMES if getattr(i.residuals, name) is not None
+    )
+
+
+def plant(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    """A measure of this name that applies comes out as NaN."""
+    for kind in (Residuals, ShearResiduals):
+        healthy = kind.__init__
+
+        def ill(self: Any, *given: Any, healthy: Any = healthy, **named: Any) -> None:
+            healthy(self, *given, **named)
+            if getattr(self, name, None) is not None:
+                object.__setattr__(self, name, float("nan"))
+
+        monkeypatch.setattr(kind, "__init__", ill)
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("case", CASES, ids=", ".join)
+def test_a_residual_that_is_not_a_number_is_not_converged(case, name, monkeypatch) -> None:
+    applies = name in measured(case)
+    plant(monkeypatch, name)
+    if not applies:
+        SOLVERS[case[0]](CASES[case])
+        return
+    with pytest.raises(NotConverged, match="residual nan"):
+        SOLVERS[case[0]](CASES[case])
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_every_residual_is_planted_somewhere(solver: str) -> None:
+    planted = frozenset().union(*(measured(case) for case in CASES if case[0] == solver))
+    upright = set() if solver == "semi-analytical" else {"moment_equilibrium"}
+    assert planted == set(NAMES) - upright
+
+
+@pytest.mark.parametrize("place", range(3))
+def test_the_worst_is_the_one_that_is_not_a_number_wherever_it_stands(place: int) -> None:
+    measures: list[float | None] = [1e-9, 2e-9, None]
+    assert worst(*measures) == 2e-9
+    measures.insert(place, float("nan"))
+    assert np.isnan(worst(*measures))
+
+
+FIELD = np.ones((2, 2, 2))
+LINE = np.array([2.0, 1.0, 0.5])
+PAIRS = np.ones((2, 3))
+MEASURES: dict[str, tuple[Callable[..., float], tuple[Any, ...]]] = {
+    "complementarity of cells": (of_cells.complementarity, (BOUND + 1, BOUND, 0.5)),
+    "penetration of cells": (of_cells.penetration, (BOUND, 0.5)),
+    "friction cone of cells": (of_cells.friction_cone, (FIELD, BOUND)),
+    "slip direction of cells": (of_cells.slip_direction, (FIELD, BOUND + 1, FIELD, FIELD)),
+    "complementarity of rings": (of_rings.complementarity, (LINE, LINE, WEIGHTS, 0.1)),
+    "penetration of rings": (of_rings.penetration, (LINE, WEIGHTS, 0.1)),
+    "friction cone of rings": (of_rings.friction_cone, (LINE, LINE)),
+    "slip direction of rings": (
+        of_rings.slip_direction,
+        (PAIRS, LINE, PAIRS, WEIGHTS, 1.0),
+    ),
+}
+
+
+@pytest.mark.parametrize("measure", MEASURES)
+def test_a_field_that_is_not_a_number_somewhere_has_no_measure(measure: str) -> None:
+    of, given = MEASURES[measure]
+    assert np.isfinite(of(*given))
+    for number, argument in enumerate(given):
+        if not isinstance(argument, np.ndarray):
+            continue
+        for place in np.ndindex(argument.shape):
+            ill = argument.astype(float)
+            ill[place] = np.nan
+            assert np.isnan(of(*given[:number], ill, *given[number + 1 :])), (number, place)

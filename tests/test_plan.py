@@ -3,11 +3,14 @@
 import numpy as np
 import pytest
 from contact_scenes import PRESS, RIGID_BALL, grid, paraboloid, push, scene, slide, steel
-from coupled_scenes import bulk, coated
-from coupled_scenes import press as pressed
+from contact_scenes import scene as alike_scene
+from coupled_scenes import BALL, bulk, coated, press
+from coupled_scenes import push as coupled_push
 from coupled_scenes import scene as coupled_scene
 
-from semi_analytical import Coupling, Result, SurfaceGrid, plan, solve
+from semi_analytical import Coupling, Result, SurfaceGrid, all_effects, one_way, plan, solve
+from semi_analytical.operator.domain import WINDOW
+from semi_analytical.plan import COMPUTED, EDGES, MIRROR_PLANES
 
 ONE, MANY = False, True
 
@@ -103,7 +106,7 @@ OBLIQUE = scene({**PRESS, **push(0.3)})
 
 
 def test_explicit_increments_win_over_every_law():
-    assert counts(coupled_scene(pressed(increments=2), free(0.6, increments=3))) == (2, 3)
+    assert counts(coupled_scene(press(increments=2), free(0.6, increments=3))) == (2, 3)
     assert counts(scene(PRESS, push(0.5, increments=7))) == (1, 7)
 
 
@@ -135,3 +138,57 @@ def path_error(described, cells: int | SurfaceGrid = 32, accuracy: float = DEFAU
 @pytest.mark.parametrize("described", [WEAK, PUSHED, TURNING], ids=["pressed", "pushed", "turning"])
 def test_default_accuracy_is_met(described):
     assert path_error(described) <= DEFAULT
+
+
+# ---- Solving with another plan than the scene's: effects forced on, or coupled one way only.
+
+
+REDUCED = {
+    "frictionless": alike_scene(PRESS, friction=None),
+    "rigid on elastic, frictionless": alike_scene(PRESS, friction=None, indenter=BALL),
+    "no tangential load": alike_scene(PRESS),
+    "pushed to and fro": alike_scene(PRESS, push(0.8), push(-0.8)),
+    "shifted until it slides": alike_scene(PRESS, slide(0.5), slide(20), slide(0)),
+    "turning": alike_scene(PRESS, push(0.5, increments=2), push(0, 0.5, increments=4)),
+    "unloading": alike_scene(PRESS, push(0.3), {"normal_force": 500, "increments": 3}),
+    "pushed, where bodies couple": coupled_scene(press(), coupled_push(0.5)),
+    "coated alike": coupled_scene(
+        PRESS, push(0.7), body=coated(), indenter=paraboloid().model_copy(update=dict(coated()))
+    ),
+}
+
+
+def test_forcing_says_what_it_forces():
+    decided = plan(REDUCED["frictionless"])
+    forced = all_effects(decided)
+    assert forced.coupling is Coupling.FULL
+    assert forced.shear
+    assert forced.increments == decided.increments
+    changed = [e for e, old in zip(forced.effects, decided.effects, strict=True) if e != old]
+    assert {e.name for e in changed} == {*COMPUTED, MIRROR_PLANES}
+    assert all(e.on and "forced on" in e.why for e in changed if e.name in COMPUTED)
+    assert forced.symmetry == WINDOW
+
+
+def test_edges_are_not_known_of_bodies_of_which_one_way_of_coupling_is_left_out():
+    decided = plan(coupled_scene(press(), coupled_push(0.5)), edge="last")
+    assert decided.edge == "last"
+    one = one_way(decided)
+    assert one.edge == "off"
+    assert not any(e.on for e in one.effects if e.name == EDGES)
+
+
+def coupled_one_way(described, cells=48):
+    return solve(described, grid(cells, 1.2), TOLERANCE, plan=one_way(plan(described)))
+
+
+@pytest.mark.parametrize("body", [bulk(), coated()], ids=["homogeneous", "coated"])
+def test_one_way_every_increment_obeys_friction(body):
+    described = coupled_scene(press(), coupled_push(0.6), coupled_push(-0.6), press(0.7), body=body)
+    lost = 0.0
+    for increment in coupled_one_way(described).increments:
+        assert increment.residuals.worst <= TOLERANCE
+        assert np.any(increment.in_contact & ~increment.in_stick)
+        assert increment.dissipated_energy >= lost
+        lost = increment.dissipated_energy
+    assert lost > 0

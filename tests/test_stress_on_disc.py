@@ -26,6 +26,7 @@ from contact_scene import (
     RIGID,
     Body,
     Cone,
+    CoulombFriction,
     FlatPunch,
     IsotropicMaterial,
     Layer,
@@ -38,11 +39,21 @@ from contact_scene.quantities.stated_error import (
     ErrorStatus,
     StatedError,
 )
+from contact_scene.solver_errors import UnsupportedScene
 from radial.normal.disc import disc
 from radial.response.bodies import Bodies
+from radial.stress.circle_fit import (
+    USUAL,
+    pushed_circle,
+    round_circle,
+)
+from radial.stress.loaded_circle import LoadedCircle
+from radial.stress.ray_integrals import below_circle
+from radial.stress.subsurface_circle import BelowCircle
 from radial.stress.subsurface_disc import Below
 from semi_analytical.frf.depth import Level
-from semi_analytical.frf.stack import stack_of
+from semi_analytical.frf.stack import HalfSpace, Stack, stack_of
+from verification.closed_forms.hamilton_stress import hamilton_stress
 from verification.closed_forms.huber_stress import huber_stress
 
 # a = 1, E* = π/2 and p_H = 1.
@@ -119,14 +130,6 @@ def test_the_largest_stresses_of_a_ball_are_known() -> None:
         assert error.error < 1e-6 * extreme.value
 
 
-def test_a_run_that_was_written_has_the_same_stress(tmp_path: Path) -> None:
-    result = radial.solve(scene_of(coated(2.0, 0.5), FlatPunch(radius=1.0, material=RIGID)))
-    slipstick.save(result, tmp_path / "run")
-    at_once = stress_on_disc(state_of_result(result, None))
-    again = stress_on_disc(state_of_run(tmp_path / "run", None))
-    assert np.array_equal(again.points.stress, at_once.points.stress)
-
-
 @pytest.mark.parametrize(
     ("indenter", "where"),
     [('shape = "cone", slope_angle = 0.1', "a tip"), ('shape = "flat_punch", radius = 1', "a rim")],
@@ -177,3 +180,132 @@ def test_no_error_is_trusted_where_the_stress_is_infinite(indenter: ShapedBody) 
     status = {(e.region, e.measure): error.status for e, error in zip(found, errors, strict=True)}
     assert status["body", "von_mises"] is ErrorStatus.NOT_CONVERGED
     assert status["base", "von_mises"] is ErrorStatus.ESTIMATED
+
+
+# ---- Stress below the radial solver's shear: closed forms, laws of layers and equilibrium.
+
+
+MU, NU = 0.3, 0.3
+G = 2.0
+# a = 1, E* = π/2 and p_H = 1.
+SAME = Paraboloid(radius=1.0, material=SOFT)
+W = 2 * np.pi / 3
+
+
+def circle_of(q_x: object, q_y: object, p: object, centre: float = 0.0) -> LoadedCircle:
+    """From functions of η and the angle."""
+    eta, turn = np.linspace(0, 1, 241)[:, None], 2 * np.pi * np.arange(360) / 360
+    parts = [f(eta, turn) + 0 * eta * turn for f in (q_x, q_y, p)]  # type: ignore[operator]
+    return LoadedCircle(1.0, centre, np.stack(parts))
+
+
+SLIDING = circle_of(lambda e, t: MU, lambda e, t: 0.0, lambda e, t: 1.0)
+ANYHOW = circle_of(
+    lambda e, t: 0.1 + 0.05 * e * np.cos(t),
+    lambda e, t: 0.03 + 0.08 * e * np.sin(t) + 0.02 * e**2 * np.cos(2 * t),
+    lambda e, t: 1 + 0.2 * e * np.cos(t) + 0.1 * e * np.sin(t),
+    centre=0.2,
+)
+
+
+@pytest.mark.parametrize("depth", [1e-6, 1e-3, 0.1, 2.0])
+def test_below_a_sliding_ball_it_is_hamiltons(depth: float) -> None:
+    drawn = np.random.default_rng(1)
+    near = 10.0 ** -drawn.uniform(0.5, 7, 40)
+    r = np.concatenate([drawn.uniform(0, 3, 20), 1 + near[:20], 1 - near[20:], [0.0, 1.0]])
+    turn = drawn.uniform(0, 2 * np.pi, len(r))
+    x, y = r * np.cos(turn), r * np.sin(turn)
+    found = below_circle(SLIDING, HalfSpace(G, NU), x, y, depth)[3:]
+    assert_allclose(found, hamilton_stress(x, y, depth, 1.0, 1.0, MU, NU), atol=6e-5)
+    finer = below_circle(SLIDING, HalfSpace(G, NU), x, y, depth, 2)[3:]
+    assert_allclose(finer, hamilton_stress(x, y, depth, 1.0, 1.0, MU, NU), atol=3e-5)
+
+
+ROUND = LoadedCircle(
+    1.0, 0.0, np.linspace(0, 1, 241)[None, :, None] * np.array([0.2, 0.1, 0.0])[:, None, None]
+    + np.array([0.0, 0.0, 1.0])[:, None, None],
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("circle", [ANYHOW, ROUND])
+@pytest.mark.parametrize(("depth", "layer"), [(0.2, 0), (0.5, 1), (2.0, 1)])
+def test_a_layer_of_the_same_material_is_none(
+    circle: LoadedCircle, depth: float, layer: int
+) -> None:
+    x, y = np.random.default_rng(2).uniform(-3, 3, (2, 30))
+    x[0], y[0] = circle.centre, 0.0
+    bare = BelowCircle(circle, Stack((), (G, NU)), 5, 5)
+    film = BelowCircle(circle, Stack([(G, NU, 0.5)], (G, NU)), 5, 5)
+    ours, theirs = film.at([Level(depth, layer)], x, y), bare.at([Level(depth, 0)], x, y)
+    assert_allclose(ours, theirs, atol=1e-5)
+
+
+def test_a_stiffer_layer_is_bonded_to_its_base() -> None:
+    """Displacement and what acts on the interface are the same from both sides."""
+    film = BelowCircle(ANYHOW, Stack([(3 * G, 0.2, 0.5)], (G, 0.4)), 5, 5)
+    x, y = np.random.default_rng(3).uniform(-2, 2, (2, 30))
+    above, below = film.at([Level(0.5, 0), Level(0.5, 1)], x, y)
+    carried = [0, 1, 2, 5, 6, 7]
+    assert_allclose(above[carried], below[carried], atol=1e-5)
+    assert np.max(np.abs(above[3] - below[3])) > 0.1
+
+
+def nodes_of(circle: LoadedCircle) -> tuple[np.ndarray, ...]:
+    """What a pushed contact tells of a circle."""
+    radii = np.concatenate([np.arange(20) / 24, 1 + np.arange(-8, 9) / 48, [1.25]])
+    angles = np.pi * np.arange(10) / 9
+    x, y = radii[:, None] * np.cos(angles), radii[:, None] * np.sin(angles)
+    q_x, q_y, p = circle.at(x - circle.centre, y)
+    cos, sin = np.cos(angles), np.sin(angles)
+    return radii, angles, q_x * cos + q_y * sin, q_y * cos - q_x * sin, p
+
+
+def test_a_circle_beside_the_axis_is_found() -> None:
+    given = circle_of(
+        lambda e, t: MU * (1 + 0.2 * e * np.cos(t)),
+        lambda e, t: 0.1 * e * np.sin(t),
+        lambda e, t: 1 + 0.2 * e * np.cos(t),
+        centre=-0.03,
+    )
+    found = pushed_circle(*nodes_of(given), USUAL)
+    assert_allclose((found.centre, found.radius), (-0.03, 1.0), atol=2e-3)
+    # Straight lines between nodes carry 0.4 % less than a root.
+    assert_allclose(found.smooth / found.load, given.smooth / given.load, atol=4e-3)
+
+
+def test_too_few_rings_are_refused() -> None:
+    r = np.array([0.0, 0.3, 0.7, 1.2])
+    p = np.sqrt(np.maximum(1 - r * r, 0))
+    with pytest.raises(UnsupportedScene, match="3 rings tell the edge"):
+        round_circle(r, 1.0, 0 * p, 0 * p, p)
+    fields = [np.repeat(f[:, None], 4, axis=1) for f in (0 * p, 0 * p, p)]
+    with pytest.raises(UnsupportedScene, match="rings tell the edge"):
+        pushed_circle(r, np.pi * np.arange(4) / 3, *fields)
+
+
+def frictional(body: Body, indenter: Paraboloid, *loads: LoadStep) -> Scene:
+    return Scene(
+        indenter=indenter, body=body, friction=CoulombFriction(coefficient=0.1), loading=loads
+    )
+
+
+def pushed(direction: tuple[float, float] = (1.0, 0.0)) -> Scene:
+    force = 0.06 * W * direction[0], 0.06 * W * direction[1]
+    return frictional(
+        Body(material=SOFT), SAME, LoadStep(normal_force=W, increments=1),
+        LoadStep(tangential_force=force, increments=2),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [pushed((0.6, 0.8)), scene_of(coated(2.0, 0.5), FlatPunch(radius=1.0, material=RIGID))],
+    ids=["pushed", "punch"],
+)
+def test_a_run_that_was_written_has_the_same_stress(scene: Scene, tmp_path: Path) -> None:
+    result = radial.solve(scene)
+    slipstick.save(result, tmp_path / "run")
+    at_once = stress_on_disc(state_of_result(result, None), depths=[0.0, 0.3])
+    again = stress_on_disc(state_of_run(tmp_path / "run", None), depths=[0.0, 0.3])
+    assert np.array_equal(again.points.stress, at_once.points.stress)
+    assert again.direction == at_once.direction

@@ -4,12 +4,14 @@ import json
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 from command import slipstick
-from contact_scenes import INDENTERS, PRESS, RADIUS, A, bump, grid, scene, steel
+from contact_scenes import APPROACH, INDENTERS, PRESS, RADIUS, A, bump, grid, push, scene, steel
 
-from contact_scene import HeightMap, SurfaceDiscretisation
-from semi_analytical import ContactNotResolved, solve_discretised
+from contact_results.result_warnings import remarks
+from contact_scene import Ellipsoid, HeightMap, SurfaceDiscretisation
+from semi_analytical import ContactNotResolved, SurfaceGrid, solve, solve_discretised
 from semi_analytical.resolution import resolution
 
 SETTING = r"--set semi_analytical\.(cells|window)=(\[[^\]]*\])"
@@ -69,3 +71,104 @@ def test_the_command_says_so_with_exit_code_3_and_writes_nothing(
     assert slipstick("run", "scenes/hertz.toml", "-o", tmp_path / "out", *coarse) == 3
     assert "--set semi_analytical.window=[0.0008" in capfd.readouterr().err
     assert not (tmp_path / "out").exists()
+
+
+# ---- What cells leave out of a finer map of heights is told, by how much it would change the
+
+
+POINTS = 192
+
+
+def told(amplitude, wave, cells, size=1.0):
+    """The share of the peak that a remark names, None without one; and the one that is missed.
+
+    amplitude  of waves on a ball, over the approach
+    wave       their length over the contact radius
+    size       of everything
+    """
+    spacing = 2.4 * A / POINTS
+    x = (np.arange(POINTS) - (POINTS - 1) / 2) * spacing
+    waves = np.cos(2 * np.pi * x / (wave * A))
+    ball = (x[:, None] ** 2 + x**2) / (2 * RADIUS)
+    heights = size * (ball + amplitude * APPROACH * np.multiply.outer(waves, waves))
+    rough = HeightMap(file=heights, spacing=size * spacing, material=steel())
+    pressed = scene({"normal_force": size**2 * 1e3}, friction=None, indenter=rough)
+    peaks = []
+    for n in (cells, POINTS):
+        result = solve(pressed, SurfaceGrid((n, n), rough.extent), 1e-6)
+        peaks.append(result.steps[0].peak_pressure)
+        found = [re.search(r"pressure of (\S+) of the peak", told) for told in remarks(result)]
+        if n == cells:
+            named = next((float(match[1]) for match in found if match), None)
+    assert not found, "nothing is left out on cells as fine as the map"
+    return named, peaks[1] / peaks[0] - 1
+
+
+# So low that they are flattened all the way.
+@pytest.mark.parametrize("size", [1e-3, 1e3])
+@pytest.mark.parametrize(("amplitude", "wave"), [(0.002, 0.05), (0.01, 0.05), (0.005, 0.05)])
+def test_waves_that_the_cells_do_not_see_are_told_by_what_they_take_from_the_peak(
+    amplitude, wave, size
+):
+    named, missed = told(amplitude, wave, 96, size)
+    assert named == pytest.approx(missed, rel=0.3)
+    assert missed > 0.03
+
+
+# ---- What is resolved of a result is counted in cells, whatever the sizes, loads and materi
+
+
+TOLERANCE = 1e-8
+
+
+def solved_on(*loading, cells=32, contacts=1.5, **parts):
+    return solve(scene(*loading, **parts), grid(cells, contacts), TOLERANCE)
+
+
+def resolved(*loading, **parts):
+    return resolution(solved_on(*loading, **parts))[-1]
+
+
+@pytest.mark.parametrize("cells", [31, 32])
+@pytest.mark.parametrize("radius", [1.6, 3.0, 8.3])
+def test_contact_is_counted_in_cells(cells, radius):
+    found = resolved(PRESS, friction=None, cells=cells, contacts=cells / 2 / radius)
+    assert found.contact == pytest.approx(radius, abs=0.8 / radius)
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_of_an_ellipse_the_smaller_semi_axis_counts_whatever_way_it_lies(axis):
+    radii, window = (RADIUS, 9 * RADIUS), (4 * A, 6 * A)
+    lying = Ellipsoid(radii=radii[:: 1 - 2 * axis], material=steel())
+    surface = SurfaceGrid((48, 48), window[:: 1 - 2 * axis])
+    result = solve(scene(PRESS, friction=None, indenter=lying), surface, TOLERANCE)
+    across = np.max(np.sum(result.steps[0].in_contact, axis=axis))
+    assert resolution(result)[0].contact == pytest.approx(across / 2, abs=0.5)
+
+
+def test_the_stick_zone_shrinks_as_cattaneo_says_and_slip_takes_the_rest():
+    for part in (0.3, 0.7, 0.9):
+        found = resolved(PRESS, push(part), cells=64)
+        assert found.stick == pytest.approx(found.contact * np.cbrt(1 - part), abs=0.5)
+        assert found.annulus == found.contact - found.stick
+    held = resolved(PRESS, push(1e-6), cells=64)
+    assert (held.stick, held.annulus) == (pytest.approx(held.contact), None)
+    free = resolved(PRESS, friction=None)
+    assert (free.stick, free.annulus) == (None, None)
+
+
+def egg_box(wave, cells=64):
+    """Crests so many cells apart, on a window of three contact radii."""
+    ridges = np.cos(2 * np.pi * (np.arange(cells) + 0.5) / wave)
+    heights = A**2 / RADIUS * np.add.outer(ridges, ridges)
+    return HeightMap(file=heights, spacing=3 * A / cells, material=steel())
+
+
+@pytest.mark.parametrize("wave", [8, 16, 32])
+def test_patches_count_as_one_of_them_and_the_wave_of_a_sine_is_its_length(wave):
+    result = solved_on({"approach": A**2 / RADIUS}, friction=None, indenter=egg_box(wave), cells=64)
+    patches = (64 // wave) ** 2
+    across = np.sqrt(np.count_nonzero(result.steps[0].in_contact) / patches / np.pi)
+    found = resolution(result)[0]
+    assert found.contact == pytest.approx(across, rel=0.05) or found.contact < 1.0 < across < 1.2
+    assert found.wave == pytest.approx(wave, rel=0.15)  # of the part in touch
