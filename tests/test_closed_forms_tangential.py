@@ -34,21 +34,6 @@ def cattaneo(ratio):
     return replace(VIRGIN, tangential_force=ratio * LIMIT)
 
 
-def led(*forces):
-    """The state after a history of tangential forces."""
-    state = TangentialHistory(VIRGIN)
-    for force in forces:
-        state = state.loaded_to(force)
-    return state
-
-
-def energy_per_cycle(ratio):
-    """Energy lost from T* over -T* back to T*."""
-    turned = led(ratio * LIMIT)
-    closed = turned.loaded_to(-ratio * LIMIT).loaded_to(ratio * LIMIT)
-    return closed.dissipated_energy - turned.dissipated_energy
-
-
 def disc_integral(function, radius, edges=()):
     """Integral of a radial function over a disc, split at square-root edges."""
     edges = [0.0, *sorted(e for e in edges if 0 < e < radius), radius]
@@ -112,21 +97,6 @@ def test_stiffness_is_the_slope_of_force_against_shift(ratio):
 # --- energy
 
 
-@pytest.mark.parametrize(
-    ("ratio", "expected"),
-    [(0.3, 0.0010451595), (0.6, 0.011404829), (0.9, 0.066873051), (1.0, 1 / 6)],
-)
-def test_energy_of_a_cycle_has_its_published_values(ratio, expected):
-    cycle = energy_per_cycle(ratio)
-    function = cycle / (4.8 * VIRGIN.sliding_shift * LIMIT)
-    assert function == pytest.approx(expected, rel=1e-8)
-    x = ratio
-    bracket = 1 - (1 - x) ** (5 / 3) - 5 * x / 6 * (1 + (1 - x) ** (2 / 3))
-    assert function == pytest.approx(bracket, rel=1e-11)
-    by_definition = 0.9 * LIMIT**2 / A * (4 / G_STAR) * bracket
-    assert cycle == pytest.approx(by_definition, rel=1e-11)
-
-
 # --- histories of the force
 
 
@@ -181,15 +151,6 @@ def test_superposed_shear_carries_the_force(name, ratio):
     assert np.all(np.abs(state.shear(r)) <= MU * state.full.pressure(r) * (1 + 1e-12))
     assert np.all(state.slip(r) * state.shear(r) <= 0)
     assert np.all(state.slip(r[r < c]) == 0)
-
-
-@given(ratio=st.floats(-0.999, 0.999))
-def test_superposition_of_paraboloids_is_cattaneo(ratio):
-    state = superpose(CONTACTS["paraboloid"], LOAD, ratio * LIMIT, MU, E_STAR / G_STAR)
-    exact, r = cattaneo(ratio), A * np.linspace(0, 1, 30)
-    assert state.shift == pytest.approx(exact.shift, abs=1e-14)
-    np.testing.assert_allclose(state.shear(r), exact.shear(r), atol=1e-9)
-    np.testing.assert_allclose(state.slip(r), exact.slip(r), atol=1e-9)
 
 
 # --- dimension and range

@@ -4,13 +4,10 @@ from itertools import groupby
 
 import numpy as np
 import pytest
-from contact_scenes import APPROACH, LIMIT, LOAD, MU, RADIUS, A, grid, paraboloid, steel
-from contact_scenes import scene as alike_scene
+from contact_scenes import APPROACH, LIMIT, LOAD, MU, RADIUS, A, grid, steel
 from coupled_scenes import (
-    SUBSTRATE,
     bulk,
     coated,
-    coupled_increments,
     press,
     push,
     scene,
@@ -32,57 +29,10 @@ from semi_analytical import SurfaceGrid, solve
 
 TOLERANCE = 1e-8
 GRID = grid(32)
-HISTORY = (press(), push(0.5, 0.2), push(-0.3, 0.1))
 
 
 def last(described, on=GRID, tolerance=1e-10):
     return solve(described, on, tolerance).increments[-1]
-
-
-def turned(loading):
-    """The loads turned by a quarter: (x, y) -> (-y, x)."""
-    return tuple(
-        {**step, "tangential_force": (-step["tangential_force"][1], step["tangential_force"][0])}
-        if "tangential_force" in step
-        else step
-        for step in loading
-    )
-
-
-def assert_equal_shear(one, other, pressure, tolerance=1e-6):
-    assert np.max(np.abs(one - other)) <= tolerance * MU * np.max(pressure)
-
-
-def test_a_turned_load_turns_the_answer():
-    one, other = last(scene(*HISTORY)), last(scene(*turned(HISTORY)))
-    np.testing.assert_allclose(
-        other.pressure, np.rot90(one.pressure), atol=1e-6 * one.peak_pressure
-    )
-    x, y = (np.rot90(component) for component in one.shear)
-    assert_equal_shear(other.shear, np.stack([-y, x]), one.pressure)
-    x, y = one.tangential_shift
-    np.testing.assert_allclose(other.tangential_shift, [-y, x], rtol=1e-7)
-
-
-def test_alike_bodies_by_the_coupled_solver_are_as_by_the_uncoupled_one():
-    described = alike_scene(*HISTORY)
-    uncoupled = solve(described, GRID, 1e-11).increments
-    coupled = coupled_increments(described, GRID, 1e-11)
-    for one, other in zip(uncoupled, coupled, strict=True):
-        np.testing.assert_allclose(other.pressure, one.pressure, atol=1e-8 * one.peak_pressure)
-        assert_equal_shear(other.shear, one.shear, one.pressure, 1e-8)
-        assert other.dissipated_energy == pytest.approx(one.dissipated_energy, rel=1e-8, abs=1e-20)
-    assert one.tangential_shift == pytest.approx(other.tangential_shift, rel=1e-8)
-
-
-def test_swapped_bodies_answer_an_opposite_push_with_the_opposite_shear():
-    soft, stiff = Body(material=SUBSTRATE), Body(material=RIGID)
-    on_soft = last(scene(press(), push(0.5), body=soft))
-    of_soft = last(scene(press(), push(-0.5), body=stiff, indenter=paraboloid(SUBSTRATE)))
-    np.testing.assert_allclose(
-        of_soft.pressure, on_soft.pressure, atol=1e-7 * on_soft.peak_pressure
-    )
-    assert_equal_shear(of_soft.shear, -on_soft.shear, on_soft.pressure)
 
 
 def test_status_tells_partial_slip_from_no_stick_area_from_gross_sliding():

@@ -143,13 +143,6 @@ def grid_name(grid):
     return f"{'end' if grid.angles[0] == 0 else 'mid'}{grid.highest}"
 
 
-def uncoupled(nu, **more):
-    """Two bodies of one material."""
-    body = STEEL if nu else NU_ZERO
-    of = contact(body, body, mu=MU, **more)
-    return of, pressed(of, hertz_force(nu, bodies=2), 1)
-
-
 # transforms and compliance
 
 
@@ -221,18 +214,6 @@ def test_projection_is_nearest_and_has_the_total(points, seed, part, spread):
 
 
 # closed forms
-
-
-def test_history_after_reversal_is_that_of_the_mirror():
-    of, state = uncoupled(0.0)
-    force = 0.9 * MU * state.normal_force
-    there = sheared(of, state, force)
-    back = sheared(of, there, -force)
-    np.testing.assert_allclose(back.shear, -there.shear, atol=1e-8 * np.max(there.shear))
-    assert back.motion == pytest.approx(-there.motion, rel=1e-7)
-    again = sheared(of, back, force)
-    np.testing.assert_allclose(again.shear, there.shear, atol=1e-8 * np.max(there.shear))
-    assert there.dissipated_energy < back.dissipated_energy < again.dissipated_energy
 
 
 # coupled contacts

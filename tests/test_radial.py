@@ -123,15 +123,6 @@ def test_layers_press_as_the_nystrom_method_says(
     assert_allclose(disc(bodies, punch, 1.0, 1.0).load, stiffness, rtol=1e-10)
 
 
-def test_a_layer_may_be_on_either_body() -> None:
-    soft = coated(0.5, 1e-3, ratio=0.4)
-    ball = BALL.model_copy(update={"material": soft.material, "layers": soft.layers})
-    below = pressed(BALL, soft, normal_force=1e-6)
-    above = pressed(ball, Body(material=RIGID), normal_force=1e-6)
-    assert above.approach == below.approach
-    assert np.array_equal(above.pressure, below.pressure)
-
-
 @given(modulus=st.floats(0.05, 20.0), thickness=st.floats(0.05, 5.0))
 def test_the_surface_touches_where_there_is_pressure(modulus: float, thickness: float) -> None:
     """The displacement just outside meets the indenter, by another integral than the equation's;

@@ -70,11 +70,6 @@ def rough(asked: Scene, **how: Any) -> radial.Result:
     return radial.solve(asked, plan=replace(plan, fineness=0.5), **how)
 
 
-def turned(vector: Any, angle: float) -> Any:
-    (x, y), cos, sin = vector, math.cos(angle), math.sin(angle)
-    return np.array([x * cos - y * sin, x * sin + y * cos])
-
-
 @cache
 def turning() -> radial.Result:
     return rough(scene(*(push(*end) for end in PATH)))
@@ -189,23 +184,6 @@ def test_more_than_friction_carries_is_refused(steps: tuple[LoadStep, ...], word
 
 
 # ---- Torsion beside a push and pushes that turn, by the radial solver: laws, and what is sh
-
-
-Pair = tuple[float, float]
-
-
-@pytest.mark.parametrize(("angle", "line"), [(math.pi / 2, (1.0, 0.0)), (math.radians(217), None)])
-def test_turned_loads_turn_all(angle: float, line: Pair | None) -> None:
-    """By two of eight points with angles from the same line; by any angle with the line, too."""
-    asked = scene(*(push(*turned(end, angle)) for end in PATH))
-    plan = radial.plan(asked)
-    other = rough(asked, plan=replace(plan, direction=line or plan.direction))
-    size = math.hypot(*turning().steps[1].tangential_shift)
-    for one, two in zip(turning().steps, other.steps, strict=True):
-        assert_allclose(two.tangential_shift, turned(one.tangential_shift, angle),
-                        atol=1e-10 * size)  # fmt: skip
-        for name in ("approach", "contact_radius", "elastic_energy", "dissipated_energy"):
-            assert_allclose(getattr(two, name), getattr(one, name), rtol=1e-10)
 
 
 def test_mirrored_loads_mirror_all() -> None:

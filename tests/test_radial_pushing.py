@@ -13,8 +13,6 @@ from contact_scenes import RIGID_BALL, YOUNG, A, steel
 from numpy.testing import assert_allclose
 
 import radial
-from contact_errors.on_radii import stated_errors
-from contact_results.surface import surface_of
 from contact_scene import (
     RIGID,
     Body,
@@ -33,8 +31,6 @@ from radial.frictional.rings import (
     rings_about,
 )
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
-from verification.closed_forms.tangential_history import TangentialHistory
-from verification.problems.indentation import STRONG, WEAK, Indentation
 
 # Two alike: E* = 1, and what shear feels of them, 1/G* = Σ (2 - ν)/4G.
 ALIKE = IsotropicMaterial(young_modulus=2 * 0.91, poisson_ratio=0.3)
@@ -86,12 +82,6 @@ def test_reported_shear_of_coupled_bodies_is_within_its_limit(steps: tuple[LoadS
 
 
 @cache
-def loop() -> radial.Result:
-    """Of bodies that do not couple: pressed, and pushed to and fro."""
-    return radial.solve(scene(PRESS, push(0.6), push(-0.6, 6), push(0.6, 6), alike=True))
-
-
-@cache
 def coupled() -> radial.Result:
     """A rigid ball on a soft body, pushed and back."""
     return rough(scene(PRESS, push(0.6), push(0.0)))
@@ -104,36 +94,6 @@ def rough(asked: Scene, **how: Any) -> radial.Result:
 
 
 # ---- closed forms -----------------------------------------------------------------------------
-
-
-def test_shear_carries_the_load_and_obeys_coulomb() -> None:
-    end, surface = loop().steps[1], surface_of(loop())
-    shear = surface.vector(end, "shear")
-    assert shear is not None
-    assert_allclose(np.sum(shear[0] * surface.weights), 0.6 * LIMIT, rtol=2e-3)
-    excess = np.hypot(*shear) - FRICTION * end.pressure
-    assert np.max(excess) < 2e-3 * FRICTION * end.peak_pressure
-
-
-def test_stated_errors_cover_the_closed_forms() -> None:
-    exact, lost = TangentialHistory(VIRGIN), 0.0
-    errors = stated_errors(loop())
-    once = PartialSlip(LOAD, RADIUS, FRICTION, SHEAR, 0.6 * LIMIT)
-    for end, stated, share in zip(
-        loop().steps[1:], errors.steps[1:], (0.6, -0.6, 0.6), strict=True
-    ):
-        exact = exact.loaded_to(share * LIMIT)
-        lost += (2 if lost else 1) * once.dissipated_energy
-        for name, true in {
-            "tangential_shift": exact.shift,
-            "approach": RADIUS**2,
-            "contact_radius": RADIUS,
-            "stick_radius": once.stick_radius,
-            "dissipated_energy": lost,
-            "peak_pressure": 1.5 * LOAD / (math.pi * RADIUS**2),
-        }.items():
-            error, size = np.ravel(stated[name].error)[0], abs(true)
-            assert abs(np.ravel(getattr(end, name))[0] - true) <= error < 0.15 * size, name
 
 
 # ---- laws -------------------------------------------------------------------------------------
@@ -318,20 +278,6 @@ def test_a_ball_that_all_but_sticks_is_as_deep_as_one_that_does() -> None:
 
 
 # ---- errors, standing and refusals ------------------------------------------------------------
-
-
-@pytest.mark.parametrize("one", [WEAK, STRONG], ids=lambda one: one.file_name)
-def test_stated_errors_hold_the_true_ones(one: Indentation) -> None:
-    result = radial.solve(one.problem(16).scene)
-    end, errors = result.steps[0], stated_errors(result).steps[0]
-    assert errors["normal_force"].status == "exact"
-    front = one.stick_part * one.contact_radius
-    for name, exact in (
-        ("approach", one.approach), ("contact_radius", one.contact_radius), ("stick_radius", front)
-    ):  # fmt: skip
-        error = errors[name].error
-        assert isinstance(error, float)
-        assert abs(getattr(end, name) - exact) < error < 0.1 * exact
 
 
 def test_slip_that_is_narrower_than_rings_is_told_by_its_name() -> None:

@@ -31,7 +31,6 @@ from radial.tangential.ring_state import (
     Held,
     Loads,
 )
-from verification.closed_forms.cattaneo_mindlin import PartialSlip
 
 Array = np.ndarray
 TOLERANCE = 1e-9
@@ -137,18 +136,6 @@ def test_newtons_method_aims_at_where_the_laws_would_hold() -> None:
     nearer = laws.at(x, alike().compliance @ x[:-4])
     left = (at.missed - nearer.missed) / step
     assert_allclose(left, at.missed, atol=1e-5 * np.abs(at.missed).max())
-
-
-def test_shear_is_that_of_cattaneo_and_mindlin_all_around() -> None:
-    nodes, count = len(RADII), alike().count
-    q_r, q_t, _ = after(0.6).tractions.reshape(3, nodes, count)
-    cos, sin = np.cos(alike().angles), np.sin(alike().angles)
-    along, across = q_r * cos - q_t * sin, q_r * sin + q_t * cos
-    exact = PartialSlip(LOAD, 1.0, FRICTION, 1.0, 0.6 * LIMIT).shear(np.minimum(RADII, 1.0))
-    peak = FRICTION * 2 / math.pi
-    inside = RADII < 1
-    assert np.mean(np.abs(along - exact[:, None])[inside]) < 0.005 * peak
-    assert np.max(np.abs(across)) < 1e-6 * peak
 
 
 def test_a_contact_beyond_the_rings_is_refused() -> None:

@@ -127,36 +127,6 @@ def test_turning_the_loads_by_a_right_angle_turns_the_state(bodies):
     close(other.tilt[::-1], [-one.tilt[0], one.tilt[1]], 1e-5 * np.max(np.abs(one.tilt)))
 
 
-@pytest.mark.parametrize("bodies", [{}, {"indenter": RIGID_BALL}], ids=["alike", "unlike"])
-def test_both_controls_lead_to_the_same_state(bodies):
-    forced = end(
-        {**PRESS, **lean(0.3, 0.1), "increments": 2},
-        {**push(0.3), **twist(0.4), "increments": 1},
-        **bodies,
-    )
-    for rotations in (
-        {"twist": forced.twist, **push(0.3)},
-        {"torque": forced.torque, "tangential_shift": tuple(map(float, forced.tangential_shift))},
-        {"twist": forced.twist, "tangential_shift": tuple(map(float, forced.tangential_shift))},
-    ):
-        led = end(
-            {**PRESS, **lean(0.3, 0.1), "increments": 2}, {**rotations, "increments": 1}, **bodies
-        )
-        close(led.pressure, forced.pressure, 1e-6 * forced.peak_pressure)
-        close(led.shear, forced.shear, 1e-5 * MU * forced.peak_pressure)
-        assert led.torque == pytest.approx(forced.torque, rel=1e-6)
-    pressed = end({**PRESS, **lean(0.3, 0.1)}, friction=None, **bodies)
-    for step in (
-        {**PRESS, "tilt": tuple(map(float, pressed.tilt))},
-        {"approach": pressed.approach, "tilt": tuple(map(float, pressed.tilt))},
-        {"approach": pressed.approach, "moment": tuple(map(float, pressed.moment))},
-    ):
-        led = end(step, friction=None, **bodies)
-        close(led.pressure, pressed.pressure, 1e-6 * pressed.peak_pressure)
-        assert led.normal_force == pytest.approx(LOAD, rel=1e-6)
-        assert led.approach == pytest.approx(pressed.approach, rel=1e-6)
-
-
 @pytest.mark.parametrize(
     ("loading", "tilts", "twists"),
     [

@@ -236,24 +236,6 @@ def test_a_control_takes_over_from_where_another_has_led(loading, name):
     np.testing.assert_allclose(middle, 0.5 * np.add(start, end), atol=1e-9 * scale)
 
 
-def test_force_and_shift_control_reach_the_same_states():
-    forced = increments(PRESS, push(0.7), push(-0.5))
-    shifts = [{"tangential_shift": tuple(i.tangential_shift)} for i in forced[1:]]
-    moved = increments(PRESS, *shifts)
-    assert len(moved) == 3
-    for one, other in zip(forced, moved, strict=True):
-        np.testing.assert_allclose(other.tangential_force, one.tangential_force, atol=1e-6 * LIMIT)
-        assert other.dissipated_energy == pytest.approx(one.dissipated_energy, rel=1e-6)
-
-
-def test_load_and_approach_control_reach_the_same_states():
-    forced = increments(PRESS, {"normal_force": 0.3 * LOAD}, friction=None)
-    moved = increments(*({"approach": i.approach} for i in forced), friction=None)
-    assert len(moved) == 2
-    for one, other in zip(forced, moved, strict=True):
-        assert other.normal_force == pytest.approx(one.normal_force, rel=1e-7)
-
-
 def test_contact_that_is_left_and_found_again_has_no_shear_left_over():
     """Cells outside the contact carry nothing; coming back they remember where they met."""
     ends = increments(

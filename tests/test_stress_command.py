@@ -47,26 +47,6 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return directory
 
 
-def test_maxima_name_both_sides_of_the_interface(place: Path) -> None:
-    record = json.loads((place / "out" / "stress.json").read_text(encoding="utf-8"))
-    found = {(e["region"], e["measure"]): e for e in record["maxima"]}
-    regions = {"body", "layer 1", "base", "interface 1 above", "interface 1 below"}
-    assert {region for region, _ in found} == regions
-    for side in ("above", "below"):
-        assert found[f"interface 1 {side}", "von_mises"]["depth"] == pytest.approx(0.1e-3)
-    parts = [found[region, "von_mises"]["value"] for region in ("layer 1", "base")]
-    assert found["body", "von_mises"]["value"] == max(parts)
-    # A side of an interface is part of the layer that ends there: exchanged, one would exceed it.
-    for region, side in (("layer 1", "above"), ("base", "below")):
-        for measure in ("von_mises", "max_shear"):
-            at_side = found[f"interface 1 {side}", measure]["value"]
-            assert at_side <= found[region, measure]["value"]
-    sides = [found[f"interface 1 {side}", "von_mises"]["value"] for side in ("above", "below")]
-    assert sides[0] > 1.05 * sides[1]
-    table = rows(place / "out" / "stress_maxima.csv")
-    assert [float(row["value [Pa]"]) for row in table] == [e["value"] for e in record["maxima"]]
-
-
 def test_run_and_scene_give_the_same(place: Path) -> None:
     ended = outcome("stress", place / "run", "-o", place / "of_run", "--figures", "none", cwd=ROOT)
     assert ended.returncode == 0, ended.stderr

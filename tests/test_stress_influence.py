@@ -96,17 +96,6 @@ def cell_transform(dx, dy):
     return lambda m, n: dx * dy * np.sinc(m * dx / 2 / np.pi) * np.sinc(n * dy / 2 / np.pi)
 
 
-def hertz_transform(radius):
-    """Transform of sqrt(1 - r^2/a^2)."""
-
-    def transform(m, n):
-        x = np.hypot(m, n) * radius
-        exact = (np.sin(x) - x * np.cos(x)) / np.maximum(x, 0.1) ** 3
-        return 2 * np.pi * radius**2 * np.where(x > 0.1, exact, 1 / 3 - x**2 / 30 + x**4 / 840)
-
-    return transform
-
-
 DX, DY = 1.0, 0.6
 # xx, yy, zz, yz, xz, xy as places in the tensor
 PLACES = ((0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1))
@@ -231,81 +220,6 @@ COATED = Stack([(3.0, 0.2, 0.3), (0.5, 0.5, 0.4)], (1.0, 0.3))
 XX, YY, ZZ, YZ, XZ, XY = range(6)
 GRID = SurfaceGrid((8, 8), (1.0, 1.0))
 LOAD = np.ones((8, 8))
-
-
-def hertz(cells, window=3.0):
-    """Grid and Hertz pressure p0 = a = 1 at the cell centres."""
-    grid = SurfaceGrid((cells, cells), (window, window))
-    x, y = grid.coordinates()
-    return grid, np.sqrt(np.maximum(1 - x**2 - y**2, 0.0))
-
-
-def sheared(pressure):
-    return np.stack([MU * pressure, 0 * pressure])
-
-
-def sliding(m, n):
-    pressure = hertz_transform(1.0)(m, n)
-    return MU * pressure, 0.0, pressure
-
-
-@pytest.mark.parametrize("stack", [HALF_SPACE, COATED], ids=["homogeneous", "coated"])
-@pytest.mark.parametrize("depth", [0.25, 0.5, 1.2])
-def test_sliding_contact_agrees_with_quadrature_of_the_frf(stack, depth):
-    """Hamilton's sliding sphere, and the same on layers, off the axis in all components."""
-    grid, pressure = hertz(256)
-    layer = int(np.searchsorted(np.cumsum([f.thickness for f in stack.layers]), depth))
-    level = Level(depth, layer)
-    field = subsurface(stack, grid, pressure, sheared(pressure), [level])
-    i, j = 168, 154
-    expected = fields_at(stack, level, (grid.x[i], grid.y[j]), sliding, reach=2.0)
-    # Of p0 = G = a = 1; the cells, second order, make all of it.
-    np.testing.assert_allclose(field.displacement[0, :, i, j], expected[:3], atol=1e-4)
-    np.testing.assert_allclose(field.stress[0, :, i, j], expected[3:], atol=1e-4)
-
-
-@pytest.mark.parametrize("stack", [HALF_SPACE, COATED, Stack([(1.0, 0.5, 0.2)])])
-def test_surface_carries_the_given_tractions(stack, rng):
-    grid = SurfaceGrid((20, 14), (2.0, 1.6))
-    pressure, shear = rng.random(grid.cells), rng.normal(size=(2, *grid.cells))
-    stress = subsurface(stack, grid, pressure, shear, [0.0]).stress[0]
-    np.testing.assert_allclose(stress[ZZ], -pressure, atol=1e-13)
-    np.testing.assert_allclose(stress[XZ], -shear[0], atol=1e-13)
-    np.testing.assert_allclose(stress[YZ], -shear[1], atol=1e-13)
-
-
-@pytest.mark.parametrize(
-    "stack",
-    [COATED, Stack([(100.0, 0.2, 0.01)], (1.0, 0.4)), Stack([(0.01, 0.4, 0.5)], (1.0, 0.3))],
-    ids=["two layers", "thin hard", "soft"],
-)
-def test_interfaces_carry_displacement_and_traction_and_strain(stack, rng):
-    grid = SurfaceGrid((48, 40), (3.0, 2.6))
-    pressure, shear = rng.random(grid.cells), rng.normal(size=(2, *grid.cells))
-    assert interfaces(stack)
-    for sides in interfaces(stack):
-        field = subsurface(stack, grid, pressure, shear, sides)
-        for k in (ZZ, XZ, YZ):
-            np.testing.assert_allclose(field.stress[0, k], field.stress[1, k], atol=1e-11)
-        scale = np.abs(field.displacement).max()
-        np.testing.assert_allclose(*field.displacement, atol=1e-11 * scale)
-        jump = field.stress[1] - field.stress[0]
-        expected = in_plane_jump(stack, sides, field.stress[0])
-        scale = np.abs(field.stress).max()
-        np.testing.assert_allclose(jump[[XX, YY, XY]], expected, atol=1e-10 * scale)
-
-
-def in_plane_jump(stack, sides, above):
-    """What equal in-plane strains and equal normal stress make of the stress above."""
-    materials = [*((f.shear_modulus, f.poisson_ratio) for f in stack.layers), stack.base]
-    (G1, nu1), (G2, nu2) = materials[sides[0].layer], materials[sides[1].layer]
-    E1 = 2 * G1 * (1 + nu1)
-    zz = above[ZZ]
-    e_x = (above[XX] - nu1 * (above[YY] + zz)) / E1
-    e_y = (above[YY] - nu1 * (above[XX] + zz)) / E1
-    plate, squeeze = 2 * G2 / (1 - nu2), nu2 / (1 - nu2) * zz
-    below = plate * (e_x + nu2 * e_y) + squeeze, plate * (e_y + nu2 * e_x) + squeeze
-    return np.stack([below[0] - above[XX], below[1] - above[YY], above[XY] * (G2 / G1 - 1)])
 
 
 @pytest.mark.parametrize("stack", [HALF_SPACE, COATED], ids=["homogeneous", "coated"])
