@@ -251,20 +251,6 @@ def test_part_that_cannot_be_used_is_named_and_computed_again(
     assert [*differences(whole.increments, solve(store).increments)] == []
 
 
-def test_checkpoint_of_another_solve_is_named_and_replaced(tmp_path: Path) -> None:
-    said: list[str] = []
-    store = checkpoint(tmp_path, said, "an earlier scene")
-    SOLVES["similar"](store)
-    store.close()
-    store = checkpoint(tmp_path, said)
-    assert store.last() is None
-    assert "another scene, solver, discretisation or version" in said[0]
-    SOLVES["coupled"](store)
-    store.close()
-    assert checkpoint(tmp_path, said).last() is not None
-    assert checkpoint(tmp_path, said, "an earlier scene").last() is None
-
-
 def forged(content: bytes, tmp_path: Path) -> Path:
     """A checkpoint of this solve with this pickle."""
     own = hashlib.sha256(content).hexdigest().encode()
@@ -309,15 +295,6 @@ def test_arrays_of_other_types_and_fields_of_other_files_are_not_read(tmp_path: 
     ):
         with pytest.raises(Unusable, match=r"does not belong into a checkpoint|is damaged"):
             unpacked(forged(content, tmp_path), "this solve")
-
-
-def test_full_disk_costs_the_checkpoint_alone(tmp_path: Path) -> None:
-    said: list[str] = []
-    (tmp_path / "file").touch()
-    store = CheckpointDirectory(tmp_path / "file" / "checkpoint", "this solve", said.append, 0.0)
-    assert [*differences(SOLVES["similar"](store), SOLVES["similar"](None))] == []
-    assert len(said) == 1
-    assert "no checkpoint could be written" in said[0]
 
 
 @pytest.mark.parametrize(

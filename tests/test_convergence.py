@@ -94,7 +94,7 @@ def test_a_verdict_on_a_kept_order_is_right_19_times_of_20(rng: np.random.Genera
     """At the verge of what is allowed, 0.1 below: passed by chance once in twenty."""
     fits = (
         observed_order(SIZES, TERM * SIZES**1.4 * np.exp(0.05 * rng.standard_normal(6)))
-        for _ in range(1000)
+        for _ in range(600)
     )
     passed = np.mean([fit.keeps(1.5) is True for fit in fits])
     assert 0.02 < passed < 0.08
@@ -117,20 +117,10 @@ def test_a_planted_floor_is_seen(sizes: np.ndarray) -> None:
     assert fit.observed is None or not fit.observed.keeps(2.0)
 
 
-def test_planted_noise_is_seen(rng: np.random.Generator) -> None:
-    """Noise of half the error: hardly ever a verdict, right or wrong."""
-    judged = []
-    for _ in range(200):
-        fit = refined(TERM * SIZES * (1 + 0.5 * rng.standard_normal(6)), 1.0)
-        narrow = fit.observed is not None and fit.observed.keeps(1.0) is not None
-        judged.append(narrow and triplets_agree(fit.triplets))
-    assert np.mean(judged) < 0.05
-
-
 def test_interval_of_the_order_covers_the_truth(rng: np.random.Generator) -> None:
     """At 95 %: one degree of freedom more than there is would make it 90."""
     covered = []
-    for _ in range(1000):
+    for _ in range(600):
         fit = refined(TERM * SIZES**1.5 * (1 + 0.03 * rng.standard_normal(6)), 1.5)
         covered.append(abs(known(fit).order - 1.5) <= known(fit).half_width)
     assert 0.93 <= np.mean(covered) <= 0.97
@@ -213,7 +203,7 @@ def test_band_contains_the_true_line(rng: np.random.Generator) -> None:
     """At the ends of the levels and in their middle, in 95 % of the trials."""
     sizes = LEVELS[[0, 2, -1]]
     covered = []
-    for _ in range(1000):
+    for _ in range(600):
         line = error_line(LEVELS, LEVELS**1.5 * np.exp(0.1 * rng.standard_normal(6)))
         low, high = line.band(sizes)
         covered.append((low <= sizes**1.5) & (sizes**1.5 <= high))

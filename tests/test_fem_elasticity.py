@@ -252,15 +252,6 @@ def test_a_refined_mesh_is_nested(mesher, body):
     assert fine.outline.size == coarse.outline.size / 2
 
 
-@pytest.mark.parametrize("change", ["drop", "repeat"])
-def test_holes_and_overlaps_are_noticed(mesher, change):
-    section = mesher(BODIES["coated"], 4)
-    quads = section.quads
-    changed = quads[:, 1:] if change == "drop" else np.hstack([quads, quads[:, :1]])
-    with pytest.raises(SolverError, match="holes or overlaps"):
-        SectionMesh(section.points, changed, section.outline)
-
-
 @pytest.mark.parametrize(
     ("body", "arguments", "error", "message"),
     [

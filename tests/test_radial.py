@@ -180,42 +180,6 @@ def _compliance(bodies: Bodies) -> Any:
     return compliance
 
 
-HISTORY = Scene(
-    indenter=BALL,
-    body=Body(
-        material=STEEL,
-        layers=(
-            Layer(
-                thickness=1e-4, material=IsotropicMaterial(young_modulus=4e11, poisson_ratio=0.2)
-            ),
-        ),
-    ),
-    loading=(
-        LoadStep(normal_force=FORCE, increments=3),
-        LoadStep(approach=3e-6),
-        LoadStep(normal_force=FORCE),
-    ),
-)
-
-
-def test_errors_hold_what_is_known_and_can_be_read_back(tmp_path: Path) -> None:
-    result = radial.solve(HISTORY)
-    errors = stated_errors(result)
-    assert errors.steps[0]["normal_force"].status == "exact"
-    assert errors.steps[1]["approach"].status == "exact"
-    for name in ("approach", "contact_radius", "peak_pressure", "elastic_energy"):
-        error = errors.steps[0][name].error
-        assert 0 < error < 1e-10 * getattr(result.steps[0], name)  # type: ignore[operator]
-    end = result.steps[0]
-    assert end.input_work == end.elastic_energy
-    assert errors.steps[0]["input_work"].error == errors.steps[0]["elastic_energy"].error
-    slipstick.save(result, tmp_path / "out", figures="all", errors=errors)
-    run = slipstick.load(tmp_path / "out")
-    assert run.summary.solver == "radial"
-    assert np.array_equal(run.increments["pressure"].array[-1], result.steps[-1].pressure)
-    assert (tmp_path / "out" / "profiles.png").is_file()
-
-
 # ---- what is refused --------------------------------------------------------------------------
 
 RUB = CoulombFriction(coefficient=0.1)

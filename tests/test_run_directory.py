@@ -6,18 +6,13 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
-from command import slipstick
-from scene_texts import STEEL_ON_STEEL
 
-from contact_results.directory.atomic_file import atomic_file
 from contact_results.directory.directory_lock import acquire, release
 from contact_results.directory.file_names import SUMMARY, TIMING
 from contact_results.directory.refusal import OutputRefused
 from contact_results.directory.run_directory import run_directory
-from contact_results.directory.run_lock import in_sole_use
 from contact_results.directory.timing import Stopwatch, write_timing
 
 
@@ -98,33 +93,6 @@ def test_foreign_results_are_refused_before_work_unless_told(tmp_path: Path) -> 
     assert contents(tmp_path) == {SUMMARY: "new", "profiles.csv": "new"}
 
 
-def a_file(tmp_path: Path) -> Path:
-    (tmp_path / "out").write_text("a file")
-    return tmp_path / "out"
-
-
-def below_a_file(tmp_path: Path) -> Path:
-    return a_file(tmp_path) / "out"
-
-
-def result_name_taken_by_a_directory(tmp_path: Path) -> Path:
-    run(tmp_path / "out")
-    (tmp_path / "out" / "result.h5").mkdir()
-    return tmp_path / "out"
-
-
-def nowhere(tmp_path: Path) -> Path:
-    return Path("/proc/slipstick/out")
-
-
-@pytest.mark.parametrize(
-    "target", [a_file, below_a_file, result_name_taken_by_a_directory, nowhere]
-)
-def test_unwritable_output_is_refused_before_work(tmp_path: Path, target: Any) -> None:
-    with pytest.raises(OutputRefused):
-        refused_run(target(tmp_path))
-
-
 def test_abandoned_directory_is_cleared_away_and_a_live_one_is_not(tmp_path: Path) -> None:
     abandoned = tmp_path / ".out.partial-0badcafe"
     abandoned.mkdir()
@@ -203,28 +171,10 @@ def test_summary_is_the_sign_of_completeness(
     assert contents(earlier_run) == {SUMMARY: "new", "profiles.csv": "new"}
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="has no such queues")
-def test_no_file_takes_the_place_of_a_device_or_a_queue(tmp_path: Path) -> None:
-    os.mkfifo(tmp_path / "page.html")
-    with (
-        pytest.raises(OutputRefused, match=r"page\.html is not a regular file"),
-        atomic_file(tmp_path / "page.html") as unfinished,
-    ):
-        unfinished.write_text("a page")
-    assert (tmp_path / "page.html").is_fifo()
-    assert len([*tmp_path.iterdir()]) == 1
-
-
 # ---- One process at a time makes the results of a directory, and nothing dead stands in its
 
 
 ROOT = Path(__file__).resolve().parents[1]
-SCENE = f"""{STEEL_ON_STEEL}
-[[loading]]
-normal_force = 100
-[semi_analytical]
-cells = [16, 16]
-"""
 HOLD = """
 import sys, time
 from pathlib import Path
@@ -275,25 +225,3 @@ def test_lock_of_a_dead_process_stops_nobody(target: Path) -> None:
     target.mkdir(exist_ok=True)
     assert entered(target)
     assert [path.name for path in target.parent.rglob("*")] == ["out"]
-
-
-@pytest.mark.parametrize(
-    "command",
-    [("run", "scene.toml"), ("run", "scene.toml", "--solver=fem"), ("verify", "layered_identities"),
-     ("maintain", "study", "stability")],
-    ids=" ".join,
-)  # fmt: skip
-def test_commands_leave_a_directory_in_use_alone(
-    command: tuple[str, ...],
-    target: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    monkeypatch.chdir(target.parent)
-    Path("scene.toml").write_text(SCENE, encoding="utf-8")
-    with in_sole_use(target):
-        assert slipstick(*command, "--output", target) == 2
-    errors = capsys.readouterr().err
-    assert errors.count("error: ") == errors.count("\n") == 1
-    assert f"{target} is in use by process {os.getpid()} on" in errors
-    assert not target.exists() or [*target.iterdir()] == []

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from pydantic import ValidationError
 
 import slipstick
-from contact_results.directory.checkpoint import CheckpointDirectory
 from contact_scene import (
     RIGID,
     Body,
@@ -18,7 +17,6 @@ from contact_scene import (
     CoulombFriction,
     Ellipsoid,
     FiniteElementDiscretisation,
-    FlatPunch,
     HeightMap,
     IsotropicMaterial,
     Layer,
@@ -35,11 +33,6 @@ from contact_scene.solver_errors import (
     ContactNotResolved,
     UnsupportedScene,
 )
-from contact_scene.stepping.checkpoint import (
-    Checkpoint,
-    ResumePoint,
-)
-from semi_analytical import solve_discretised
 from slipstick.solvers.on_cells import OnCells
 
 R, E, NU = 10e-3, 70e9, 0.3
@@ -158,35 +151,6 @@ def test_a_constant_map_is_known_within_its_extent_only() -> None:
         slipstick.solve(scene(PRESS, friction=small), discretisation=COARSE["semi-analytical"])
 
 
-@pytest.mark.parametrize("value", [0.3, None])
-def test_a_window_that_cannot_grow_is_solved_once_however_slow_the_machine(
-    value: float | None, tmp_path: Path
-) -> None:
-    values = np.random.default_rng(1).uniform(0.2, 0.4, (10, 10)) if value is None else value
-    small = CoulombFriction.model_validate(
-        {"coefficient": {"map": np.broadcast_to(values, (10, 10)).copy(), "spacing": 5e-6}}
-    )
-    starts = []
-    store = CheckpointDirectory(tmp_path / "kept", "of this scene", print, seconds_between=0.0)
-    with pytest.raises(ContactAtWindowEdge, match="friction map"):
-        solve_discretised(
-            scene(*({"normal_force": f, "increments": 1} for f in (1e-3, 100.0)), friction=small),
-            SurfaceDiscretisation(cells=(32, 32)),
-            progress=lambda i: starts.append(i) if (i.step, i.index) == (1, 1) else None,
-            store=store,
-        )
-    assert len(starts) == 1
-    # A solve that begins again on the same grid replaces the parts of the first.
-    mark, (first,) = ResumePoint(1, None, None), starts
-    for _ in range(2):
-        store.keep(Checkpoint((first,), mark, "grid"))
-    store.close()
-    other = CheckpointDirectory(tmp_path / "kept", "of this scene", print, seconds_between=0.0)
-    kept = other.last()
-    assert kept is not None
-    assert len(kept.increments) == 1
-
-
 # Scenes that have no answer are refused before the work, with their reason.
 
 
@@ -236,22 +200,6 @@ def test_a_sphere_pressed_to_its_equator_is_refused_by_name(
             call(asked, solver)
     below = scene({"approach": 0.5 * R}, indenter=Sphere(material=RIGID, radius=R))
     assert slipstick.plan(below, solver)
-
-
-def test_windows_and_meshes_below_the_expected_contact_are_remarked() -> None:
-    small = {
-        "semi_analytical": SurfaceDiscretisation(window=(2e-4, 2e-3)),
-        "fem_reference": FiniteElementDiscretisation(contact_radius=1e-4),
-    }
-    large = {
-        "semi_analytical": SurfaceDiscretisation(window=(2e-3, 2e-3)),
-        "fem_reference": FiniteElementDiscretisation(contact_radius=1e-3),
-    }
-    keys = [remark.partition(":")[0] for remark in implausible(BARE, **small)]
-    assert keys == ["semi_analytical.window", "fem_reference.contact_radius"]
-    assert implausible(BARE, **large) == ()
-    punch = scene({"approach": 1e-6}, indenter=FlatPunch(material=RIGID, radius=1e-3))
-    assert len(implausible(punch, **small)) == 2
 
 
 def test_a_contact_on_a_layer_of_many_radii_is_laid_out_without_a_solve() -> None:
