@@ -34,7 +34,7 @@ LONGEST = (
     "test_code_quality", "test_seeded_defects", "test_error_coverage_truths", "test_accuracy",
     "test_examples", "test_tables", "test_size_bombs",
     "test_influence_layered", "test_fem_compliance", "test_work_precision", "test_study_running",
-    "test_verification_resumed", "test_threads", "test_run_output", "test_promises",
+    "test_threads", "test_run_output", "test_promises",
     "test_stress_command", "test_cli", "test_memory_estimate", "test_stated_errors",
     "test_verification_command", "test_checkpoint",
     "test_energy_balance", "test_convergence_studies", "test_study_stability",

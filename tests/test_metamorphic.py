@@ -2,7 +2,21 @@
 
 import numpy as np
 import pytest
-from contact_scenes import LIMIT, LOAD, MU, NU, PRESS, RADIUS, YOUNG, A, grid, push, scene, steel
+from contact_scenes import (
+    APPROACH,
+    LIMIT,
+    LOAD,
+    MU,
+    NU,
+    PRESS,
+    RADIUS,
+    YOUNG,
+    A,
+    grid,
+    push,
+    scene,
+    steel,
+)
 
 from contact_scene import (
     Body,
@@ -12,8 +26,21 @@ from contact_scene import (
     LoadStep,
     Paraboloid,
     Scene,
+    SurfaceDiscretisation,
 )
-from semi_analytical import SurfaceGrid, plan, solve
+from semi_analytical import (
+    ContactAtWindowEdge,
+    ContactNotResolved,
+    NotConverged,
+    ResourceRefused,
+    SurfaceGrid,
+    UnsupportedScene,
+    memory,
+    plan,
+    solve,
+    solve_discretised,
+)
+from semi_analytical.increments import stick_slip
 
 TOLERANCE = 1e-9
 # Solutions agree to the tolerance, not to round-off, where the arithmetic takes another path.
@@ -109,3 +136,70 @@ def test_friction_and_force_in_proportion_leave_the_stick_zone(factor):
     more = solve(scene(PRESS, push(0.7 * factor), friction=MU * factor), grid(), TOLERANCE)
     assert_close(more.steps[-1].shear, factor * plain.shear)
     assert more.steps[-1].stick_area == pytest.approx(plain.stick_area, rel=SAME)
+
+
+# ---- What the solver refuses, it refuses by name, with what to do, and without a half answer.
+
+
+LOOSE = 1e-8
+
+
+def test_contact_at_the_edge_of_the_window_is_refused():
+    with pytest.raises(ContactAtWindowEdge, match=r"step 1.*larger window"):
+        solve(scene(PRESS), grid(contacts=0.9), LOOSE)
+
+
+def test_contact_that_grows_to_the_edge_names_the_step_and_keeps_the_state_before():
+    with pytest.raises(ContactAtWindowEdge, match="step 2") as caught:
+        solve(scene(PRESS, {"normal_force": 1e5}), grid(), LOOSE)
+    assert caught.value.last_state.normal_force == pytest.approx(1e3)
+
+
+@pytest.mark.parametrize("cells", [31, 32])
+def test_contact_between_the_cell_centres_is_refused(cells):
+    tiny = {"approach": 1e-7 * APPROACH}
+    on = grid(cells)
+    asked = SurfaceDiscretisation(cells=on.cells, window=on.window)
+    touched = r"1 of them carry" if cells % 2 else r"no cell .* touches"  # a centre is at the tip
+    with pytest.raises(ContactNotResolved, match=touched):
+        solve_discretised(scene(tiny, friction=None), asked)
+
+
+def test_a_friction_map_that_ends_within_the_window_is_refused():
+    friction = {"map": np.full((8, 9), 0.1), "spacing": (2.9 * A / 8, 4 * A / 9)}
+    with pytest.raises(UnsupportedScene, match=r"friction.*\|x\|.*at most"):
+        solve(scene(PRESS, push(0.5), friction=friction), grid(), LOOSE)
+
+
+def test_more_memory_than_there_is_is_refused_before_any_is_taken():
+    enormous = SurfaceGrid((2**20, 2**20), (3 * A, 3 * A))
+    with pytest.raises(ResourceRefused, match=r"GiB.*fewer cells"):
+        solve(scene(PRESS), enormous, LOOSE)
+
+
+def test_memory_grows_with_cells_increments_and_shear(monkeypatch):
+    small = plan(scene(PRESS, friction=None))
+    sheared, long = plan(scene(PRESS, push(0.5))), plan(scene(PRESS, push(0.5, increments=50)))
+    sizes = [memory.estimated_bytes(grid(64), p) for p in (small, sheared, long)]
+    assert sizes == sorted(sizes)
+    large, larger = (memory.estimated_bytes(grid(cells), sheared) for cells in (1024, 2048))
+    drawn = memory.DRAWING + memory.DRAWING_SHEAR
+    fixed = memory.estimated_bytes(grid(16), sheared) - drawn
+    assert larger - fixed == pytest.approx(4 * (large - fixed), rel=0.2)
+    monkeypatch.setattr(memory, "available_bytes", lambda: sizes[1])
+    memory.refuse_if_too_large(grid(64), sheared)
+    with pytest.raises(ResourceRefused):
+        memory.refuse_if_too_large(grid(64), long)
+
+
+def test_not_converged_says_where_and_carries_the_last_good_state(monkeypatch):
+    def fail(*_, **__):
+        raise NotConverged("the shear", 7, 1e-3, LOOSE)
+
+    seen = []
+    monkeypatch.setattr(stick_slip, "shear", fail)
+    with pytest.raises(NotConverged, match=r"step 2, increment 1 of 2.*1\.00e-03.*7") as caught:
+        solve(scene(PRESS, push(0.5, increments=2)), grid(), LOOSE, seen.append)
+    error = caught.value
+    assert (error.iterations, error.residual, error.tolerance) == (7, 1e-3, LOOSE)
+    np.testing.assert_array_equal(error.last_state.pressure, seen[-1].pressure)

@@ -1,17 +1,50 @@
 """The FFT operators are the dense matrices of the influence coefficients."""
 
+from dataclasses import replace
+
+import coupled_scenes
 import numpy as np
 import pytest
-from contact_scenes import steel
+from contact_scenes import (
+    APPROACH,
+    INDENTERS,
+    LIMIT,
+    LOAD,
+    MU,
+    PRESS,
+    RADIUS,
+    A,
+    bump,
+    grid,
+    push,
+    scene,
+    slide,
+    steel,
+)
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from contact_scene import RIGID, Body, IsotropicMaterial, Layer, Paraboloid
+from contact_scene import (
+    RIGID,
+    Body,
+    Ellipsoid,
+    FrictionMap,
+    HeightMap,
+    IsotropicMaterial,
+    Layer,
+    Paraboloid,
+)
+from contact_scene.geometry import Gap
+from semi_analytical import SurfaceGrid, all_effects, one_way, plan, solve
 from semi_analytical.influence.bodies import influence_coefficients
-from semi_analytical.operator.domain import WINDOW
-from semi_analytical.operator.operator import DisplacementOperator, inverse_2x2
+from semi_analytical.model import ContactModel
+from semi_analytical.operator.box import box_around
+from semi_analytical.operator.domain import QUARTER, WINDOW, ReducedDomain
+from semi_analytical.operator.operator import BINS, DisplacementOperator, inverse_2x2
 from semi_analytical.operator.slip_compliance_bins import STIFFNESSES
-from semi_analytical.operator.transforms import Convolutions, offsets_for
+from semi_analytical.operator.transforms import MAX_BY_MATRIX, Convolutions, offsets_for
+from semi_analytical.plan import MIRROR_PLANES
+from verification.problems.shifted_grid import ShiftedGrid
 
 SHAPES = [(6, 5), (2, 7), (7, 11), (16, 8), (13, 17), (31, 3)]
 SPACINGS = [(1.0, 1.0), (0.3, 1.7)]
@@ -133,3 +166,309 @@ def test_inverse_has_the_magnitudes_of_the_eigenvalues(xx, yy, xy):
     got = inverse_2x2(*(np.array([[value]]) for value in (xx, yy, xy)))
     got = np.array([[got[0], got[2]], [got[2], got[1]]]).reshape(2, 2)
     np.testing.assert_allclose(got, expected, atol=1e-10 * np.max(np.abs(expected)))
+
+
+# ---- Every domain gives the result of the full window: its operators, and whole load historie
+
+
+REDUCED_ROUND_OFF, SINGLE = 1e-14, 3e-6
+HALF_X, HALF_Y = ReducedDomain((True, False)), ReducedDomain((False, True))
+ALONG_X, ALONG_Y, TWISTED = (ReducedDomain((True, True), s) for s in ((-1, 1), (1, -1), (-1, -1)))
+DOMAINS = (
+    *(QUARTER, ALONG_X, ALONG_Y, TWISTED, HALF_X, HALF_Y),
+    *(ReducedDomain((True, False), (-1, 1)), ReducedDomain((False, True), (1, -1))),
+)
+COUPLED = (QUARTER, HALF_X, HALF_Y)
+LONG = MAX_BY_MATRIX + 2
+
+
+def reduced_operator(domain, window, counter=None):
+    """Of coupled bodies, on a domain of so many cells of the window."""
+    described = coupled_scenes.scene(PRESS)
+    cells, counter = domain.cells(window), counter or Convolutions()
+    K = influence_coefficients(
+        described.body, described.indenter, (0.3 * A, 0.5 * A), offsets_for(window)
+    )
+    return DisplacementOperator(K, cells, domain, counter)
+
+
+def off(found, expected):
+    return np.max(np.abs(found - expected)) / np.max(np.abs(expected))
+
+
+@pytest.mark.parametrize("window", [(2, 4), (12, 14), (26, 2 * LONG), (2 * LONG, 98)], ids=str)
+@pytest.mark.parametrize("domain", DOMAINS, ids=str)
+def test_operators_on_a_domain_are_those_on_the_window(domain, window, rng):
+    A_window, A_domain, extend = (
+        reduced_operator(WINDOW, window),
+        reduced_operator(domain, window),
+        domain.extend,
+    )
+    odd = ReducedDomain(domain.mirrors, (1, -1))  # its x is odd about all planes, as bins are
+    q, p, bins = np.split(rng.standard_normal((3 + len(BINS), *domain.cells(window))), [2, 3])
+
+    def extended(values):
+        """Tangential components, then the scalar if there is one, then bins."""
+        tangential, scalar, some = np.split(values, [2, len(values) - len(BINS)])
+        return np.concatenate(
+            [
+                extend(tangential),
+                [extend(one) for one in scalar] or np.zeros((0, *window)),
+                [odd.extend(np.stack([one, one]))[0] for one in some],
+            ]
+        )
+
+    for name in ("normal", "precondition"):
+        found = getattr(A_domain, name)(p[0])
+        assert off(extend(found), getattr(A_window, name)(extend(p[0]))) < REDUCED_ROUND_OFF
+    assert off(extend(A_domain.tangential(q)), A_window.tangential(extend(q))) < REDUCED_ROUND_OFF
+    some = np.concatenate([q, bins])
+    found = A_domain.shear_inverse(some)
+    assert off(extended(found), A_window.shear_inverse(extended(some))) < REDUCED_ROUND_OFF
+    if domain not in COUPLED:
+        return
+    P, Q = extend(p[0]), extend(q)
+    assert off(extend(A_domain.normal_by_shear(q)), A_window.normal_by_shear(Q)) < REDUCED_ROUND_OFF
+    found = A_domain.tangential_by_pressure(p[0])
+    assert off(extend(found), A_window.tangential_by_pressure(P)) < REDUCED_ROUND_OFF
+    found, expected = (
+        A_domain.together(np.concatenate([q, p])),
+        A_window.together(np.concatenate([Q, P[None]])),
+    )
+    assert off(extend(found[:2]), expected[:2]) < REDUCED_ROUND_OFF
+    assert off(extend(found[2]), expected[2]) < REDUCED_ROUND_OFF
+    some = np.concatenate([q, p, bins])
+    for softer in (0.0, 2 * A_window.self_compliance):
+        approximate = [one.inverse.yielding(softer) for one in (A_domain, A_window)]
+        found = approximate[0](some)
+        assert found.dtype == np.float32
+        assert off(extended(found), approximate[1](extended(some))) < SINGLE
+
+
+@pytest.mark.parametrize("domain", DOMAINS, ids=str)
+def test_the_box_on_a_domain_is_its_part_of_that_on_the_window(domain, rng):
+    for _ in range(50):
+        marked_cells = np.zeros(rng.integers(1, 60, 2), dtype=bool)
+        marked_cells.flat[rng.integers(marked_cells.size)] = True
+        on_window = box_around(domain.extend(marked_cells), 4)
+        on_domain = box_around(marked_cells, 4, domain)
+        assert domain.window(on_domain.shape) == on_window.shape
+        begins = np.subtract(domain.window(marked_cells.shape), marked_cells.shape)
+        at = np.where(domain.mirrors, begins, on_window.first)
+        assert tuple(np.add(on_domain.first, begins)) == tuple(at)
+
+
+def even_map(cells=40, spacing=4 * A / 40, order=1.0):
+    """A coefficient of friction that varies along x and along y."""
+    x = (np.arange(cells) - 0.5 * (cells - 1)) * spacing / A
+    waves = np.cos(2 * x)[:, None] + order * np.cos(3 * x)
+    return FrictionMap(map=MU * (1 + 0.2 * waves), spacing=spacing)
+
+
+@pytest.mark.parametrize("domain", DOMAINS, ids=str)
+def test_friction_varies_on_a_box_as_on_the_window(domain):
+    model = ContactModel.of(scene(PRESS, friction=even_map()), grid(32, 0.9), domain)
+    expected = domain.restrict(model.friction.limit(np.ones((32, 32))))
+    np.testing.assert_array_equal(model.friction_limit(np.ones(model.grid.cells)), expected)
+    found = model.friction_limit(np.ones((5, 7)), first=(3, 2))
+    np.testing.assert_array_equal(found, expected[3:8, 2:9])
+
+
+# Least scales of what results are compared by: slip, energies and motions may vanish.
+SCALES = {
+    **dict.fromkeys(("pressure", "peak_pressure"), lambda i: np.max(i.pressure)),
+    "shear": lambda i: MU * np.max(i.pressure),
+    **dict.fromkeys(("gap", "approach"), lambda i: max(i.approach, 1e-3 * APPROACH)),
+    **dict.fromkeys(("slip", "slip_distance", "tangential_shift"), lambda i: 1e-2 * i.approach),
+    "twist": lambda i: 1e-2 * i.approach / A,
+    "normal_force": lambda i: i.normal_force,
+    "tangential_force": lambda i: MU * i.normal_force,
+    "torque": lambda i: MU * i.normal_force * A,
+    # Fits of the edge magnify what pressures differ by.
+    "contact_area": lambda i: 30 * i.contact_area,
+    **dict.fromkeys(
+        ("elastic_energy", "input_work", "dissipated_energy", "unresolved_work"),
+        lambda i: i.elastic_energy,
+    ),
+}
+
+
+def assert_same(found, expected, same, repeated=0):
+    """Two runs, up to this part of the scales, and up to the iterations of a repeated solve."""
+    for a, b in zip(found.increments, expected.increments, strict=True):
+        assert a.status == b.status
+        for name, scale in SCALES.items():
+            one, other = getattr(a, name), getattr(b, name)
+            assert (one is None) == (other is None), name
+            if one is None:
+                continue
+            open_ = np.isfinite(other)
+            np.testing.assert_array_equal(np.isfinite(one), open_)
+            largest = np.max(np.abs(np.asarray(one)[open_] - np.asarray(other)[open_]))
+            size = max(scale(b), np.max(np.abs(np.asarray(other)[open_])))
+            assert largest <= same * size, name
+        # An increment that just misses the tolerance is solved once more.
+        assert a.iterations == pytest.approx(b.iterations, abs=repeated)
+
+
+def drawn(load, coupled, seed):
+    """A symmetric scene under normal loads and one kind of load beside, with its grid."""
+    rng = np.random.default_rng(seed)
+    name = str(rng.choice(list(INDENTERS)))
+    indenter, mu = INDENTERS[name], MU
+    body = scene(PRESS).body
+    if coupled:
+        indenter, mu = indenter.model_copy(update={"material": RIGID}), float(rng.choice([MU, 0.4]))
+        film = coupled_scenes.coated(float(rng.choice([0.25, 4.0])), rng.uniform(0.3, 1.5))
+        body = film if rng.random() < 0.5 else coupled_scenes.bulk(rng.uniform(0, 0.4))
+    elif rng.random() < 0.3:
+        layer = Layer(thickness=0.5 * A, material=steel(young_modulus=840e9))
+        indenter, body = (b.model_copy(update={"layers": (layer,)}) for b in (indenter, body))
+    steps = [dict(PRESS, increments=2)]
+    for _ in range(rng.integers(1, 4)):
+        size, more = rng.uniform(-0.9, 0.9) * mu / MU, {}
+        along = np.eye(2)[int(load == "y")] * size
+        if load in ("x", "y"):
+            more = push(*along) if rng.random() < 0.6 else slide(*3 * along)
+        elif load == "twist":
+            more = {"twist": 0.1 * size * APPROACH / A}
+            if name != "flat punch" and rng.random() < 0.5:
+                more = {"torque": 0.4 * size * LIMIT * A}
+            if rng.random() < 0.5:
+                more["tangential_shift"] = (0.0, 0.0)
+        if rng.random() < 0.4 or load == "none":
+            more["normal_force"] = rng.uniform(0.95, 1.4) * LOAD
+        steps.append(dict(more, increments=int(rng.integers(1, 3))))
+    friction = even_map(order=rng.uniform(0, 1)) if load != "twist" and seed % 3 == 2 else mu
+    sides = rng.uniform(2.8, 3.8, 2) * A * (np.array([1.0, 2.0]) if name == "ellipsoid" else 1.0)
+    if isinstance(friction, FrictionMap):
+        sides = np.minimum(sides, 3.9 * A)
+    cells = tuple(int(n) for n in 2 * rng.integers(9, 20, 2))
+    described = coupled_scenes.scene(*steps, friction=friction, indenter=indenter, body=body)
+    return described, SurfaceGrid(cells, tuple(float(side) for side in sides))
+
+
+@pytest.mark.parametrize(
+    ("load", "coupled", "domain"),
+    [
+        ("none", False, QUARTER),
+        ("x", False, ALONG_X),
+        ("y", False, ALONG_Y),
+        ("twist", False, TWISTED),
+        ("none", True, QUARTER),
+        ("x", True, HALF_Y),
+        ("y", True, HALF_X),
+    ],
+)
+def test_a_reduced_domain_gives_the_result_of_the_window(load, coupled, domain):
+    described, on = drawn(load, coupled, seed=2)  # friction varies along x and y
+    decided = plan(described)
+    assert decided.symmetry == domain
+    runs = (
+        solve(described, on, 1e-11, plan=replace(decided, symmetry=d)) for d in (domain, WINDOW)
+    )
+    assert_same(*runs, 4e-10, repeated=12)
+
+
+@pytest.mark.parametrize("make", [scene, coupled_scenes.scene], ids=["alike", "coupled"])
+def test_a_domain_has_the_edges_of_the_window(make):
+    described, on = make(dict(PRESS, increments=2), push(0.5, increments=2)), grid(48, 1.2)
+    decided = plan(described, edge="last")
+    runs = [
+        solve(described, on, 1e-11, plan=replace(decided, symmetry=d))
+        for d in (decided.symmetry, WINDOW)
+    ]
+    for a, b in zip(*(run.increments for run in runs), strict=True):
+        assert (a.edge_change is None) == (b.edge_change is None)
+        assert off(a.pressure, b.pressure) < 1e-6
+        assert np.max(np.abs(a.shear - b.shear)) <= 1e-6 * MU * np.max(b.pressure)
+    assert runs[0].increments[-1].edge_change is not None
+
+
+class Leaf(Ellipsoid):
+    """Derived from an even shape, but not even itself."""
+
+    def initial_gap(self, x, y) -> Gap:
+        """Along a diagonal."""
+        return super().initial_gap(np.add(x, y), np.subtract(x, y))
+
+
+LEAF = Leaf(radii=(RADIUS, 2 * RADIUS), material=steel())
+UNEVEN = FrictionMap(map=even_map().map.values, spacing=0.1 * A, origin=(0.05 * A, 0.0))
+COUPLED_PRESS = dict(PRESS, increments=1)
+ON_THE_WINDOW = {
+    "oblique": (scene(PRESS, push(0.3, 0.2)), "no mirror plane in common"),
+    "x, then y": (scene(PRESS, push(0.3), push(0, 0.2)), "no mirror plane in common"),
+    "pushed and twisted": (scene(PRESS, {**push(0.3), "twist": 1e-4}), "twists and is pushed"),
+    "coupled, twisted": (
+        coupled_scenes.scene(COUPLED_PRESS, {"twist": 1e-4}), "no mirror plane in common",
+    ),
+    "uneven friction": (scene(PRESS, push(0.3), friction=UNEVEN), "friction is not symmetric"),
+    "tilted": (scene({**PRESS, "tilt": (1e-4, 0.0)}), "tilts"),
+    "uneven indenter": (scene(PRESS, indenter=LEAF), "does not declare symmetry"),
+    "uneven map": (
+        scene(
+            PRESS,
+            indenter=HeightMap(file=bump(64, A / 16)[1:], spacing=A / 16, material=steel()),
+        ),
+        "does not declare symmetry",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("described", "because"), ON_THE_WINDOW.values(), ids=ON_THE_WINDOW)
+def test_what_no_plane_mirrors_is_solved_on_the_window(described, because):
+    decided = plan(described)
+    assert decided.symmetry == WINDOW
+    assert because in next(e.why for e in decided.effects if e.name == MIRROR_PLANES)
+
+
+REDUCED = {
+    "pressed": (scene(PRESS), QUARTER),
+    "along x": (scene(PRESS, push(0.9), push(-0.4)), ALONG_X),
+    "along y": (scene(PRESS, slide(0, 0.9), slide(0, 20)), ALONG_Y),
+    "twisted": (scene(PRESS, {"torque": 0.1 * LIMIT * A}, {"twist": 0.0}), TWISTED),
+    "coupled": (coupled_scenes.scene(COUPLED_PRESS), QUARTER),
+    "coupled, along x": (coupled_scenes.scene(COUPLED_PRESS, push(0.5), push(1.0)), HALF_Y),
+    "coupled, slid along y": (coupled_scenes.scene(COUPLED_PRESS, slide(0, 30)), HALF_X),
+}
+
+
+@pytest.mark.parametrize(("described", "domain"), REDUCED.values(), ids=REDUCED)
+def test_the_plan_finds_the_planes_of_a_scene(described, domain):
+    decided = plan(described)
+    assert decided.symmetry == domain
+    assert all_effects(decided).symmetry == WINDOW
+    assert one_way(decided).symmetry == (domain if decided.couples else WINDOW)
+
+
+@pytest.mark.parametrize("offset", [(0.0, 0.0), (0.5, 0.0), (0.1, 0.35)])
+def test_cells_beside_the_axis_are_solved_on_the_window(offset):
+    """The indenter is even, but not its gap at the cells."""
+    beside = ShiftedGrid((8, 8), (3 * A, 3 * A), offset)
+    domain = ContactModel.of(scene(PRESS), beside, QUARTER).domain
+    assert (domain == QUARTER) == (offset == (0.0, 0.0))
+
+
+class Liar(Paraboloid):
+    """Declares symmetry, which it has along x alone."""
+
+    @property
+    def is_even(self) -> bool:
+        """No."""
+        return True
+
+    def initial_gap(self, x, y) -> Gap:
+        """Off the middle."""
+        return super().initial_gap(x, np.subtract(y, 0.01 * A))
+
+
+def test_a_false_declaration_of_symmetry_is_refused():
+    with pytest.raises(ValueError, match=r"declares symmetry .* its gap differs"):
+        solve(scene(PRESS, indenter=Liar(radius=RADIUS, material=steel())), grid(), 1e-8)
+    gap = bump(6, A) - 1.0
+    gap[0, 0] *= 1 + 1e-15  # round-off, as at the cells of a map that dips below its lowest height
+    QUARTER.require_even(gap)
+    gap[0, 0] *= 1 + 1e-6
+    with pytest.raises(ValueError, match="its gap differs"):
+        QUARTER.require_even(gap)

@@ -1,18 +1,21 @@
 """How many workers compute cases, in what order and beside whom: the records are the same bytes."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import pytest
-from study_cases import Loop, Number, Square
+from command import outcome
+from study_cases import Killed, Loop, Number, Refusing, Square
 
-from verification.running.case_pool import run_cases
+from verification.running.case_pool import OTHER_CODE, run_cases
 from verification.running.case_store import CaseStore, DamagedRecord
+from verification.running.cluster import ClusterUnavailable, ClusterWorkers
 from verification.running.study import StudyCase
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -96,3 +99,110 @@ def test_a_record_that_is_half_written_would_be_seen(tmp_path: Path) -> None:
     path.write_bytes(path.read_bytes()[:-40])
     with pytest.raises(DamagedRecord):
         store.load(Square(2.0))
+
+
+# ---- Cases on a dask cluster: the same records as here, and only from the same sources.
+
+
+def test_address_that_is_none_is_refused_with_what_one_looks_like() -> None:
+    for address in ("localhost:8786", "http://localhost", "", "tcp:/x"):
+        with pytest.raises(ClusterUnavailable, match="tcp://host:port or tls://host:port"):
+            ClusterWorkers(address)
+
+
+@pytest.mark.parametrize("command", [["verify"], ["maintain", "study", "coated-tractions"]])
+def test_command_refuses_before_any_work(command: list[str], tmp_path: Path) -> None:
+    ended = outcome(*command, "--scheduler", "localhost:8786", cwd=tmp_path)
+    assert ended.returncode == 2
+    assert "tcp://host:port" in ended.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.fixture(scope="module")
+def address() -> Iterator[str]:
+    distributed = pytest.importorskip("distributed")
+    with distributed.LocalCluster(
+        n_workers=3, threads_per_worker=1, dashboard_address=None
+    ) as local:
+        yield local.scheduler_address
+
+
+@pytest.mark.slow
+def test_cluster_gives_the_records_and_names_what_is_lost(address: str, tmp_path: Path) -> None:
+    cases = (Square(1.0), Refusing(20.0), Square(2.0), Killed(30.0), Square(3.0))
+    store = CaseStore(tmp_path, Number)
+    ends = run_cases(cases, store, ClusterWorkers(address), lambda end: None)
+    dead = [warning for end in ends for warning in end.warnings]
+    assert any(re.fullmatch(r"worker tcp://\S+ has died: its cases go to .*", one) for one in dead)
+    values = {end.case.name: end.record.value for end in ends if isinstance(end.record, Number)}
+    assert values == {"square-1": 1.0, "square-2": 4.0, "square-3": 9.0}
+    lost = {end.lost.name: end.lost.reason for end in ends if end.lost is not None}
+    assert lost["square-20"] == "ArithmeticError: no square today"
+    assert lost["square-30"].startswith("KilledWorker")
+    processes = {end.record.process for end in ends if isinstance(end.record, Number)}
+    assert os.getpid() not in processes
+    assert store.load(cases[0]) == ends[0].record
+
+
+@pytest.fixture
+def certificate(tmp_path: Path) -> Path:
+    """A directory with the certificate and key that the documentation tells to make."""
+    told = (ROOT / "docs" / "howto" / "clusters.md").read_text(encoding="utf-8")
+    (command,) = re.findall(r"openssl req .+", told)
+    subprocess.run(command.split(), cwd=tmp_path, check=True, capture_output=True)
+    return tmp_path
+
+
+@pytest.mark.slow
+def test_cluster_with_certificates_lets_in_who_has_them_alone(
+    certificate: Path, tmp_path: Path
+) -> None:
+    distributed, dask = pytest.importorskip("distributed"), pytest.importorskip("dask")
+    own = {"cert": str(certificate / "cert.pem"), "key": str(certificate / "key.pem")}
+    settings = {
+        "distributed.comm.require-encryption": True,
+        "distributed.comm.tls.ca-file": own["cert"],
+        **{f"distributed.comm.tls.{role}": own for role in ("scheduler", "worker", "client")},
+    }
+    with dask.config.set(settings):
+        security = distributed.Security()
+        local = distributed.LocalCluster(
+            n_workers=1, threads_per_worker=1, dashboard_address=None,
+            protocol="tls://", security=security,
+        )  # fmt: skip
+    with local:
+        assert local.scheduler_address.startswith("tls://")
+        with pytest.raises(ClusterUnavailable):
+            ClusterWorkers(local.scheduler_address)
+        with dask.config.set(settings):
+            workers = ClusterWorkers(local.scheduler_address)
+            store = CaseStore(tmp_path / "records", Number)
+            (end,) = run_cases([Square(3.0)], store, workers, lambda end: None)
+    assert isinstance(end.record, Number)
+    assert end.record.value == 9.0
+
+
+@pytest.mark.slow
+def test_workers_of_other_sources_are_refused(
+    address: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("verification.running.case_pool.code_digest", lambda: b"other")
+    (end,) = run_cases([Square(1.0)], CaseStore(tmp_path, Number), ClusterWorkers(address), print)
+    assert end.record is None
+    assert end.lost is not None
+    assert end.lost.reason == OTHER_CODE
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(900)
+def test_verification_on_a_cluster_gives_the_report_of_this_machine(
+    address: str, tmp_path: Path
+) -> None:
+    from slipstick.cli.commands.verify import judged
+    from verification.cases.catalogue import choose
+    from verification.judging.case import Level
+
+    cases = choose(Level.QUICK, ("dissimilar_bodies", "fem_torsion"))
+    here, *_ = judged(cases, "QUICK", tmp_path / "here", 1, fresh=False)
+    there, *_ = judged(cases, "QUICK", tmp_path / "there", ClusterWorkers(address), fresh=False)
+    assert there == here
