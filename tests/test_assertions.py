@@ -21,7 +21,7 @@ def asserts(node: ast.AST) -> bool:
 
 def runs(loop: ast.expr, known: dict[str, ast.expr]) -> bool:
     """The iterable has entries: a literal, a constant of the module or an imported one, the
-    increments of a result (`test_history`), or a function of these."""
+    increments of a result (`test_stick_slip`), or a function of these."""
     match loop:
         case ast.Name(id=name):
             return name in known and (known[name] is IMPORTED or runs(known[name], {}))

@@ -10,16 +10,15 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from gallery_claims import SCENES, Claim, Found, Verdict, found
-from gallery_entries import ENTRIES
-from made_gallery import Unexpected, refuse_unexpected
-from made_notebooks import notebook
-
-from verification.exhibits.picture import Picture
-from verification.report.svg import image_address
-from verification.showcase import showcase
 
 ROOT = Path(__file__).resolve().parents[1]
+sys.path.append(str(ROOT / "docs"))
+
+from gallery_claims import SCENES, Claim, Found, Verdict, found  # noqa: E402
+from gallery_entries import ENTRIES  # noqa: E402
+from made_gallery import Unexpected, refuse_unexpected  # noqa: E402
+from made_notebooks import notebook  # noqa: E402
+
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 
 
@@ -50,10 +49,6 @@ def test_python_in_the_readme_runs(tmp_path: Path) -> None:
 
 
 # ---- The gallery: every verdict is the one that its page speaks of.
-
-
-DOCS = Path(__file__).resolve().parents[1] / "docs"
-sys.path.append(str(DOCS))
 
 
 @pytest.mark.parametrize("entry", ENTRIES, ids=lambda entry: entry.scene)
@@ -126,35 +121,3 @@ def test_a_notebook_solves_its_scene_and_shows_its_figures(
         exec(cell, names)
     assert {path.name for path in shown} >= {"overview.png", "profiles.png"}
     assert "peak_pressure: 3168" in capsys.readouterr().out
-
-
-# ---- The contact on the front of a report: drawn the same every time, in few bytes, as an ima
-
-
-LARGEST = 120_000  # bytes of one picture on the page
-
-
-@pytest.fixture(scope="module")
-def pictures() -> tuple[Picture, ...]:
-    return showcase()
-
-
-def test_equal_solves_give_equal_bytes(pictures: tuple[Picture, ...]) -> None:
-    assert showcase() == pictures
-
-
-def test_pictures_are_small_and_name_themselves(pictures: tuple[Picture, ...]) -> None:
-    assert [one.name for one in pictures] == ["pressure", "shear", "zones", "section"]
-    for one in pictures:
-        address = image_address(one)
-        assert address.startswith("data:image/svg+xml,")
-        assert len(address) < LARGEST
-        assert one.title
-        assert one.caption
-
-
-def test_fields_are_images_and_their_axes_are_text(pictures: tuple[Picture, ...]) -> None:
-    assert pictures
-    for one in pictures:
-        assert "data:image/png" in one.svg
-        assert len(re.findall("<text", one.svg)) > 8

@@ -154,7 +154,7 @@ def test_solver_that_gives_up_fails_and_the_rest_is_still_judged() -> None:
 
 ROOT = Path(__file__).resolve().parents[1]
 # Of every kind: on a surface grid, on a section, and without a solve.
-RESUMED_CASES = ("dissimilar_bodies", "fem_indentation", "flat_punch", "layered_identities")
+RESUMED_CASES = ("dissimilar_bodies", "fem_far_field", "tilted_punch", "worked_examples")
 PROGRAM = f"""
 import sys
 sys.path.insert(0, {str(ROOT)!r})
@@ -221,7 +221,7 @@ def test_damaged_record_is_named_and_computed_again(uninterrupted: Path, tmp_pat
     target.mkdir()
     for path in (uninterrupted / "cases").glob("[a-z]*.json"):
         content = path.read_bytes()
-        damaged = path.name.startswith("layered_identities")
+        damaged = path.name.startswith("worked_examples")
         (target / path.name).write_bytes(content[:-100] if damaged else content)
     again = outcome("verify", *RESUMED_CASES, "-o", tmp_path, "--workers", "1", cwd=tmp_path.parent)
     log = again.stderr
