@@ -36,10 +36,7 @@ from contact_scene import (
 )
 from contact_scene.discretisation import EdgeCorrection
 from contact_scene.quantities import stored_fields
-from contact_scene.quantities.stored_fields import (
-    StoredArray,
-    WithFields,
-)
+from contact_scene.quantities.stored_fields import WithFields
 from contact_scene.solver_errors import GrossSliding
 from contact_scene.stepping.checkpoint import (
     Checkpoint,
@@ -274,27 +271,6 @@ def test_file_of_a_stranger_runs_nothing(protocol: int, tmp_path: Path) -> None:
     with pytest.raises(Unusable, match="does not belong into a checkpoint"):
         unpacked(forged(content, tmp_path), "this solve")
     assert not (tmp_path / "made").exists()
-
-
-def test_arrays_of_other_types_and_fields_of_other_files_are_not_read(tmp_path: Path) -> None:
-    (tmp_path / "secret").write_bytes(bytes(range(64)))
-    array = b"ccontact_results.directory.checkpoint_file\narray\n"
-
-    class Field:
-        def __reduce__(self) -> Any:
-            return StoredArray, (str(tmp_path / "secret"), 0, "u1", (64,))
-
-    structured = np.zeros(3, [("a", "O"), ("b", "V8")])
-    for content in (
-        pickle.dumps(structured, 5),
-        pickle.dumps(np.arange(3.0), 5),
-        pickle.dumps(np.dtype([("a", "f8")]), 2),
-        pickle.dumps(Field(), 2),
-        array + b"(V|O\nB\x08\x00\x00\x00abcdefgh(I1\ntI00\ntR.",
-        array + b"(V<f8\nB\x08\x00\x00\x00abcdefgh(I2\ntI00\ntR.",
-    ):
-        with pytest.raises(Unusable, match=r"does not belong into a checkpoint|is damaged"):
-            unpacked(forged(content, tmp_path), "this solve")
 
 
 @pytest.mark.parametrize(

@@ -168,17 +168,6 @@ def test_package_runs_as_the_command() -> None:
 # ---- check and schema -------------------------------------------------------------------------
 
 
-def test_check_describes_the_scene(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert slipstick("check", scene, "--set", "friction.coefficient=0.25") == 0
-    shown = " ".join(capsys.readouterr().out.split())
-    assert "paraboloid, radius 18 mm, material (young modulus 420 GPa, poisson ratio 0.3)" in shown
-    assert "friction coefficient 0.25" in shown
-    assert "tangential force (-90 N, 0 N), increments 2" in shown
-    assert "edge last" in shown
-    assert slipstick("check", scene, "--set", 'semi_analytical.edge="off"') == 0
-    assert "edge off" in " ".join(capsys.readouterr().out.split())
-
-
 def test_check_lists_every_mistake(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
     text = scene.read_text(encoding="utf-8")
     scene.write_text(text.replace("radius", "radus").replace("0.1", "-0.1"), encoding="utf-8")

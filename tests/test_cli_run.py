@@ -2,7 +2,6 @@
 
 import json
 import os
-import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -103,52 +102,6 @@ def test_refusal_says_why_in_one_message_and_leaves_nothing(
     assert words in ended.stderr
     assert "Traceback" not in ended.stderr
     assert os.listdir(scene.parent) == [scene.name]
-
-
-# Which increment it is told by what it would keep; nothing is kept, however long the run takes.
-STOPPED = """
-import signal
-import contact_results.directory.checkpoint as checkpoint
-from slipstick.cli import main
-checkpoint.SECONDS_BETWEEN = float("inf")
-signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background ignores it
-keep, done = checkpoint.CheckpointDirectory.keep, []
-def keep_and_signal(self, standing):
-    keep(self, standing)
-    done.append(standing)
-    if len(done) == {after}:
-        signal.raise_signal({number:d})
-checkpoint.CheckpointDirectory.keep = keep_and_signal
-main()
-"""
-
-
-def stopped_run(scene: Path, number: signal.Signals, after: int) -> tuple[int, str]:
-    """Exit code of a run that gets a signal after so many of its six increments, and what it said
-    then."""
-    program = STOPPED.format(after=after, number=number)
-    _, _, module, *arguments = command(scene)
-    assert module == "slipstick"
-    ended = subprocess.run(
-        [sys.executable, "-c", program, *arguments],
-        cwd=ROOT, capture_output=True, text=True, check=False,
-    )  # fmt: skip
-    said = ended.stderr.splitlines(keepends=True)
-    return ended.returncode, "".join(line for line in said if not line.startswith("step "))
-
-
-@pytest.mark.parametrize(("number", "code"), [(signal.SIGTERM, 143), (signal.SIGINT, 130)])
-def test_stopped_run_leaves_earlier_results_and_nothing_else(
-    scene: Path, number: signal.Signals, code: int
-) -> None:
-    assert run(scene, "--figures", "none", "--no-error").returncode == 0
-    out = scene.parent / "out"
-    before = {path.name: path.read_bytes() for path in out.iterdir()}
-    for after in (1, 4):
-        said = "interrupted; nothing is kept yet: the same command begins anew\n"
-        assert stopped_run(scene, number, after) == (code, said)
-        assert {path.name: path.read_bytes() for path in out.iterdir()} == before
-    assert sorted(os.listdir(scene.parent)) == ["out", scene.name]
 
 
 def test_output_that_nobody_reads_has_a_code_of_its_own(scene: Path) -> None:

@@ -32,7 +32,6 @@ from verification.closed_forms.goodman import stick_ratio
 from verification.closed_forms.hertz import PointContact
 from verification.closed_forms.moduli import contact_modulus, tangential_modulus
 from verification.closed_forms.sphere import SphereContact
-from verification.closed_forms.tangential_history import TangentialHistory
 from verification.references import load_reference
 
 E_STAR = 1.7
@@ -316,38 +315,6 @@ def test_stiffness_is_the_slope_of_force_against_shift(ratio):
 
 
 # --- histories of the force
-
-
-@given(forces=st.lists(ratios, min_size=1, max_size=5))
-def test_history_balances_energy_and_obeys_coulomb(forces):
-    state, work = TangentialHistory(VIRGIN), 0.0
-    nodes, weights = np.polynomial.legendre.leggauss(20)
-    for ratio in forces:
-        start, end = state, ratio * LIMIT
-        # ∫T dδ = [Tδ] - ∫δ dT, in pieces ending where an old turning point is forgotten
-        turning = (*state.turning_points, state.tangential_force)
-        kinks = sorted({*turning, *(-force for force in turning)})
-        low, high = sorted((state.tangential_force, end))
-        stops = [low, *(k for k in kinks if low < k < high), high]
-        if end < state.tangential_force:
-            stops.reverse()
-        area = 0.0
-        for left, right in pairwise(stops):
-            # cosine map: shifts end in fractional powers
-            t = np.pi * (nodes + 1) / 2
-            path = left + (right - left) * (1 - np.cos(t)) / 2
-            shifts = np.array([start.loaded_to(force).shift for force in path])
-            area += (right - left) * (shifts * np.sin(t) * weights).sum() * np.pi / 4
-        state = state.loaded_to(end)
-        work += end * state.shift - start.tangential_force * start.shift - area
-        assert state.dissipated_energy >= start.dissipated_energy - 1e-16
-    r = A * np.linspace(0, 1, 101)
-    bound = MU * HERTZ.pressure(r) + 1e-12 * MU * HERTZ.peak_pressure
-    assert np.all(np.abs(state.shear(r)) <= bound)
-    radii = [branch.stick_radius for _, branch in state.branches()]
-    elastic = disc_integral(lambda r: state.shear(r) * (state.shift + state.slip(r)) / 2, A, radii)
-    scale = LIMIT * VIRGIN.sliding_shift
-    assert work == pytest.approx(elastic + state.dissipated_energy, abs=1e-6 * scale)
 
 
 # --- superposition for other profiles

@@ -1,12 +1,10 @@
 """First law: work put in is stored or dissipated, in every increment and whatever the history."""
 
-import json
 from itertools import combinations
 from math import cos, pi, sin
 
 import contact_scenes
 import coupled_scenes
-import h5py
 import numpy as np
 import pytest
 from contact_scenes import (
@@ -27,7 +25,6 @@ from hypothesis import strategies as st
 
 from contact_results import cycles
 from contact_results.cycles import fretting_cycles
-from contact_results.result_files import write_result
 from contact_scene import RIGID, Body, FlatPunch, LoadStep
 from contact_scene.quantities.cycles import load_cycles
 from contact_scene.quantities.summary import ContactStatus
@@ -305,26 +302,3 @@ def test_without_a_change_of_force_tension_has_no_direction(loading):
         assert cycle.surface_tension is None
         assert cycle.ruiz_f2 is None
         assert np.max(cycle.ruiz_f1) > 0
-
-
-def test_cycles_reach_all_files(tmp_path, undrawn):
-    result = loop(16, PRESS, push(0.8), push(-0.8), push(0.8), push(-0.8))
-    write_result(result, tmp_path, figures="all")
-    last = fretting_cycles(result)[-1]
-    steps = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))["steps"]
-    assert [step["cycle_start"] for step in steps] == [None, None, None, 2, 3]
-    assert steps[2]["slip_amplitude"] is None
-    assert steps[4]["slip_amplitude"] == np.max(last.slip_amplitude)
-    assert steps[4]["ruiz_f2"] == np.max(last.ruiz_f2)
-    assert steps[4]["energy_per_cycle"] == last.dissipated_energy
-    assert all(step["energy_imbalance"] <= 1e-6 for step in steps)
-    rows = (tmp_path / "cycles.csv").read_text(encoding="utf-8").splitlines()
-    assert len(rows) == 3
-    assert rows[-1].startswith("3,5,")
-    with h5py.File(tmp_path / "result.h5") as file:
-        group = file["last_cycle"]
-        assert (group.attrs["start_step"], group.attrs["end_step"]) == (3, 5)
-        for name, unit in (("slip_amplitude", "m"), ("ruiz_f1", "Pa m"), ("ruiz_f2", "Pa^2 m")):
-            np.testing.assert_array_equal(group[name][:], getattr(last, name))
-            assert group[name].attrs["unit"] == unit
-    assert {"dissipation.png", "fretting.png"} <= {path.name for path in tmp_path.iterdir()}

@@ -25,9 +25,7 @@ from contact_scene.solver_errors import (
     ContactNotResolved,
     GrossSliding,
     NotConverged,
-    SurfacesOverlap,
 )
-from fem_reference import Method, solve
 from fem_reference.compliance.angular_grid import (
     AngularGrid,
     axisymmetric_grid,
@@ -50,7 +48,6 @@ from fem_reference.loads import Loads, NormalTarget, TangentialTarget
 from fem_reference.model import ContactModel
 from fem_reference.plan import Path
 from verification.observed.ring_tractions import tractions_at
-from verification.quantities import shift_along_x
 
 RINGS = 16  # on the contact radius
 HIGHEST = 8
@@ -460,32 +457,3 @@ def test_load_in_any_direction_is_the_same_load(result):
         np.testing.assert_allclose(p_turned, p, rtol=1e-9)
         expected = [0.6 * q[0] - 0.8 * q[1], 0.8 * q[0] + 0.6 * q[1]]
         np.testing.assert_allclose(q_turned, expected, rtol=1e-7, atol=1e-6 * np.max(np.abs(q)))
-
-
-def test_penalty_does_not_decide_the_answer():
-    """On a soft incompressible film springs alone overlap by 7 % of the approach."""
-    film = Layer(
-        thickness=0.15e-3, material=IsotropicMaterial(young_modulus=2.1e9, poisson_ratio=0.4999)
-    )
-    scene = Scene(
-        indenter=Paraboloid(radius=0.01, material=RIGID),
-        body=Body(material=SUBSTRATE, layers=(film,)),
-        friction=CoulombFriction(coefficient=0.5),
-        loading=[
-            LoadStep(normal_force=100.0, increments=2),
-            LoadStep(tangential_force=(20.0, 0.0), increments=2),
-        ],
-    )
-    exact = solved(scene, 8, **FEW).steps[-1]
-    alone = elements(8, augmentations=0, overlap=1.0, **FEW)
-    assert solve(scene, alone, Method.PENALTY).steps[-1].overlap > 0.05 * exact.approach
-    for factor in (1.0, 10.0):
-        result = solve(scene, elements(8, penalty=factor, **FEW), Method.PENALTY)
-        assert all(i.overlap <= 1e-3 * i.approach for i in result.increments)
-        assert result.increments[0].augmentations > 0
-        end = result.steps[-1]
-        assert end.approach == pytest.approx(exact.approach, rel=3e-4)
-        assert end.peak_pressure == pytest.approx(exact.peak_pressure, rel=1e-3)
-        assert shift_along_x(end) == pytest.approx(shift_along_x(exact), rel=1e-3)
-    with pytest.raises(SurfacesOverlap, match="after 1 augmentation, allowed"):
-        solve(scene, elements(8, augmentations=1, **FEW), Method.PENALTY)

@@ -35,7 +35,6 @@ from semi_analytical import (
     ResourceRefused,
     SurfaceGrid,
     UnsupportedScene,
-    memory,
     plan,
     solve,
     solve_discretised,
@@ -175,21 +174,6 @@ def test_more_memory_than_there_is_is_refused_before_any_is_taken():
     enormous = SurfaceGrid((2**20, 2**20), (3 * A, 3 * A))
     with pytest.raises(ResourceRefused, match=r"GiB.*fewer cells"):
         solve(scene(PRESS), enormous, LOOSE)
-
-
-def test_memory_grows_with_cells_increments_and_shear(monkeypatch):
-    small = plan(scene(PRESS, friction=None))
-    sheared, long = plan(scene(PRESS, push(0.5))), plan(scene(PRESS, push(0.5, increments=50)))
-    sizes = [memory.estimated_bytes(grid(64), p) for p in (small, sheared, long)]
-    assert sizes == sorted(sizes)
-    large, larger = (memory.estimated_bytes(grid(cells), sheared) for cells in (1024, 2048))
-    drawn = memory.DRAWING + memory.DRAWING_SHEAR
-    fixed = memory.estimated_bytes(grid(16), sheared) - drawn
-    assert larger - fixed == pytest.approx(4 * (large - fixed), rel=0.2)
-    monkeypatch.setattr(memory, "available_bytes", lambda: sizes[1])
-    memory.refuse_if_too_large(grid(64), sheared)
-    with pytest.raises(ResourceRefused):
-        memory.refuse_if_too_large(grid(64), long)
 
 
 def test_not_converged_says_where_and_carries_the_last_good_state(monkeypatch):

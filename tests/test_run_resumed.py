@@ -223,7 +223,6 @@ cells = [16, 16]
 edge = "off"
 """
 YEAR = 3.15e7
-AGES = {"1970": 1.0, "before 1970": -YEAR, "the next century": 4.2e9, "far ahead": 3e10}
 
 
 def jumping(*jumps: float) -> Callable[[], float]:
@@ -279,17 +278,4 @@ def test_a_run_writes_the_same_bytes_whatever_the_clocks_do(
     name: str, expected: dict[str, bytes], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     set_clocks(monkeypatch, CLOCKS[name])
-    assert run(tmp_path, "--figures", "none") == expected
-
-
-@pytest.mark.parametrize("age", AGES)
-def test_what_a_run_finds_may_be_of_any_time(
-    age: str, expected: dict[str, bytes], tmp_path: Path
-) -> None:
-    """Results of before, a lock that nobody holds, and what a killed run has left."""
-    run(tmp_path, "--figures", "none")
-    (tmp_path / ".out.in-use").write_text("process 1 on nowhere", encoding="utf-8")
-    (tmp_path / "out" / ".out.partial-0").mkdir()
-    for path in (tmp_path, *tmp_path.rglob("*")):
-        os.utime(path, (AGES[age], AGES[age]))
     assert run(tmp_path, "--figures", "none") == expected

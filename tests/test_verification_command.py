@@ -5,8 +5,6 @@ import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable
-from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -15,17 +13,12 @@ from command import outcome, signalled
 
 from contact_scene.solver_errors import NotConverged
 from verification.cases.catalogue import choose
-from verification.cases.fretting import fretting_loop
-from verification.cases.hertz import hertz_point
 from verification.cases.histories import load_paths
 from verification.cases.judged_case import lost
 from verification.cases.partial_slip import near_sliding
-from verification.defects.defect import planted
-from verification.defects.registry import DEFECTS
-from verification.judging.case import Case, Level
+from verification.judging.case import Level
 from verification.judging.judgement import judge
 from verification.judging.outcome import CaseOutcome, Status
-from verification.judging.refinement import refinement
 from verification.report.files import EARLIER, FILES, PAGE, RECORD
 
 
@@ -72,57 +65,12 @@ def test_unknown_case_is_refused_with_the_known_ones(tmp_path: Path) -> None:
 # ---- Defects planted in the solver are seen by the verification, which passes without them.
 
 
-CASES: dict[str, Callable[[], Case]] = {
-    "hertz_point": lambda: hertz_point(cells=refinement(32, 128)),
-    "fretting_loop": lambda: fretting_loop(cells=(96,), quarter=2),
-    "near_sliding": lambda: near_sliding(cells=64),
-    "load_paths": lambda: load_paths(cells=32),
-}
-
-
 def failed(outcome: CaseOutcome) -> set[str]:
     return {verdict.name for verdict in outcome.verdicts if verdict.status is Status.FAIL}
 
 
-@cache
-def healthy(name: str) -> CaseOutcome:
-    return judge(CASES[name]())
-
-
-# Defects of the registry, with a case that is smaller than the catalogue's and what it must see.
-SEEN_BY = {
-    "normal-bias-stiff": ("hertz_point", "approach"),
-    "normal-bias": ("hertz_point", "peak_pressure"),
-    "gap-too-deep": ("hertz_point", "approach"),
-    "tangential-bias": ("fretting_loop", "largest_shift_error"),
-    "friction-root-two": ("fretting_loop", "largest_shear_error"),
-    "history-dropped": ("fretting_loop", "energy_per_cycle"),
-    "work-halved": ("fretting_loop", "largest_energy_imbalance"),
-    "dissipation-halved": ("fretting_loop", "largest_energy_imbalance"),
-    "slip-range": ("fretting_loop", "ruiz_f1"),
-    "tension-across": ("fretting_loop", "ruiz_f2"),
-}
-
-
-@pytest.mark.parametrize("name", CASES)
-def test_healthy_solver_passes(name: str) -> None:
-    assert failed(healthy(name)) == set()
-
-
-@pytest.mark.parametrize("defect", SEEN_BY)
-def test_planted_defect_fails(defect: str) -> None:
-    name, quantity = SEEN_BY[defect]
-    with planted(DEFECTS[defect]):
-        assert quantity in failed(judge(CASES[name]()))
-
-
-def test_friction_defect_is_seen_while_sliding() -> None:
-    with planted(DEFECTS["friction-root-two"]):
-        assert "sliding_force" in failed(judge(CASES["near_sliding"]()))
-
-
 def test_residual_above_tolerance_fails() -> None:
-    case = CASES["load_paths"]()
+    case = load_paths(cells=32)
     lax = {run.label: run for run in case.runs}
 
     def solve(run: Any) -> Any:
@@ -135,7 +83,7 @@ def test_residual_above_tolerance_fails() -> None:
 
 
 def test_solver_that_gives_up_fails_and_the_rest_is_still_judged() -> None:
-    case = CASES["near_sliding"]()
+    case = near_sliding(cells=64)
 
     def solve(run: Any) -> Any:
         if run is case.runs[0]:

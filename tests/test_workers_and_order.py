@@ -144,44 +144,6 @@ def test_cluster_gives_the_records_and_names_what_is_lost(address: str, tmp_path
     assert store.load(cases[0]) == ends[0].record
 
 
-@pytest.fixture
-def certificate(tmp_path: Path) -> Path:
-    """A directory with the certificate and key that the documentation tells to make."""
-    told = (ROOT / "docs" / "howto" / "clusters.md").read_text(encoding="utf-8")
-    (command,) = re.findall(r"openssl req .+", told)
-    subprocess.run(command.split(), cwd=tmp_path, check=True, capture_output=True)
-    return tmp_path
-
-
-@pytest.mark.slow
-def test_cluster_with_certificates_lets_in_who_has_them_alone(
-    certificate: Path, tmp_path: Path
-) -> None:
-    distributed, dask = pytest.importorskip("distributed"), pytest.importorskip("dask")
-    own = {"cert": str(certificate / "cert.pem"), "key": str(certificate / "key.pem")}
-    settings = {
-        "distributed.comm.require-encryption": True,
-        "distributed.comm.tls.ca-file": own["cert"],
-        **{f"distributed.comm.tls.{role}": own for role in ("scheduler", "worker", "client")},
-    }
-    with dask.config.set(settings):
-        security = distributed.Security()
-        local = distributed.LocalCluster(
-            n_workers=1, threads_per_worker=1, dashboard_address=None,
-            protocol="tls://", security=security,
-        )  # fmt: skip
-    with local:
-        assert local.scheduler_address.startswith("tls://")
-        with pytest.raises(ClusterUnavailable):
-            ClusterWorkers(local.scheduler_address)
-        with dask.config.set(settings):
-            workers = ClusterWorkers(local.scheduler_address)
-            store = CaseStore(tmp_path / "records", Number)
-            (end,) = run_cases([Square(3.0)], store, workers, lambda end: None)
-    assert isinstance(end.record, Number)
-    assert end.record.value == 9.0
-
-
 @pytest.mark.slow
 def test_workers_of_other_sources_are_refused(
     address: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
