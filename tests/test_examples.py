@@ -51,6 +51,7 @@ def test_python_in_the_readme_runs(tmp_path: Path) -> None:
 # ---- The gallery: every verdict is the one that its page speaks of.
 
 
+@pytest.mark.slow  # the pages are not made of other verdicts, either
 @pytest.mark.parametrize("entry", ENTRIES, ids=lambda entry: entry.scene)
 def test_verdicts_are_those_expected(entry) -> None:
     judged = [found(entry, claim) for claim in entry.claims]

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from verification.cases.catalogue import choose
-from verification.cases.fretting import fem_partial_slip
 from verification.cases.frictional_pressing import sheared_increments
 from verification.cases.hertz import fem_hertz
 from verification.exhibits.chart import Look
@@ -107,15 +106,11 @@ def pressed() -> Case:
     return fem_hertz(elements=(8,), studied=tuple(product((6, 8, 11, 16), (0.3, 0.7))))
 
 
-def pushed() -> Case:
-    return fem_partial_slip(elements=8, studied=tuple(product((6, 8, 11, 16), (0.3, 0.7))))
-
-
 def cut() -> Case:
     return sheared_increments(increments=(1, 2, 4, 8, 16), cells=16)
 
 
-@pytest.mark.parametrize("case_of", [pressed, pushed, cut])
+@pytest.mark.parametrize("case_of", [pressed, cut])
 def test_lines_of_a_chart_are_those_that_are_judged(case_of: Callable[[], Case]) -> None:
     """Levels, sizes and orders."""
     case = case_of()
