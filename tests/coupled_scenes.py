@@ -1,7 +1,5 @@
 """Scenes whose pressure and shear act on each other: a rigid ball on soft or coated bodies."""
 
-from dataclasses import replace
-
 from contact_scenes import LOAD, MU, RADIUS, A
 
 from contact_scene import (
@@ -14,10 +12,6 @@ from contact_scene import (
     Paraboloid,
     Scene,
 )
-from semi_analytical import plan
-from semi_analytical.history import march
-from semi_analytical.model import ContactModel
-from semi_analytical.plan import Coupling
 
 # Under a rigid ball it has the contact of the two alike bodies of `contact_scenes`.
 SUBSTRATE = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
@@ -57,10 +51,3 @@ def push(x, y=0.0, *, friction=MU, increments=2, **more) -> dict:
     """A tangential force in parts of the friction limit under the full load."""
     limit = friction * LOAD
     return {"tangential_force": (x * limit, y * limit), "increments": increments, **more}
-
-
-def coupled_increments(described, grid, tolerance=1e-8):
-    """All increments by the coupled solver, called for or not."""
-    model = ContactModel.of(described, grid)
-    forced = replace(plan(described), shear=True, coupling=Coupling.FULL)
-    return list(march(model, forced, tolerance))

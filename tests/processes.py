@@ -20,11 +20,6 @@ atexit.register(tell)
 from slipstick.cli import main
 main()
 """
-# The same with a checkpoint after every increment.
-EAGER = f"""
-import contact_results.directory.checkpoint as checkpoint
-checkpoint.SECONDS_BETWEEN, checkpoint.SHARE = 0.0, float("inf")
-{MAIN}"""
 ENOUGH = 600.0  # seconds for any command
 MIB = 1024.0  # kB
 

@@ -28,6 +28,3 @@ def stacks(
 
 WAVENUMBERS = st.floats(-4, 4).map(lambda decade: 10**decade)
 ANGLES = st.floats(-math.pi, math.pi)
-WAVE_VECTORS = st.builds(
-    lambda alpha, angle: (alpha * math.cos(angle), alpha * math.sin(angle)), WAVENUMBERS, ANGLES
-)

@@ -27,7 +27,6 @@ from verification.closed_forms.coated_indentation import (
 from verification.closed_forms.cone import ConeContact
 from verification.closed_forms.elliptical_contact import EllipticalContact
 from verification.closed_forms.flat_punch import FlatPunchContact
-from verification.closed_forms.gao_chiu_lee import modulus_weight, ratio_weight
 from verification.closed_forms.goodman import stick_ratio
 from verification.closed_forms.hertz import PointContact
 from verification.closed_forms.moduli import contact_modulus, tangential_modulus
@@ -186,39 +185,6 @@ def test_without_layers_it_is_hertz_and_boussinesq(thickness: float) -> None:
     assert exact_punch.approach == pytest.approx(1, rel=1e-13)
     inside = np.linspace(0, 0.699, 30)
     np.testing.assert_allclose(punch.pressure(inside), exact_punch.pressure(inside), rtol=1e-12)
-
-
-@pytest.mark.parametrize(
-    "stack",
-    [
-        Stack([(2.0, 0.3, 0.3)], (1.0, 0.25)),
-        Stack([(1.0, 0.5, 0.1)]),
-        Stack([(0.3, 0.2, 0.2), (5.0, 0.4, 0.5)], (1.0, 0.0)),
-    ],
-)
-@pytest.mark.parametrize("indenter", ["paraboloid", "punch"])
-def test_pressure_carries_the_load(stack: Stack, indenter: str) -> None:
-    contact = (
-        flat_punch(surface(stack), 1.0)
-        if indenter == "punch"
-        else paraboloid(surface(stack), RADIUS, 1.0)
-    )
-    nodes, weights = np.polynomial.legendre.leggauss(80)
-    angle, weights = np.pi / 4 * (nodes + 1), np.pi / 4 * weights
-    # r = sin(angle): the root at the edge, or its reciprocal, becomes smooth
-    r = np.sin(angle)
-    integrand = contact.pressure(r) * np.cos(angle) * 2 * np.pi * r
-    assert integrand @ weights == pytest.approx(contact.load, rel=1e-10)
-
-
-def test_first_order_stiffness_has_its_limits_and_printed_values() -> None:
-    assert modulus_weight(0.5, 0.3) == pytest.approx(0.2774073, abs=6e-8)
-    assert modulus_weight(1.0, 0.3) == pytest.approx(0.4493566, abs=6e-8)
-    assert ratio_weight(0.5) == pytest.approx(0.5513172, abs=6e-8)
-    assert ratio_weight(1.0) == pytest.approx(0.7206356, abs=6e-8)
-    for weight in (lambda xi: modulus_weight(xi, 0.3), ratio_weight):
-        assert weight(1e-9) == pytest.approx(0, abs=1e-6)
-        assert weight(1e9) == pytest.approx(1, abs=1e-6)
 
 
 # ---- One-way coupled indentation: the stick radius by another route, its limits and printed

@@ -7,13 +7,12 @@ import numpy as np
 import pytest
 
 from verification.judging.case import Derived, Required
-from verification.judging.declared_case import Falls, Refined, Reported, Within, case, judged
+from verification.judging.declared_case import Refined, Reported, Within, judged
 from verification.judging.observable import Observable
 from verification.judging.observables import (
     APPROACH,
     CENTRAL_PRESSURE,
     CONTACT_RADIUS,
-    ENERGY,
     PEAK_PRESSURE,
     PRESSURE_L2,
     SHIFT,
@@ -23,7 +22,6 @@ from verification.judging.observables import (
 from verification.judging.refinement_levels import (
     MIDDLE,
     asked,
-    named,
     on_cells,
     on_elements,
     part_of_side,
@@ -64,16 +62,6 @@ def test_errors_of_a_history_are_over_one_scale_at_every_stop(what: Observable) 
         value, scale = at.reference(SHEARED).value, SHEARED.scale(at.over)
         assert at.error(SHEARED)(answered(SHEARED)) == 0
         assert at.error(SHEARED)(answered(SHEARED, 1.01)) == pytest.approx(0.01 * value / scale)
-
-
-def test_a_verdict_is_named_after_what_and_where_and_an_order_after_what() -> None:
-    at = ENERGY.at(2, 0.9, "µW")
-    rows = (Within(at, 0.1, "why"), Falls(at, 1.0, "why"))
-    made = judged(on_cells(SHEARED, CELLS), rows)
-    assert [q.name for q in made.quantities] == ["energy_at_0.9"]
-    assert [order.name for order in made.orders] == ["order_of_energy"]
-    assert made.quantities[0].reference.source == "Mindlin and Deresiewicz 1953"
-    assert made.quantities[0].reference.value == SHEARED.ends[2].dissipated_energy
 
 
 def test_the_pressure_is_judged_by_one_norm_on_cells_and_on_rings() -> None:
@@ -141,14 +129,3 @@ def test_a_figure_follows_the_mesh_by_its_order_and_a_part_of_a_side_the_side() 
     assert asked(1e-4, 2)(coarse) == 4e-4
     assert part_of_side(0.1)(coarse) == 0.1 / 32
     assert part_of_side(0.1)(on_cells(BALL, (60,), window=2.0).judged) == pytest.approx(0.1 / 30)
-
-
-def test_runs_that_parts_share_are_solved_once() -> None:
-    grids = on_cells(BALL, CELLS)
-    again = judged(on_cells(BALL, CELLS[1:]), (Within(APPROACH, 0.1, "why"),))
-    made = case("name", "title", "problem", judged(grids, ()), again, runs=grids.runs)
-    assert [run.label for run in made.runs] == ["128x128", *grids.levels]
-    assert [q.run for q in made.quantities] == ["128x128"]
-    renamed = named("judged", grids)
-    assert renamed.judged.run.label == "judged"
-    assert renamed.levels == grids.levels

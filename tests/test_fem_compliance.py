@@ -14,7 +14,7 @@ from fem_reference.elasticity import factored_section
 from fem_reference.elasticity.compliance import composite, condense
 from fem_reference.elasticity.factored_section import FactoredSection
 from fem_reference.elasticity.motion import PRESSING, SHEARING, TORSION, motion
-from fem_reference.mesh.section_mesh import SectionMesh, section_mesh
+from fem_reference.mesh.section_mesh import section_mesh
 
 NU = 0.3
 HALF_SPACE = Body(material=IsotropicMaterial(young_modulus=2 * (1 + NU), poisson_ratio=NU))
@@ -158,24 +158,6 @@ def test_solved_fields_agree_with_the_condensed_compliance(monkeypatch, coating,
 def own_directory(tmp_path, monkeypatch):
     monkeypatch.setenv("SLIPSTICK_CACHE_DIR", str(tmp_path))
     return tmp_path
-
-
-def test_a_compliance_is_computed_once(cache):
-    section = section_mesh(HALF_SPACE, 4)
-    first, second = condense(section, SHEARING), condense(section_mesh(HALF_SPACE, 4), SHEARING)
-    assert (first.from_cache, second.from_cache) == (False, True)
-    assert first.factorizations == second.factorizations == 1
-    assert np.array_equal(first.matrix, second.matrix)
-    assert len(list(cache.iterdir())) == 1
-    for other in (motion(2), PRESSING, TORSION):
-        assert not condense(section, other).from_cache
-    assert not condense(section_mesh(HALF_SPACE, 4, box=101.0), SHEARING).from_cache
-    assert not condense(section_mesh(coated(1, 0.3, 2, 0.3, 1)[0], 4), SHEARING).from_cache
-    points = section.points.copy()
-    points[:, np.all((points > 2) & (points < 10), axis=0)] *= 1.01
-    moved = SectionMesh(points, section.quads, section.outline)
-    assert not condense(moved, SHEARING).from_cache
-    assert len(list(cache.iterdir())) == 7
 
 
 def test_too_little_memory_is_refused_before_any_factorisation(monkeypatch):

@@ -14,7 +14,6 @@ from fem_reference.elasticity.section_basis import displacement_basis
 from fem_reference.elasticity.weak_form import dilatation, element_stiffness
 from fem_reference.mesh.gmsh_mesh import gmsh_section_mesh
 from fem_reference.mesh.section_mesh import SectionMesh, section_mesh
-from fem_reference.mesh.section_outline import GROWTH
 
 R = 10.0
 ALL, PLANE, ANGULAR = (0, 1, 2), (0, 2), (1,)
@@ -222,23 +221,6 @@ def test_no_element_crosses_an_interface(mesher, body):
     assert np.all(depth >= top[section.layer])
     assert np.all(depth <= base[section.layer])
     assert np.array_equal(np.unique(section.layer), np.arange(len(section.outline.materials)))
-
-
-@given(
-    st.lists(st.floats(1e-3, 30.0), max_size=4),
-    st.integers(4, 24),
-    st.sampled_from([SOFT, RIGID]),
-)
-def test_neighbouring_elements_of_a_layer_differ_by_the_growth_at_most(thicknesses, N, base):
-    if base is RIGID and not thicknesses:
-        return
-    section = section_mesh(stack(*thicknesses, base=base), N)
-    for top, bottom in section.outline.pieces:
-        lines = np.unique(section.points[1])
-        sizes = np.diff(lines[(lines >= top) & (lines <= bottom)])
-        assert np.all(sizes[1:] / sizes[:-1] < GROWTH * (1 + 1e-9))
-    r = np.unique(section.points[0])
-    assert np.all(np.diff(r)[1:] / np.diff(r)[:-1] < GROWTH * (1 + 1e-9))
 
 
 @pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)

@@ -2,16 +2,13 @@
 
 import subprocess
 import sys
-from functools import cache
 from pathlib import Path
 from typing import Any, get_args
 
-import h5py
 import numpy as np
 import pytest
 
 import slipstick
-from contact_results.result_files import write_result
 from contact_results.stress.loaded_bodies import state_of_result, state_of_run
 from contact_results.surface import surface_of
 from contact_scene import HeightMap, SceneError
@@ -39,11 +36,6 @@ COARSE: dict[str, Any] = {
     for solver in SolverName
 } | {SolverName.RADIAL: slipstick.RadialDiscretisation(rings=8)}
 SHEARED = [solver for solver in SolverName if solver is not SolverName.RADIAL]
-
-
-@cache
-def solved(scene: slipstick.Scene) -> Any:
-    return slipstick.solve(scene, discretisation=COARSE["semi-analytical"])
 
 
 @pytest.mark.parametrize("name", slipstick.__all__)
@@ -128,32 +120,6 @@ def test_a_stored_run_needs_none_of_the_files_of_its_scene(tmp_path: Path) -> No
     assert np.array_equal(found.tractions["shear"], expected.tractions["shear"])
     assert found.no_root == expected.no_root
     assert found.no_root
-
-
-def test_what_is_no_run_is_refused_by_name(tmp_path: Path) -> None:
-    with pytest.raises(FileNotFoundError, match=r"is no run: it has no summary.json"):
-        slipstick.load(tmp_path)
-    write_result(solved(SCENE), tmp_path, figures="none")
-    (tmp_path / "result.h5").write_bytes(b"something else")
-    with pytest.raises(ValueError, match=r"is not the result.h5 of a run"):
-        slipstick.load(tmp_path)
-    for scene, reason in (("{}", "indenter"), (SCENE.model_dump_json(), "it has no increments")):
-        with h5py.File(tmp_path / "result.h5", "w") as file:
-            file["scene"] = scene
-        with pytest.raises(ValueError, match=rf"(?s)is not the result.h5 of a run.*{reason}"):
-            slipstick.load(tmp_path)
-    for foreign in (b"", b"[]", b"\xff"):
-        (tmp_path / "summary.json").write_bytes(foreign)
-        with pytest.raises(ValueError, match=r"summary.json is not the summary.json of a run"):
-            slipstick.load(tmp_path)
-    with pytest.raises(KeyError, match="no 'shaer'"):
-        stored(tmp_path)["shaer"]
-
-
-def stored(directory: Path) -> Any:
-    slipstick.save(slipstick.solve(SCENE, discretisation=COARSE["semi-analytical"]),
-                   directory / "again", figures="none")  # fmt: skip
-    return slipstick.load(directory / "again").increments
 
 
 @pytest.mark.parametrize("solver", SolverName)

@@ -252,13 +252,6 @@ def test_other_cells_by_adaptive_quadrature(stack, cell):
         assert abs(got[cell] - expected) < 1e-12 * own_cell(coefficients)
 
 
-def test_coefficients_scale_with_length_and_stiffness():
-    stack, scaled = Stack([(2.0, 0.3, 0.5)], (1.0, 0.25)), Stack([(2e9, 0.3, 5e-7)], (1e9, 0.25))
-    here = all_components(LayeredCoefficients(stack, (0.1, 0.2), (40, 30)))
-    there = all_components(LayeredCoefficients(scaled, (1e-7, 2e-7), (40, 30)))
-    assert np.abs(here - there * 1e15).max() < 1e-14 * here.max()
-
-
 def test_exchanging_x_and_y_exchanges_the_components():
     stack = Stack([(2.0, 0.3, 0.5), (0.3, 0.5, 2.0)])
     wide = LayeredCoefficients(stack, (0.3, 0.1), (50, 40))

@@ -108,17 +108,6 @@ def test_planted_link_writes_nowhere_else(folder: Path, tmp_path: Path) -> None:
     assert not computed()
 
 
-def test_without_a_place_to_write_there_is_no_cache_and_no_complaint(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
-) -> None:
-    blocked = tmp_path / "file"
-    blocked.write_text("in the way")
-    monkeypatch.setenv("SLIPSTICK_CACHE_DIR", str(blocked))
-    assert [computed(), computed()] == [True, True]
-    assert blocked.read_text() == "in the way"
-    assert not caplog.messages
-
-
 def test_least_recently_used_make_room_and_other_files_are_spared(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

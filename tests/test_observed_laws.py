@@ -7,8 +7,6 @@ import numpy as np
 import pytest
 
 from contact_scene import Body, CoulombFriction, LoadStep
-from verification.judging.case import Case
-from verification.judging.law_verdicts import judge_laws
 from verification.judging.run import (
     OTHER_NORMS,
     SOLVER_TOLERANCE,
@@ -180,17 +178,3 @@ def test_prescribed_force_that_is_not_told_is_missed(solved, name):
     *before, last = solved[name].increments
     untold = replace(solved[name], increments=(*before, replace(last, tangential_force=None)))
     assert max(missed(untold.scene, untold.steps)) > SEEN
-
-
-@pytest.mark.parametrize("name", ["cells", "rings", "springs"])
-def test_increments_that_cannot_be_held_against_laws_are_counted(solved, name):
-    result, run = solved[name], RUNS[name]
-    case = Case("planted", "", "", (run,), ())
-    whole = [verdict.meaning for verdict in judge_laws(case, {run.label: result})]
-    assert all(re.search(r"it is in this one(, increment \d+: .* J)?$", text) for text in whole)
-    *before, last = result.increments
-    halved = replace(result, increments=(*before, replace(last, halvings=1)))
-    count = len(result.increments)
-    laws, energy = judge_laws(case, {run.label: halved})
-    assert laws.meaning.endswith(f"in 1 of {count} increments slip is not held against shear")
-    assert energy.meaning.endswith(f"in 1 of {count} increments this is not looked at")

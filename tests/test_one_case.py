@@ -1,6 +1,5 @@
 """Verifying one case imports the module of that case: no other, no study, no solver but its."""
 
-import ast
 import json
 import os
 import subprocess
@@ -22,7 +21,6 @@ from verification.judging.case import Case, Derived, Level
 from verification.judging.run import SectionRun
 from verification.problems.reference import ReferenceKind
 
-ROOT = Path(__file__).resolve().parents[1]
 # What a command has loaded when its first case goes to a worker.
 AT_WORK = """
 from slipstick.cli.application import main
@@ -79,29 +77,6 @@ def test_one_case_needs_no_worker_and_is_the_same(tmp_path: Path) -> None:
         loaded(program, "verify", "dissimilar_bodies", "-o", name, *options, cwd=tmp_path)
         found.append(json.loads((tmp_path / name / "report.json").read_bytes())["cases"])
     assert found[0] == found[1]
-
-
-def cases_of(module: Path) -> set[str]:
-    """Names of the functions of a module that make a case of a level."""
-    return {
-        node.name
-        for node in ast.parse(module.read_text(encoding="utf-8")).body
-        if isinstance(node, ast.FunctionDef) and node.returns is not None
-        and ast.unparse(node.returns) == "Case"
-        and [of.arg for of in node.args.args][:1] == ["level"]
-    }  # fmt: skip
-
-
-def test_every_function_that_makes_a_case_is_listed_under_its_module() -> None:
-    made = {
-        module.stem: found
-        for module in (ROOT / "verification/cases").glob("*.py")
-        if (found := cases_of(module))
-    }
-    listed: dict[str, set[str]] = {}
-    for name in CASES:
-        listed.setdefault(MODULE_OF.get(name, name), set()).add(name)
-    assert made == listed
 
 
 # ---- The cases describe what they say, and their references agree with each other.

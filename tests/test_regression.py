@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
 import re
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -59,7 +57,7 @@ from verification.regression.tolerances import (
     read_tolerances,
     text_of,
 )
-from verification.report.files import RECORD, write_report
+from verification.report.files import write_report
 from verification.report.summary_text import counts_text, uncovered_lines
 from verification.running.report_record import Provenance, Report, count, load_report
 
@@ -127,11 +125,6 @@ def with_value(case: CaseOutcome, name: str, value: float) -> CaseOutcome:
     error = abs(value - verdict.reference) / verdict.scale
     status = Status.PASS if error <= verdict.allowed else Status.FAIL
     return with_verdict(case, name, value=value, error=error, status=status)
-
-
-def with_counts(case: CaseOutcome, **counts: int) -> CaseOutcome:
-    first, *others = case.runs
-    return case.model_copy(update={"runs": (first.model_copy(update=counts), *others)})
 
 
 def find(case: CaseOutcome, name: str) -> Verdict:
@@ -450,14 +443,6 @@ def test_unacceptable_reports_are_refused_and_nothing_is_written(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_failures_and_changes_are_accepted_on_demand(healthy: CaseOutcome, tmp_path: Path) -> None:
-    failing = report_of(shifted(healthy, "approach", 3.0, of="U"), changed=True)
-    accept(failing, REASON, tmp_path, with_failures=True, with_changes=True)
-    recorded = read_baselines(tmp_path)[healthy.name].levels["quick"]
-    assert recorded.status is Status.FAIL
-    assert recorded.by.changed
-
-
 def test_only_the_named_cases_are_accepted(healthy: CaseOutcome, tmp_path: Path) -> None:
     other = healthy.model_copy(update={"name": "other"})
     (file,) = accept(report_of(healthy, other), REASON, tmp_path, ["other"])
@@ -505,33 +490,6 @@ def test_comparison_ends_by_what_changed(
     assert ("reproduce: slipstick verify hertz_point" in output) == (code > 0)
 
 
-def test_reports_are_compared_with_each_other(
-    healthy: CaseOutcome, places: tuple[Path, Path], tmp_path: Path
-) -> None:
-    now = tmp_path / "now"
-    now.mkdir()
-    write_report(report_of(with_counts(healthy, iterations=9999)), now)
-    assert slipstick("maintain", "compare", now, "--baseline", places[0] / RECORD) == 7
-    assert slipstick("maintain", "compare", places[0] / RECORD, "--baseline", places[0]) == 0
-
-
-def test_comparison_without_baseline_says_so_and_does_not_pass(
-    places: tuple[Path, Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    (tmp_path / "none").mkdir()
-    assert slipstick("maintain", "compare", places[0], "--baseline", tmp_path / "none") == 5
-    captured = capsys.readouterr()
-    assert "no baseline yet of level quick" in captured.out
-    assert "nothing is recorded of these cases at level quick; to record it" in captured.err
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="has no such queues")
-def test_a_baseline_that_never_ends_is_not_waited_for(tmp_path: Path) -> None:
-    os.mkfifo(tmp_path / "hertz_point.json")
-    with pytest.raises(BaselineRefused, match="is not a regular file"):
-        read_baselines(tmp_path)
-
-
 def test_damaged_baseline_ends_the_commands_before_any_work(
     places: tuple[Path, Path],
     tmp_path: Path,
@@ -545,24 +503,6 @@ def test_damaged_baseline_ends_the_commands_before_any_work(
     assert slipstick("verify", "hertz_point", "--output", tmp_path / "out") == 2
     assert capsys.readouterr().err.count("is damaged") == 2
     assert list((tmp_path / "out").iterdir()) == []
-
-
-def test_acceptance_needs_its_reason(
-    places: tuple[Path, Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    new = tmp_path / "new"
-    assert slipstick("maintain", "baseline", "--accept", "--from", places[0], "--to", new) == 2
-    assert "needs a reason" in capsys.readouterr().err
-    assert (
-        slipstick("maintain", "baseline", "--because=it is", "--from", places[0], "--to", new) == 2
-    )
-    assert not new.exists()
-    words = ("--because", "it is right", "--from", places[0], "--to", new)
-    assert slipstick("maintain", "baseline", "--accept", *words) == 0
-    assert slipstick("maintain", "baseline", "--to", new) == 0
-    listed = capsys.readouterr().out
-    assert "it is right" in listed
-    assert "1a2b3c4" in listed
 
 
 # ---- Errors that solvers state are judged, and tolerances follow the errors.

@@ -12,23 +12,20 @@ from contact_scenes import (
     RADIUS,
     RIGID_BALL,
     A,
-    bump,
     grid,
     paraboloid,
     push,
     scene,
 )
 
-from contact_scene import Ellipsoid, HeightMap, SceneError, SurfaceDiscretisation
+from contact_scene import Ellipsoid
 from contact_scene.quantities.summary import ContactStatus
 from semi_analytical import (
     ContactNotResolved,
     GrossSliding,
-    SurfaceGrid,
     plan,
     solve,
 )
-from semi_analytical.default_grid import discretise
 
 TOLERANCE = 1e-9
 GRID = grid(32, 2.0)
@@ -213,25 +210,3 @@ def test_reciprocity_of_force_and_moment():
 def test_a_force_on_the_rim_of_a_punch_tips_it_over():
     with pytest.raises(ContactNotResolved, match="tips over"):
         end({**PRESS, **lean(0.999)}, friction=None, indenter=PUNCH, on=grid(32, 1.1))
-
-
-@pytest.mark.parametrize("step", [lean(2.0, 1.0), roll(2.0, 1.0)], ids=["moment", "tilt"])
-def test_the_chosen_window_holds_a_contact_beside_the_origin(step):
-    described = scene({**PRESS, **lean(0.0)}, step, friction=None)
-    chosen = discretise(described, SurfaceDiscretisation())
-    x, y = chosen.coordinates()
-    carries = solve(described, chosen, 1e-6).steps[1].pressure > 0
-    assert np.mean(x[carries]) == pytest.approx(2 * A, rel=0.05)
-    assert np.mean(y[carries]) == pytest.approx(A, rel=0.05)
-    assert np.all(np.array(chosen.window) < 2 * 1.4 * np.array([3 * A, 2 * A]))
-
-
-def test_a_height_map_carries_moments_within_its_extent():
-    cells, spacing = 24, 3 * A / 24
-    bowl = HeightMap(file=bump(cells, spacing), spacing=spacing, material=paraboloid().material)
-    on = SurfaceGrid((cells, cells), bowl.extent)
-    one = end({**PRESS, **lean(0.3)}, friction=None, indenter=bowl, on=on)
-    other = end({**PRESS, **lean(0.3)}, friction=None, on=on)
-    close(one.pressure, other.pressure, 1e-6 * other.peak_pressure)
-    with pytest.raises(SceneError, match="tips over"):
-        scene({**PRESS, **lean(1.6)}, friction=None, indenter=bowl)

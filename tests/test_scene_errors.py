@@ -193,25 +193,6 @@ def test_all_mistakes_are_told_at_once_in_the_order_of_the_file(tmp_path: Path) 
     ]
 
 
-@pytest.mark.parametrize("loading", ["loading = []", "loading = 3", "[loading]\nnormal_force = 1"])
-def test_a_loading_without_steps_is_refused(tmp_path: Path, loading: str) -> None:
-    head, rest = SCENE.split("[[loading]]", 1)[0], "[semi" + SCENE.split("[semi")[1]
-    text = f"{loading}\n{head}{rest}" if "[loading]" not in loading else f"{head}{loading}\n{rest}"
-    (problem,) = problems(tmp_path, text)
-    assert problem.key == "loading"
-    if "[loading]" in loading:
-        assert "[[loading]]" in problem.hint
-
-
-def test_two_rigid_bodies_make_no_contact_problem(tmp_path: Path) -> None:
-    text = SCENE.replace(ELASTIC, '"rigid"')
-    (problem,) = problems(tmp_path, text)
-    assert (problem.line, problem.key) == (7, "body.material")
-    layer = f"[[body.layers]]\nthickness = 1\nmaterial = {ELASTIC}\n[friction]"
-    (tmp_path / "scene.toml").write_text(text.replace("[friction]", layer))
-    read_scene_file(tmp_path / "scene.toml")
-
-
 @pytest.mark.parametrize(
     ("contents", "line", "words"),
     [
@@ -301,14 +282,6 @@ def test_a_bad_height_map_is_one_clear_problem(tmp_path: Path, write: Any, words
     (problem,) = problems(tmp_path, HEIGHTS)
     assert (problem.line, problem.key) == (4, "indenter.file")
     assert words in str(problem)
-
-
-def test_a_window_beyond_the_height_map_is_refused(tmp_path: Path) -> None:
-    np.save(tmp_path / "h.npy", np.zeros((12, 4)))
-    text = HEIGHTS.replace('"1 m"', '["0.1 mm", "0.2 mm"]')
-    (problem,) = problems(tmp_path, text)
-    assert problem.key == "semi_analytical.window[2]"
-    assert "0.0008" in problem.message
 
 
 def test_a_window_beyond_the_friction_map_is_refused(tmp_path: Path) -> None:

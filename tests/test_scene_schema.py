@@ -1,6 +1,5 @@
 """The JSON Schema of scene files says what the reader does."""
 
-import json
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -8,7 +7,6 @@ from typing import Any
 import numpy as np
 import pytest
 from hypothesis import given
-from hypothesis import strategies as st
 from jsonschema import Draft202012Validator
 from strategies import Document, as_toml, documents
 
@@ -251,65 +249,6 @@ def paths_in(value: Any, path: KeyPath = ()) -> set[KeyPath]:
         entries = enumerate(value)
     found = {path} if path else set()
     return found.union(*(paths_in(entry, (*path, key)) for key, entry in entries))
-
-
-KEYS = st.text(st.sampled_from("ab.é\"'# =[]\\"), min_size=1, max_size=4)
-SCALARS = st.sampled_from(
-    [
-        *("1", "-2.5e3", "true", "inf", "0xf", "1979-05-27", "07:32:00", '""', "''"),
-        *('"a # ] } , = \\" b"', "'c:\\'", '""""a"""'),
-        *('"""\n[x]\ny = 1 \\"""\n"""', "'''\n#\nz = [\n'''"),
-    ]
-)
-COMMENTS = st.sampled_from(["", " # x = [1", "  # [y]", "\t"])
-
-
-def quoted(key: str) -> str:
-    return json.dumps(key)
-
-
-@st.composite
-def inline_values(draw: st.DrawFn, depth: int = 2) -> str:
-    kind = draw(st.sampled_from(["scalar", "array", "table"] if depth else ["scalar"]))
-    if kind == "scalar":
-        return draw(SCALARS)
-    items = draw(st.lists(inline_values(depth=depth - 1), max_size=3))
-    if kind == "array":
-        gap = draw(st.sampled_from(["", " ", "\n", " # ], [\n "]))
-        return "[" + gap + "".join(f"{item}{gap},{gap}" for item in items) + "]"
-    return "{ " + ", ".join(f"{quoted(f'k{i}')} = {item}" for i, item in enumerate(items)) + " }"
-
-
-@st.composite
-def tables(draw: st.DrawFn, header: str) -> list[str]:
-    """Text lines of one table: its header and pairs, with comments and blank lines between."""
-    lines = [header + draw(COMMENTS)]
-    for key in draw(st.lists(KEYS, unique=True, max_size=4)):
-        dotted = ' . "in".x' if draw(st.booleans()) else ""
-        pair = f"{quoted(key)}{dotted} = {draw(inline_values())}{draw(COMMENTS)}"
-        lines += [*draw(st.lists(COMMENTS, max_size=2)), pair]
-    return lines
-
-
-@st.composite
-def toml_texts(draw: st.DrawFn) -> str:
-    lines = draw(tables("# top"))
-    for number in range(draw(st.integers(0, 3))):
-        kind = draw(st.sampled_from(["[t{0}]", "[[l]]", "[t{0}.'s.t']", "[[m.n]]"]))
-        lines += draw(tables(kind.format(number)))
-        if kind == "[[l]]" and draw(st.booleans()):
-            lines += draw(tables("[[ l . inner ]]"))
-    return "\n".join(lines) + "\n"
-
-
-@given(toml_texts())
-def test_the_keys_found_are_those_of_the_document(text: str) -> None:
-    assert set(locate(text)) == paths_in(tomllib.loads(text))
-
-
-@given(st.text(st.sampled_from("ab.\"'#=[]{},\n \\u0")) | st.text())
-def test_no_text_whatsoever_upsets_the_scanner(text: str) -> None:
-    assert all(1 <= line <= text.count("\n") + 1 for line in locate(text).values())
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,6 @@ from semi_analytical.influence.closed_form import HalfSpaceCoefficients, Rectang
 from semi_analytical.stress import default_depths, interfaces, subsurface, subsurface_section
 from semi_analytical.stress.cells import depth_coefficients
 from semi_analytical.stress.components import FIELDS, TRACTIONS
-from semi_analytical.stress.depths import line_weights
 from semi_analytical.stress.rectangle import RectanglePotentials, half_space_response
 
 GAUSS = np.polynomial.legendre.leggauss(16)
@@ -249,21 +248,6 @@ def test_section_is_the_plane_at_y(rng):
             np.testing.assert_allclose(
                 section.displacement, whole.along_x(y).displacement, atol=1e-12
             )
-
-
-@given(st.floats(-1.75, 1.75), st.integers(4, 9))
-def test_interpolation_is_exact_for_cubics(at, count):
-    samples = np.linspace(-1.75, 1.75, count)
-
-    def cubic(x):
-        return 1 - 2 * x + 0.3 * x**2 - x**3
-
-    # A place next to a sample is taken for that sample.
-    off = np.min(np.abs(samples - at))
-    assume(off == 0 or off > 1e-8)
-    assert line_weights(samples, at) @ cubic(samples) == pytest.approx(cubic(at), abs=1e-12)
-    with pytest.raises(ValueError, match="outside of the samples"):
-        line_weights(samples, 1.8)
 
 
 def test_a_number_on_an_interface_is_its_upper_side():

@@ -39,13 +39,11 @@ from contact_scene.quantities.stated_error import (
     ErrorStatus,
     StatedError,
 )
-from contact_scene.solver_errors import UnsupportedScene
 from radial.normal.disc import disc
 from radial.response.bodies import Bodies
 from radial.stress.circle_fit import (
     USUAL,
     pushed_circle,
-    round_circle,
 )
 from radial.stress.loaded_circle import LoadedCircle
 from radial.stress.ray_integrals import below_circle
@@ -128,30 +126,6 @@ def test_the_largest_stresses_of_a_ball_are_known() -> None:
     for error, extreme in zip(errors, found, strict=True):
         assert error.error is not None
         assert error.error < 1e-6 * extreme.value
-
-
-@pytest.mark.parametrize(
-    ("indenter", "where"),
-    [('shape = "cone", slope_angle = 0.1', "a tip"), ('shape = "flat_punch", radius = 1', "a rim")],
-)
-def test_shear_below_infinite_pressure_is_refused_before_anything_is_solved(
-    indenter: str, where: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.delattr(radial.history, "solve")
-    (tmp_path / "scene.toml").write_text(f"""
-        indenter = {{ {indenter}, material = "rigid" }}
-        friction = {{ coefficient = 0.1 }}
-        [body]
-        material = {{ young_modulus = 1, poisson_ratio = 0.5 }}
-        [[loading]]
-        normal_force = 1e-3
-        [[loading]]
-        twist = 1e-3
-    """)
-    asked = ("stress", "scene.toml", "--solver", "radial", "-o", "out")
-    said = outcome(*asked, cwd=tmp_path)
-    assert said.returncode == 2
-    assert f"infinite at {where}" in said.stderr
 
 
 def test_a_ball_smaller_than_a_metre_is_round_all_the_same(tmp_path: Path) -> None:
@@ -271,16 +245,6 @@ def test_a_circle_beside_the_axis_is_found() -> None:
     assert_allclose((found.centre, found.radius), (-0.03, 1.0), atol=2e-3)
     # Straight lines between nodes carry 0.4 % less than a root.
     assert_allclose(found.smooth / found.load, given.smooth / given.load, atol=4e-3)
-
-
-def test_too_few_rings_are_refused() -> None:
-    r = np.array([0.0, 0.3, 0.7, 1.2])
-    p = np.sqrt(np.maximum(1 - r * r, 0))
-    with pytest.raises(UnsupportedScene, match="3 rings tell the edge"):
-        round_circle(r, 1.0, 0 * p, 0 * p, p)
-    fields = [np.repeat(f[:, None], 4, axis=1) for f in (0 * p, 0 * p, p)]
-    with pytest.raises(UnsupportedScene, match="rings tell the edge"):
-        pushed_circle(r, np.pi * np.arange(4) / 3, *fields)
 
 
 def frictional(body: Body, indenter: Paraboloid, *loads: LoadStep) -> Scene:
