@@ -1,6 +1,5 @@
 """Verifying one case imports the module of that case: no other, no study, no solver but its."""
 
-import json
 import os
 import subprocess
 import sys
@@ -32,7 +31,6 @@ import sys
 LocalWorkers.submit = submit
 main(sys.argv[1:])
 """
-MAIN = "from slipstick.cli.application import main\nmain()"
 JUDGED = """
 import sys
 from verification.cases.judged_case import CaseToJudge
@@ -67,16 +65,6 @@ def test_one_case_loads_no_other(program: str, tmp_path: Path) -> None:
         "verification.defects", "verification.peers", "verification.external_codes",
         "verification.report.page", "verification.report.svg",
     )  # fmt: skip
-
-
-def test_one_case_needs_no_worker_and_is_the_same(tmp_path: Path) -> None:
-    no_worker = AT_WORK.replace("print(*sys.modules)", "raise AssertionError")
-    found = []
-    for name, program in (("none", no_worker), ("one", MAIN)):
-        options = ("--workers", "1") if name == "one" else ()
-        loaded(program, "verify", "dissimilar_bodies", "-o", name, *options, cwd=tmp_path)
-        found.append(json.loads((tmp_path / name / "report.json").read_bytes())["cases"])
-    assert found[0] == found[1]
 
 
 # ---- The cases describe what they say, and their references agree with each other.
