@@ -15,6 +15,7 @@ from fem_reference.elasticity.compliance import composite, condense
 from fem_reference.elasticity.factored_section import FactoredSection
 from fem_reference.elasticity.motion import PRESSING, SHEARING, TORSION, motion
 from fem_reference.mesh.section_mesh import section_mesh
+from fem_reference.mesh.section_outline import sufficient_box
 
 NU = 0.3
 HALF_SPACE = Body(material=IsotropicMaterial(young_modulus=2 * (1 + NU), poisson_ratio=NU))
@@ -134,6 +135,16 @@ def test_the_box_moves_with_the_far_field_of_the_load(patch, moving, at_rest):
     assert abs(energy_in_a_box(HALF_SPACE, of, load, 5.0) / large - 1) < moving
     fixed = replace(of, far_field=None)
     assert abs(energy_in_a_box(HALF_SPACE, fixed, load, 5.0) / large - 1) > at_rest
+
+
+@pytest.mark.parametrize("patch", ["pressure", "shear"])
+@pytest.mark.parametrize(("modulus", "thickness"), [(5.0, 0.1), (1000.0, 0.5)])
+def test_the_chosen_box_suffices(modulus, thickness, patch):
+    """Moduli in units of the substrate's."""
+    body, _ = coated(modulus, 0.3, 1.0, 0.3, thickness)
+    of, load = PATCHES[patch]
+    larger = energy_in_a_box(body, of, load, 4 * sufficient_box(body))
+    assert energy_in_a_box(body, of, load, None) == pytest.approx(larger, rel=2e-5)
 
 
 @pytest.mark.parametrize("of", MOTIONS.values(), ids=MOTIONS)
