@@ -69,9 +69,9 @@ SCENES = {
     "libraries": scene(32),
     "pressed": scene(512),
     "edge not seen in the stress": scene(94, layer=LAYER),
-    "coupled and pushed": scene(224, nu=0.0, then=PUSHED),
 }
 DEAR = {
+    "coupled and pushed": scene(224, nu=0.0, then=PUSHED),
     "figures of five steps": scene(32, then=TURNED_ROUND),
     "pressed": scene(1024),
     "long": scene((16, 16384)),
@@ -153,7 +153,7 @@ def radial_scene(
     "text",
     [
         pytest.param(radial_scene(1e-4), id="pressed"),
-        pytest.param(radial_scene(1e-4, friction=FRICTION), id="rubbed"),
+        pytest.param(radial_scene(1e-4, friction=FRICTION), id="rubbed", marks=slow),
         pytest.param(radial_scene(1e-5), id="thin, pressed", marks=slow),
         pytest.param(radial_scene(1e-5, friction=FRICTION), id="thin, rubbed", marks=slow),
         pytest.param(radial_scene(1e-6), id="film, pressed", marks=slow),
