@@ -9,14 +9,12 @@ increments are changed.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import ceil, log
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
-import numpy as np
-
-from contact_errors.cost_estimate import Work
+from contact_errors.cost_estimate import Work, estimated_seconds
 from contact_errors.error_formula import Comparison, Features, SolvedRun
 from contact_errors.values import Values, values_of
 from contact_results.cycles import fretting_cycles
@@ -30,12 +28,16 @@ from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import SolverError
 from contact_scene.stepping.increment_error import with_error
 
-# Coarse solves: description, share of the cells along a side, and further cells.
-PAIR = ("half the {}", 1 / 2, 0), ("two thirds of the {}", 2 / 3, 0)
-TRIPLE = (*PAIR, ("half the {} and two", 1 / 2, 2))
+# Coarse solves: description, share of the cells along a side, and further cells. The edges of zones
+# lie differently within the cells of each.
+SHARES = ("half the {} and two", 1 / 2, 2), ("two fifths of the {}", 2 / 5, 0)
 # A step with fewer increments is compared with many, as halves of few do not converge regularly.
 FEW, MANY = 4, (32, 8)
 LEAST_TOLERANCE = 1e-13
+
+
+# Numbers of two solves that differ in their increments; empty without such solves.
+Effect: TypeAlias = tuple[Sequence[Values], ...]
 
 
 @dataclass(frozen=True)
@@ -95,11 +97,11 @@ class DiscretisedSolver(ABC):
     decided: Any = None
 
     # Part of the error, name of the cells, their largest number along a side (over the radius, or
-    # multiple of the rings), and cells times increments up to which three coarse solves are made.
+    # multiple of the rings), and shares of them in coarse solves.
     part: ClassVar[Part]
     cells: ClassVar[str]
     most: ClassVar[float]
-    small: ClassVar[float] = 0.0
+    shares: ClassVar[Sequence[tuple[str, float, int]]] = SHARES
 
     @property
     @abstractmethod
@@ -196,7 +198,12 @@ def estimated(solver: DiscretisedSolver, result: Any) -> StatedErrors:
 
 
 def solved_run(solver: DiscretisedSolver, result: Any) -> tuple[SolvedRun, tuple[Companion, ...]]:
-    """Make the coarse solves of a result, each once."""
+    """Make the coarse solves of a result, each once.
+
+    The first coarse solve has the increments of the run. The increments are then changed on its
+    cells, or on few cells where that takes less time. All further coarse solves have the fewest
+    increments, and the effect of the increments on the numbers is added.
+    """
     run, made = solver.fineness_of(result), list[Companion]()
     known: dict[Fineness, Any] = {run: result}
 
@@ -213,41 +220,45 @@ def solved_run(solver: DiscretisedSolver, result: Any) -> tuple[SolvedRun, tuple
                 made.append(record.model_copy(update={"refused": str(error)}))
         return known[coarse]
 
-    def compared(base: Any, by: Iterable[CoarseSolve]) -> Iterator[Comparison]:
-        for coarse in by:
-            required[coarse.part] = [True] * len(values)
-            found = solved(coarse.differs, replace(run, space=coarse.space))
-            if found is not None:
-                sides = zip(solver.sides(found), solver.sides(base), strict=True)
-                ratio = coarse.ratio or min(there / here for there, here in sides)
-                both = numbers(base), numbers(found)
-                yield Comparison(coarse.part, *both, [ratio] * len(values))
+    def compare(base: Any, coarse: CoarseSolve, fineness: Fineness, effect: Effect = ()) -> Any:
+        """Compare a coarse solve with its base, and return it; None for a refused one."""
+        required[coarse.part] = [True] * len(values)
+        found = solved(coarse.differs, fineness)
+        if found is not None:
+            sides = zip(solver.sides(found), solver.sides(base), strict=True)
+            ratio = coarse.ratio or min(there / here for there, here in sides)
+            both = numbers(base), added(numbers(found), effect)
+            comparisons.append(Comparison(coarse.part, *both, [ratio] * len(values)))
+        return found
 
     values, matters = numbers(result), with_error(result.scene)
-    required: dict[Part, Sequence[bool]] = {solver.part: [True] * len(values)}
-    small = np.prod([*solver.shown(run.space).values()]) * len(result.increments) <= solver.small
-    comparisons = list(
-        compared(
-            result,
-            [
-                CoarseSolve(
-                    solver.part, text.format(solver.cells), solver.coarser(result, share, more)
-                )
-                for text, share, more in (TRIPLE if small else PAIR)
-            ],
-        )
-    )
-    bases = [fineness.space for fineness, found in known.items() if found is not None][1:2]
-    for base in bases:
-        comparisons += compared(known[replace(run, space=base)], solver.of_mesh(base, result))
-        few = replace(run, space=solver.few(base, result))
-        first = solved("few increments", few) if any(matters) else None
-        for others in dict.fromkeys(recounted(run.increments, matters)) if first else ():
-            found = solved("other increments", replace(few, increments=others))
+    comparisons: list[Comparison] = []
+    required: dict[Part, Sequence[bool]] = {}
+    of_cells = [
+        CoarseSolve(solver.part, text.format(solver.cells), solver.coarser(result, share, more))
+        for text, share, more in solver.shares
+    ]
+    base = space = None
+    while base is None and of_cells:
+        coarse = of_cells.pop(0)
+        space = coarse.space
+        base = compare(result, coarse, replace(run, space=space))
+    if base is not None:
+        others = [*dict.fromkeys(recounted(run.increments, matters))] if any(matters) else []
+        few, fewest = replace(run, space=_for_increments(solver, run, space, result, others)), run
+        first, effect = solved("few increments", few), Effect()
+        for counts in others if first else ():
+            found = solved("other increments", replace(few, increments=counts))
             if found is not None:
-                factors = ratios(run.increments, others, matters)
                 both = numbers(first), numbers(found)
+                factors = ratios(run.increments, counts, matters)
                 comparisons.append(Comparison("increments", *both, factors))
+                if sum(counts) < sum(fewest.increments):
+                    fewest, effect = replace(run, increments=counts), both
+        for coarse in of_cells:
+            compare(result, coarse, replace(fewest, space=coarse.space), effect)
+        for coarse in solver.of_mesh(space, result):
+            compare(base, coarse, replace(fewest, space=coarse.space), effect)
     return SolvedRun(
         scene=result.scene,
         values=values,
@@ -257,6 +268,32 @@ def solved_run(solver: DiscretisedSolver, result: Any) -> tuple[SolvedRun, tuple
         required={**required, "increments": matters},
         neglected=solver.neglected(result),
     ), tuple(made)
+
+
+def added(found: Sequence[Values], effect: Effect) -> Sequence[Values]:
+    """Add the effect of increments, the numbers with many and with few of them."""
+    return (
+        found
+        if not effect
+        else [
+            {name: here[name] + many[name] - few[name] for name in here if name in {*many} & {*few}}
+            for here, many, few in zip(found, *effect, strict=True)
+        ]
+    )
+
+
+def _for_increments(
+    solver: DiscretisedSolver, run: Fineness, space: Any, result: Any, others: Sequence[Any]
+) -> Any:
+    """Cells of the first coarse solve, or few cells if all solves on them take less time."""
+    few = solver.few(space, result)
+    unit = solver.work(run)
+
+    def seconds(cells: Any, solves: Sequence[Any]) -> float:
+        works = (solver.work(Fineness(cells, counts, run.tolerance)) for counts in solves)
+        return sum(estimated_seconds(1.0, unit, work) for work in works)
+
+    return few if seconds(few, [run.increments, *others]) < seconds(space, others) else space
 
 
 def at_ends(result: Any, resolved: Callable[[Any], Features]) -> Sequence[Features]:

@@ -6,9 +6,9 @@ u unknowns and w repetitions of a solve take t; u₀ and w₀ take t₀, which i
 The exponent is 1 for the transforms of the fields, and 0.1 because iterations double with 1000
 times the cells. Of few unknowns a solve takes as long as of o, the overhead of each operation.
 
-The error estimate of a run adds two solves, with 1/4 and 4/9 of its unknowns, and solves that judge
-the increments. The latter have few cells in the run and in the coarse solve alike, so that they
-take as long as in the error estimate of the coarse solve, in proportion to the repetitions.
+The error estimate of a run adds two solves, with 1/4 and 4/25 of its unknowns, and solves that
+judge the increments. The latter have few cells in the run and in the coarse solve alike, so that
+they take as long as in the error estimate of the coarse solve, in proportion to the repetitions.
 """
 
 from __future__ import annotations
@@ -29,6 +29,8 @@ EXPONENT = 1.1
 CELL_OVERHEAD, ELEMENT_OVERHEAD = 128.0**2, 32.0**2
 # Factorisations take as long as so many increments of a history by elements.
 SET_UP_INCREMENTS = 50
+# Shares of the cells along a side in the two coarse solves of an error estimate.
+COARSE = 1 / 2, 2 / 5
 # Limits of the coarse solve: cells along the longer side, elements over the contact radius, load
 # steps from the first, and increments of these together.
 MAX_CELLS, MAX_ELEMENTS, MAX_STEPS, MAX_INCREMENTS = 32, 8, 12, 48
@@ -79,7 +81,7 @@ def estimated_run_seconds(solved: float, judged: float, coarse: Work, run: Work)
     solved  CPU seconds of the coarse solve
     judged  CPU seconds of the error estimate of the coarse solve
     """
-    fewer = [replace(run, unknowns=share**2 * run.unknowns) for share in (1 / 2, 2 / 3)]
+    fewer = [replace(run, unknowns=share**2 * run.unknowns) for share in COARSE]
     return (
         sum(estimated_seconds(solved, coarse, each) for each in (run, *fewer))
         + judged * run.repetitions / coarse.repetitions

@@ -40,8 +40,6 @@ from semi_analytical.solve import solve_within
 # Cells over the contact radius of the solves that estimate the increment error. The effect of
 # increments on 24² and on 64² cells differs by at most 7 %.
 PER_RADIUS = 11
-# Cells times increments of a run up to which a third coarse solve is made.
-SMALL = 1e5
 # Largest height of a random surface in root mean squares: one place in a thousand exceeds it.
 HIGHEST = 3.0
 # Cells along the shorter side of the first level; eleven per radius on a fitted window.
@@ -67,7 +65,6 @@ class CellSolver(DiscretisedSolver):
 
     part: ClassVar[Part] = "cells"
     cells: ClassVar[str] = "cells"
-    small: ClassVar[float] = SMALL
     most: ClassVar[float] = MAX_CELLS
 
     @property

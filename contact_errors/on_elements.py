@@ -12,7 +12,7 @@ import numpy as np
 
 import fem_reference
 from contact_errors.coarse_solves import (
-    PAIR,
+    SHARES,
     CoarseSolve,
     DiscretisedSolver,
     Fineness,
@@ -37,8 +37,6 @@ from fem_reference.memory import largest_bytes
 # Friction acts back on the pressure, which has a cusp on the axis.
 CUSPED = (Path.PRESSING_WITH_FRICTION, Path.HARMONICS)
 FEWEST_ELEMENTS, SMALLEST_BOX, FEWEST_HARMONICS, LARGEST_OVERLAP = 4, 5.0, 2, 1.0
-# Elements over the radius times increments of a run up to which a third coarse solve is made.
-SMALL = 640.0
 LINEAR = 2.0  # linear elements resolve a feature like twice as many cells
 FIRST_ELEMENTS, MAX_ELEMENTS, MAX_HARMONICS = 8, 512, 64
 LEAST_OVERLAP, LARGEST_BOX = 1e-8, 1e6
@@ -60,7 +58,6 @@ class ElementSolver(DiscretisedSolver):
 
     part: ClassVar[Part] = "elements"
     cells: ClassVar[str] = "elements"
-    small: ClassVar[float] = SMALL
     most: ClassVar[float] = MAX_ELEMENTS
 
     @property
@@ -83,7 +80,7 @@ class ElementSolver(DiscretisedSolver):
     def coarser(self, result: Result, share: float, more: int) -> FiniteElementDiscretisation:
         mesh, radius = result.discretisation, result.radius
         count = max(FEWEST_ELEMENTS, ceil(share * mesh.elements_per_radius)) + more
-        if (share, more) == PAIR[0][1:]:
+        if (share, more) == SHARES[0][1:]:
             # The edge of the contact lies in the middle of an element.
             largest = max(increment.contact_radius for increment in result.increments)
             radius = largest * count / (count + 0.5)

@@ -44,6 +44,11 @@ class RingSolver(DiscretisedSolver):
     part: ClassVar[Part] = "quadrature"
     cells: ClassVar[str] = "rings"
     most: ClassVar[float] = MAX_FINENESS
+    # Where half of the rings are refused, two thirds may succeed.
+    shares: ClassVar[Sequence[tuple[str, float, int]]] = (
+        ("half the {}", 1 / 2, 0),
+        ("two thirds of the {}", 2 / 3, 0),
+    )
 
     @property
     def plan(self) -> Plan:
