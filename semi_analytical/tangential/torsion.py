@@ -85,19 +85,30 @@ class ShearMoments:
             guess = gamma * self.reach * motion[2:]
         else:
             guess = gamma * np.array([*motion[:2], self.reach * motion[2]])
-        shifted, multiplier = self._projected(y, bound, guess)
+        q, multiplier = self._projected(y, bound, guess)
         shift = self.shift if self.shift is not None else multiplier[:2] / gamma
-        return shifted.q, np.array([*shift, multiplier[-1] / (gamma * self.reach)])
+        return q, np.array([*shift, multiplier[-1] / (gamma * self.reach)])
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
         """On the discs, with the forces."""
-        return self._projected(q, bound, np.zeros(len(self.given)))[0].q
+        return self._projected(q, bound, np.zeros(len(self.given)))[0]
 
-    def _projected(self, y: VectorField, bound: Field, guess: Vector) -> tuple["_Shifted", Vector]:
+    def _projected(self, y: VectorField, bound: Field, guess: Vector) -> tuple[VectorField, Vector]:
+        loaded, units = self._loaded(bound)
+        of_loaded, limit = y[:, loaded], bound[loaded]
+
         def shifted_by(multiplier: Vector) -> _Shifted:
-            return _Shifted.by(multiplier, y, bound, self)
+            return _Shifted.by(multiplier, of_loaded, limit, units, self.given)
 
-        return find_multiplier(shifted_by, guess)
+        shifted, multiplier = find_multiplier(shifted_by, guess)
+        q = np.zeros_like(y)
+        q[:, loaded] = shifted.q
+        return q, multiplier
+
+    def _loaded(self, bound: Field) -> tuple[Mask, Field]:
+        """Select the cells that carry shear, and the unit motions of them (k, 2, n)."""
+        loaded = bound > 0
+        return loaded, np.stack([unit[:, loaded] for unit in self.units])
 
     def exhausts(self, bound: Field) -> bool:
         """Whether the load is at the limit of friction or beyond."""
@@ -109,21 +120,26 @@ class ShearMoments:
         """All cells slip about the pole at which the load reaches the limit."""
         if not np.any(bound) or not np.any(self.given):
             return np.zeros((2, *bound.shape)), motion
-        speed = self._speed(self.limit(bound)[1])
-        return bound * speed / _blunt_size(speed), motion
+        loaded, units = self._loaded(bound)
+        speed = np.tensordot(self.limit(bound)[1], units, 1)
+        q = np.zeros((2, *bound.shape))
+        q[:, loaded] = bound[loaded] * speed / _blunt_size(speed)
+        return q, motion
 
     def limit(self, bound: Field) -> tuple[float, Vector]:
         """How many times the load friction can carry, and how the indenter then slides (k,).
 
         The least power of friction over all rigid motions on which the load does unit work.
         """
+        loaded, units = self._loaded(bound)
+        limit = bound[loaded]
         start = self.given / np.sum(self.given**2)
         across = np.linalg.svd(self.given[None, :])[2][1:]
         if len(across) == 0:
-            return float(np.sum(bound * magnitude(self._speed(start)))), start
+            return float(limit @ magnitude(np.tensordot(start, units, 1))), start
 
         def power_at(x: Vector) -> tuple[float, Vector, Field]:
-            return self._power(start + x @ across, bound)
+            return _power(start + x @ across, limit, units)
 
         x = np.zeros(len(across))
         power, slope, curvature = power_at(x)
@@ -137,27 +153,36 @@ class ShearMoments:
             x, (power, slope, curvature) = _descended(power_at, x, step, power, fall)
         return power, start + x @ across
 
-    def _speed(self, velocity: Vector) -> VectorField:
-        """Speed of the indenter's particles in a motion by shares of the units (k,)."""
-        speed = np.zeros_like(self.rotation)
-        for share, unit in zip(velocity, self.units, strict=True):
-            speed = speed + share * unit
-        return speed
 
-    def _power(self, velocity: Vector, bound: Field) -> tuple[float, Vector, Field]:
-        """Power of friction in full slip, with its gradient and its curvature."""
-        speed = self._speed(velocity)
-        size = _blunt_size(speed)
-        q = bound * speed / size
-        along = [np.sum(speed * unit, axis=0) / size for unit in self.units]
-        curvature = [
-            [
-                np.sum(bound / size * (np.sum(one * other, axis=0) - a * b))
-                for other, b in zip(self.units, along, strict=True)
-            ]
-            for one, a in zip(self.units, along, strict=True)
-        ]
-        return float(np.sum(bound * size)), self.forces(q), np.array(curvature)
+def _power(velocity: Vector, limit: Vector, units: Field) -> tuple[float, Vector, Field]:
+    """Compute the power of friction in full slip, with its gradient and its curvature.
+
+    velocity  shares of the unit motions (k,)
+    limit     of friction on the loaded cells (n,)
+    units     their unit motions (k, 2, n)
+    """
+    speed = np.tensordot(velocity, units, 1)
+    size = _blunt_size(speed)
+    weight = limit / size
+    along = _along(units, speed) / size
+    curvature = _products(units, weight) - (along * weight) @ along.T
+    return float(limit @ size), _forces(units, weight * speed), curvature
+
+
+def _forces(units: Field, q: Field) -> Vector:
+    """Compute the forces (k,) of a shear (2, n) on the unit motions."""
+    return np.asarray(units.reshape(len(units), -1) @ q.ravel())
+
+
+def _along(units: Field, vector: Field) -> Field:
+    """Compute the products (k, n) of the unit motions and a vector of each cell (2, n)."""
+    return np.asarray(units[:, 0] * vector[0] + units[:, 1] * vector[1])
+
+
+def _products(units: Field, weight: Vector) -> Field:
+    """Compute the weighted sums (k, k) of the products of pairs of unit motions."""
+    flat = units.reshape(len(units), -1)
+    return np.asarray((units * weight).reshape(flat.shape) @ flat.T)
 
 
 def _blunt_size(speed: VectorField) -> Field:
@@ -183,27 +208,30 @@ def _descended(
 
 @dataclass(frozen=True)
 class _Shifted:
-    """y + Σ λ unit cut off at the discs: see multipliers.py and admissible_shear._Shifted."""
+    """y + Σ λ unit cut off at the discs of the loaded cells: see multipliers.py and
+    admissible_shear._Shifted."""
 
-    z: VectorField
-    length: Field
+    z: Field
+    length: Vector
     outside: Mask
-    scale: Field
-    q: VectorField
-    units: tuple[VectorField, ...]
+    scale: Vector
+    q: Field
+    units: Field
     defect: Vector
     capacity: float
 
     @classmethod
-    def by(cls, multiplier: Vector, y: VectorField, bound: Field, load: ShearMoments) -> "_Shifted":
-        """Shift `y` by multipliers and cut it off."""
-        z = y + load._speed(multiplier)
+    def by(
+        cls, multiplier: Vector, y: Field, limit: Vector, units: Field, given: Vector
+    ) -> "_Shifted":
+        """Shift `y` (2, n) by multipliers and cut it off."""
+        z = y + np.tensordot(multiplier, units, 1)
         length = magnitude(z)
-        outside = length > bound
-        scale = np.where(outside, bound / np.where(outside, length, 1.0), 1.0) * (bound > 0)
+        outside = length > limit
+        scale = np.where(outside, limit / np.where(outside, length, 1.0), 1.0)
         q = z * scale
-        defect = load.forces(q) - load.given
-        return cls(z, length, outside, scale, q, load.units, defect, float(np.sum(bound)))
+        defect = _forces(units, q) - given
+        return cls(z, length, outside, scale, q, units, defect, float(np.sum(limit)))
 
     def settled(self, multiplier: Vector) -> bool:
         """Whether the defect is round-off, of the sums or of the multipliers."""
@@ -218,16 +246,8 @@ class _Shifted:
         of the derivative does where all cells slip along their motion.
         """
         w = np.where(self.outside, self.scale / np.where(self.outside, self.length**2, 1.0), 0.0)
-        along = [np.sum(self.z * unit, axis=0) for unit in self.units]
-        matrix = np.array(
-            [
-                [
-                    np.sum(self.scale * np.sum(one * other, axis=0) - w * a * b)
-                    for other, b in zip(self.units, along, strict=True)
-                ]
-                for one, a in zip(self.units, along, strict=True)
-            ]
-        )
-        stiffness = sum(float(np.sum(self.scale * unit * unit)) for unit in self.units)
+        along, products = _along(self.units, self.z), _products(self.units, self.scale)
+        matrix = products - (along * w) @ along.T
+        stiffness = float(np.trace(products))
         damping = 1e-3 * stiffness * (np.sum(np.abs(self.defect)) / self.capacity) ** 2
         return -np.linalg.solve(matrix + damping * np.eye(len(matrix)), self.defect)
