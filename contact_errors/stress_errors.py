@@ -40,6 +40,7 @@ from contact_results.stress.on_disc import stress_on_disc
 from contact_results.stress.on_section import stress_on_section
 from contact_results.stress.points import StressField, StressPoints
 from contact_results.stress.stress_maxima import (
+    SURFACE,
     Extreme,
     extremes,
 )
@@ -56,7 +57,7 @@ Field = NDArray[np.float64]
 Key = tuple[str, str]
 
 # Regions that the edge of the contact belongs to.
-AT_SURFACE = "body", "layer 1"
+AT_SURFACE = "body", "layer 1", SURFACE
 # Cells from the surface within which a stress depends on the edge of the tractions.
 NEAR = 2.0
 COARSE = 2.0  # coarsening factor of the tractions

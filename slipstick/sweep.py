@@ -23,8 +23,9 @@ from contact_errors.stress_errors import largest_stresses
 from contact_results.cycles import fretting_cycles
 from contact_results.files.summary_file import summary_of
 from contact_results.number_text import uncertainty
-from contact_results.stress.points import MEASURES
+from contact_results.stress.points import MEASURES, ON_INTERFACES
 from contact_results.stress.stress_maxima import (
+    SURFACE,
     interface_sides,
     layer_name,
 )
@@ -108,9 +109,16 @@ class Variation:
 def quantities(body: Body) -> tuple[str, ...]:
     """Names of all quantities of a scene: scalars, and largest stresses as MEASURE@REGION."""
     layers = len(body.layers)
-    regions = ["body", *(layer_name(k, layers) for k in range(layers + 1) if layers)]
-    regions += [str(number) for number, side, _, _ in interface_sides(body) if side == "above"]
-    return (*SCALARS, *(f"{measure}@{region}" for measure in MEASURES for region in regions))
+    interfaces = [str(number) for number, side, _, _ in interface_sides(body) if side == "above"]
+    regions = ["body"]
+    if layers:
+        regions += [SURFACE, *(layer_name(k, layers) for k in range(layers + 1))]
+    stresses = [
+        f"{measure}@{region}"
+        for measure in MEASURES
+        for region in (interfaces if measure in ON_INTERFACES else [*regions, *interfaces])
+    ]
+    return (*SCALARS, *stresses)
 
 
 @dataclass(frozen=True)

@@ -47,6 +47,26 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return directory
 
 
+def test_traction_on_the_interface_is_the_largest_of_one_side(place: Path) -> None:
+    record = json.loads((place / "out" / "stress.json").read_text(encoding="utf-8"))
+    measures = ("interface_shear", "interface_tensile_stress")
+    found = [e for e in record["maxima"] if e["measure"] in measures]
+    assert [(e["region"], e["measure"]) for e in found] == [
+        ("interface 1 above", m) for m in measures
+    ]
+    table = rows(place / "out" / "stress_interfaces.csv")
+    xz, zz, x = (
+        np.array([float(row[name]) for row in table if row["side"] == "above"])
+        for name in ("sigma_xz [Pa]", "sigma_zz [Pa]", "x [m]")
+    )
+    # The section is at y = 0, between rows of cells.
+    assert found[0]["value"] == pytest.approx(np.max(np.abs(xz)), rel=0.02)
+    radius = np.hypot(found[0]["x"], found[0]["y"])
+    assert radius == pytest.approx(abs(x[np.argmax(np.abs(xz))]), abs=x[1] - x[0])
+    assert np.max(zz) <= found[1]["value"] < 1e-3 * found[0]["value"]
+    assert found[0]["error"]["error"] < 0.1 * found[0]["value"]
+
+
 def test_run_and_scene_give_the_same(place: Path) -> None:
     ended = outcome("stress", place / "run", "-o", place / "of_run", "--figures", "none", cwd=ROOT)
     assert ended.returncode == 0, ended.stderr

@@ -187,6 +187,7 @@ def test_measures_of_a_pure_shear() -> None:
     points = StressPoints(nothing, nothing, nothing, nothing.astype(int), one, shear, nothing > 0)
     found = {name: value.item() for name, value in points.measures.items()}
     expected = {"von_mises": 3 * np.sqrt(3), "max_principal": 3.0, "max_shear": 3.0}
+    expected |= {"interface_shear": 3.0, "interface_tensile_stress": 0.0}
     assert found == pytest.approx(expected)
 
 

@@ -139,7 +139,10 @@ def test_a_point_without_answer_leaves_its_reason(scene: Path) -> None:
             "expected at most 99999",
         ),
         (("--vary", "indenter.radius=8..9 mm 2", "--get", "peak_presure"), "mean peak_pressure?"),
-        (("--vary", "indenter.radius=8..9 mm 2", "--get", "max_shear@1"), "no quantity is called"),
+        (
+            ("--vary", "indenter.radius=8..9 mm 2", "--get", "interface_shear@1"),
+            "no quantity is called",
+        ),
     ],
 )
 def test_a_sweep_that_cannot_be_made_says_why(scene: Path, arguments, message) -> None:

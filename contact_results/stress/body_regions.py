@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contact_results.stress.stress_maxima import (
+    SURFACE,
     interface_sides,
     layer_name,
 )
@@ -58,6 +59,8 @@ class BodyRegions:
             layer_name(layer, count) if count else "body": (layer, tops[layer], bottom)
             for layer, bottom in enumerate(bottoms)
         }
+        if count:
+            named[SURFACE] = (0, first, first)
         for number, side, depth, material in interface_sides(body):
             named[f"interface {number} {side}"] = (material, depth, depth)
         return cls(radius, count, named, deepest, first, down)

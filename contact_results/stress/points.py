@@ -22,7 +22,10 @@ MEASURES = {
     "von_mises": "equivalent stress of von Mises",
     "max_principal": "largest principal stress, tension positive",
     "max_shear": "half the difference of the extreme principal stresses",
+    "interface_shear": "shear stress on an interface, |(xz, yz)|",
+    "interface_tensile_stress": "stress zz normal to an interface, tension positive",
 }
+ON_INTERFACES = frozenset({"interface_shear", "interface_tensile_stress"})
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +64,9 @@ class StressPoints:
     def measures(self) -> Mapping[str, Field]:
         """What is looked for the largest of (…), by the names of `MEASURES`."""
         first, _, last = self.principal
-        values = (self.von_mises, first, (first - last) / 2)
+        of = self.components
+        across = np.hypot(of["xz"], of["yz"])
+        values = (self.von_mises, first, (first - last) / 2, across, of["zz"])
         return dict(zip(MEASURES, values, strict=True))
 
     @property

@@ -8,8 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_results.stress.points import StressField, StressPoints
+from contact_results.stress.points import ON_INTERFACES, StressField, StressPoints
 from contact_scene import Body, IsotropicMaterial
+
+# Its largest principal stress is that at the trailing edge, if the body is pushed.
+SURFACE = "surface"
 
 
 @dataclass(frozen=True)
@@ -49,6 +52,9 @@ def _extremes(
         if not np.any(inside):
             continue
         for measure, values in points.measures.items():
+            # Both are continuous across an interface, and of no other plane.
+            if measure in ON_INTERFACES and not region.endswith("above"):
+                continue
             k = int(np.argmax(np.where(inside, values, -np.inf)))
             value, x, y, depth = (
                 float(field.flat[k]) for field in (values, points.x, points.y, points.depth)
@@ -79,6 +85,7 @@ def _regions(points: StressPoints, body: Body) -> Iterator[tuple[str, NDArray[np
     yield "body", np.ones(points.x.shape, dtype=bool)
     if not body.layers:
         return
+    yield SURFACE, points.depth == np.min(points.depth)
     for material in np.unique(points.material).tolist():
         yield layer_name(material, len(body.layers)), points.material == material
     for number, side, depth, material in interface_sides(body):

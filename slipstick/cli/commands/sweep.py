@@ -62,7 +62,7 @@ def sweep(
             "--get",
             metavar="NAME,NAME,...",
             help="Scalars of summary.json at the end of the last step, vectors by component; or "
-            "MEASURE@REGION, a largest stress: max_principal@body, max_shear@1 (interface 1).",
+            "MEASURE@REGION, a largest stress: max_principal@body, interface_shear@1.",
         ),
     ] = "peak_pressure",
     overrides: SetOption = None,
