@@ -61,16 +61,17 @@ def test_radius_of_a_ball_is_known_to_a_small_part_of_an_element(elements: int) 
         assert found.contact_radius == pytest.approx(part * A, abs=0.03 * A / elements)
 
 
-def test_area_of_a_stuck_ring() -> None:
-    """Slip inside and outside of it; edges between the rings."""
+@pytest.mark.parametrize("unit", [1.0, 1e-9])
+def test_area_of_a_stuck_ring(unit: float) -> None:
+    """Slip inside and outside of it; edges between the rings. In any unit of the shear."""
     radii = np.arange(40.0)
     sides = np.zeros(40, np.int8)
     sides[:11], sides[30:36] = 1, 1
-    bound = np.where(radii < 36, 1.0, 0.0)
-    area = stick_area(
-        radii, bound, np.where(sides != 0, bound, 0.0)[None], sides != 0, 35.5, HatEdge()
-    )
+    bound = np.where(radii < 36, unit, 0.0)
+    shear = np.where(sides != 0, bound, 0.0)[None]
+    area = stick_area(radii, bound, shear, sides != 0, 35.5, HatEdge())
     assert area == pytest.approx(pi * (29.5**2 - 10.5**2), rel=0.06)
+    assert stick_area(radii, 0 * bound, 0 * shear, sides != 0, 35.5, HatEdge()) == 0
 
 
 @pytest.mark.parametrize("side", [1, -1])

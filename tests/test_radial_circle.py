@@ -331,6 +331,14 @@ def test_newtons_method_aims_at_where_the_laws_would_hold() -> None:
     assert_allclose(left, at.missed, atol=1e-5 * np.abs(at.missed).max())
 
 
+@pytest.mark.parametrize(("last", "share"), [(0.3, 1.0), (0.4, 2.0), (0.2, 0.5)])
+def test_a_load_that_goes_on_starts_in_proportion(last: float, share: float) -> None:
+    """From the state before, by so many of its increments as the load goes on."""
+    before = after(last - (0.5 - last) / share, last)
+    start, rest = Laws.of(alike(), LAW, pushed(0.5), before).starts(before)
+    assert_allclose((start - rest)[:-4], share * before.changed[:-4], atol=1e-9)
+
+
 def test_a_contact_beyond_the_rings_is_refused() -> None:
     with pytest.raises(ContactAtZoneEdge, match="last ring"):
         held(alike(), LAW, loaded(2 * RING_LOAD, 0.0), None, TOLERANCE)

@@ -97,6 +97,10 @@ HISTORIES = {
         ),
         {},
     ),
+    "torque that turns": (
+        (PRESS, {"torque": 0.3 * MU * LOAD * A}, {"torque": -0.2 * MU * LOAD * A}),
+        {},
+    ),
     "shift far beyond sliding and back": ((PRESS, slide(1e3), slide(0), slide(-1e3)), {}),
     "controls in turn": (
         ({"approach": APPROACH}, slide(0.5), push(0.3), {"normal_force": LOAD}, slide(-0.5)),
