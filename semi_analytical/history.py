@@ -152,13 +152,21 @@ class _Solver:
 
     def report(self, reached: Reached[State], last: Increment | None) -> Increment:
         """The state, with what the increment has changed and cost."""
-        increment = _increment(self.model, last, reached)
+        before, after = reached.before, reached.state
+        held = before is not None and before.target == after.target
+        spreads = self.plan.coupling is not Coupling.NONE or not held
+        increment = _increment(self.model, last, reached, spreads=spreads)
         return of_contact(increment, self.model.scene.rig)
 
 
-def _increment(model: ContactModel, last: Increment | None, reached: Reached[State]) -> Increment:
+def _increment(
+    model: ContactModel, last: Increment | None, reached: Reached[State], *, spreads: bool
+) -> Increment:
     """Report the state on the window, with the changes and the cost of the increment after the
-    last one. All fields are extended to the window here."""
+    last one. All fields are extended to the window here.
+
+    spreads  see `stick_area`
+    """
     state, extend, before = reached.state, model.domain.extend_fields, reached.before
     pressing, sheared = extend(state.pressing), extend(state.sheared) if state.sheared else None
     p, cell = pressing.pressure, model.window.cell_area
@@ -189,7 +197,7 @@ def _increment(model: ContactModel, last: Increment | None, reached: Reached[Sta
         pressed = _with_edges(pressed, state.corrected, model, state.target)
     if sheared is None:
         return pressed
-    stuck, sheared, pressed = _stick(model, p, sheared, state.corrected, pressed)
+    stuck, sheared, pressed = _stick(model, p, sheared, state.corrected, pressed, spreads=spreads)
     increment = replace(
         pressed,
         status=sheared.status if model.scene.friction else pressed.status,
@@ -234,10 +242,13 @@ def _stick(
     sheared: TangentialState,
     corrected: Corrected | None,
     increment: Increment,
+    *,
+    spreads: bool,
 ) -> tuple[float, TangentialState, Increment]:
     """Area of the stick zone in cells, and shear and increment with their edges inside the cells.
 
-    p  pressure on cells
+    p        pressure on cells
+    spreads  see `stick_area`
     Force, shift and their work along the history stay those of the cells.
     """
     border = corrected.sheared if corrected else None
@@ -247,7 +258,8 @@ def _stick(
         return border.stick_cells, sheared, replace(increment, edge_change=change)
     from semi_analytical.edge_correction.stick_area import stick_area
 
-    stuck = stick_area(sheared.shear, model.friction.limit(p), sheared.in_stick)
+    limit = model.friction.limit(p)
+    stuck = stick_area(sheared.shear, limit, sheared.in_stick, spreads=spreads)
     if corrected is None or corrected.shear is None:
         return stuck, sheared, increment
     stick = sheared.in_stick & (corrected.pressure > 0)

@@ -20,9 +20,10 @@ STRAIGHT = 1e-4
 DEEP = 3.0
 POINTS, WEIGHTS = (half / 2 for half in np.polynomial.legendre.leggauss(4))
 MAX_TURNS = 80
-SMOOTH_TURNS = 5
+# Iterations for a smooth function without and with a value near the result.
+SMOOTH_TURNS, NEAR_TURNS = 5, 3
 # The next turn would leave its square.
-SETTLED = 1e-5
+SETTLED = 1e-3
 
 
 def mean_power(f: Field, f_x: Field, f_y: Field, exponent: Exponent) -> Field:
@@ -48,7 +49,7 @@ def mean_power(f: Field, f_x: Field, f_y: Field, exponent: Exponent) -> Field:
 
 def power(base: Field, exponent: Exponent) -> Field:
     """base^exponent, shape of base; halves of whole numbers by roots, ten times as fast."""
-    if np.ndim(exponent) or exponent < 0 or 2 * exponent % 1:
+    if isinstance(exponent, np.ndarray) or exponent < 0 or 2 * exponent % 1:
         return np.asarray(base**exponent)
     whole = int(exponent)
     if exponent == whole:
@@ -128,7 +129,7 @@ def _straight(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
 def _oblique(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
     outer, inner = (b + c) / 2, (b - c) / 2
     # Those of which two are added, and those of which two are taken away.
-    corners = np.maximum(np.stack([f + outer, f - outer, f + inner, f - inner]), 0.0)
+    corners = np.maximum(np.array([f + outer, f - outer, f + inner, f - inner]), 0.0)
     of_corners = power(corners, a + 1)
     slope = _differences(of_corners) / ((a + 1) * b * c)
     of_corners *= corners
@@ -159,9 +160,9 @@ def centre_value(
 
 
 def _smooth_centre(target: Field, b: Field, c: Field, a: Exponent, near: Field | None) -> Field:
-    """By turns, each of which leaves a two-hundredth of the error: nothing need be known."""
-    f, terms = target, _bends(b, c, a)
-    for _ in range(SMOOTH_TURNS):
+    """By iterations, each of which leaves a two-hundredth of the error."""
+    f, terms = target if near is None else near, _bends(b, c, a)
+    for _ in range(SMOOTH_TURNS if near is None else NEAR_TURNS):
         f = target / power(_series(1 / f**2, *terms), np.divide(1, a))
     return f
 

@@ -76,31 +76,18 @@ class EdgeShape:
         fits = self.fits(*self.nearest_to(x, y))
         return fits.quadratic.about(x, y), believed(fits)
 
-    def about_cells(self, i: Indices, j: Indices) -> tuple[Quadratic, Field]:
+    def about_cells(self, adjacent: "AdjacentCells", fits: Fits) -> tuple[Quadratic, Field]:
         """phi about cells of the region and cells that touch it, shape (n,), and the rms of the
         fits over the fall of phi over a cell, infinite where there is little data.
 
-        Outside of the region the mean of the fits about the cells that touch at a side, else at a
-        corner: the edge of a mirrored contact is the mirrored edge.
+        fits  about `adjacent.fitted`
         """
-        last = np.array(self.depth.shape)[:, None, None] - 1
-        at = np.stack([i, j])[:, None] + STEPS
-        inside = np.all((at >= 0) & (at <= last), axis=0)
-        inside &= self.depth[tuple(np.clip(at, 0, last))] > 0
-        inside[1:, inside[0]] = False
-        inside[1 + SIDES :, np.any(inside[: 1 + SIDES], axis=0)] = False
-        step, place = np.nonzero(inside)
-        shape = self.depth.shape
-        number = np.ravel_multi_index(tuple(at[:, step, place]), shape)
-        cells, which = np.unique(number, return_inverse=True)
-        fits = self.fits(*np.unravel_index(cells, shape))
         missed = np.where(fits.count < LEAST_DATA, np.inf, fits.rms)
         missed /= np.maximum(fits.quadratic.slope, np.finfo(float).tiny)
-        each = fits.quadratic.chosen(which).about(i[place].astype(float), j[place].astype(float))
-        share = 1 / np.sum(inside, axis=0)[place]
+        each = fits.quadratic.chosen(adjacent.which).about(*adjacent.at)
         means = [
-            np.bincount(place, value * share, len(i)).astype(float)
-            for value in (*vars(each).values(), missed[which])
+            np.bincount(adjacent.place, value * adjacent.share, adjacent.count).astype(float)
+            for value in (*vars(each).values(), missed[adjacent.which])
         ]
         return Quadratic(*means[:-1]), means[-1]
 
@@ -121,6 +108,38 @@ class EdgeShape:
         for _ in range(REFITS):
             on_it = here.about(*_downhill(on_it))
         return on_it, safe & (np.hypot(on_it.x - x, on_it.y - y) < FARTHEST)
+
+
+class AdjacentCells:
+    """Cells of a region whose fits describe phi about other cells.
+
+    A cell of the region has its own fit. A cell outside has the mean of the fits about the cells of
+    the region that touch it at a side, else at a corner: the edge of a mirrored contact is the
+    mirrored edge.
+
+    fitted  (2, m) the cells that are fitted
+    which   number of the fit of every pair of a cell and a fit
+    place   number of the cell of every pair
+    at      coordinates of the cell of every pair, along x and y
+    share   weight of the fit of every pair
+    count   number of the cells
+    """
+
+    def __init__(self, depth: Field, i: Indices, j: Indices) -> None:
+        """depth  of the region, see `depth_of`; i, j  cells of the region or next to it (n,)"""
+        last = np.array(depth.shape)[:, None, None] - 1
+        at = np.stack([i, j])[:, None] + STEPS
+        inside = np.all((at >= 0) & (at <= last), axis=0)
+        inside &= depth[tuple(np.clip(at, 0, last))] > 0
+        inside[1:, inside[0]] = False
+        inside[1 + SIDES :, np.any(inside[: 1 + SIDES], axis=0)] = False
+        step, self.place = np.nonzero(inside)
+        number = np.ravel_multi_index(tuple(at[:, step, self.place]), depth.shape)
+        cells, self.which = np.unique(number, return_inverse=True)
+        self.fitted = np.unravel_index(cells, depth.shape)
+        self.at = i[self.place].astype(float), j[self.place].astype(float)
+        self.share = 1 / np.sum(inside, axis=0)[self.place]
+        self.count = len(i)
 
 
 def _downhill(here: Quadratic) -> tuple[Field, Field]:
@@ -148,7 +167,7 @@ def edge_shape(
     rounds: int = 3,
     depth: Field | None = None,
     domain: ReducedDomain = WINDOW,
-    before: Field | None = None,
+    before: tuple[Field, Quadratic] | None = None,
 ) -> EdgeShape:
     """Shape of the edge of a region.
 
@@ -163,7 +182,8 @@ def edge_shape(
     rounds    data of the first are means^(1/alpha), from cells beyond the cut ones; of the others
               `centre_value` with the slope of the last
     depth     of the region, where it is known: see `depth_of`
-    before    `phi` of nearly the same means: one round then suffices
+    before    `phi` of nearly the same means, and the fits to it along the edge, whose slopes are
+              taken: no round of fits is needed
     domain      that all are given on
     Raises ValueError where no cell is left to be data.
     """
@@ -180,17 +200,23 @@ def edge_shape(
     band = data & (depth < ASKED + 1.5 * stencil.reach)
     of_band = exponent[band] if isinstance(exponent, np.ndarray) else exponent
     phi, weight = power(means, np.divide(1, exponent)), inner.astype(float)
-    if before is not None:
-        phi, weight, rounds = before.copy(), data.astype(float), 2
     # Farther in the differences of data tell the slope, which hardly matters there.
     i, j = np.nonzero(band & (depth < max(rings, 1) + 2))
+    near = None if before is None else before[0][band]
+    if before is not None:
+        phi, rounds = before[0], 2
     for _ in range(rounds - 1):
-        quadratic = fit_about(phi, weight, i, j, stencil, domain=domain).quadratic
+        if before is None:
+            fit = fit_about(phi, weight, i, j, stencil, domain=domain).quadratic
+        else:
+            fit = before[1]
+            i, j = fit.x.astype(int), fit.y.astype(int)
         slopes = domain.differences(phi)
-        slopes[:, i, j] = quadratic.f_x, quadratic.f_y
-        phi[band] = centre_value(means[band], slopes[0][band], slopes[1][band], of_band)
+        slopes[:, i, j] = fit.f_x, fit.f_y
+        phi = phi.copy()
+        phi[band] = centre_value(means[band], slopes[0][band], slopes[1][band], of_band, near)
         weight = data.astype(float)
-        weight[i, j] = np.where(quadratic.cut, CUT_WEIGHT, 1.0)
+        weight[i, j] *= np.where(fit.cut, CUT_WEIGHT, 1.0)
     return EdgeShape(means, phi, weight, exponent, stencil, depth, domain)
 
 

@@ -18,7 +18,7 @@ from semi_analytical.edge.film_shape import FilmShape, film_shape
 from semi_analytical.edge.fit import WIDER, Stencil
 from semi_analytical.edge.kernels import PARTS, part_centres
 from semi_analytical.edge.quadratic import Quadratic
-from semi_analytical.edge.shape import LARGEST_RMS, EdgeShape, depth_of, edge_shape
+from semi_analytical.edge.shape import LARGEST_RMS, AdjacentCells, EdgeShape, depth_of, edge_shape
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
 
 # Least radius of a region in cells that can be fitted.
@@ -45,28 +45,72 @@ HALF_SQUARE = np.mean(X**2) / 2
 
 
 @dataclass(frozen=True)
+class Band:
+    """Cells along the edge of a region (nx, ny) of a domain."""
+
+    region: Mask
+    domain: ReducedDomain
+
+    @cached_property
+    def depth(self) -> Field:
+        """(nx, ny), see `depth_of`."""
+        return depth_of(self.region, self.domain)
+
+    @cached_property
+    def fitted(self) -> tuple[Indices, Indices]:
+        """Cells with subcells from fits."""
+        framed = self.domain.framed(self.region, 1)
+        touched = binary_dilation(framed, np.ones((3, 3)))[1:-1, 1:-1]
+        i, j = np.nonzero(touched & (self.depth <= FITTED))
+        return i, j
+
+    @cached_property
+    def adjacent(self) -> AdjacentCells:
+        """Cells whose fits describe phi about the fitted cells."""
+        return AdjacentCells(self.depth, *self.fitted)
+
+    @cached_property
+    def deep(self) -> tuple[Indices, Indices]:
+        """Cells with subcells from second differences."""
+        i, j = np.nonzero((self.depth > FITTED) & (self.depth <= INSIDE))
+        return i, j
+
+
+@dataclass(frozen=True)
 class SubcellTractions:
     """Cells along the edge of a region with a reliable fit.
 
     region   (nx, ny) cells whose centre is inside the edge
     i, j     the cells (n,)
     parts    (n, PARTS, PARTS) mean of the traction over the subcells of each
-    area     of the region and its mirror images, in cells
+    phi      about those of the cells that have subcells from fits, the first ones
     unsafe   part of all cells along the edge without a reliable fit
-    domain     that all fields are given on
+    band     of the cells that were fitted
     line     edge of a contact on a film
-    phi      (nx, ny) cell means of phi without a film
+    known    (nx, ny) cell means of phi without a film, and the fits to them
     """
 
     region: Mask
     i: Indices
     j: Indices
     parts: Field
-    area: float
+    phi: Quadratic
     unsafe: float
-    domain: ReducedDomain
+    band: Band
     line: EdgeLine | None = None
-    phi: Field | None = None
+    known: tuple[Field, Quadratic] | None = None
+
+    @property
+    def domain(self) -> ReducedDomain:
+        """That all fields are given on."""
+        return self.band.domain
+
+    @cached_property
+    def area(self) -> float:
+        """Of the region and its mirror images, in cells."""
+        covered, fitted = self.band.region.astype(float), slice(len(self.phi.f))
+        covered[self.i[fitted], self.j[fitted]] = self.phi.cell_mean(0.0)
+        return self.domain.images * float(np.sum(covered))
 
     @cached_property
     def outer(self) -> Mask:
@@ -99,7 +143,9 @@ def rim(
     film      law of a pressure on layered bodies, a factor of that power
     """
     region = loaded if before is None else loaded & before.region
-    depth = depth_of(region, domain)
+    same = before is not None and np.array_equal(region, before.band.region)
+    band = before.band if before is not None and same else Band(region, domain)
+    depth = band.depth
     if np.max(depth) <= THICK:
         return None
     largest = np.max(means)
@@ -108,26 +154,26 @@ def rim(
     if film is None:
         shape = edge_shape(
             scaled, region, STENCIL, rings=0, exponent=exponent, depth=depth, domain=domain,
-            before=before.phi if before else None,
+            before=before.known if before else None,
         )  # fmt: skip
     else:
         line = before.line if before else None
         stencil = STENCIL if isinstance(exponent, np.ndarray) else OF_FILM
         shape = film_shape(scaled, region, stencil, film, depth, domain, exponent, line)
-    touched = binary_dilation(domain.framed(region, 1), np.ones((3, 3)))[1:-1, 1:-1]
-    i, j = np.nonzero(touched & (depth <= FITTED))
-    deep_i, deep_j = np.nonzero((depth > FITTED) & (depth <= INSIDE))
-    phi, missed = shape.about_cells(i, j)
+    (i, j), (deep_i, deep_j) = band.fitted, band.deep
+    fits = shape.fits(*band.adjacent.fitted)
+    phi, missed = shape.about_cells(band.adjacent, fits)
     safe = missed < LARGEST_RMS
-    i, j, phi = i[safe], j[safe], phi.chosen(safe)
+    unsafe = np.count_nonzero(~safe) / (len(safe) + len(deep_i))
+    if unsafe:
+        i, j, phi = i[safe], j[safe], phi.chosen(safe)
     parts = means_of_power(phi, exponent[i, j] if isinstance(exponent, np.ndarray) else exponent)
     if isinstance(shape, FilmShape):
         parts *= shape.parts_over_root(phi)
     fade = (INSIDE - depth[deep_i, deep_j]) / (INSIDE - FITTED)
-    inside, covered = region.copy(), region.astype(float)
+    inside = region.copy()
     side = np.zeros(len(i)) if before is None else np.where(before.region[i, j], 1.0, -1.0)
     inside[i, j] = phi.f > -PASSED * side * phi.slope
-    covered[i, j] = phi.cell_mean(0.0)
     return SubcellTractions(
         region=inside,
         i=np.concatenate([i, deep_i]),
@@ -135,11 +181,11 @@ def rim(
         parts=np.concatenate(
             [parts * largest, by_differences(means, deep_i, deep_j, fade, domain)]
         ),
-        area=domain.images * float(np.sum(covered)),
-        unsafe=np.count_nonzero(~safe) / (len(safe) + len(deep_i)),
-        domain=domain,
+        phi=phi,
+        unsafe=unsafe,
+        band=band,
         line=shape.line if isinstance(shape, FilmShape) else None,
-        phi=None if isinstance(shape, FilmShape) else shape.phi,
+        known=None if isinstance(shape, FilmShape) else (shape.phi, fits.quadratic),
     )
 
 
@@ -156,8 +202,8 @@ def means_of_power(phi: Quadratic, exponent: Exponent) -> Field:
 def _means_of_power(phi: Quadratic, a: Exponent) -> Field:
     """The same of some cells (n, PARTS²); the exponent a number or (n, 1)."""
     bent = (phi.f_xx + phi.f_yy) / (24 * PARTS**2)
-    factors = np.stack([phi.f + bent, phi.f_x, phi.f_y, phi.f_xx, phi.f_xy, phi.f_yy], axis=1)
-    f = factors @ MONOMIALS
+    factors = np.array([phi.f + bent, phi.f_x, phi.f_y, phi.f_xx, phi.f_xy, phi.f_yy])
+    f = factors.T @ MONOMIALS
     # Over a part of a cell the slope hardly changes.
     f_x, f_y = np.abs(phi.f_x[:, None]) / PARTS, np.abs(phi.f_y[:, None]) / PARTS
     slope = f_x + f_y
@@ -187,5 +233,5 @@ def by_differences(
     f_xx, f_yy = fade * (lower + upper - 2 * centre), fade * (left + right - 2 * centre)
     f = centre - HALF_SQUARE * (f_xx + f_yy)
     slopes = (upper - lower) / 2, (right - left) / 2
-    factors = np.stack([f, *slopes, f_xx, fade * corners / 4, f_yy], axis=1)
-    return (factors @ MONOMIALS).reshape(-1, PARTS, PARTS)
+    factors = np.array([f, *slopes, f_xx, fade * corners / 4, f_yy])
+    return (factors.T @ MONOMIALS).reshape(-1, PARTS, PARTS)

@@ -6,6 +6,7 @@ cells and the displacement by it, for which the pressure is solved again, until 
 bodies couple the shear follows the pressure and moves the surface, too.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -42,8 +43,9 @@ LEAST_FACTOR = 0.5
 MAX_ITERATIONS = 10
 # Part of its residual that the solve of an iteration leaves.
 INNER_REDUCTION = 0.1
-# Change Σ|Δp|/Σp of an iteration at which the iteration stops, and at most in the end. At most as
-# much remains: the accuracy required of a contact radius on 128 cells per side.
+# Predicted change Σ|Δp|/Σp of the next iteration at which the iteration stops, and change of the
+# last one at most. About as much as predicted remains: the accuracy required of a contact radius on
+# 128 cells per side.
 SETTLED, LEAST_SETTLED = 5e-5, 1e-3
 # Part of the edge that need not be fitted.
 MAX_UNSAFE = 0.03
@@ -67,22 +69,30 @@ def edge_pressure(
     p = state.pressing.pressure
     edge = problem.rim(p, None)
     response = problem.response(state.pressing.approach, p)
-    step, factor = np.zeros_like(p), 1.0
+    step, factor, changes = np.zeros_like(p), 1.0, list[float]()
     for number in range(MAX_ITERATIONS):
         solved = problem.solve(p, edge)
         last, step = step, solved.pressure - p
         if number:
             factor = relaxation_factor(factor, last, step)
-        change = float(np.sum(np.abs(step)) / np.sum(p))
-        before, p = _Last(p, edge.area, response), p + factor * step
+        changes.append(float(np.sum(np.abs(step)) / np.sum(p)))
+        before, p = _Last(p, edge, response), p + factor * step
         edge = problem.rim(p, edge)
         approach, _ = state.target.reached(operators.model, solved.motion)
         response = problem.response(approach, p)
-        if change <= SETTLED:
+        if next_change(changes) <= SETTLED:
             break
+    change = changes[-1]
     if change > LEAST_SETTLED:
         raise NotFitted(f"the correction does not settle: its last change is {change:.1e}")
-    return problem.corrected(_Last(p, edge.area, response), before, solved, edge, change)
+    return problem.corrected(_Last(p, edge, response), before, solved, change)
+
+
+def next_change(changes: Sequence[float]) -> float:
+    """Predict the change of the next iteration from those of the iterations so far: the last two
+    fall by one factor. The first is the error of cells, which falls by another."""
+    *before, last = changes
+    return last * min(1.0, last / before[-1]) if len(before) > 1 else last
 
 
 def relaxation_factor(factor: float, last: Field, change: Field) -> float:
@@ -103,10 +113,10 @@ class _Solved(NamedTuple):
 
 
 class _Last(NamedTuple):
-    """Iterate: pressure (nx, ny), area in cells, approach or force."""
+    """Iterate: pressure (nx, ny), its edge, approach or force."""
 
     pressure: Field
-    area: float
+    edge: SubcellTractions
     response: float
 
 
@@ -198,10 +208,9 @@ class _Problem:
         u = self.operators.apart(*within, by_p)[0]
         return np.asarray(u + self.model.operator(p.shape).normal_by_shear(q))
 
-    def corrected(
-        self, last: _Last, before: _Last, solved: _Solved, edge: SubcellTractions, change: float
-    ) -> Corrected:
+    def corrected(self, last: _Last, before: _Last, solved: _Solved, change: float) -> Corrected:
         """The last iterate as a state on the window."""
+        edge = last.edge
         target, extend = self.state.target, self.model.domain.extend
         approach, tilt = target.reached(self.model, solved.motion)
         load = target.on(self.model, Box.whole(self.gap.shape))
@@ -214,14 +223,14 @@ class _Problem:
             response=abs(last.response / before.response - 1),
             peak=abs(peak.value / before_peak.value - 1),
             ridge=peak.ridge,
-            radius=abs((last.area / before.area) ** 0.5 - 1),
+            radius=abs((edge.area / before.edge.area) ** 0.5 - 1),
         )
         return Corrected(
             pressure=p,
             peak=peak.value,
             gap=extend(gap),
             approach=approach,
-            contact_cells=last.area,
+            contact_cells=edge.area,
             change=change,
             edge=edge,
             report=report,

@@ -26,6 +26,7 @@ from semi_analytical.edge_correction.pressure import (
     MAX_ITERATIONS,
     MAX_UNSAFE,
     SETTLED,
+    next_change,
     relaxation_factor,
 )
 from semi_analytical.edge_correction.shear_at_edge import direction_of_slip
@@ -212,7 +213,7 @@ def edge_shear(
     full = problem.full(problem.bound, missing.slip, problem.before[0])
     missing = replace(missing, full=full)
     q, motion = full - missing.shear, solved.shift
-    step, factor = np.zeros_like(q), 1.0
+    step, factor, changes = np.zeros_like(q), 1.0, list[float]()
     for number in range(MAX_ITERATIONS):
         within = problem.within(q, missing)
         u = problem.operators.by_shear(*within)
@@ -222,8 +223,8 @@ def edge_shear(
             return None
         answer, motion = solution.shear, solution.motion
         last, step = step, answer - q
-        change = float(np.sum(magnitude(step)) / np.sum(problem.bound))
-        if change <= SETTLED or number == MAX_ITERATIONS - 1:
+        changes.append(float(np.sum(magnitude(step)) / np.sum(problem.bound)))
+        if next_change(changes) <= SETTLED or number == MAX_ITERATIONS - 1:
             break
         edge, stick = missing.edge, (problem.bound > 0) & ~solution.in_slip
         if number:
@@ -235,7 +236,7 @@ def edge_shear(
         if next_missing is None:
             return None
         missing = next_missing
-    if change > LEAST_SETTLED:
+    if changes[-1] > LEAST_SETTLED:
         return None
     return CorrectedShear(
         shear=answer,
@@ -245,5 +246,5 @@ def edge_shear(
         shift=motion,
         stick=missing.edge.region,
         stick_cells=missing.edge.area,
-        change=change,
+        change=changes[-1],
     )

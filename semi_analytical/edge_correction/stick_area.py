@@ -12,18 +12,17 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.ndimage import distance_transform_edt
 
-from contact_scene.array_types import Field, Indices, Mask, VectorField
+from contact_scene.array_types import Field, Mask, VectorField
 from semi_analytical.edge.fit import NARROW, WIDE, Stencil
-from semi_analytical.edge.shape import LARGEST_RMS, depth_of, edge_shape
+from semi_analytical.edge.shape import LARGEST_RMS, AdjacentCells, depth_of, edge_shape
 from semi_analytical.edge_correction.shear_at_edge import LAYERS, direction_of_slip
 from semi_analytical.normal.contact_area import stuck_cells
 from semi_analytical.operator.box import box_around
 
-# Exponent of the distance, and of what it is fitted in: a smoother fall needs more cells.
-LAWS = ((0.5, NARROW), (1.5, WIDE))
-# So many times as near its data the smoother one has to be: on more cells it bends to what a border
-# that turns sharply has beside a root.
-TWICE = 2.0
+# Exponent of the distance, stencil of its fit, and factor of what the fit misses when both laws are
+# compared. A smoother fall needs more cells. On these it bends to what a border that turns sharply
+# has beside a root: the fit must miss half as much.
+LAWS = ((0.5, NARROW, 1.0), (1.5, WIDE, 2.0))
 # Radius of a zone in cells that is thick enough to be fitted.
 THICK = 3.0
 # Layers inside and outside the border of cells that it may cut.
@@ -33,18 +32,19 @@ CUT = 1.5
 @dataclass(frozen=True)
 class _Parts:
     """Of the cells along the border, by one law: the part of each that sticks, and how far the fit
-    misses its data in falls over a cell, infinite where there is none to believe (n,)."""
+    misses its data in falls over a cell times a factor, infinite where it misses too much (n,)."""
 
     stuck: Field
     missed: Field
 
 
-def stick_area(shear: VectorField, bound: Field, stick: Mask) -> float:
+def stick_area(shear: VectorField, bound: Field, stick: Mask, *, spreads: bool = True) -> float:
     """Area of the stick zone in cells.
 
     shear  q (2, nx, ny), means over cells as they are with the edge of contact inside
     bound  friction limit µp (nx, ny), zero outside the contact
     stick  cells that stick (nx, ny)
+    spreads  whether stick may have spread; without coupling it spreads only as the pressure changes
     Cells count whole where neither law fits; of a zone too thin for fits see `stuck_cells`.
     """
     if not np.any(stick):
@@ -59,8 +59,10 @@ def stick_area(shear: VectorField, bound: Field, stick: Mask) -> float:
     missing = np.where(stick, np.maximum(bound - along, 0.0), 0.0)
     outside = distance_transform_edt(~stick)
     i, j = np.nonzero((depth <= CUT) & (outside <= CUT))
-    by = [_parts(missing / np.max(missing), stick, depth, i, j, *law) for law in LAWS]
-    missed = np.stack([by[0].missed, TWICE * by[1].missed])
+    laws = LAWS if spreads else LAWS[:1]
+    cells, missing = AdjacentCells(depth, i, j), missing / np.max(missing)
+    by = [_parts(missing, stick, depth, cells, *law) for law in laws]
+    missed = np.stack([parts.missed for parts in by])
     best = np.argmin(missed, axis=0)
     stuck = np.stack([parts.stuck for parts in by])[best, np.arange(len(i))]
     covered = stick.astype(float)
@@ -73,12 +75,12 @@ def _parts(
     missing: Field,
     stick: Mask,
     depth: Field,
-    i: Indices,
-    j: Indices,
+    cells: AdjacentCells,
     exponent: float,
     stencil: Stencil,
+    factor: float,
 ) -> _Parts:
-    """Of cells (i, j) along the border."""
+    """Of cells along the border."""
     shape = edge_shape(missing, stick, stencil, rings=0, exponent=exponent, rounds=2, depth=depth)
-    phi, missed = shape.about_cells(i, j)
-    return _Parts(phi.cell_mean(0.0), np.where(missed < LARGEST_RMS, missed, np.inf))
+    phi, missed = shape.about_cells(cells, shape.fits(*cells.fitted))
+    return _Parts(phi.cell_mean(0.0), np.where(missed < LARGEST_RMS, factor * missed, np.inf))

@@ -70,12 +70,13 @@ class Waves:
         self._back = np.fft.ifft if of_complex else np.fft.irfft
         self.count = (period if of_complex else period // 2 + 1) * (1 + in_pairs)
 
-    def forward(self, values: Array, out: Array) -> None:
-        """Transform values (…, cells) to amplitudes (…, count)."""
+    def forward(self, values: Array, out: Array) -> Array:
+        """Transform values (…, cells) to amplitudes (…, count) in `out`."""
         spectrum = _complex(out) if self._in_pairs else out
         self._forward(values, n=self._period, axis=-1, out=spectrum)
         if self._turned:
             spectrum *= 1j
+        return out
 
     def back(self, amplitudes: Array) -> Array:
         """Transform amplitudes (…, count) to values (…, cells)."""
@@ -108,8 +109,8 @@ class MirroredWaves:
             self._inverse = self._matrix.T / (2 * m)
             self._inverse[0] /= 2
 
-    def forward(self, values: Array, out: Array) -> None:
-        """Transform values (…, cells) to amplitudes (…, count)."""
+    def forward(self, values: Array, out: Array) -> Array:
+        """Transform values (…, cells) to amplitudes (…, count) in `out`."""
         if self._matrix is not None:
             np.matmul(values, self._matrix, out=out)
         elif self._even:
@@ -117,6 +118,7 @@ class MirroredWaves:
         else:
             found = dst(np.ascontiguousarray(values), type=2, n=self.count, axis=-1)
             out[..., 0], out[..., 1:] = found[..., -1], found[..., :-1]
+        return out
 
     def back(self, amplitudes: Array) -> Array:
         """Transform amplitudes (…, count) to values (…, cells)."""
@@ -218,18 +220,21 @@ class Transforms:
         work = self.counter.work_space(held * (size + width * x.count), dtype)
         lines = work[: held * size].reshape(held, nx, y.count)
         blocks = work[held * size :].reshape(held, width, x.count)
+        result = np.empty((len(outputs), nx, ny), dtype=values.dtype)
+        if by_matrix:  # products with matrices take the transpose as it is
+            each = zip(values, lines, blocks, inputs, strict=False)
+            amplitudes = [x.forward(y.forward(one, a).T, b) for one, a, b, (x, y) in each]
+            found = multiply(amplitudes, slice(None))
+            for into, one, (x, y) in zip(result, found, outputs, strict=True):
+                into[...] = y.back(x.back(one).T)
+            return result
         for line, one, (_, side) in zip(lines, values, inputs, strict=False):
             side.forward(one, line)
-        result = np.empty((len(outputs), nx, ny), dtype=values.dtype)
         for columns in _blocks(y.count, width):
             block = blocks[: len(inputs), : columns.stop - columns.start]
-            for amplitudes, line, (side, _) in zip(block, lines, inputs, strict=False):
-                side.forward(line[:, columns].T, amplitudes)
+            for into, line, (side, _) in zip(block, lines, inputs, strict=False):
+                side.forward(line[:, columns].T, into)
             found = multiply(list(block), columns)
-            if by_matrix:  # products with matrices take the transpose as it is
-                for into, one, (x, y) in zip(result, found, outputs, strict=True):
-                    into[...] = y.back(x.back(one).T)
-                return result
             for line, one, (side, _) in zip(lines, found, outputs, strict=False):
                 line[:, columns] = side.back(one).T
         for rows in _blocks(nx, max(1, BLOCK // y.count)):
