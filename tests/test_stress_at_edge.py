@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.on_cells import stress_on_cells
 from contact_results.stress.stress_maxima import extremes
-from contact_scene import Body, IsotropicMaterial
+from contact_scene import Body, IsotropicMaterial, Layer
 from semi_analytical import SurfaceGrid
 from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.frf.stack import HalfSpace, Stack
@@ -137,3 +137,18 @@ def test_a_field_says_whether_the_edge_was_fitted(reason: str | None) -> None:
         assert field.how["edge"] == {"fitted": False, "because": reason}
         assert not tension.on_edge
         assert tension.value < 0.95 * exact
+
+
+def test_a_stress_that_is_largest_far_behind_the_contact_is_found() -> None:
+    """At the base of a film, about two contact radii behind the middle."""
+    grid, pressure = pressed_on()
+    soft, hard = (IsotropicMaterial(young_modulus=E, poisson_ratio=NU) for E in (1.0, 2.0))
+    body = Body(material=soft, layers=(Layer(thickness=0.25 * RADIUS, material=hard),))
+    tractions = {"pressure": pressure, "shear": np.stack([0.2 * pressure, 0 * pressure])}
+    state = LoadedBodies("", body, body, 1, {"x": grid.x, "y": grid.y}, tractions, None)
+    field = stress_on_cells(state)
+    found = {(e.region, e.measure): e for e in extremes(field, body)}
+    for key in (("interface 1 above", "interface_tensile_stress"), ("base", "max_principal")):
+        assert not found[key].at_window_edge
+        assert -2.3 < found[key].x / RADIUS < -1.65
+    assert field.section.x.min() < -2.2 * RADIUS

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,8 +13,10 @@ from numpy.typing import NDArray
 
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import FittedEdge, StressField, StressPoints
+from contact_results.stress.stress_maxima import extremes
 from contact_scene.array_types import Field, Indices
 from contact_scene.machine.blas_threads import one_thread
+from contact_scene.solver_errors import ResourceRefused
 
 if TYPE_CHECKING:
     from contact_scene import Body
@@ -24,6 +28,9 @@ if TYPE_CHECKING:
 # Half a window in half extents of the contact: past the contact's rim, where tension is largest,
 # and past what bends a coating down there.
 MARGIN = 1.6
+# The same of levels with a largest stress at the edge of the window: behind a pushed contact the
+# stress at an interface is largest about two contact radii from the middle.
+WIDE_MARGIN = 2.4
 # Numbers per point of the volume: displacement and stress of each level and of all, cells; places,
 # tensors and invariants of the file.
 NUMBERS = (9 + 9 + 8) + (3 + 3 + 9 + 4)
@@ -59,11 +66,38 @@ def stress_on_cells(
     section_only  whether the largest values are those of the section
     Raises ValueError for a depth that is not in the body, ResourceRefused.
     """
+    below = partial(_below, state, indenter)
+    field = below(depths, MARGIN, volume=volume, see_edge=see_edge, section_only=section_only)
+    if section_only or not np.any(state.tractions.get("shear", 0.0)):
+        return field
+    found = extremes(field, state.indenter if indenter else state.body)
+    far = sorted({e.depth for e in found if e.at_window_edge and e.value > 0})
+    if not far:
+        return field
+    with suppress(ResourceRefused):  # the largest values stay marked as on the edge
+        beyond = below(far, WIDE_MARGIN, see_edge=False)
+        wide = below(depths, WIDE_MARGIN, see_edge=see_edge, section_only=True)
+        points = StressPoints.joined([beyond.points, field.points])
+        return replace(wide, points=points, edge=field.edge, volume=field.volume)
+    return field
+
+
+def _below(
+    state: LoadedBodies,
+    indenter: bool,
+    depths: Sequence[float] | None,
+    margin: float,
+    *,
+    volume: bool = False,
+    see_edge: bool = True,
+    section_only: bool = False,
+) -> StressField:
+    """The stress on a window of at least `margin` half extents of the contact."""
     from semi_analytical.stress import SubsurfaceField, refuse_beyond_memory
     from semi_analytical.stress.depths import line_weights
 
     body = state.indenter if indenter else state.body
-    grid, pressure, shear = _with_margin(state)
+    grid, pressure, shear = _with_margin(state, margin)
     counted = float(np.sqrt(np.count_nonzero(pressure) * grid.cell_area / np.pi))
     radius = counted if state.contact_radius is None else state.contact_radius
     levels = _levels(body, depths, radius)
@@ -201,26 +235,26 @@ def _on_edge(edge: NearEdge) -> StressPoints:
     )
 
 
-def _with_margin(state: LoadedBodies) -> tuple[SurfaceGrid, Field, Field | None]:
+def _with_margin(state: LoadedBodies, margin: float) -> tuple[SurfaceGrid, Field, Field | None]:
     """Grid, pressure and shear on a window that is no smaller than it was."""
     from semi_analytical import SurfaceGrid
 
     x, y = state.axes["x"], state.axes["y"]
     pressure, shear = state.tractions["pressure"], state.tractions.get("shear")
     sides = [float(c[-1] - c[0]) / (len(c) - 1) for c in (x, y)]
-    widths = [_margin(pressure, axis) for axis in (0, 1)]
+    widths = [_margin(pressure, axis, margin) for axis in (0, 1)]
     pad = [(width, width) for width in widths]
     cells = (len(x) + 2 * widths[0], len(y) + 2 * widths[1])
     grid = SurfaceGrid(cells, (cells[0] * sides[0], cells[1] * sides[1]))
     return grid, np.pad(pressure, pad), None if shear is None else np.pad(shear, [(0, 0), *pad])
 
 
-def _margin(pressure: Field, axis: int) -> int:
+def _margin(pressure: Field, axis: int, margin: float) -> int:
     """Cells to add on either side."""
     cells = pressure.shape[axis]
     loaded = np.flatnonzero(np.any(pressure > 0, axis=1 - axis))
     reach = np.abs(loaded - (cells - 1) / 2).max() + 0.5 if loaded.size else 0.0
-    return max(0, int(np.ceil(MARGIN * reach - cells / 2)))
+    return max(0, int(np.ceil(margin * reach - cells / 2)))
 
 
 def _levels(body: Body, depths: Sequence[float] | None, radius: float) -> tuple[Level, ...]:
