@@ -117,7 +117,7 @@ def test_help_schema_check_and_mistakes_import_nothing_heavy(scene: Path) -> Non
         assert not imported & {*HEAVY, "verification"}
 
 
-@pytest.mark.parametrize("solver", [each for each in SolverName if each != "radial"])
+@pytest.mark.parametrize("solver", [SolverName.SEMI_ANALYTICAL, SolverName.FEM])
 def test_a_solver_is_used_without_the_other_and_without_the_harness(
     scene: Path, solver: SolverName
 ) -> None:

@@ -98,7 +98,8 @@ def test_labels_and_verdicts_of_a_case_are_unambiguous(case: Case) -> None:
 def test_every_case_states_its_equations_its_orders_and_the_errors_of_its_references(
     level: Level,
 ) -> None:
-    """An order is judged, or a reason is given; a reference that somebody computed has an error."""
+    """An order is judged, or a reason is given; a reference that somebody computed has an error; a
+    number has a key of its own."""
     computed = (ReferenceKind.CLOSED_FORM, ReferenceKind.SEMI_CLOSED, ReferenceKind.EXTERNAL_CODE)
     assert choose(level)
     for case in choose(level):
@@ -109,6 +110,11 @@ def test_every_case_states_its_equations_its_orders_and_the_errors_of_its_refere
         known += [(c.name, c.kind, c.uncertainty) for c in case.comparisons]
         for name, kind, uncertainty in known:
             assert kind not in computed or uncertainty > 0, (case.name, name)
+        keys = [(q.name, q.run, type(q.tolerance)) for q in case.quantities]
+        keys += [(c.name, c.subject, type(c.tolerance)) for c in case.checks]
+        keys += [(c.name, " and ".join(c.runs), object) for c in case.comparisons]
+        keys += [(finding.name, finding.run, None) for finding in case.findings]
+        assert len(set(keys)) == len(keys), case.name
 
 
 def test_every_scene_of_a_case_is_supported() -> None:

@@ -147,16 +147,12 @@ def test_what_is_stored_is_the_work_of_the_load(indenter: ShapedBody, body: Body
     assert_allclose(stored, force * (more.approach - less.approach), rtol=step**2)
 
 
-@pytest.mark.parametrize("friction", [None, CoulombFriction(coefficient=0.1)])
-def test_round_off_of_thin_and_unlike_layers_is_refused_by_its_name(
-    friction: CoulombFriction | None,
-) -> None:
+def test_round_off_of_thin_and_unlike_layers_is_refused_by_its_name() -> None:
     """A film of a million times the stiffness: a tolerance that round-off lets be is told."""
     film = IsotropicMaterial(young_modulus=2.1e17, poisson_ratio=0.3)
     asked = Scene(
         indenter=Paraboloid(radius=0.018, material=RIGID),
         body=Body(material=STEEL, layers=(Layer(thickness=3.9e-6, material=film),)),
-        friction=friction,
         loading=(LoadStep(normal_force=1e3, increments=1),),
     )
     with pytest.raises(UnsupportedScene, match=r"round-off.* tolerance = 1e-09"):

@@ -11,7 +11,7 @@ import pytest
 from command import slipstick
 
 from slipstick.cli.commands.compare import exit_code_of
-from verification.cases.catalogue import CASES, choose
+from verification.cases.catalogue import CASES
 from verification.cases.hertz import hertz_point
 from verification.judging.case import Level
 from verification.judging.change import ChangeKind
@@ -349,18 +349,6 @@ def test_largest_residual_may_be_found_in_another_run(healthy: CaseOutcome) -> N
     moved = with_verdict(healthy, "largest_residual", run="16x16")
     assert key_of(find(moved, "largest_residual")) == key_of(find(healthy, "largest_residual"))
     assert compare(moved, healthy).gone == ()
-
-
-@pytest.mark.parametrize("level", Level)
-def test_numbers_of_a_case_have_keys_of_their_own(level: Level) -> None:
-    assert choose(level)
-    for case in choose(level):
-        keys = [(q.name, q.run, type(q.tolerance)) for q in case.quantities]
-        keys += [(c.name, c.subject, type(c.tolerance)) for c in case.checks]
-        keys += [(c.name, " and ".join(c.runs), object) for c in case.comparisons]
-        assert len(set(keys)) == len(keys), case.name
-        found = [(finding.name, finding.run) for finding in case.findings]
-        assert len(set(found)) == len(found), case.name
 
 
 # ---- files -------------------------------------------------------------------------------------

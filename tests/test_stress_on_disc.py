@@ -25,7 +25,6 @@ from contact_results.stress.stress_maxima import (
 from contact_scene import (
     RIGID,
     Body,
-    Cone,
     CoulombFriction,
     FlatPunch,
     IsotropicMaterial,
@@ -146,11 +145,9 @@ def test_a_ball_smaller_than_a_metre_is_round_all_the_same(tmp_path: Path) -> No
     assert said.returncode == 0, said.stderr
 
 
-@pytest.mark.parametrize(
-    "indenter", [FlatPunch(radius=1.0, material=RIGID), Cone(slope_angle=0.1, material=RIGID)]
-)
-def test_no_error_is_trusted_where_the_stress_is_infinite(indenter: ShapedBody) -> None:
-    _, found, errors = field_of(scene_of(coated(2.0, 0.5), indenter))
+def test_no_error_is_trusted_where_the_stress_is_infinite() -> None:
+    punch = FlatPunch(radius=1.0, material=RIGID)
+    _, found, errors = field_of(scene_of(coated(2.0, 0.5), punch))
     status = {(e.region, e.measure): error.status for e, error in zip(found, errors, strict=True)}
     assert status["body", "von_mises"] is ErrorStatus.NOT_CONVERGED
     assert status["base", "von_mises"] is ErrorStatus.ESTIMATED

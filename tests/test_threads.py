@@ -24,7 +24,8 @@ def folder(tmp_path: Path) -> Path:
 
 
 @pytest.mark.parametrize(
-    "solver", ["semi-analytical", "radial", pytest.param("fem", marks=pytest.mark.slow)]
+    "solver",
+    ["semi-analytical", *(pytest.param(s, marks=pytest.mark.slow) for s in ("radial", "fem"))],
 )
 def test_stress_of_a_run_has_the_same_bytes_by_two_threads(folder: Path, solver: str) -> None:
     """Of a run that is read back: the libraries are loaded by the stress itself."""
