@@ -118,6 +118,7 @@ def solve_discretised(
             grids.append(larger)
     kept = store is not None and store.last() is not None
     if len(grids) == 1 and not kept and sum(decided.increments) >= FORESEEN:
+        refuse_if_too_large(first, decided)
         refuse_small_window(scene, first)
     result = solve_within(scene, grids, discretisation.tolerance, progress, decided, store)
     refuse_unresolved(result)

@@ -170,10 +170,22 @@ def test_a_friction_map_that_ends_within_the_window_is_refused():
         solve(scene(PRESS, push(0.5), friction=friction), grid(), LOOSE)
 
 
+class Unseen(Paraboloid):
+    """Its gap is never asked for."""
+
+    def initial_gap(self, x, y):
+        pytest.fail("memory is taken")
+
+
 def test_more_memory_than_there_is_is_refused_before_any_is_taken():
     enormous = SurfaceGrid((2**20, 2**20), (3 * A, 3 * A))
     with pytest.raises(ResourceRefused, match=r"GiB.*fewer cells"):
         solve(scene(PRESS), enormous, LOOSE)
+    ball = Unseen(radius=RADIUS, material=steel())
+    asked = SurfaceDiscretisation(cells=(16384, 16384), window=(3 * A, 3 * A))
+    long = scene({**PRESS, "increments": 50}, push(0.5, increments=50), indenter=ball)
+    with pytest.raises(ResourceRefused, match=r"GiB.*fewer cells"):
+        solve_discretised(long, asked)
 
 
 def test_not_converged_says_where_and_carries_the_last_good_state(monkeypatch):
