@@ -177,8 +177,10 @@ def _stress(patches: Patches, change: Callable[[Any], Any]) -> None:
     """Change the components of stress (nz, 6, nx, ny) below the surface."""
     patches.function(
         field,
-        "_field",
-        lambda whole: lambda *given: replace(found := whole(*given), stress=change(found.stress)),
+        "fields_by_level",
+        lambda whole: (
+            lambda *given: (replace(level, stress=change(level.stress)) for level in whole(*given))
+        ),
     )
 
 
