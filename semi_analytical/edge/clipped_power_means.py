@@ -20,8 +20,7 @@ STRAIGHT = 1e-4
 DEEP = 3.0
 POINTS, WEIGHTS = (half / 2 for half in np.polynomial.legendre.leggauss(4))
 MAX_TURNS = 80
-# Iterations for a smooth function without and with a value near the result.
-SMOOTH_TURNS, NEAR_TURNS = 5, 3
+SMOOTH_TURNS = 5
 # The next turn would leave its square.
 SETTLED = 1e-3
 
@@ -160,9 +159,10 @@ def centre_value(
 
 
 def _smooth_centre(target: Field, b: Field, c: Field, a: Exponent, near: Field | None) -> Field:
-    """By iterations, each of which leaves a two-hundredth of the error."""
-    f, terms = target if near is None else near, _bends(b, c, a)
-    for _ in range(SMOOTH_TURNS if near is None else NEAR_TURNS):
+    """By iterations, each of which leaves a two-hundredth of the error: no value near the result
+    is needed."""
+    f, terms = target, _bends(b, c, a)
+    for _ in range(SMOOTH_TURNS):
         f = target / power(_series(1 / f**2, *terms), np.divide(1, a))
     return f
 
