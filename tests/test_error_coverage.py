@@ -104,20 +104,24 @@ def records(rows: Sequence[Row], ratios: Sequence[float] = ()) -> Mapping[str, C
 
 
 @pytest.mark.parametrize(
-    ("rows", "outcome"),
+    ("rows", "outcome", "of_group"),
     [
-        ([row(1e-3, 2e-3)] * ENOUGH, Status.PASS),
-        ([row(1e-3, 2e-3)] * (ENOUGH - 1), Status.INCONCLUSIVE),
-        ([row(1e-3, 2e-3)] * 94 + [row(1e-3, 5e-4)] * 6, Status.FAIL),
-        ([row(1e-3, 2e-3)] * 59 + [row(1e-3, 2e-2)] * 41, Status.FAIL),
+        ([row(1e-3, 2e-3)] * ENOUGH, Status.PASS, Status.PASS),
+        ([row(1e-3, 2e-3)] * (ENOUGH - 1), Status.INCONCLUSIVE, Status.INCONCLUSIVE),
+        ([row(1e-3, 2e-3)] * 94 + [row(1e-3, 5e-4)] * 6, Status.FAIL, Status.FAIL),
+        ([row(1e-3, 2e-3)] * 59 + [row(1e-3, 2e-2)] * 41, Status.FAIL, Status.PASS),
     ],
     ids=["good", "too few", "too small", "too large"],
 )
-def test_kinds_and_families_are_judged(rows: list[Row], outcome: Status) -> None:
+def test_all_numbers_kinds_and_families_are_judged(
+    rows: list[Row], outcome: Status, of_group: Status
+) -> None:
     found = conclude(SETTINGS, records(rows)).statements
-    for claim in ("approach", "family balls"):
+    for claim, expected in zip(
+        ("all numbers", "approach", "family balls"), (outcome, of_group, of_group), strict=True
+    ):
         (statement,) = (s for s in found if s.claim.startswith(claim))
-        assert statement.outcome is outcome
+        assert statement.outcome is expected
 
 
 @pytest.mark.parametrize(

@@ -81,10 +81,6 @@ class Coverage:
             len(rows) - len(having),
         )
 
-    def good(self, covered: float) -> bool:
-        """Determine if both requirements are met."""
-        return self.covered.part >= covered and self.tight.part >= TIGHT
-
 
 def covers(row: Row) -> bool:
     """Determine if the true error is within the stated one, up to that of the reference."""

@@ -78,9 +78,9 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
         f"known answer; {total.tight.part:.1%} are less than {TIMES:g} times the true error.",
         statements=(
             solved("every scene and request is solved", len(known), len(asked), "cases"),
-            _statement(total, COVERED_IN_ALL),
+            _statement(total, COVERED_IN_ALL, TIGHT),
             *(_statement(one, COVERED) for one in kinds.values()),
-            *(_statement(one, COVERED, "family ") for one in families.values()),
+            *(_statement(one, COVERED, prefix="family ") for one in families.values()),
             _requests(requests),
         ),
         tables=(
@@ -120,11 +120,15 @@ def _table(title: str, groups: Sequence[Coverage]) -> Table:
     )
 
 
-def _statement(coverage: Coverage, least: float, prefix: str = "") -> Statement:
+def _statement(
+    coverage: Coverage, least: float, tightest: float = 0.0, prefix: str = ""
+) -> Statement:
     covered, tight = coverage.covered, coverage.tight
+    good, group = covered.part >= least and tight.part >= tightest, coverage.group.replace("_", " ")
+    of_size = f", tight ≥ {tightest:g}" if tightest else ""
     return Statement(
-        claim=f"{prefix}{coverage.group.replace('_', ' ')}: covered ≥ {least:g}, tight ≥ {TIGHT:g}",
-        outcome=judged(coverage.good(least), complete=covered.of >= ENOUGH),
+        claim=f"{prefix}{group}: covered ≥ {least:g}{of_size}",
+        outcome=judged(good, complete=covered.of >= ENOUGH),
         measured=f"covered {covered.text}, tight {tight.text}, of {covered.of} numbers",
         because=f"at least {ENOUGH} numbers decide",
         about=Row(
