@@ -10,7 +10,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -22,8 +22,8 @@ from contact_errors.coarse_solves import (
     solved_run,
 )
 from contact_errors.cost_estimate import estimated_seconds
-from contact_errors.error_formula import BELIEVED, ORDERS, SolvedRun, largest_so_far
-from contact_errors.stress_errors import largest_tensile_stress
+from contact_errors.error_formula import BELIEVED, ORDERS, UNKNOWN, SolvedRun, largest_so_far
+from contact_errors.stress_errors import largest_stresses
 from contact_errors.values import Values, scale
 from contact_scene.accuracy import LARGEST_TENSION, AccuracyRequest
 from contact_scene.machine.free_memory import available_bytes
@@ -73,7 +73,6 @@ class RefinementLevel:
 
     values, stated  numbers and their errors at the ends of the steps
     run             the result with its coarse solves
-    orders          convergence orders of numbers that the run does not have
     seconds, processor_seconds
                     of the solve with its coarse solves
     """
@@ -85,7 +84,6 @@ class RefinementLevel:
     run: SolvedRun
     seconds: float
     processor_seconds: float
-    orders: Mapping[str, float] = field(default_factory=dict)
 
     def largest(self, name: str) -> float:
         """Largest size of a number in the history; 0 for an absent number."""
@@ -115,7 +113,7 @@ class RefinementLevel:
         space: Part = next(iter(self.run.required))
         factors: dict[Part, float] = {}
         for name, share in shares.items():
-            of_cells = self.orders.get(name) or self.run.order(name)
+            of_cells = self.run.order(name)
             for error in self.errors(name):
                 parts = {p: float(np.max(s)) / self.largest(name) for p, s in error.parts.items()}
                 allowed = share / SPARE / max(1, sum(size > 0 for size in parts.values()))
@@ -159,14 +157,13 @@ class Levels:
         with self.keeping(fineness) as store, self.watching(fineness) as progress:
             result = self.solver.solve(fineness, progress, store)
         run, companions = solved_run(self.solver, result)
-        values, errors, orders = list(run.values), list(run.errors()), {}
+        values, errors = list(run.values), list(run.errors())
         if self.stress_at is not None:
             at, stated = self.stress_at - 1, StatedErrors(tuple(errors), companions)
-            below = largest_tensile_stress(result, stated, self.stress_at)
-            if below is not None:
-                value, error, orders[LARGEST_TENSION] = below
-                values[at] = {**values[at], LARGEST_TENSION: np.array([value])}
-                errors[at] = {**errors[at], LARGEST_TENSION: error}
+            wanted = (f"{LARGEST_TENSION}@body",)
+            for value, error in largest_stresses(result, stated, wanted, self.stress_at).values():
+                values[at] = {**values[at], LARGEST_TENSION: np.array([abs(value)])}
+                errors[at] = {**errors[at], LARGEST_TENSION: error or UNKNOWN}
         return RefinementLevel(
             fineness=self.solver.fineness_of(result),
             result=result,
@@ -175,7 +172,6 @@ class Levels:
             run=run,
             seconds=time.perf_counter() - began,
             processor_seconds=time.process_time() - began_processor,
-            orders=orders,
         )
 
     def settings(self, fineness: Fineness) -> AccuracySettings:

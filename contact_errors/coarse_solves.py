@@ -12,12 +12,11 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import ceil, log
-from typing import Any, ClassVar, TypeAlias
+from typing import Any, ClassVar, Self, TypeAlias
 
 from contact_errors.cost_estimate import Work, estimated_seconds
 from contact_errors.error_formula import Comparison, Features, SolvedRun
 from contact_errors.values import Values, values_of
-from contact_results.cycles import fretting_cycles
 from contact_scene import Scene
 from contact_scene.quantities.stated_error import (
     Companion,
@@ -102,6 +101,17 @@ class DiscretisedSolver(ABC):
     cells: ClassVar[str]
     most: ClassVar[float]
     shares: ClassVar[Sequence[tuple[str, float, int]]] = SHARES
+
+    @classmethod
+    @abstractmethod
+    def of(cls, result: Any) -> Self:
+        """Return the solver with the discretisation of a result."""
+
+    @classmethod
+    def stated_errors(cls, result: Any) -> StatedErrors:
+        """Estimate the errors of all numbers at the ends of all steps, by coarse solves."""
+        run, companions = solved_run(cls.of(result), result)
+        return StatedErrors(tuple(run.errors()), companions)
 
     @property
     @abstractmethod
@@ -191,12 +201,6 @@ class DiscretisedSolver(ABC):
         """Largest memory of a solve [byte]."""
 
 
-def estimated(solver: DiscretisedSolver, result: Any) -> StatedErrors:
-    """Estimate the errors of all numbers at the ends of all steps."""
-    run, companions = solved_run(solver, result)
-    return StatedErrors(tuple(run.errors()), companions)
-
-
 def solved_run(solver: DiscretisedSolver, result: Any) -> tuple[SolvedRun, tuple[Companion, ...]]:
     """Make the coarse solves of a result, each once.
 
@@ -227,11 +231,11 @@ def solved_run(solver: DiscretisedSolver, result: Any) -> tuple[SolvedRun, tuple
         if found is not None:
             sides = zip(solver.sides(found), solver.sides(base), strict=True)
             ratio = coarse.ratio or min(there / here for there, here in sides)
-            both = numbers(base), added(numbers(found), effect)
+            both = values_of(base), added(values_of(found), effect)
             comparisons.append(Comparison(coarse.part, *both, [ratio] * len(values)))
         return found
 
-    values, matters = numbers(result), with_error(result.scene)
+    values, matters = values_of(result), with_error(result.scene)
     comparisons: list[Comparison] = []
     required: dict[Part, Sequence[bool]] = {}
     of_cells = [
@@ -250,7 +254,7 @@ def solved_run(solver: DiscretisedSolver, result: Any) -> tuple[SolvedRun, tuple
         for counts in others if first else ():
             found = solved("other increments", replace(few, increments=counts))
             if found is not None:
-                both = numbers(first), numbers(found)
+                both = values_of(first), values_of(found)
                 factors = ratios(run.increments, counts, matters)
                 comparisons.append(Comparison("increments", *both, factors))
                 if sum(counts) < sum(fewest.increments):
@@ -311,11 +315,6 @@ def slip_zone(end: Any, per_length: float) -> tuple[float | None, float | None]:
     slips = end.status is not ContactStatus.FULL_STICK
     annulus = per_length * (end.contact_radius - end.stick_radius) if slips else None
     return per_length * end.stick_radius, annulus
-
-
-def numbers(result: Any) -> tuple[Values, ...]:
-    """Return the numbers at the ends of the load steps."""
-    return values_of(result, fretting_cycles(result))
 
 
 def _spent(found: Any) -> Mapping[str, int]:

@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 
 from contact_errors.values import Values, prescribed, scale
 from contact_scene import Scene
+from contact_scene.accuracy import LARGEST_TENSION
 from contact_scene.geometry import ShapedBody
 from contact_scene.quantities.stated_error import (
     EXACT,
@@ -111,7 +112,8 @@ class Features:
         if name in AT_EDGES or (name == PEAK and self.cusp):
             return ROOT
         first = (
-            (name == PEAK and self.ridge)
+            name == LARGEST_TENSION  # at the edge of the contact, or inside
+            or (name == PEAK and self.ridge)
             or (name in CONTACT_EDGE and not self.fitted)
             or (name in STICK_EDGE and not self.stick_fitted)
         )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import ceil
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from scipy.fft import next_fast_len
@@ -17,7 +17,6 @@ from contact_errors.coarse_solves import (
     Fineness,
     Refinement,
     at_ends,
-    estimated,
 )
 from contact_errors.cost_estimate import Work, work_on_cells
 from contact_errors.error_formula import PEAK, Features, has_cusp, is_singular
@@ -26,7 +25,6 @@ from contact_results.stress import on_cells as stress_on_cells
 from contact_scene import SurfaceDiscretisation
 from contact_scene.quantities.stated_error import (
     Part,
-    StatedErrors,
 )
 from contact_scene.quantities.summary import ContactStatus
 from semi_analytical import Increment, Plan, Result, SurfaceGrid, memory
@@ -66,6 +64,10 @@ class CellSolver(DiscretisedSolver):
     part: ClassVar[Part] = "cells"
     cells: ClassVar[str] = "cells"
     most: ClassVar[float] = MAX_CELLS
+
+    @classmethod
+    def of(cls, result: Result) -> Self:
+        return cls(result.scene, SurfaceDiscretisation(), result.plan)
 
     @property
     def plan(self) -> Plan:
@@ -190,13 +192,3 @@ def scaled(cells: tuple[int, int], factor: float) -> tuple[int, int]:
     """
     nx, ny = (2 * next_fast_len(ceil(round(factor * n, 6) / 2), real=True) for n in cells)
     return nx, ny
-
-
-def solver_of(result: Result) -> CellSolver:
-    """Return the solver with the discretisation of a result."""
-    return CellSolver(result.scene, SurfaceDiscretisation(), result.plan)
-
-
-def stated_errors(result: Result) -> StatedErrors:
-    """Estimate the errors of all numbers at the ends of all steps, by coarse solves."""
-    return estimated(solver_of(result), result)

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import ceil
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
@@ -18,7 +18,6 @@ from contact_errors.coarse_solves import (
     Fineness,
     Refinement,
     at_ends,
-    estimated,
     slip_zone,
 )
 from contact_errors.cost_estimate import Work, work_on_elements
@@ -26,7 +25,6 @@ from contact_errors.error_formula import Features, has_cusp, is_singular
 from contact_scene import FiniteElementDiscretisation
 from contact_scene.quantities.stated_error import (
     Part,
-    StatedErrors,
 )
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import SurfacesOverlap
@@ -59,6 +57,10 @@ class ElementSolver(DiscretisedSolver):
     part: ClassVar[Part] = "elements"
     cells: ClassVar[str] = "elements"
     most: ClassVar[float] = MAX_ELEMENTS
+
+    @classmethod
+    def of(cls, result: Result) -> Self:
+        return cls(result.scene, result.discretisation, result.plan, result.method)
 
     @property
     def plan(self) -> Plan:
@@ -179,13 +181,3 @@ def _peak_radius(end: Increment) -> float:
     """Radius of the largest pressure [length]."""
     largest = end.pressure.reshape(len(end.radii), -1).max(axis=1)
     return float(end.radii[np.argmax(largest)])
-
-
-def solver_of(result: Result) -> ElementSolver:
-    """Return the solver with the discretisation of a result."""
-    return ElementSolver(result.scene, result.discretisation, result.plan, result.method)
-
-
-def stated_errors(result: Result) -> StatedErrors:
-    """Estimate the errors of all numbers at the ends of all steps, by coarse solves."""
-    return estimated(solver_of(result), result)

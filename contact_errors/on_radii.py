@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
@@ -14,7 +14,6 @@ from contact_errors.coarse_solves import (
     Fineness,
     Refinement,
     at_ends,
-    estimated,
     slip_zone,
 )
 from contact_errors.cost_estimate import Work, work_on_rings
@@ -22,7 +21,6 @@ from contact_errors.error_formula import Features, is_singular
 from contact_scene import RadialDiscretisation
 from contact_scene.quantities.stated_error import (
     Part,
-    StatedErrors,
 )
 from contact_scene.quantities.summary import ContactStatus
 from radial import Increment, Plan, Result
@@ -49,6 +47,10 @@ class RingSolver(DiscretisedSolver):
         ("half the {}", 1 / 2, 0),
         ("two thirds of the {}", 2 / 3, 0),
     )
+
+    @classmethod
+    def of(cls, result: Result) -> Self:
+        return cls(result.scene, result.fineness, result.plan)
 
     @property
     def plan(self) -> Plan:
@@ -119,13 +121,3 @@ class RingSolver(DiscretisedSolver):
 
     def _plan_of(self, fineness: Fineness) -> Plan:
         return replace(self.plan, fineness=fineness.space, increments=fineness.increments)
-
-
-def solver_of(result: Result) -> RingSolver:
-    """Return the solver with the discretisation of a result."""
-    return RingSolver(result.scene, result.fineness, result.plan)
-
-
-def stated_errors(result: Result) -> StatedErrors:
-    """Estimate the errors of all numbers at the ends of all steps, by coarse solves."""
-    return estimated(solver_of(result), result)

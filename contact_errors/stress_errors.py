@@ -51,7 +51,6 @@ from contact_scene.quantities.stated_error import (
     StatedError,
     StatedErrors,
 )
-from contact_scene.solver_errors import UnsupportedScene
 
 Field = NDArray[np.float64]
 Key = tuple[str, str]
@@ -65,38 +64,19 @@ COARSE = 2.0  # coarsening factor of the tractions
 PRECISION = 1e-13
 
 
-def largest_tensile_stress(
-    result: object, errors: StatedErrors, step: int
-) -> tuple[float, StatedError, float] | None:
-    """Compute the largest principal stress of the body at the end of a load step, from 1.
-
-    Returns it [force/length^2] with its error and convergence order; None for a rigid body.
-    """
-    state = state_of_result(result, step, errors)  # type: ignore[arg-type]
-    if not state.body.deforms:
-        return None
-    field = _field(state)
-    key = ("body", LARGEST_TENSION)
-    (found,) = (e for e in extremes(field, state.body) if (e.region, e.measure) == key)
-    (error,) = stress_errors(state, field, [found])
-    smooth = state.pressed is not None or found.depth >= NEAR * _side(state)
-    order = SMOOTH if smooth else EDGE if _is_fitted(field) else ROOT
-    return abs(found.value), error, order
-
-
 def largest_stresses(
-    result: object, errors: StatedErrors | None, names: Collection[str]
+    result: object, errors: StatedErrors | None, names: Collection[str], step: int | None = None
 ) -> Mapping[str, tuple[float, StatedError | None]]:
-    """Compute largest stresses of the body at the end of the last load step.
+    """Compute largest stresses of the body at the end of a load step, the last if absent.
 
-    Returns values [force/length^2] and errors. Raises UnsupportedScene for a rigid body.
+    Returns values [force/length^2] and errors; nothing for a rigid body.
 
     errors  of the result; None where they were left out
     names   MEASURE@REGION; an interface by its number, for the side with the larger value
     """
-    state = state_of_result(result, None, errors)  # type: ignore[arg-type]
+    state = state_of_result(result, step, errors)  # type: ignore[arg-type]
     if not state.body.deforms:
-        raise UnsupportedScene("the body is rigid and has no stress; leave the stresses out")
+        return {}
     field = _field(state)
     largest: dict[str, Extreme] = {}
     for each in sorted(extremes(field, state.body), key=lambda extreme: extreme.value):

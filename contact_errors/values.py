@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_results.cycles import fretting_cycles
 from contact_scene import LoadRamp
 from contact_scene.quantities.field_metadata import reported
 from contact_scene.quantities.increment import (
@@ -28,9 +29,9 @@ PHYSICAL = tuple(name for name, mark in reported(State).items() if mark.physical
 OF_CYCLES = ("energy_per_cycle", "slip_amplitude", "ruiz_f1", "ruiz_f2")
 
 
-def values_of(result: Result, cycles: Sequence[FrettingCycle]) -> tuple[Values, ...]:
+def values_of(result: Result) -> tuple[Values, ...]:
     """Return the scalars that are defined at the end of each load step, by name."""
-    closed = {cycle.cycle.end: _of_cycle(cycle) for cycle in cycles}
+    closed = {cycle.cycle.end: _of_cycle(cycle) for cycle in fretting_cycles(result)}
     return tuple(
         {
             name: np.atleast_1d(np.asarray(value, dtype=float))

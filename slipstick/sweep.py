@@ -35,7 +35,7 @@ from contact_scene.quantities.field_metadata import (
     reported,
 )
 from contact_scene.quantities.summary import StepSummary
-from contact_scene.solver_errors import SolverError
+from contact_scene.solver_errors import SolverError, UnsupportedScene
 from slipstick.solving import solve, stated_errors
 from verification.running.row import CaseRecord
 
@@ -185,6 +185,8 @@ class SweepPoint:
                 value = value["xy".index(axis)]
             yield name, (value, (end.errors or {}).get(stem), axis, unit)
         wanted = {name for name in self.wanted if "@" in name}
+        if wanted and not result.scene.body.deforms:
+            raise UnsupportedScene("the body is rigid and has no stress; leave the stresses out")
         largest = largest_stresses(result, stated, wanted) if wanted else {}
         for name, (value, error) in largest.items():
             yield name, (value, error, "", "Pa")

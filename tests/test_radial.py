@@ -15,7 +15,6 @@ from numpy.typing import ArrayLike
 
 import radial
 import slipstick
-from contact_errors.on_radii import stated_errors
 from contact_scene import (
     RIGID,
     Body,
@@ -327,7 +326,8 @@ def test_beyond_its_limit_the_contact_turns_and_carries_no_more(tmp_path: Path) 
     assert_allclose(sliding.torque, carried, rtol=1e-9)
     assert back.torque is not None
     assert_allclose(back.torque, -sliding.torque, rtol=1e-9)  # type: ignore[operator]
-    slipstick.save(torsion, tmp_path / "out", figures="all", errors=stated_errors(torsion))
+    errors = slipstick.stated_errors(torsion)
+    slipstick.save(torsion, tmp_path / "out", figures="all", errors=errors)
     assert (tmp_path / "out" / "profiles.png").is_file()
 
 

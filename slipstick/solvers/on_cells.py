@@ -60,9 +60,9 @@ class OnCells:
         return semi_analytical.solve_discretised(scene, fineness, progress, plan, store)
 
     def errors(self, result: Result) -> StatedErrors:
-        from contact_errors.on_cells import stated_errors
+        from contact_errors.on_cells import CellSolver
 
-        return stated_errors(result)
+        return CellSolver.stated_errors(result)
 
     def refined(
         self, scene: Scene, fineness: SurfaceDiscretisation, *, stress: bool = False
@@ -94,8 +94,6 @@ class OnCells:
         plan: Plan,
         most: int = MAX_CELLS,
     ) -> tuple[str, str]:
-        from contact_errors.on_cells import stated_errors
-
         path = plan.path[:MAX_STEPS]
         cut = replace(plan, path=path).cut_into(coarse_increments([s.count for s in path]))
         begin = scene.model_copy(update={"loading": scene.loading[:MAX_STEPS]})
@@ -105,7 +103,7 @@ class OnCells:
         try:
             return time_of_run(
                 lambda: semi_analytical.solve_discretised(begin, coarse, plan=cut),
-                stated_errors,
+                self.errors,
                 work_on_cells((nx, ny), cut.increments, plan.shear),
                 work_on_cells(grid.cells, plan.increments, plan.shear),
             )

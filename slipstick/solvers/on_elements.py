@@ -56,9 +56,9 @@ class OnElements:
         return fem_reference.solve(scene, fineness, self.method, progress, store)
 
     def errors(self, result: Result) -> StatedErrors:
-        from contact_errors.on_elements import stated_errors
+        from contact_errors.on_elements import ElementSolver
 
-        return stated_errors(result)
+        return ElementSolver.stated_errors(result)
 
     def refined(
         self, scene: Scene, fineness: FiniteElementDiscretisation, *, stress: bool = False
@@ -89,8 +89,6 @@ class OnElements:
     def _time(
         self, scene: Scene, fineness: FiniteElementDiscretisation, plan: Plan
     ) -> tuple[str, str]:
-        from contact_errors.on_elements import stated_errors
-
         increments = coarse_increments(plan.increments[:MAX_STEPS])
         begin = scene.model_copy(update={"loading": scene.loading[:MAX_STEPS]})
         elements = min(MAX_ELEMENTS, fineness.elements_per_radius)
@@ -98,7 +96,7 @@ class OnElements:
         harmonics = fineness.harmonics if plan.path is Path.HARMONICS else 1
         return time_of_run(
             lambda: fem_reference.solve(begin.with_increments(increments), coarse, self.method),
-            stated_errors,
+            self.errors,
             work_on_elements(elements, increments, harmonics),
             work_on_elements(fineness.elements_per_radius, plan.increments, harmonics),
         )

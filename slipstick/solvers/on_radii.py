@@ -42,9 +42,9 @@ class OnRadii:
         return radial.solve(scene, fineness, progress, plan, store)
 
     def errors(self, result: Result) -> StatedErrors:
-        from contact_errors.on_radii import stated_errors
+        from contact_errors.on_radii import RingSolver
 
-        return stated_errors(result)
+        return RingSolver.stated_errors(result)
 
     def refined(
         self, scene: Scene, fineness: RadialDiscretisation, *, stress: bool = False
@@ -64,13 +64,11 @@ class OnRadii:
         yield "memory", f"about {estimated_bytes(scene, plan) / 2**20:.0f} MiB"
 
     def _time(self, scene: Scene, fineness: RadialDiscretisation, plan: Plan) -> tuple[str, str]:
-        from contact_errors.on_radii import stated_errors
-
         begin = scene.model_copy(update={"loading": scene.loading[:MAX_STEPS]})
         cut = replace(plan, increments=coarse_increments(plan.increments[:MAX_STEPS]))
         return time_of_run(
             lambda: radial.solve(begin, fineness, plan=cut),
-            stated_errors,
+            self.errors,
             work_on_rings(cut.increments),
             work_on_rings(plan.increments),
         )

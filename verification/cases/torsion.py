@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-import contact_errors.on_cells
-import contact_errors.on_radii
 import radial
+from contact_errors.on_cells import CellSolver
+from contact_errors.on_radii import RingSolver
 from contact_scene import (
     Body,
     IsotropicMaterial,
@@ -400,8 +400,8 @@ def _apart_of_stated(ours: Any, _: int, problem: Problem) -> float:
 
     theirs, shares = problem.ends[-1](), []
     said = (
-        contact_errors.on_radii.stated_errors(ours),
-        contact_errors.on_cells.stated_errors(theirs),
+        RingSolver.stated_errors(ours),
+        CellSolver.stated_errors(theirs),
     )
     for one, other, *stated in zip(
         ours.steps, theirs.steps, *(errors.steps for errors in said), strict=True

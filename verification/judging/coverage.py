@@ -31,16 +31,16 @@ def stated_errors(case: Case, results: Mapping[str, Any]) -> dict[str, StatedErr
 
 def _stated(run: AnyRun, result: Any) -> StatedErrors:
     if isinstance(run, Run):
-        from contact_errors.on_cells import stated_errors as on_cells
+        from contact_errors.on_cells import CellSolver
 
-        return on_cells(result)
+        return CellSolver.stated_errors(result)
     if isinstance(run, RadiiRun):
-        from contact_errors.on_radii import stated_errors as on_radii
+        from contact_errors.on_radii import RingSolver
 
-        return on_radii(result)
-    from contact_errors.on_elements import stated_errors as on_elements
+        return RingSolver.stated_errors(result)
+    from contact_errors.on_elements import ElementSolver
 
-    return on_elements(result)
+    return ElementSolver.stated_errors(result)
 
 
 def error_of(quantity: Quantity, errors: StatedErrors | None) -> float | None:

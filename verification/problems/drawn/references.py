@@ -19,7 +19,6 @@ import radial
 import semi_analytical
 from contact_errors.error_formula import AT_EDGES
 from contact_errors.values import Values, prescribed, values_of
-from contact_results.cycles import fretting_cycles
 from contact_scene import Ellipsoid, LoadStep, Paraboloid, Scene, SurfaceDiscretisation
 from contact_scene.body_pair import contact_modulus
 from contact_scene.stepping.increment_error import with_error
@@ -168,7 +167,7 @@ def _other(value: float | None) -> Reference:
 
 
 def _compared(once: Any, twice: Any, stressed: bool) -> Iterator[Truth]:
-    both = [values_of(result, fretting_cycles(result)) for result in (once, twice)]
+    both = [values_of(result) for result in (once, twice)]
     for step, (less, more) in enumerate(zip(*both, strict=True), start=1):
         for name in (name for name in KIND_OF if name in less and name in more):
             yield _truth(step, name, float(more[name][0]), abs(float((more[name] - less[name])[0])))
@@ -365,7 +364,7 @@ class _Level(NamedTuple):
         plan = semi_analytical.plan(posed.scene, edge=asked.edge).cut_into(counts)
         finer = asked.model_copy(update={"cells": cells})
         result = semi_analytical.solve_discretised(posed.scene, finer, plan=plan)
-        steps = list(values_of(result, fretting_cycles(result)))
+        steps = list(values_of(result))
         if posed.stressed:
             found = stress_maxima(result, len(steps))
             steps[-1] = {**steps[-1], **{n: np.atleast_1d(found[n][0]) for n in STRESSES}}

@@ -11,9 +11,9 @@ import numpy as np
 
 import fem_reference
 import semi_analytical
-from contact_errors import on_cells, on_elements
+from contact_errors.on_cells import CellSolver
+from contact_errors.on_elements import ElementSolver
 from contact_errors.values import values_of
-from contact_results.cycles import fretting_cycles
 from contact_scene.quantities.stated_error import (
     StatedError,
     StatedErrors,
@@ -57,7 +57,7 @@ class CoverageCase:
 
 def _judged(known: KnownScene) -> Iterator[Row]:
     result, errors = _run(known)
-    steps = values_of(result, fretting_cycles(result))
+    steps = values_of(result)
     stressed = {truth.step for truth in known.truths if truth.quantity in STRESSES}
     stresses = {step: stress_maxima(result, step, errors) for step in stressed}
     for truth in known.truths:
@@ -88,7 +88,7 @@ def _run(known: KnownScene) -> tuple[Any, StatedErrors]:
     asked: Any = known.fineness.asked
     if known.fineness.solver == CELLS:
         result = semi_analytical.solve_discretised(known.scene, asked)
-        return result, on_cells.stated_errors(result)
+        return result, CellSolver.stated_errors(result)
     method = fem_reference.Method.COMPLEMENTARITY
     on_sections = fem_reference.solve(known.scene, asked, method)
-    return on_sections, on_elements.stated_errors(on_sections)
+    return on_sections, ElementSolver.stated_errors(on_sections)

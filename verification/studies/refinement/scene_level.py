@@ -13,12 +13,12 @@ import numpy as np
 
 import fem_reference
 import semi_analytical
-from contact_errors import on_cells, on_elements
 from contact_errors.adaptive_refinement import Levels, refine
 from contact_errors.coarse_solves import DiscretisedSolver
 from contact_errors.error_formula import LIMITS, PEAK, PER_ITERATION, PER_TOLERANCE, Features
+from contact_errors.on_cells import CellSolver
+from contact_errors.on_elements import ElementSolver
 from contact_errors.values import OF_CYCLES, Values, scale, values_of
-from contact_results.cycles import fretting_cycles
 from contact_scene import Scene, SceneFile, read_scene_file
 from contact_scene.quantities.increment import (
     SCALARS,
@@ -143,9 +143,9 @@ class SceneLevel:
         return fem_reference.solve(scene.with_increments(self.increments), asked, method)
 
     def _record(self, result: Any, parameters: dict[str, Value]) -> CaseRecord:
-        steps = values_of(result, fretting_cycles(result))
-        package: Any = on_cells if self.scene.on_cells else on_elements
-        solver: DiscretisedSolver = package.solver_of(result)
+        steps = values_of(result)
+        of: type[DiscretisedSolver] = CellSolver if self.scene.on_cells else ElementSolver
+        solver = of.of(result)
         work = "convolutions" if self.scene.on_cells else "iterations"
         features, side = solver.features(result)[-1], max(solver.sides(result))
         ends = list(_scalars(steps[-1]))
@@ -221,9 +221,9 @@ def of_run(
         return (), _plan(problem, asked).increments
     method = METHODS.get(scene.solver, Method.COMPLEMENTARITY)
     solver: DiscretisedSolver = (
-        on_cells.CellSolver(problem, asked)
+        CellSolver(problem, asked)
         if scene.on_cells
-        else on_elements.ElementSolver(problem, asked, method=method)
+        else ElementSolver(problem, asked, method=method)
     )
     found = refine(Levels(solver), contents.accuracy).level.fineness
     entries = ("cells", "window") if scene.on_cells else ("elements_per_radius", "harmonics")
