@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from stack_strategies import WAVENUMBERS, stacks
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer
-from semi_analytical.frf.depth import Descent, Level, in_plane, material_at, remainder_at_depth
+from semi_analytical.frf.depth import Descent, Level, in_plane, material_at
 from semi_analytical.frf.stack import HalfSpace, Stack
 from semi_analytical.frf.surface import scalars
 from semi_analytical.grid import SurfaceGrid
@@ -497,7 +497,7 @@ def test_remainder_is_the_difference_to_the_half_space(stack, alpha, part):
     alpha = np.array([alpha])
     whole = Descent(stack, alpha).at(Level(depth, 0))
     alone = Descent(Stack((), stack.outer), alpha).at(Level(depth, 0))
-    added = remainder_at_depth(stack, alpha, depth)
+    added = Descent(stack, alpha).remainder(Level(depth, 0))
     assert len(flat(added)) == 4
     for a, b, c in zip(flat(whole), flat(alone), flat(added), strict=True):
         scale = np.abs(a).max() + np.abs(b).max()

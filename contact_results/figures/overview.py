@@ -15,7 +15,7 @@ from contact_results.figures.load_plot import draw_loading, draw_loop, moved
 from contact_results.figures.map_panels import Above, MapFrame
 from contact_results.figures.maps import Panel, draw_panel, draw_zones, zone_patches
 from contact_results.figures.profile_plot import draw_end
-from contact_results.figures.section_panel import draw_section
+from contact_results.figures.section_panel import draw_section, stretches
 from contact_results.figures.stress_plot import draw_depth, draw_surface
 from contact_results.key_numbers import key_numbers
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
@@ -115,10 +115,9 @@ def section_stress(result: Result) -> StressField | None:
 
     radius = result.steps[-1].contact_radius
     levels = default_depths(state.body, radius)
-    films = len(state.body.layers)
-    # All depths in the layers, which may be thin.
     depths = {level.depth for level in levels[::EVERY]}
-    depths |= {level.depth for level in levels if level.layer < films}
+    if stretches(state.body, levels[-1].depth):
+        depths |= {level.depth for level in levels if level.layer < len(state.body.layers)}
     return stress_on_cells(state, depths=sorted(depths), section_only=True)
 
 

@@ -72,12 +72,17 @@ def draw_section(
     return length
 
 
+def stretches(body: Body, deepest: float) -> bool:
+    """Whether an axis of depths stretches the layers, which are thin."""
+    return 0 < sum(layer.thickness for layer in body.layers) < THIN * deepest
+
+
 def show_depths(ax: Any, body: Body, deepest: float, length: EngineeringUnit) -> bool:
     """Draw a line at every interface and scale the axis of depths; return whether it stretches thin
     layers to a part of the axis that shows them."""
-    films = sum(layer.thickness for layer in body.layers) / deepest
-    stretched = 0 < films < THIN
+    stretched = stretches(body, deepest)
     if stretched:
+        films = sum(layer.thickness for layer in body.layers) / deepest
         depths, shown = np.array([0.0, films, 1.0]) * deepest / length.size, (0.0, STRETCHED, 1.0)
         ax.set_yscale(
             "function",

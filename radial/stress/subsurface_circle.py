@@ -24,7 +24,7 @@ from radial.response.wavenumbers import waves
 from radial.stress.loaded_circle import LoadedCircle
 from radial.stress.ray_integrals import below_circle
 from radial.tangential.ring_energies import bessel_functions
-from semi_analytical.frf.depth import Descent, Level, in_plane, material_at, remainder_at_depth
+from semi_analytical.frf.depth import Descent, Level, in_plane, material_at
 from semi_analytical.frf.stack import Stack
 
 Complex = NDArray[np.complex128]
@@ -123,10 +123,7 @@ def _transformed(
     felt: int,
 ) -> Array:  # fmt: skip
     """u_r, u_θ, u_z, σ_rr, θθ, zz, θz, rz, rθ (9, n): the sum over harmonics."""
-    if level.layer == 0:
-        fields = remainder_at_depth(descent.stack, descent.alpha, level.depth)
-    else:
-        fields = descent.at(level)
+    fields = descent.remainder(level)
     plane = in_plane(fields, material_at(descent.stack, level), descent.alpha)
     total = np.zeros((9, turns.shape[1]))
     for m, turn in enumerate(turns):

@@ -16,7 +16,7 @@ from radial.response.bodies import (
 )
 from radial.response.wavenumbers import waves
 from radial.stress.half_space import below_pressure
-from semi_analytical.frf.depth import Descent, Level, in_plane, material_at, remainder_at_depth
+from semi_analytical.frf.depth import Descent, Level, in_plane, material_at
 from semi_analytical.frf.stack import Stack
 
 # exp(-κ d) (κ d)² is below 1e-17 from here on.
@@ -84,10 +84,7 @@ class Below:
 def _scalars(descent: Descent, level: Level) -> Array:
     """What the Hankel transforms are taken of, by pressure: U, W, s, n of `frf.depth`, and half the
     sum and half the difference of the stresses along and across (6, wavenumbers)."""
-    if level.layer == 0:
-        fields = remainder_at_depth(descent.stack, descent.alpha, level.depth)
-    else:
-        fields = descent.at(level)
+    fields = descent.remainder(level)
     plane = in_plane(fields, material_at(descent.stack, level), descent.alpha)
     (U, W), (s, n) = fields.displacement[:, 1], fields.traction[:, 1]
     along, across = plane.along[1], plane.across[1]

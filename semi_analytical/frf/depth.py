@@ -11,6 +11,7 @@ Signs and frame: CONVENTIONS.md. Equilibrium and Hooke's law along z, with W = u
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -116,6 +117,37 @@ class Descent:
         displacement = unit * _product(np.array([[c11, c12], [c12, c22]]), traction)
         return DepthScalars(displacement, traction, 2 * unit * below.shear * transverse, transverse)
 
+    @cached_property
+    def _surface_remainder(self) -> tuple[Array, ...]:
+        """Scalars at the surface minus those of a half-space, times 2 G alpha."""
+        unit = 2 * self.stack.outer.shear_modulus * self.alpha
+        return tuple(unit * c for c in remainder_scalars(self.stack, self.alpha))
+
+    def remainder(self, level: Level) -> DepthScalars:
+        """Fields at a level, in the outermost layer minus those of a half-space of its material.
+
+        They come from the surface, where the difference carries no traction and its displacement is
+        known without cancellation, and grow downward as exp(-alpha (2h - z)). Exactly zero without
+        layers. Meant for alpha h < 300; beyond, exp(alpha z) may overflow.
+        """
+        if level.layer > 0:
+            return self.at(level)
+        G, nu = self.stack.outer
+        c11, c12, c22, csh = self._surface_remainder
+        unit, x = 2 * G * self.alpha, self.alpha * level.depth
+        e = 1 / (2 * (1 - nu))
+        ch, sh = np.cosh(x), np.sinh(x)
+        f, k = e * x * sh, e * _x_cosh_minus_sinh(x)
+        to_displacement = np.array([[ch + f, -sh - k], [(2 * e - 1) * sh + k, ch - f]])
+        to_traction = np.array([[-2 * e * sh - k, f], [-f, k]])
+        start = np.array([[c11, c12], [c12, c22]])
+        return DepthScalars(
+            _product(to_displacement, start) / unit,
+            _product(to_traction, start),
+            csh / unit * ch,
+            -csh / 2 * sh,
+        )
+
     def _compliances(self) -> list[Compliance]:
         """Of what lies below each layer, in units of that layer; last that of the base itself."""
         one, zero = np.ones_like(self.alpha), np.zeros_like(self.alpha)
@@ -143,32 +175,6 @@ def material_at(stack: Stack, level: Level) -> HalfSpace:
     if stack.base is None:
         raise ValueError("nothing deforms within a rigid base: there are no fields")
     return stack.base
-
-
-def remainder_at_depth(stack: Stack, alpha: Array, depth: float) -> DepthScalars:
-    """Fields in the outermost layer minus those of a half-space of its material.
-
-    They come from the surface, where the difference carries no traction and its displacement is
-    known without cancellation, and grow downward as exp(-alpha (2h - z)). Exactly zero without
-    layers. Meant for alpha h < 300; beyond, exp(alpha z) may overflow.
-    """
-    G, nu = stack.outer
-    c11, c12, c22, csh = (2 * G * alpha * c for c in remainder_scalars(stack, alpha))
-    x = alpha * depth
-    e = 1 / (2 * (1 - nu))
-    ch, sh = np.cosh(x), np.sinh(x)
-    f, k = e * x * sh, e * _x_cosh_minus_sinh(x)
-    grown = np.array(
-        [
-            [[ch + f, -sh - k], [(2 * e - 1) * sh + k, ch - f]],
-            [[-2 * e * sh - k, f], [-f, k]],
-        ]
-    )
-    start = np.array([[c11, c12], [c12, c22]])
-    displacement = _product(grown[0], start) / (2 * G * alpha)
-    return DepthScalars(
-        displacement, _product(grown[1], start), csh / (2 * G * alpha) * ch, -csh / 2 * sh
-    )
 
 
 def in_plane(fields: DepthScalars, material: HalfSpace, alpha: Array) -> PlaneScalars:

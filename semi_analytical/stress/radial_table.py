@@ -24,7 +24,6 @@ from semi_analytical.frf.depth import (
     PlaneScalars,
     in_plane,
     material_at,
-    remainder_at_depth,
 )
 from semi_analytical.frf.stack import Stack
 from semi_analytical.influence.hankel_points import faded_points, hankel_points
@@ -112,12 +111,8 @@ def _transforms(
 
 
 def _integrands(descent: Descent, level: Level) -> Array:
-    stack, alpha = descent.stack, descent.alpha
-    if level.layer == 0:
-        fields = remainder_at_depth(stack, alpha, level.depth)
-    else:
-        fields = descent.at(level)
-    return integrands(fields, in_plane(fields, material_at(stack, level), alpha))
+    fields = descent.remainder(level)
+    return integrands(fields, in_plane(fields, material_at(descent.stack, level), descent.alpha))
 
 
 def _bessel(x: Array) -> tuple[Array, Array, Array, Array]:
