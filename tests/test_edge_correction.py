@@ -25,7 +25,7 @@ from contact_scene import HeightMap, LoadStep, RadialDiscretisation, Scene, Surf
 from semi_analytical import SurfaceGrid, plan, solve
 from semi_analytical.edge_correction.pressure import LEAST_FACTOR, relaxation_factor
 from verification.closed_forms.hertz import PointContact
-from verification.problems.layered_scene import coated, film, half_space, pressed, rigid_ball
+from verification.problems.layered_scene import coated, film, pressed, rigid_ball
 from verification.problems.paper_scene import FRICTION_LIMIT, pressing
 from verification.problems.shifted_grid import ShiftedGrid
 
@@ -214,15 +214,11 @@ def test_a_relaxed_change_at_least_halves_the_error_of_a_linear_iteration(eigenv
 
 
 INCREMENTS, SIDE = 6, 2.8 * A
-BODIES = {
-    "bare": half_space(0.2),
-    "soft film": coated(film(0.5, 1.0)),
-    "thin film": coated(film(2.0, 0.1)),
-}
+FILM = coated(film(0.5, 1.0))
 
 
-def ball(body: str, *loading: LoadStep) -> Scene:
-    return pressed(body, rigid_ball(), BODIES[body], pressing(INCREMENTS), *loading, friction=MU)
+def ball(*loading: LoadStep) -> Scene:
+    return pressed("", rigid_ball(), FILM, *loading, friction=MU)
 
 
 def solved_beside(
@@ -232,15 +228,19 @@ def solved_beside(
     return solve(of, grid, 1e-8, plan=plan(of, edge=edge))
 
 
-@cache
-def exact(body: str):
-    return radial.solve(ball(body), RadialDiscretisation(rings=512)).steps[-1]
+def test_stick_that_spreads_below_a_pressing_ball_ends_where_rings_say():
+    """Where new cells stick what is missing from slip falls like s^(3/2); by a root all around the
+    radius is 2e-2 to 3e-2 too small."""
+    of = ball(pressing(16))
+    rings = radial.solve(of, RadialDiscretisation()).steps[-1]
+    end = solved_beside(of, "all", offset=(0.31, -0.17)).steps[-1]  # off the symmetry of the cells
+    assert end.stick_radius == pytest.approx(rings.stick_radius, rel=4e-3)
 
 
 @cache
 def pushed_film(edge: str):
     push = LoadStep(tangential_force=(0.5 * FRICTION_LIMIT, 0.0), increments=3)
-    return solved_beside(ball("soft film", push), edge)
+    return solved_beside(ball(pressing(INCREMENTS), push), edge)
 
 
 def test_the_correction_of_a_state_does_not_depend_on_that_of_earlier_ones():
