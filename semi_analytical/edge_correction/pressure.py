@@ -43,9 +43,9 @@ LEAST_FACTOR = 0.5
 MAX_ITERATIONS = 10
 # Part of its residual that the solve of an iteration leaves.
 INNER_REDUCTION = 0.1
-# Predicted change Σ|Δp|/Σp of the next iteration at which the iteration stops, and change of the
-# last one at most. About as much as predicted remains: the accuracy required of a contact radius on
-# 128 cells per side.
+# Relative changes at which the iteration stops: of the pressure, Σ|Δp|/Σp, as predicted for the
+# next iteration, and of the contact radius in the last one. About as much remains: the accuracy
+# required of a contact radius on 128 cells per side. Last change of the pressure at most.
 SETTLED, LEAST_SETTLED = 5e-5, 1e-3
 # Part of the edge that need not be fitted.
 MAX_UNSAFE = 0.03
@@ -80,7 +80,7 @@ def edge_pressure(
         edge = problem.rim(p, edge)
         approach, _ = state.target.reached(operators.model, solved.motion)
         response = problem.response(approach, p)
-        if next_change(changes) <= SETTLED:
+        if next_change(changes) <= SETTLED and _radius_change(before.edge, edge) <= SETTLED:
             break
     change = changes[-1]
     if change > LEAST_SETTLED:
@@ -102,6 +102,11 @@ def relaxation_factor(factor: float, last: Field, change: Field) -> float:
     """
     fall = last - change
     return float(np.clip(factor * np.sum(last * fall) / np.sum(fall**2), LEAST_FACTOR, 1.0))
+
+
+def _radius_change(before: SubcellTractions, after: SubcellTractions) -> float:
+    """Relative change of the contact radius between two iterates."""
+    return abs((after.area / before.area) ** 0.5 - 1)
 
 
 class _Solved(NamedTuple):
@@ -223,7 +228,7 @@ class _Problem:
             response=abs(last.response / before.response - 1),
             peak=abs(peak.value / before_peak.value - 1),
             ridge=peak.ridge,
-            radius=abs((edge.area / before.edge.area) ** 0.5 - 1),
+            radius=_radius_change(before.edge, edge),
         )
         return Corrected(
             pressure=p,
