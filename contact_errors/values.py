@@ -29,6 +29,9 @@ PHYSICAL = tuple(name for name, mark in reported(State).items() if mark.physical
 OF_CYCLES = ("energy_per_cycle", "slip_amplitude", "ruiz_f1", "ruiz_f2")
 
 
+_STRAINS = frozenset({"bulk_strain", "bulk_shear"})
+
+
 def values_of(result: Result) -> tuple[Values, ...]:
     """Return the scalars that are defined at the end of each load step, by name."""
     closed = {cycle.cycle.end: _of_cycle(cycle) for cycle in fretting_cycles(result)}
@@ -54,7 +57,7 @@ def prescribed(ramp: LoadRamp, rig: Rig | None) -> frozenset[str]:
         (ramp.twisting.kind, "torque", "twist"),
         (ramp.tilting.kind, "moment", "tilt"),
     )
-    return frozenset(
+    return _STRAINS | frozenset(
         force if kind is ControlKind.FORCE else motion for kind, force, motion in controls
     )
 

@@ -48,6 +48,13 @@ def friction(scene: Scene) -> Effect:
     return Effect("friction", on, "[friction] is given" if on else "the scene has no friction")
 
 
+def strained(scene: Scene) -> Effect:
+    """Whether the lower body is strained along its surface."""
+    on = any(ramp.stretch for ramp in scene.load_path())
+    why = "a step names" if on else "no step names"
+    return Effect("bulk strain", on, f"{why} a bulk strain or a bulk stress of the lower body")
+
+
 def coupled(scene: Scene, on: bool, why: str) -> Effect:
     """Whether pressure and shear act on each other.
 

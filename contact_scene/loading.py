@@ -6,12 +6,14 @@ from pydantic import model_validator
 
 from contact_scene.reading.description import Description
 from contact_scene.reading.quantity import (
+    BulkStrain,
     Force,
     Length,
     Moment,
     PressingForce,
     PressingLength,
     Rotation,
+    Stress,
     WholeNumber,
 )
 from contact_scene.reading.validator_error import refusal
@@ -19,12 +21,14 @@ from contact_scene.reading.validator_error import refusal
 MAX_STEPS = 20_000
 Increments = Annotated[int, WholeNumber(1, 100_000)]
 
-# Every coordinate of the indenter's rigid motion is led by its force or by itself.
+# Every coordinate of the indenter's rigid motion is led by its force or by itself, and the strain
+# of the lower body by its stress or by itself.
 CONTROLS = (
     ("normal_force", "approach"),
     ("tangential_force", "tangential_shift"),
     ("torque", "twist"),
     ("moment", "tilt"),
+    ("bulk_stress", "bulk_strain"),
 )
 
 
@@ -61,6 +65,15 @@ class LoadStep(Description):
 
     tilt: tuple[Rotation, Rotation] | None = None
     """Tilt (x, y) at the end of the step: slopes that close the gap at positive y and x."""
+
+    bulk_strain: tuple[BulkStrain, BulkStrain, BulkStrain] | None = None
+    """Uniform strain (exx, eyy, exy) of the lower body along its surface at the end of the step,
+    about the origin; layers are strained as much. A specimen in plane strain, pulled along x by a
+    stress, has exx = stress (1 - nu^2)/E and eyy = 0. The indenter is not strained."""
+
+    bulk_stress: tuple[Stress, Stress, Stress] | None = None
+    """The same by the stress (sxx, syy, sxy) of the substrate, free to contract [force/length^2].
+    """
 
     increments: Increments | None = None
     """Number of the solver's increments within the step; absent: chosen by the solver."""

@@ -69,7 +69,7 @@ def _merged(body: B) -> B:
 def _unnamed(scene: Scene, ramps: tuple[LoadRamp, ...]) -> Unnamed:
     """Controls that are zero in the whole history and do nothing."""
     tilts = any(any(ramp.tilting.end) for ramp in ramps)
-    twists = any(ramp.twisting.end for ramp in ramps)
+    twists = any(ramp.twisting.end or (ramp.stretch and ramp.stretch[1][2]) for ramp in ramps)
     pushed = any(any(ramp.tangential.end) for ramp in ramps)
     indenter, friction = scene.indenter, scene.friction
     found: Unnamed = {}

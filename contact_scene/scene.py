@@ -95,4 +95,4 @@ class Scene(Description):
 
     def load_path(self) -> tuple[LoadRamp, ...]:
         """The loading with nothing left implicit, one ramp for every step."""
-        return load_path(self.loading)
+        return load_path(self.loading, self.body.material)

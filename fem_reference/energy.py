@@ -16,13 +16,19 @@ UNCOUPLED = (Path.PRESSING, Path.SHEARING, Path.TWISTING)
 
 
 def accounted(
-    scene: Scene, plan: Plan, before: Increment | None, increment: Increment
+    scene: Scene,
+    plan: Plan,
+    before: Increment | None,
+    increment: Increment,
+    on_strain: float = 0.0,
 ) -> Increment:
     """The increment with its input work, its elastic energy, and how uncertain the energy lost is.
 
-    before  the increment before it in the history
+    before     the increment before it in the history
+    on_strain  work of the shear on the strained lower body in the increment [force length]
     """
     work, stored = input_work(before, increment), elastic_energy(scene, plan, increment)
+    work = None if work is None else work - on_strain
     known = None if stored is None else stored + (increment.dissipated_energy or 0.0)
     open_ = None if work is None or known is None else work - known
     return replace(

@@ -8,6 +8,7 @@ import numpy as np
 
 from contact_scene import LoadRamp, Scene
 from contact_scene.array_types import Field
+from contact_scene.bulk_strain import UNSTRAINED
 from contact_scene.rig import of_contact
 from contact_scene.stepping.checkpoint import (
     Checkpoint,
@@ -70,6 +71,7 @@ class _Solver:
         along = self._along(ramp)
         if along is not None:
             loads = replace(loads, tangential=TangentialTarget(*along.led(fraction, tangential)))
+        loads = replace(loads, strain=(ramp.strain(fraction) or UNSTRAINED)[0])
         return self.method.advance(before, loads, self.tolerance)
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Field:
@@ -81,7 +83,8 @@ class _Solver:
         increment = self.method.increment(reached.state, reached.place)
         increment = replace(increment, halvings=reached.halvings)
         increment = of_contact(increment, self.scene.rig)
-        return accounted(self.scene, self.method.plan, last, increment)
+        resisted = self.method.work_on_strain(reached.before, reached.state)
+        return accounted(self.scene, self.method.plan, last, increment, resisted)
 
     def _along(self, ramp: LoadRamp) -> ScalarControl | None:
         """Control of the indenter along the shear: of its twist, or along the plan's direction."""

@@ -28,7 +28,9 @@ STILL = TangentialTarget(motion=0.0)
 
 @dataclass(frozen=True)
 class Loads:
-    """Loads or motions that are prescribed at the end of an increment."""
+    """Loads or motions that are prescribed at the end of an increment, and the strain of the lower
+    body since first touch, the same all around."""
 
     normal: NormalTarget
     tangential: TangentialTarget = STILL
+    strain: float = 0.0

@@ -9,6 +9,7 @@ from contact_scene.body_pair import (
     coupling,
     refuse_contrast,
 )
+from contact_scene.bulk_strain import around_axis
 from contact_scene.checks.expected_contact import refuse_equator
 from contact_scene.effect import Effect
 from contact_scene.normal_form import normal_form
@@ -68,16 +69,19 @@ def plan(scene: Scene) -> Plan:
     loaded = any(any(ramp.tangential.end) for ramp in ramps)
     twisted = any(ramp.twisting.end != 0 for ramp in ramps)
     couples, why = coupling(scene)
-    couples = couples and scene.friction is not None and scene.friction.largest > 0
+    rough = scene.friction is not None and scene.friction.largest > 0
+    couples = couples and rough
     _refuse_loads(scene, loaded, twisted, couples)
-    path = _path(friction, loaded, twisted, couples)
+    strains = [ramp.stretch[1] for ramp in ramps if ramp.stretch]
+    strained = around_axis(strains, friction and (loaded or twisted))
+    path = _path(friction, loaded, twisted, couples or (rough and strained))
     matters = _path_matters(ramps, path)
     return Plan(
         path,
         _direction(ramps),
         _increments(scene, matters),
         matters,
-        _effects(scene, path, (friction, loaded, twisted), why),
+        _effects(scene, path, (friction, loaded, twisted, couples), why),
     )
 
 
@@ -106,7 +110,8 @@ def _path_matters(ramps: tuple[LoadRamp, ...], path: Path) -> tuple[bool, ...]:
     sheared = path in (Path.PRESSING_WITH_FRICTION, Path.HARMONICS)
     for ramp in ramps:
         sheared = sheared or any(ramp.tangential.end) or ramp.twisting.end != 0
-        pressing = ramp.normal.start != ramp.normal.end
+        sheared = sheared or ramp.strains
+        pressing = ramp.normal.start != ramp.normal.end or ramp.strains
         shearing = path is Path.HARMONICS and ramp.tangential.start != ramp.tangential.end
         matters.append(path is not Path.PRESSING and sheared and (pressing or shearing))
     return tuple(matters)
@@ -127,7 +132,7 @@ def _path_increments(scene: Scene, ramp: LoadRamp) -> int:
     """Fine enough for about one per cent of the shear, first order in the increment."""
     friction = scene.friction
     by_force = ramp.normal.kind is ramp.tangential.kind is ControlKind.FORCE
-    pressing = ramp.normal.start != ramp.normal.end
+    pressing = ramp.normal.start != ramp.normal.end or ramp.strains
     if pressing or not by_force:
         return PATH_INCREMENTS
     limit = friction.carried(ramp.normal.end) if friction is not None else None
@@ -139,14 +144,14 @@ def _path_increments(scene: Scene, ramp: LoadRamp) -> int:
 
 
 def _effects(
-    scene: Scene, path: Path, acting: tuple[bool, bool, bool], why_coupled: str
+    scene: Scene, path: Path, acting: tuple[bool, bool, bool, bool], why_coupled: str
 ) -> tuple[Effect, ...]:
     """Every effect with its reason.
 
-    acting       whether there are friction, a tangential load, and torsion
+    acting       whether there are friction, a tangential load, torsion, and coupling
     why_coupled  why pressure does or does not move the surfaces past each other
     """
-    has_friction, loaded, twisted = acting
+    has_friction, loaded, twisted, couples = acting
     return (
         effect.PRESSURE,
         effect.second_body(scene),
@@ -162,7 +167,8 @@ def _effects(
             has_friction and twisted,
             "a step names a torque or twist" if twisted else "no step twists the indenter",
         ),
-        effect.coupled(scene, path in (Path.PRESSING_WITH_FRICTION, Path.HARMONICS), why_coupled),
+        effect.strained(scene),
+        effect.coupled(scene, couples, why_coupled),
         _cross_slip(path),
         effect.load_history(path is not Path.PRESSING and len(scene.loading) > 1),
     )

@@ -10,6 +10,7 @@ from contact_scene.body_pair import (
     coupling,
     refuse_contrast,
 )
+from contact_scene.bulk_strain import around_axis
 from contact_scene.checks.expected_contact import refuse_equator
 from contact_scene.effect import Effect
 from contact_scene.normal_form import normal_form
@@ -96,8 +97,11 @@ def plan(scene: Scene) -> Plan:
     couples, why = coupling(scene)
     _refuse_loads(scene)
     friction, ramps = scene.friction is not None, scene.load_path()
-    rubs = couples and scene.friction is not None and scene.friction.largest > 0
     pushed = friction and any(any(ramp.tangential.end) for ramp in ramps)
+    strains = [ramp.stretch[1] for ramp in ramps if ramp.stretch]
+    strained = around_axis(strains, pushed or any(ramp.twisting.end for ramp in ramps))
+    rough = scene.friction is not None and scene.friction.largest > 0
+    rubs = rough and (couples or strained)
     turns = pushed and not along_one_line(ramps)
     twists = friction and any(_twists(ramp, turns) for ramp in ramps)
     circle = _circle(scene, rubs, twists, pushed, turns)
@@ -113,7 +117,8 @@ def plan(scene: Scene) -> Plan:
         effect.friction(scene),
         Effect("tangential load", pushed, tells),
         Effect("torsion", twists, "a step twists" if twists else "no step twists"),
-        effect.coupled(scene, rubs, why),
+        effect.strained(scene),
+        effect.coupled(scene, rough and couples, why),
         effect.load_history(rubs or twists or pushed),
     )
     increments = _pushed_increments(scene, circle) if circle else _increments(scene, rubs)
@@ -185,9 +190,14 @@ def _on_path(scene: Scene, ramp: LoadRamp, circle: Circle) -> int:
 def _increments(scene: Scene, rubs: bool) -> tuple[int, ...]:
     """As asked for; else one wherever the end of the step does not depend on its path."""
     return tuple(
-        ramp.increments or (PATH_INCREMENTS if rubs and ramp.normal.start != ramp.normal.end else 1)
+        ramp.increments or (PATH_INCREMENTS if rubs and _moves(ramp) else 1)
         for ramp in scene.load_path()
     )
+
+
+def _moves(ramp: LoadRamp) -> bool:
+    """Whether the surfaces move past each other without a push."""
+    return ramp.normal.start != ramp.normal.end or ramp.strains
 
 
 def _refuse_shape(scene: Scene) -> None:

@@ -49,6 +49,8 @@ TURNING = 0.25
 TURNED_ROUND = 0.9
 PRESSING_LATER = 0.15
 PRESSING_UNLIKE = 0.6
+# Of a step that strains bodies that do not couple: slip may turn back within it.
+STRAINED = 16
 
 Vector = tuple[float, float]
 
@@ -95,11 +97,13 @@ def path_increments(
     turning = [turn for way in ways if (turn := way.turned(bodies))]
     turned = sum(turning) if len(turning) > 1 else 0.0
     for way, of_loop in zip(ways, loop_increments(scene.load_path()), strict=True):
-        sheared = sheared or way.ends_sheared
+        sheared = sheared or way.ends_sheared or way.ramp.strains
         matters, why = way.matters(bodies.coupled) if shear and sheared else (False, NO_SHEAR)
         count = 1
         if matters:
             count, why = way.count(bodies, accuracy, turned)
+        if shear and way.ramp.strains and count < STRAINED:
+            count, why = STRAINED, "the lower body is strained"
         if shear and of_loop > count:
             count, why = of_loop, "the work of a closed cycle"
         if way.ramp.increments is not None:
@@ -157,6 +161,8 @@ class _Way:
     def _moving(self) -> bool:
         """Whether the sideways load changes."""
         twisting = self.ramp.twisting
+        if self.ramp.strains:
+            return True
         return self.start != self.ramp.tangential.end or twisting.start != twisting.end
 
     @property
@@ -220,7 +226,12 @@ class _Way:
             return 0.0, 0.0
         normal, tangential = self.ramp.normal, self.ramp.tangential
         by_force = normal.kind is tangential.kind is ControlKind.FORCE
-        known = by_force and normal.start is not None and tangential.start is not None
+        known = (
+            by_force
+            and not self.ramp.strains
+            and normal.start is not None
+            and tangential.start is not None
+        )
         limit = bodies.friction.carried(min(normal.start or normal.end, normal.end))
         if not known or not limit or self.ramp.twisting.end != 0:
             return 1.0, 1.0

@@ -98,7 +98,8 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
     loaded = _tangentially_loaded(scene)
     couples, why = coupling(scene)
     coupled = scene.friction is not None and scene.friction.largest > 0 and couples
-    shear = friction and (loaded or coupled)
+    strained = any(ramp.stretch for ramp in scene.load_path())
+    shear = friction and (loaded or coupled or strained)
     tilt = any(step.moment is not None or any(step.tilt or (0, 0)) for step in scene.loading)
     torsion = shear and any(step.torque is not None or step.twist for step in scene.loading)
     symmetry, why_symmetry = _symmetry(scene, shear, coupled, tilt, torsion)
@@ -110,6 +111,7 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
         Effect("tangential load", friction and loaded, _why_shear(friction, loaded)),
         Effect("tilt", tilt, _why_tilt(tilt)),
         Effect("torsion", torsion, _why_torsion(friction, torsion)),
+        effect.strained(scene),
         effect.coupled(scene, coupled, why),
         effect.load_history(len(scene.loading) > 1 and shear),
         Effect(MIRROR_PLANES, symmetry != WINDOW, why_symmetry),
@@ -166,8 +168,9 @@ def _symmetry(
     if torsion and pushed:
         return WINDOW, "the indenter twists and is pushed"
     signs = {(-1, 1) if axis == 0 else (1, -1) for axis in pushed}
-    signs |= {(-1, -1)} if torsion else set()
-    signs |= {(1, 1)} if coupled or not signs else set()
+    strains = [ramp.stretch[1] for ramp in ramps if ramp.stretch]
+    signs |= {(-1, -1)} if torsion or any(xy for *_, xy in strains) else set()
+    signs |= {(1, 1)} if coupled or not signs or any(xx or yy for xx, yy, _ in strains) else set()
     x, y = (len({sign[axis] for sign in signs}) == 1 for axis in (0, 1))
     if not (x or y):
         return WINDOW, "the loads have no mirror plane in common"

@@ -6,6 +6,7 @@ import numpy as np
 
 from contact_scene import Body
 from contact_scene.array_types import Field, Vector
+from contact_scene.bulk_strain import stress_by
 from semi_analytical.fields import Increment, Result
 from semi_analytical.stress import subsurface
 
@@ -45,6 +46,9 @@ def _in_plane_stress(result: Result, end: Increment) -> Field:
         body = Body(material=indenter.material, layers=indenter.layers)
         shear = None if shear is None else -shear
     stress = subsurface(body, result.grid, end.pressure, shear, (0.0,)).stress[0]
+    if end.bulk_strain is not None and body is result.scene.body:
+        strain = (*end.bulk_strain, end.bulk_shear or 0.0)
+        stress = stress + stress_by(strain, body, 0)[:, None, None]
     return np.asarray(stress[[0, 1, 5]])
 
 

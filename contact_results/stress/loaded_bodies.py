@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,9 +12,11 @@ import numpy as np
 from contact_results.directory.file_names import FIELDS
 from contact_results.files.stored_run import load
 from contact_results.files.stored_values import MISREAD, ends_of_steps
+from contact_results.stress.points import StressPoints
 from contact_results.surface import Surface, surface_of, surface_on
 from contact_scene import Body, CoulombFriction, FiniteElementDiscretisation, Scene
 from contact_scene.array_types import Field
+from contact_scene.bulk_strain import Strain, stress_by
 from contact_scene.geometry import ShapedBody
 from contact_scene.quantities.increment import State
 from contact_scene.quantities.stated_error import (
@@ -60,6 +62,7 @@ class LoadedBodies:
                     as the run has them, which knows more than its cells; None where nobody has told
                     [length], [force/length^2]
     edges           whether the tractions have their edges inside the cells, and are means of these
+    strain          of the lower body; None where there is none
     by_increments   part of themselves by which increments may leave the tractions wrong; None where
                     nobody has stated it
     """
@@ -78,11 +81,27 @@ class LoadedBodies:
     pressed: tuple[ShapedBody, float, float] | None = None
     contact_radius: float | None = None
     peak_pressure: float | None = None
+    strain: Strain | None = None
 
     @property
     def on_rings(self) -> bool:
         """Whether the tractions are functions of the radius."""
         return "radii" in self.axes
+
+    def bulk_stress(self, layer: int, indenter: bool) -> Field:
+        """Stress of a layer, or of the base below all of them, by the bulk strain of the lower body
+        (6,) [force/length^2]."""
+        if self.strain is None or indenter:
+            return np.zeros(6)
+        return stress_by(self.strain, self.body, layer)
+
+    def strained(self, points: StressPoints, indenter: bool) -> StressPoints:
+        """Add the stress by the bulk strain at points of a body."""
+        if self.strain is None:
+            return points
+        layers = range(int(np.max(points.material)) + 1)
+        by_layer = np.stack([self.bulk_stress(layer, indenter) for layer in layers])
+        return replace(points, stress=points.stress + np.moveaxis(by_layer[points.material], -1, 0))
 
     @property
     def surface(self) -> Surface:
@@ -170,6 +189,7 @@ def _state(
         pressed=pressed if solver == RADIAL else None,
         contact_radius=end.contact_radius,
         peak_pressure=end.peak_pressure,
+        strain=None if end.bulk_strain is None else (*end.bulk_strain, end.bulk_shear or 0.0),
         **of_result,
     )
 

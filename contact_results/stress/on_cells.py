@@ -113,6 +113,9 @@ def _below(
     for field in _each_level(
         state, body, grid, levels, pressure, shear, None if why else edge, rows
     ):
+        if state.strain is not None:
+            bulk = state.bulk_stress(field.levels[0].layer, indenter)
+            field = replace(field, stress=field.stress + bulk[:, None, None])  # noqa: PLW2901
         sections.append(field.along_x())
         points = _points(field, grid)
         largest.append(points.with_largest())
@@ -120,7 +123,8 @@ def _below(
     plane = SubsurfaceField.joined(sections)
     fitted = None
     if edge is not None:
-        fitted = FittedEdge(_on_edge(edge), edge.apart * edge.size, not why)
+        on_edge = _on_edge(edge, edge.stress() + state.bulk_stress(0, indenter)[:, None])
+        fitted = FittedEdge(on_edge, edge.apart * edge.size, not why)
     return StressField(
         StressPoints.joined(largest),
         fitted,
@@ -221,7 +225,7 @@ def _how(edge: NearEdge | None, why: str) -> dict[str, object]:
     return {"fitted": True, "points": len(edge.x), "fits_apart": edge.apart}
 
 
-def _on_edge(edge: NearEdge) -> StressPoints:
+def _on_edge(edge: NearEdge, stress: Field) -> StressPoints:
     """Points (n,) at the surface; displacements are not taken there."""
     nothing = np.zeros(len(edge.x))
     return StressPoints(
@@ -230,7 +234,7 @@ def _on_edge(edge: NearEdge) -> StressPoints:
         nothing,
         np.zeros(len(nothing), dtype=np.int64),
         np.full((3, len(nothing)), np.nan),
-        edge.stress(),
+        stress,
         at_edge=nothing > 0,
     )
 

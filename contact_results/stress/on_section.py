@@ -42,7 +42,7 @@ def stress_on_section(state: LoadedBodies, *, indenter: bool = False) -> StressF
     body = state.indenter if indenter else state.body
     field = subsurface(body, tractions, asked, upper=indenter)
     radius = tractions.loaded_radius
-    section = _section(field)
+    section = state.strained(_section(field), indenter)
     reach = NEAR * radius
     near = section.near(reach)
     assert section.cells is not None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -52,6 +53,7 @@ class RadialBody:
 
     fields     displacement and stress (levels, 9, n) on levels at x and y (n,)
     parts      regions of the body, and the depths
+    strained   adds the stress by a bulk strain
     direction  unit vector of the load in the scene
     centre     of the contact, along x [length]
     is_round   whether all fields are functions of the radius, known at x >= 0 and y = 0
@@ -60,6 +62,7 @@ class RadialBody:
     fields: Fields
     parts: BodyRegions
     sampling: Sampling
+    strained: Callable[[StressPoints], StressPoints]
     direction: tuple[float, float]
     centre: float = 0.0
     is_round: bool = True
@@ -103,7 +106,8 @@ class RadialBody:
             none = np.zeros_like(rr)
             return np.stack([u_r, none, u_z, rr, tt, zz, none, rz, none], axis=1)
 
-        return cls(fields, parts, PRESSED, state.direction)
+        strained = partial(state.strained, indenter=indenter)
+        return cls(fields, parts, PRESSED, strained, state.direction)
 
     @classmethod
     def _below_shear(
@@ -135,7 +139,10 @@ class RadialBody:
             circle = circle.reversed()
         parts = BodyRegions.of(body, circle.radius, SHEARED.down)
         below = BelowCircle(circle, stack, REACH, highest, fineness)
-        return cls(below.at, parts, SHEARED, state.direction, circle.centre, circle.is_round)
+        strained = partial(state.strained, indenter=indenter)
+        return cls(
+            below.at, parts, SHEARED, strained, state.direction, circle.centre, circle.is_round
+        )
 
     @property
     def radii(self) -> Field:
@@ -159,7 +166,7 @@ class RadialBody:
         none, parts = np.zeros_like(found[0]), self.parts
         away = np.hypot(x - self.centre, y) >= (1 - 1e-9) * REACH * parts.radius
         infinite = (depth == parts.first) & (parts.first > 0)
-        return StressPoints(
+        points = StressPoints(
             none + x,
             none + y,
             none + depth,
@@ -168,6 +175,7 @@ class RadialBody:
             found[3:],
             at_edge=away | (depth == parts.deepest) | infinite,
         )
+        return self.strained(points)
 
     def beside(self, levels: Sequence[Level]) -> StressPoints:
         """Compute the points outside the plane of the section."""

@@ -9,6 +9,7 @@ from contact_scene.discretisation import SurfaceDiscretisation
 from contact_scene.friction import CoulombFriction
 from contact_scene.geometry import Indenter
 from contact_scene.loading import LoadStep
+from contact_scene.material import RIGID
 from contact_scene.reading.scene_error import (
     Path,
     Problem,
@@ -53,6 +54,7 @@ def inconsistencies(parts: Parts) -> tuple[Problem, ...]:
         *_gross_sliding(parts),
         *_moment_beyond_the_contact(parts),
         *_window_beyond_a_map(parts),
+        *_rigid_base_strained(parts),
     )
 
 
@@ -211,6 +213,18 @@ def _window_beyond_a_map(parts: Parts) -> Iterator[Problem]:
                     ("semi_analytical", "window", index),
                     f"the window is {length:.6g} m long, {name} only {known:.6g} m",
                     f"a window of at most {known:.6g} m along {'xy'[index]}",
+                )
+
+
+def _rigid_base_strained(parts: Parts) -> Iterator[Problem]:
+    body = parts.get("body")
+    for index, step in enumerate(parts.get("loading", ()) if body else ()):
+        for key in ("bulk_strain", "bulk_stress"):
+            if getattr(step, key) and body and body.material is RIGID:
+                yield Problem(
+                    ("loading", index, key),
+                    "the substrate of the lower body is rigid and has no bulk strain",
+                    "an elastic substrate",
                 )
 
 

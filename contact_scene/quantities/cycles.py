@@ -65,6 +65,7 @@ def loop_increments(path: Iterable[LoadRamp]) -> tuple[int, ...]:
 def _of_loop(ramp: LoadRamp) -> int:
     moving = [c for c in (ramp.tangential, ramp.twisting) if c.start != c.end]
     by_motion = any(control.kind is ControlKind.DISPLACEMENT for control in moving)
+    by_motion = by_motion or ramp.strains
     return LED_BY_MOTION if by_motion else LED_BY_FORCE if moving else 1
 
 
@@ -83,14 +84,17 @@ def _scales(ramps: list[LoadRamp]) -> list[dict[str, float]]:
         for scale, control in zip(scales, _controls(ramp), strict=True):
             size = max(map(abs, _values(control)))
             scale[control.kind.value] = max(scale.get(control.kind.value, 0.0), size)
-    return scales
+    strains = [abs(value) for ramp in ramps if ramp.stretch for value in ramp.stretch[1]]
+    return [*scales, {"strain": max(strains, default=0.0)}]
 
 
 def _state(ramp: LoadRamp, scales: list[dict[str, float]]) -> State:
     """What two loads have in common that are the same."""
     state = []
-    for scale, control in zip(scales, _controls(ramp), strict=True):
+    for scale, control in zip(scales, _controls(ramp), strict=False):
         size = scale[control.kind.value] or 1.0
         values = tuple(round(value / size, DIGITS) for value in _values(control))
         state.append((control.kind.value, values))
-    return tuple(state)
+    strain = ramp.stretch[1] if ramp.stretch else ()
+    largest = scales[-1]["strain"] or 1.0
+    return *state, ("strain", tuple(round(value / largest, DIGITS) for value in strain))

@@ -106,6 +106,18 @@ class State:
             key=True,
         ),
     ] = None
+    bulk_strain: Annotated[
+        Vector | None,
+        Reported(
+            "",
+            "Normal strains of the lower body along x and y; null where no step names a strain.",
+            Kind.VECTOR,
+        ),
+    ] = None
+    bulk_shear: Annotated[
+        float | None,
+        Reported("", "Shear strain exy of the lower body; null where no step names a strain."),
+    ] = None
     stick_area: Annotated[
         float | None,
         Reported(

@@ -12,6 +12,7 @@ from typing import Any, TypeVar, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_scene.bulk_strain import Strain
 from contact_scene.height_map import lowest_point
 from contact_scene.quantities.residuals import Residuals
 from contact_scene.quantities.summary import ContactStatus
@@ -116,14 +117,20 @@ def position(last: Any, ramp: LoadRamp, fraction: float) -> dict[str, Any]:
 
 
 def since_touch(ramp: LoadRamp, apart: Any) -> LoadRamp:
-    """Return a load step with shift and twist counted from separated bodies that return to
+    """Return a load step with shift, twist and strain counted from separated bodies that return to
     contact."""
     return replace(
         ramp,
         tangential=_counted(ramp.tangential, apart.tangential_shift, from_zero=True),
         twisting=_counted(ramp.twisting, apart.twist, from_zero=True),
         tilting=_counted(ramp.tilting, apart.tilt, from_zero=False),
+        stretch=None if ramp.stretch is None else _since(ramp.stretch, apart),
     )
+
+
+def _since(stretch: tuple[Strain, Strain], apart: Any) -> Any:
+    at_touch = (*apart.bulk_strain, apart.bulk_shear)
+    return tuple(tuple(map(float, np.subtract(strain, at_touch))) for strain in stretch)
 
 
 def _counted(control: Any, motion: Any, *, from_zero: bool) -> Any:

@@ -224,6 +224,10 @@ Rotation = Annotated[
         at_most=_MOST_ROTATION,
     ),
 ]
+BulkStrain = Annotated[
+    float, Quantity(PURE_NUMBER, "a strain from -0.1 to 0.1", at_least=-0.1, at_most=0.1)
+]
+Stress = Annotated[float, Quantity(PRESSURE, "a stress")]
 PositiveStiffness = Annotated[float, Quantity(STIFFNESS, "a positive stiffness", above=0.0)]
 PositivePressure = Annotated[float, Quantity(PRESSURE, "a positive pressure", above=0.0)]
 SlopeAngle = Annotated[

@@ -51,6 +51,8 @@ def _proved(scene: Scene, ramps: Sequence[LoadRamp]) -> bool:
     """Whether a history is one of the three proved cases."""
     if scene.friction is None or scene.friction.uniform == 0:
         return True
+    if any(r.stretch and any(r.stretch[1]) for r in ramps):
+        return False
     sheared = [r for r in ramps if any(r.tangential.end) or r.twisting.end or _led(r)]
     if coupling(scene)[0]:
         return False

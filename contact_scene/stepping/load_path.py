@@ -1,12 +1,14 @@
 """The load history resolved: for every step, what each control does from start to end."""
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from enum import Enum
 from math import hypot
 from typing import Generic, TypeVar
 
+from contact_scene.bulk_strain import UNSTRAINED, Strain, strain_under
 from contact_scene.loading import LoadStep
+from contact_scene.material import Material
 from contact_scene.solver_errors import motion_undefined
 
 Vector = tuple[float, float]
@@ -83,6 +85,7 @@ class LoadRamp:
     twisting    torque or twist
     tilting     moment (Mx, My) or tilt (x, y)
     increments  as asked for in the scene, or None
+    stretch     bulk strain of the lower body at start and end; None where no step names one
     """
 
     step: int
@@ -91,6 +94,19 @@ class LoadRamp:
     twisting: ScalarControl
     tilting: VectorControl
     increments: int | None
+    stretch: tuple[Strain, Strain] | None = None
+
+    def strain(self, fraction: float) -> Strain | None:
+        """Bulk strain at a fraction of the step; None where no step names one."""
+        if self.stretch is None:
+            return None
+        xx, yy, xy = (_ramped(*ends, fraction) for ends in zip(*self.stretch, strict=True))
+        return xx, yy, xy
+
+    @property
+    def strains(self) -> bool:
+        """Whether the bulk strain changes."""
+        return self.stretch is not None and self.stretch[0] != self.stretch[1]
 
 
 # The bodies just touch. Until a step names it, a coordinate is free to shift but not to rotate.
@@ -104,24 +120,31 @@ _AT_REST = LoadRamp(
 )
 
 
-def load_path(loading: Iterable[LoadStep]) -> tuple[LoadRamp, ...]:
+def load_path(loading: Sequence[LoadStep], base: Material | None = None) -> tuple[LoadRamp, ...]:
     """Resolve steps: what a step does not name is held under its last control.
 
     Before the first step the bodies just touch: no load and no motion. The first step must name a
     normal load.
+
+    base  material of the substrate, for bulk stresses; without it these are not resolved
     """
     ramps: list[LoadRamp] = []
     last = _AT_REST
+    strains = (step.bulk_strain or (base and step.bulk_stress) or () for step in loading)
+    if any(map(any, strains)):
+        last = replace(last, stretch=(UNSTRAINED, UNSTRAINED))
+    at_rest = last
     for number, step in enumerate(loading, start=1):
-        if last is _AT_REST and not step.names_normal:
+        if last is at_rest and not step.names_normal:
             raise ValueError("the first step names no normal load")
         last = LoadRamp(
             number,
-            _next(step.normal_force, step.approach, last.normal, last is _AT_REST),
-            _next(step.tangential_force, step.tangential_shift, last.tangential, last is _AT_REST),
-            _next(step.torque, step.twist, last.twisting, last is _AT_REST),
-            _next(step.moment, step.tilt, last.tilting, last is _AT_REST),
+            _next(step.normal_force, step.approach, last.normal, last is at_rest),
+            _next(step.tangential_force, step.tangential_shift, last.tangential, last is at_rest),
+            _next(step.torque, step.twist, last.twisting, last is at_rest),
+            _next(step.moment, step.tilt, last.tilting, last is at_rest),
             step.increments,
+            _stretched(step, last, base),
         )
         ramps.append(last)
     return tuple(ramps)
@@ -135,6 +158,20 @@ def along_one_line(ramps: Sequence[LoadRamp]) -> bool:
         abs(longest[0] * end[1] - longest[1] * end[0]) <= STRAIGHT * hypot(*longest) * hypot(*end)
         for end in ends
     )
+
+
+def _stretched(
+    step: LoadStep, last: LoadRamp, base: Material | None
+) -> tuple[Strain, Strain] | None:
+    """Bulk strain at start and end of a step."""
+    if last.stretch is None:
+        return None
+    end = last.stretch[1]
+    if step.bulk_strain is not None:
+        end = step.bulk_strain
+    elif step.bulk_stress is not None and base is not None:
+        end = strain_under(step.bulk_stress, base)
+    return last.stretch[1], end
 
 
 def _next(

@@ -59,6 +59,12 @@ class PointCompliance:
         return np.concatenate([[[1.0], [0.0]], around], axis=1)
 
     @cached_property
+    def stretch(self) -> Field:
+        """Displacement of the points per unit of an equibiaxial strain (2, points) [length]."""
+        outward = self.rings.stretch[self.ring_of_point]
+        return np.stack([outward, np.zeros_like(outward)])
+
+    @cached_property
     def along(self) -> Field:
         """Load, a force or torque: Σ along · q (2, points) [length^2] or [length^3]."""
         return np.asarray(self.areas * self.motion)

@@ -37,6 +37,7 @@ class RingCompliance:
     path       which tractions are solved for
     motion     displacement of the rings per unit of the indenter's shift or twist (2, rings), for
                tractions that do not depend on θ; zero where symmetry keeps the indenter in place
+    stretch    radius of the rings, the mean over φ (rings,) [length]
     reach      outer end of the last element [length]
     edge       how the edge of the contact is found between rings
     """
@@ -47,6 +48,7 @@ class RingCompliance:
     harmonics: tuple[Matrix, ...]
     path: Path
     motion: Matrix
+    stretch: Vector
     reach: float
     edge: Edge
 
@@ -66,7 +68,7 @@ def ring_compliance(
     nodes = model.radii
     basis: TractionBasis = gauss_points(nodes, model.rim) if at_gauss_points else model.hats
     rings = len(basis.radii)
-    motion = np.zeros((2, rings))
+    motion, stretch = np.zeros((2, rings)), basis.arms / basis.weights
     harmonics = [np.zeros((3, rings, 3, rings)) for _ in range(highest + 1)]
     if path in (Path.PRESSING_WITH_FRICTION, Path.HARMONICS):
         for n, A in enumerate(harmonics):
@@ -80,7 +82,7 @@ def ring_compliance(
         A[Z, :, Z] = basis.compliance(model.compliance(0).matrix[1, :, 1])
         if path is Path.TWISTING:
             A[THETA, :, THETA] = basis.compliance(model.torsion().matrix[0, :, 0])
-            motion[THETA] = basis.arms / basis.weights
+            motion[THETA] = stretch
         elif path is Path.SHEARING:
             A[R, :, R] = basis.compliance(model.along_load())
             motion[R] = 1.0
@@ -95,5 +97,5 @@ def ring_compliance(
         reach = float(basis.radii[-1])
     gap = basis.of(model.gap) / basis.weights
     return RingCompliance(
-        basis.radii, basis.weights, gap, tuple(harmonics), path, motion, reach, edge
+        basis.radii, basis.weights, gap, tuple(harmonics), path, motion, stretch, reach, edge
     )

@@ -225,6 +225,7 @@ class _Increment:
             turns=last.turns,
             solves=last.solves,
             augmentations=len(passes) - 1,
+            strain=self.loads.strain,
             way=solution.way if compliance.couples else None,
         )
 
@@ -245,7 +246,9 @@ class _Increment:
             compliance,
             contact.gap - compliance.springs * multiplier[2],
             contact.friction,
-            memory - (before.motion or 0.0) * compliance.motion,
+            memory
+            - (before.motion or 0.0) * compliance.motion
+            - (loads.strain - before.strain) * compliance.stretch,
             loads.normal,
             loads.tangential,
         )

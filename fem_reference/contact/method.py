@@ -67,6 +67,14 @@ class ContactMethod:
         contact = self._on_rings if state.axisymmetric else self._on_points
         return reported(contact, state, self.plan.direction, place)
 
+    def work_on_strain(self, before: PointState | None, state: PointState) -> float:
+        """½ Σ w (q₀ + q₁)·r Δε: work of the shear on a lower body that is strained by Δε."""
+        change = state.strain - (before.strain if before else 0.0)
+        if change == 0:
+            return 0.0
+        compliance, shear = self._on_rings.compliance, state.shear + (before.shear if before else 0)
+        return 0.5 * change * float(np.sum(compliance.areas * compliance.stretch * shear))
+
     @property
     def undeformed_gap(self) -> NDArray[np.float64]:
         """Gap without tractions, the mean over each ring's function (rings,) [length]."""

@@ -27,6 +27,7 @@ class PointState:
     moved              largest mean tangential displacement so far, weighted with the shear [length]
     turns, solves      of the alternating iteration, and linear systems solved
     augmentations      updates of the multipliers
+    strain             of the lower body since first touch, the same all around
     way                how pressure and shear were found; None where they do not depend on each
                        other
     """
@@ -52,6 +53,7 @@ class PointState:
     turns: int = 0
     solves: int = 0
     augmentations: int = 0
+    strain: float = 0.0
     way: str | None = None
 
     @property

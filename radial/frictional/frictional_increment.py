@@ -33,6 +33,7 @@ class FrictionalState:
     uncertain  by how much finite increments leave that uncertain [force length]
     power      of the radius with which what is asked for rises
     tried      contact radii
+    strain     of the lower body since first touch, the same all around
     """
 
     end: Rubbed
@@ -46,6 +47,7 @@ class FrictionalState:
     uncertain: float
     power: float
     tried: int
+    strain: float
 
     @property
     def normal_force(self) -> float:
@@ -71,6 +73,7 @@ def sheared(
     before: FrictionalState | None,
     power: float,
     tried: int,
+    strain: float,
 ) -> FrictionalState:
     """Slip, front and energies after an increment.
 
@@ -94,13 +97,18 @@ def sheared(
     stuck = middling = stick_share(end) * a
     if before is not None:
         stuck = front(a, begun, middling, before.begun, before.middling)
+    # The strain moves the lower body, against which its shear works.
+    more = strain - (before.strain if before else 0.0)
+    work = 0.5 * (force + end.load) * (end.approach - depth)
+    work -= 0.5 * more * end.over((shear + end.shear) * r)
     return FrictionalState(
         end, target, slip, begun, middling, stuck,
-        (before.worked if before else 0.0) + 0.5 * (force + end.load) * (end.approach - depth),
+        (before.worked if before else 0.0) + work,
         (before.lost if before else 0.0) + end.over(rubbing),
         (before.uncertain if before else 0.0) + end.over(open_),
         power,
         tried,
+        strain,
     )  # fmt: skip
 
 

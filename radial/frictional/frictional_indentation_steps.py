@@ -12,6 +12,7 @@ from scipy.interpolate import CubicSpline
 
 from contact_scene import CoulombFriction, LoadRamp, RadialDiscretisation, Scene
 from contact_scene.array_types import Array
+from contact_scene.bulk_strain import UNSTRAINED
 from contact_scene.quantities.residuals import Residuals
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.rig import of_contact
@@ -113,31 +114,35 @@ class Rubbing:
         target = target_of(self.scene, *ramp.normal.led(fraction, reached))
         radius, tried = self._first_radius(target, before)
         begun = before.end.radius if before else FIRST * radius
+        last, strain = before.strain if before else 0.0, (ramp.strain(fraction) or UNSTRAINED)[0]
         for passed in _on_the_way(begun, radius, GROWTH ** (1 / self.fineness)):
-            before = self._passed(passed, before)
+            part = (passed - begun) / (radius - begun)
+            before = self._passed(passed, before, last + part * (strain - last))
             tried += 1
         share = before.middling / before.end.radius if before else MIDDLE
         for _ in range(MAX_LAID):
             rings = rings_about(share, self._count)
-            end, more, power = self._reach(target, radius, rings, before)
+            end, more, power = self._reach(target, radius, rings, before, strain)
             tried, radius = tried + more, end.radius
             laid, share = share, stick_share(end)
             if abs(place_of(share) - place_of(laid)) <= 1:
                 break
-        return sheared(self.friction, end, target, self.radii, before, power, tried)
+        return sheared(self.friction, end, target, self.radii, before, power, tried, strain)
 
     @property
     def _count(self) -> int:
         return round(COUNT * self.fineness)
 
-    def _passed(self, radius: float, before: FrictionalState | None) -> FrictionalState:
+    def _passed(
+        self, radius: float, before: FrictionalState | None, strain: float
+    ) -> FrictionalState:
         """The contact of this radius, on the way to the end of an increment."""
         share = before.middling / before.end.radius if before else MIDDLE
         like = before.end if before else None
-        end = self._at(radius, rings_about(share, self._count), _moved(before), like)
+        end = self._at(radius, rings_about(share, self._count), _moved(before, strain), like)
         target = Target(None, None)
         power = self._power(target, before)
-        return sheared(self.friction, end, target, self.radii, before, power, 0)
+        return sheared(self.friction, end, target, self.radii, before, power, 0, strain)
 
     def _at(
         self, radius: float, rings: Rings, moved: Callable[[Array], Array], like: Rubbed | None
@@ -168,11 +173,16 @@ class Rubbing:
         return 3.0 if target.approach is None else 2.0
 
     def _reach(
-        self, target: Target, radius: float, rings: Rings, before: FrictionalState | None
+        self,
+        target: Target,
+        radius: float,
+        rings: Rings,
+        before: FrictionalState | None,
+        strain: float,
     ) -> tuple[Rubbed, int, float]:
         """The contact at the target by the secant method on the radius, how many were tried, and
         the power of the radius."""
-        moved = _moved(before)
+        moved = _moved(before, strain)
         like = before.end if before else None
         x, power = log(radius), self._power(target, before)
         best: Rubbed | None = None
@@ -265,12 +275,13 @@ class Rubbing:
         return np.asarray(self.friction.limit(p) * state.at(share, r))
 
 
-def _moved(before: FrictionalState | None) -> Callable[[Array], Array]:
-    """u_r of the state before, by radius."""
+def _moved(before: FrictionalState | None, strain: float) -> Callable[[Array], Array]:
+    """u_r by which nothing slips, by radius: that of the state before, less the strain since."""
     if before is None:
-        return np.zeros_like
-    end = before.end
-    return _beyond(end.radius * end.rings.places, end.moved, 0.0)
+        return lambda radii: -strain * radii
+    end, more = before.end, strain - before.strain
+    known = _beyond(end.radius * end.rings.places, end.moved, 0.0)
+    return lambda radii: known(radii) - more * radii
 
 
 def _beyond(r: Array, field: Array, limit: float) -> Callable[[Array], Array]:

@@ -14,6 +14,7 @@ from semi_analytical.increments.increment import State
 from semi_analytical.increments.tangential_state import (
     TangentialState,
     rigid,
+    stretched,
 )
 from semi_analytical.model import ContactModel
 
@@ -115,7 +116,9 @@ class EdgeCorrection:
             bound=bound,
             limit=limit,
             force=solved.force,
-            target=last.displacement - rigid(model, last.shift),
+            target=last.displacement
+            - rigid(model, last.shift)
+            - stretched(model.on_window, solved.strain, before.sheared.strain),
             before=(last.shear, last.within),
             turned=last.slip if turned else None,
             tolerance=tolerance,

@@ -10,7 +10,11 @@ from semi_analytical.increments.energy import (
     after_increment,
 )
 from semi_analytical.increments.increment import State
-from semi_analytical.increments.tangential_state import rigid
+from semi_analytical.increments.tangential_state import (
+    rigid,
+    strain_moments,
+    stretched,
+)
 from semi_analytical.model import ContactModel
 from semi_analytical.tangential.admissible_shear import everywhere
 
@@ -63,12 +67,16 @@ def configuration(model: ContactModel, state: State) -> Configuration:
     shift = sheared.shift
     extension = along * model.domain.resultant(sheared.shear)
     slipped = motions = None
+    moments = [*(state.moment or ()), *_some(sheared.torque)]
+    rotations = [*(pressing.tilt or ()), *_some(sheared.twist)]
+    if sheared.strain is not None:
+        # The strain moves the lower body, against which its shear works.
+        moments += [*strain_moments(model, sheared.shear)]
+        rotations += [-part for part in sheared.strain]
     if shift is not None:
         slipped = sheared.displacement - rigid(model, sheared.motion)
-        motions = np.array(
-            [approach, *(shift - extension), *(pressing.tilt or ()), *_some(sheared.twist)]
-        )
-    moments = *(state.moment or ()), *_some(sheared.torque)
+        slipped = slipped + stretched(model, sheared.strain)
+        motions = np.array([approach, *(shift - extension), *rotations])
     return Configuration(
         pressure=pressure,
         normal_displacement=displacement,

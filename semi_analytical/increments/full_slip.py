@@ -12,6 +12,7 @@ from semi_analytical.increments.tangential_solve import TangentialTarget
 from semi_analytical.increments.tangential_state import (
     TangentialState,
     rigid,
+    stretched,
     torsion_reached,
     touching_share,
 )
@@ -84,6 +85,7 @@ def at_limit(
         iterations=0,
         twist=twist,
         torque=torque,
+        strain=load.strain,
     )
 
 
@@ -117,9 +119,10 @@ def unresisted(
         iterations=0,
         twist=twist,
         torque=torque,
+        strain=load.strain,
     )
     passed = rigid(model, after.motion) - rigid(model, last.motion)
-    passed = passed + last.displacement - displacement
+    passed = passed + last.displacement - displacement - stretched(model, load.strain, last.strain)
     slipped = np.where((pressure > 0) | (last.pressure > 0), touching * passed, 0.0)
     return replace(
         after,

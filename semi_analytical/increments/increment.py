@@ -181,6 +181,7 @@ def tangential_target(
         None if force is None else np.array(force),
         None if shift is None else np.array(shift),
         _torsion(ramp, start, fraction) if twists else None,
+        ramp.strain(fraction),
     )
 
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from contact_scene.array_types import Field, VectorField
+from contact_scene.bulk_strain import UNSTRAINED
 from contact_scene.friction import sliding_friction
 from contact_scene.quantities.residuals import ShearResiduals
 from contact_scene.quantities.summary import ContactStatus
@@ -96,8 +97,11 @@ def _without_solving(
             None if np.any(bound) else unresisted(model, pressure, nothing, last, load, load.shift)
         )
     moved = last.shear, last.shift, last.displacement
-    if load.torsion is None and not any(np.any(a) for a in (load.force, *moved)):
-        return replace(last, pressure=pressure, in_stick=bound > 0, iterations=0)
+    changes = load.strain not in (None, last.strain or UNSTRAINED)
+    if load.torsion is None and not changes and not any(map(np.any, (load.force, *moved))):
+        return replace(
+            last, pressure=pressure, in_stick=bound > 0, iterations=0, strain=load.strain
+        )
     if not force_reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area):
         return None
     if np.any(bound):
@@ -178,6 +182,7 @@ def advanced(
         iterations=solution.iterations,
         twist=twist,
         torque=torque,
+        strain=load.strain,
     )
     return replace(after, status=_status(model, after, bound, last))
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from contact_scene.array_types import Field, Mask, Vector, VectorField
+from contact_scene.bulk_strain import Strain
 from semi_analytical.model import ContactModel
 from semi_analytical.operator.box import box_around
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
@@ -39,12 +40,13 @@ class Torsion:
 
 @dataclass(frozen=True)
 class TangentialTarget:
-    """Exactly one of the two controls: force T [force] or shift [length], each (2,); and the
-    torsion, None where nothing twists."""
+    """Exactly one of the two controls: force T [force] or shift [length], each (2,); the torsion,
+    None where nothing twists; and the bulk strain since first touch, None where there is none."""
 
     force: Vector | None = None
     shift: Vector | None = None
     torsion: Torsion | None = None
+    strain: Strain | None = None
 
     def on(
         self,

@@ -6,6 +6,7 @@ import numpy as np
 from scipy.ndimage import binary_erosion
 
 from contact_scene.array_types import Field, Mask, Vector, VectorField
+from contact_scene.bulk_strain import UNSTRAINED, Strain
 from contact_scene.quantities.residuals import ShearResiduals
 from contact_scene.quantities.summary import ContactStatus
 from semi_analytical.increments.tangential_solve import TangentialTarget
@@ -26,7 +27,8 @@ class TangentialState:
     displacement       u_t by the shear; less the motion it remembers where particles met
     shift              of the indenter; None at the friction limit under force control
     twist, torque      of the indenter; None where nothing twists
-    slip               u_t - motion accumulated while in contact (paper, eq. (4))
+    strain             of the lower body since first touch; None where there is none
+    slip               u_t + strain - motion accumulated while in contact (paper, eq. (4))
     slip_distance      way slipped since the start (nx, ny), |slip increments| added up
     dissipation        energy dissipated per area since the start (nx, ny) [force/length]
     dissipated_energy  since the start; None where the shift is
@@ -48,6 +50,7 @@ class TangentialState:
     iterations: int
     twist: float | None = None
     torque: float | None = None
+    strain: Strain | None = None
 
     @property
     def motion(self) -> Vector:
@@ -87,11 +90,29 @@ def surface_target(
     model: ContactModel, last: TangentialState, load: TangentialTarget
 ) -> VectorField:
     """By what the surfaces have to be moved, beside the motion of the load, to stick (2, nx, ny):
-    what they remember, and what a given twist adds."""
+    what they remember, and what a given twist and the strain of the lower body add."""
     target = last.displacement - rigid(model, last.motion)
+    target = target - stretched(model, load.strain, last.strain)
     if load.torsion is None or load.torsion.twist is None:
         return target
     return target + load.torsion.twist * model.rotation
+
+
+def stretched(
+    model: ContactModel, strain: Strain | None, last: Strain | None = None
+) -> VectorField | float:
+    """Displacement of the surface by a bulk strain, less that of another one [length]."""
+    if strain is None:
+        return 0.0
+    (xx, yy, xy), (y, x) = np.subtract(strain, last or UNSTRAINED), model.arms
+    return np.stack([xx * x + xy * y, xy * x + yy * y])
+
+
+def strain_moments(model: ContactModel, q: VectorField) -> Vector:
+    """Σ(q_x x, q_y y, q_x y + q_y x) Δ: what a shear resists a strain with (3,) [force length]."""
+    y, x = model.arms
+    products = (q[0] * x, q[1] * y, q[0] * y + q[1] * x)
+    return np.array([float(np.sum(one)) for one in products]) * model.grid.cell_area
 
 
 def first_motion(last: TangentialState, load: TangentialTarget) -> Vector:

@@ -102,6 +102,7 @@ def _rings(random: np.random.Generator) -> RingCompliance:
         harmonics=tuple(harmonics),
         path=Path.HARMONICS,
         motion=np.zeros((2, RINGS)),
+        stretch=0.0 * radii,
         reach=1.0,
         edge=HatEdge(),
     )

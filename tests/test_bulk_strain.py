@@ -1,0 +1,171 @@
+"""Bulk strain of the lower body: slip, work and stress, in all solvers."""
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+import pytest
+
+import fem_reference
+import radial
+import semi_analytical
+from contact_results.stress.loaded_bodies import state_of_result
+from contact_results.stress.on_cells import stress_on_cells
+from contact_results.stress.on_disc import stress_on_disc
+from contact_results.stress.on_section import stress_on_section
+from contact_scene import FiniteElementDiscretisation, RadialDiscretisation, Scene, SceneError
+from contact_scene.quantities.cycles import load_cycles
+from contact_scene.solver_errors import UnsupportedScene
+from semi_analytical.grid import SurfaceGrid
+from semi_analytical.operator.domain import WINDOW
+from semi_analytical.plan import plan
+from semi_analytical.plan import plan as plan_of_cells
+
+HARD = {"young_modulus": "420 GPa", "poisson_ratio": 0.25}
+STEEL = {"young_modulus": "210 GPa", "poisson_ratio": 0.3}
+COATED = {"material": STEEL, "layers": [{"thickness": "0.2 mm", "material": HARD}]}
+PRESS = {"normal_force": "1 kN"}
+STRAIN = 3e-4
+
+
+def scene(*loading, body=None, friction=0.1, indenter=None):
+    return Scene(
+        indenter={"shape": "paraboloid", "radius": "18 mm", "material": indenter or HARD},
+        body=body or {"material": HARD},
+        friction=None if friction is None else {"coefficient": friction},
+        loading=loading,
+    )
+
+
+def on_cells(contact, cells=32, symmetry=None, edge="off"):
+    grid, decided = SurfaceGrid((cells, cells), (1.2e-3, 1.2e-3)), plan(contact, edge=edge)
+    if symmetry is not None:
+        decided = replace(decided, symmetry=symmetry)
+    return semi_analytical.solve(contact, grid, 1e-9, plan=decided)
+
+
+def on_elements(contact):
+    return fem_reference.solve(contact, FiniteElementDiscretisation(elements_per_radius=16))
+
+
+def on_rings(contact):
+    return radial.solve(contact, RadialDiscretisation(tolerance=1e-8))
+
+
+def equibiaxial(strain, increments=8):
+    return {"bulk_strain": (strain, strain, 0.0), "increments": increments}
+
+
+def test_a_pressed_ball_resists_an_equibiaxial_strain_alike_in_all_solvers():
+    """Stick radius over that of the contact, and energy of a first straining and of its reversal;
+    the references are radial on four times the rings."""
+    loading = ({**PRESS, "increments": 1}, equibiaxial(STRAIN), equibiaxial(-STRAIN))
+    alike = {"young_modulus": "461.538461538 GPa", "poisson_ratio": 0.0}
+    contact = scene(*loading, body={"material": alike}, indenter=alike)
+    corrected = partial(on_cells, cells=64, edge="last")
+    for solve, near, of_energy in ((on_rings, 4e-4, 5e-3), (corrected, 4e-4, 2e-2)):
+        pressed, strained, reversed_ = solve(contact).steps
+        share = strained.stick_radius / strained.contact_radius
+        assert share == pytest.approx(0.865898, abs=near)
+        first, second = np.diff([end.dissipated_energy for end in (pressed, strained, reversed_)])
+        assert first == pytest.approx(0.18911e-6, rel=of_energy)
+        assert second == pytest.approx(2 * first, rel=of_energy)
+        assert tuple(strained.bulk_strain) == (STRAIN, STRAIN)
+        assert strained.energy_imbalance is None or strained.energy_imbalance < 1e-9
+    first = on_elements(contact).steps[1]
+    assert first.dissipated_energy == pytest.approx(0.18911e-6, rel=0.1)
+
+
+@pytest.mark.parametrize("solve", [on_rings, on_elements])
+def test_work_of_a_strained_coated_body_is_stored_or_lost(solve):
+    """Of a steady cycle of the strain at constant load, what is put in is lost."""
+    strains = (STRAIN, -STRAIN, STRAIN, -STRAIN, STRAIN)
+    loading = ({**PRESS, "increments": 8}, *map(equibiaxial, strains))
+    ends = solve(scene(*loading, body=COATED, indenter="rigid")).steps
+    work = ends[5].trapezoidal_work - ends[3].trapezoidal_work
+    lost = ends[5].dissipated_energy - ends[3].dissipated_energy
+    assert 1e-6 < lost < 2e-6
+    assert work == pytest.approx(lost, rel=0.03)
+
+
+def test_cells_balance_any_strain_out_of_phase_and_need_no_whole_window():
+    alike = (
+        {"tangential_force": ("60 N", 0), "increments": 3},
+        {"bulk_strain": (2e-4, -1e-4, 0), "increments": 3},
+        {"tangential_force": ("-60 N", 0), "increments": 4},
+    )
+    sheared = ({"bulk_strain": (0, 0, 2e-4), "twist": 2e-4, "increments": 4},)
+    for steps in (alike, sheared):
+        for body in ({"material": HARD}, COATED):
+            contact = scene({**PRESS, "increments": 2}, *steps, body=body)
+            reduced, whole = on_cells(contact), on_cells(contact, symmetry=WINDOW)
+            assert plan_of_cells(contact).symmetry != WINDOW or body is COATED
+            for one, other in zip(reduced.increments, whole.increments, strict=True):
+                assert one.energy_imbalance < 1e-9
+                assert one.shear == pytest.approx(other.shear, abs=1e-6 * np.max(one.pressure))
+                assert one.dissipated_energy == pytest.approx(other.dissipated_energy, rel=1e-6)
+            assert reduced.steps[-1].dissipated_energy > 1e-7
+
+
+def test_a_stress_is_the_strain_of_a_free_specimen_and_counts_from_the_touch():
+    stressed, strained = (
+        on_cells(scene(PRESS, {**by, "increments": 1})).steps[-1]
+        for by in (
+            {"bulk_stress": ("84 MPa", "42 MPa", "16.8 MPa")},
+            {"bulk_strain": (1.75e-4, 0.5e-4, 0.5e-4)},
+        )
+    )
+    assert tuple(stressed.bulk_strain) == pytest.approx((1.75e-4, 0.5e-4))
+    assert stressed.shear == pytest.approx(strained.shear)
+    again = {"normal_force": "1 kN", "increments": 1}
+    apart = ({"normal_force": 0, "bulk_strain": (STRAIN, 0, 0)}, again)
+    end = on_cells(scene(PRESS, *apart)).steps[-1]
+    assert tuple(end.bulk_strain) == (STRAIN, 0)
+    assert not np.any(end.shear)
+
+
+@pytest.mark.parametrize(
+    ("solve", "stress"),
+    [
+        (on_cells, stress_on_cells),
+        (on_rings, stress_on_disc),
+        (on_elements, stress_on_section),
+    ],
+)
+def test_the_stress_below_has_that_of_the_strain_layer_by_layer(solve, stress):
+    """Without friction the pressure does not change, and the stress by the strain is added."""
+    contact = scene(PRESS, equibiaxial(STRAIN, 1), body=COATED, friction=None, indenter="rigid")
+    result = solve(contact)
+    plain, strained = (stress(state_of_result(result, step)) for step in (1, 2))
+    for name in ("section", "axis"):
+        added = getattr(strained, name).stress - getattr(plain, name).stress
+        for layer, (E, nu) in enumerate(((420e9, 0.25), (210e9, 0.3))):
+            inside = getattr(plain, name).material == layer
+            expected = np.array([1.0, 1.0, 0, 0, 0, 0]) * E / (1 - nu) * STRAIN
+            assert np.any(inside)
+            assert np.ptp(added[:, inside], axis=1) == pytest.approx(0, abs=1e-6 * expected[0])
+            assert np.mean(added[:, inside], axis=1) == pytest.approx(expected, rel=1e-6)
+
+
+def test_strains_that_a_solver_cannot_have_are_refused_by_name():
+    from fem_reference.plan import plan as plan_of_elements
+    from radial.plan import plan as plan_of_rings
+
+    uniaxial = scene(PRESS, {"bulk_strain": (STRAIN, 0, 0)})
+    pushed = scene(PRESS, {**equibiaxial(STRAIN), "tangential_force": ("20 N", 0)})
+    for decide in (plan_of_elements, plan_of_rings):
+        with pytest.raises(UnsupportedScene, match=r"bulk strain \(0.0003, 0, 0\) is not the same"):
+            decide(uniaxial)
+        with pytest.raises(UnsupportedScene, match="a bulk strain and a tangential load"):
+            decide(pushed)
+    with pytest.raises(SceneError, match="the substrate of the lower body is rigid"):
+        scene(PRESS, {"bulk_stress": ("1 MPa", 0, 0)}, body={"material": "rigid"})
+    with pytest.raises(ValueError, match="got both bulk_stress and bulk_strain"):
+        scene(PRESS, {"bulk_stress": ("1 MPa", 0, 0), "bulk_strain": (0, 0, 0)})
+
+
+def test_a_cycle_is_one_of_the_strain_too():
+    push, back = ({"tangential_force": (force, 0)} for force in ("20 N", "-20 N"))
+    other = {**push, "bulk_strain": (STRAIN, 0, 0)}
+    assert len(load_cycles(scene(PRESS, push, back, push).load_path())) == 1
+    assert not load_cycles(scene(PRESS, push, back, other).load_path())
