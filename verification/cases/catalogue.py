@@ -24,6 +24,9 @@ CASES = (
     "cattaneo_mindlin",
     "fretting_loop",
     "paper_fretting_loop",
+    "series_spring",
+    "eccentric_contact",
+    "strained_ball",
     "torsion",
     "sheared_cone",
     "near_sliding",
@@ -87,6 +90,7 @@ MODULES = {
         *("fretting_loop", "paper_fretting_loop", "fem_partial_slip", "fem_penalty_slip"),
         "radial_tangential",
     ),
+    "rig_and_strain": ("series_spring", "eccentric_contact", "strained_ball"),
     "torsion": ("torsion", "torsion_coated", "fem_torsion", "radial_torsion", "radial_turning"),
     "coatings": (
         *("coated_paraboloid", "coated_unlike_ratios", "layered_identities", "thin_layer"),

@@ -9,14 +9,19 @@ from typing import Any
 import numpy as np
 
 import fem_reference.energy
-from contact_scene import CoulombFriction
+from contact_scene import CoulombFriction, bulk_strain, rig
 from contact_scene.friction import FRICTIONLESS
 from semi_analytical import (
     history,
     residuals,
 )
 from semi_analytical.coupled import coupled_increment
-from semi_analytical.increments import stick_slip
+from semi_analytical.increments import (
+    stick_slip,
+)
+from semi_analytical.increments import (
+    tangential_state as sheared,
+)
 from semi_analytical.model import ContactModel
 from semi_analytical.tangential import admissible_shear
 from verification.defects.defect import Defect, Patches
@@ -134,7 +139,59 @@ def _work_on_elements(patches: Patches) -> None:
     patches.function(fem_reference.energy, "input_work", wrap)
 
 
+def _energy_of_springs(patches: Patches) -> None:
+    def wrap(whole: Any) -> Any:
+        def told(increment: Any, given: Any) -> Any:
+            found, (_, along) = whole(increment, given), rig.compliances(given)
+            force = increment.tangential_force
+            if not along or force is None or increment.elastic_energy is None:
+                return found
+            stored = increment.elastic_energy + 0.5 * along * float(np.dot(force, force))
+            return replace(found, elastic_energy=stored)
+
+        return told
+
+    patches.function(rig, "of_contact", wrap)
+
+
+def _shift_of_actuator(patches: Patches) -> None:
+    def wrap(whole: Any) -> Any:
+        def told(increment: Any, given: Any) -> Any:
+            return replace(whole(increment, given), tangential_shift=increment.tangential_shift)
+
+        return told
+
+    patches.function(rig, "of_contact", wrap)
+
+
+def _work_of_strain(patches: Patches) -> None:
+    patches.function(sheared, "strain_moments", lambda whole: lambda *given: np.zeros(3))
+
+
+def _strain_of_wrong_layer(patches: Patches) -> None:
+    def wrap(whole: Any) -> Any:
+        return lambda strain, body, layer: whole(strain, body, len(body.layers) - layer)
+
+    patches.function(bulk_strain, "stress_by", wrap)
+
+
 HISTORIES = (
+    Defect(
+        "spring-energy", "The energy of a rig's springs is counted as that of the bodies.",
+        ("series_spring",), _energy_of_springs,
+    ),
+    Defect(
+        "actuator-shift", "The shift of the actuator is told for that of the contact.",
+        ("series_spring",), _shift_of_actuator,
+    ),
+    Defect(
+        "strain-work", "The work of a bulk strain is left out of the balance.",
+        ("eccentric_contact",), _work_of_strain,
+    ),
+    Defect(
+        "strain-of-wrong-layer", "The stress by a bulk strain is that of another layer.",
+        ("strained_ball",), _strain_of_wrong_layer,
+    ),
     Defect(
         "reversal-forgotten", "Coupled bodies forget where they were when the shear turns back.",
         ("coupled_history",), _reversal_forgotten,

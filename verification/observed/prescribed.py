@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contact_scene import ControlKind, Scene
+from contact_scene.rig import prescribed_motions
 
 if TYPE_CHECKING:
     from contact_scene.stepping.load_path import (
@@ -25,12 +26,16 @@ def missed(scene: Scene, steps: Sequence[Any]) -> Iterator[float]:
     """
     for ramp, end in zip(scene.load_path(), steps, strict=True):
         force, motion, arm = end.normal_force, abs(end.approach), end.contact_radius
-        yield _missed(ramp.normal, end.normal_force, end.approach, force, motion)
+        approach, shift = (getattr(end, name) for name in prescribed_motions(scene.rig))
+        yield _missed(ramp.normal, end.normal_force, approach, force, motion)
+        if ramp.stretch is not None:
+            strain = np.subtract((*end.bulk_strain, end.bulk_shear), ramp.stretch[1])
+            yield float(np.max(np.abs(strain))) * arm / motion
         moment, tilt = getattr(end, "moment", None), getattr(end, "tilt", None)
         yield _missed(ramp.tilting, moment, tilt, force * arm, motion / arm)
         if scene.friction is None:
             continue
-        yield _missed(ramp.tangential, end.tangential_force, end.tangential_shift, force, motion)
+        yield _missed(ramp.tangential, end.tangential_force, shift, force, motion)
         yield _missed(ramp.twisting, end.torque, end.twist, force * arm, motion / arm)
 
 

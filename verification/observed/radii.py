@@ -119,6 +119,11 @@ class _Surface:
         assert self.weights is not None
         return float(np.sum(self.weights * field))
 
+    def resisted(self, strained: Increment) -> float:
+        """∫ q_r r dA times the strain of an increment [force length]."""
+        strain = 0.0 if strained.bulk_strain is None else strained.bulk_strain[0]
+        return strain * self.over(self.arm * self.q[0]) if strain else 0.0
+
     def divided(self, before: _Surface | None) -> bool:
         """Whether the solver took states in between, which it does not return."""
         last = None if before is None else before.told
@@ -233,6 +238,7 @@ def _energies(before: _Surface | None, now: _Surface) -> Iterator[tuple[str, flo
     stored, lost, work = told.elastic_energy, told.dissipated_energy, told.trapezoidal_work
     if stored is not None and not now.rubs:
         by_motion = now.over(now.p * (told.approach - now.f)) + _power(told, told)
+        by_motion -= now.resisted(told)
         yield "stored", 0.5 * (by_motion + now.over(np.sum(now.q * now.s, axis=0))), stored
     if work is not None:
         done = told.normal_force * told.approach + _power(told, told)
@@ -241,6 +247,9 @@ def _energies(before: _Surface | None, now: _Surface) -> Iterator[tuple[str, flo
             done = force * depth + 2 * (last.trapezoidal_work or 0.0)
             done += _power(told, told) - _power(told, last) + _power(last, told)
             done -= _power(last, last)
+            if before is not None:
+                resisted = [one.resisted(told) - one.resisted(last) for one in (before, now)]
+                done -= sum(resisted)
         yield "work", 0.5 * done, work
         if told.unresolved_work is not None:
             yield "stored and dissipated", (stored or 0.0) + (lost or 0.0), told.input_work or 0.0

@@ -28,7 +28,8 @@ def model_of(result: Result, length: float) -> ContactModel:
     length  that is one in its sections [length]
     """
     scales = Scales(length, outermost_modulus(result.scene))
-    return ContactModel(result.scene, scales, result.sections)
+    bodies = result.scene.model_copy(update={"rig": None})  # increments tell its motions apart
+    return ContactModel(bodies, scales, result.sections)
 
 
 def section_radii(result: Result) -> Field:
@@ -89,6 +90,12 @@ class Rings:
         if values is None:
             return np.zeros(self._shape)
         return np.broadcast_to(values if values.ndim == 2 else values[:, None], self._shape)
+
+    def stretched(self, told: Increment) -> Field:
+        """Displacement by the strain of the lower body; the mean over a ring [length]."""
+        strain = 0.0 if told.bulk_strain is None else told.bulk_strain[0]
+        hats = self.model.hats
+        return np.stack([self.on_grid(strain * hats.arms / hats.weights), self.on_grid(None)])
 
     def shear(self, told: Increment) -> Field:
         """q of an increment."""

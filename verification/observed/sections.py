@@ -103,7 +103,9 @@ class _Surface:
             shear=q,
             gap=rings.undeformed + u_z - told.approach,
             slip=rings.slip(told),
-            passed=None if motion is None else along - motion * rings.driven,
+            passed=None
+            if motion is None
+            else along + rings.stretched(told) - motion * rings.driven,
             force=force,
             stored=0.5 * float(np.sum(rings.weights * (p * u_z + np.sum(q * along, axis=0)))),
         )

@@ -131,6 +131,8 @@ class SpringState:
         passed = None
         if q is not None and motion is not None:
             passed = surface.moves * motion - surface.displaced("t", p, q)
+            if told.bulk_strain is not None:
+                passed = passed - told.bulk_strain[0] * told.radii
         return cls(told, p, q, slip, overlap, passed)
 
     def energetic(self, surface: SpringSurface) -> EnergeticState:

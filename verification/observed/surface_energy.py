@@ -50,7 +50,7 @@ class _State:
     u        displacements (3, nx, ny), zero where nothing presses [length]
     slip     as it is told; passed with the motion before first touch (2, nx, ny) [length]
     limit    of friction (nx, ny)
-    forces   W, T_x, T_y, M_x, M_y, M_z; motions theirs
+    forces   W, T_x, T_y, M_x, M_y, M_z, and moments that resist a strain; motions theirs
     """
 
     tractions: Field
@@ -65,7 +65,7 @@ class _State:
     @classmethod
     def at_rest(cls, gap: Field) -> _State:
         nothing = np.zeros((3, *gap.shape))
-        return cls(nothing, nothing, gap, *(nothing[:2],) * 2, nothing[0], np.zeros(6), np.zeros(6))
+        return cls(nothing, nothing, gap, *(nothing[:2],) * 2, nothing[0], np.zeros(9), np.zeros(9))
 
     @classmethod
     def of(cls, now: Increment, result: Result, undeformed: Field, before_touch: Field) -> _State:
@@ -80,10 +80,14 @@ class _State:
         touching = p > 0
         gap, first = (np.where(touching, g, 0.0) for g in (now.gap, undeformed))
         u_z = gap - first + now.approach + tilt[0] * y + tilt[1] * x
-        u_x, u_y = passed[0] + shift[0] - twist * y, passed[1] + shift[1] + twist * x
+        xx, yy = (0.0, 0.0) if now.bulk_strain is None else now.bulk_strain
+        xy = now.bulk_shear or 0.0
+        u_x = passed[0] + shift[0] - twist * y - xx * x - xy * y
+        u_y = passed[1] + shift[1] + twist * x - xy * x - yy * y
         u = np.stack([u_x, u_y, u_z])
         M_x, M_y, M_z = np.sum(p * y), np.sum(p * x), np.sum(q[1] * x - q[0] * y)
-        forces = np.array([np.sum(p), np.sum(q[0]), np.sum(q[1]), M_x, M_y, M_z])
+        strained = np.sum(q[0] * x), np.sum(q[1] * y), np.sum(q[0] * y + q[1] * x)
+        forces = np.array([np.sum(p), np.sum(q[0]), np.sum(q[1]), M_x, M_y, M_z, *strained])
         return cls(
             tractions=np.stack([*q, p]),
             u=u * touching,
@@ -92,7 +96,7 @@ class _State:
             passed=passed,
             limit=(result.scene.friction or FRICTIONLESS).limit(p),
             forces=forces * result.grid.cell_area,
-            motions=np.array([now.approach, *shift, *tilt, twist]),
+            motions=np.array([now.approach, *shift, *tilt, twist, -xx, -yy, -xy]),
         )
 
 
