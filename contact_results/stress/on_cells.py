@@ -115,7 +115,7 @@ def _below(
     ):
         if state.strain is not None:
             bulk = state.bulk_stress(field.levels[0].layer, indenter)
-            field = replace(field, stress=field.stress + bulk[:, None, None])  # noqa: PLW2901
+            field = replace(field, stress=field.stress + bulk[:, None, None])
         sections.append(field.along_x())
         points = _points(field, grid)
         largest.append(points.with_largest())
