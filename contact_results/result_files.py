@@ -9,8 +9,7 @@ from contact_results.cycles import fretting_cycles
 from contact_results.files.field_file import write_fields
 from contact_results.files.summary_file import write_summary
 from contact_results.files.tables import write_tables
-from contact_scene.quantities.accuracy_reached import AccuracyReached
-from contact_scene.quantities.stated_error import StatedErrors
+from contact_scene.quantities.stated_error import AccuracyReached, StatedErrors
 
 if TYPE_CHECKING:
     from contact_results.surface import Result

@@ -11,8 +11,7 @@ from contact_results.stress.files import VOLUME, write_files
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import StressField
 from contact_results.stress.stress_maxima import Extreme
-from contact_scene.quantities.accuracy_reached import AccuracyReached
-from contact_scene.quantities.stated_error import StatedError
+from contact_scene.quantities.stated_error import AccuracyReached, StatedError
 
 
 def write_stress(

@@ -12,10 +12,10 @@ import numpy as np
 from contact_results.directory.file_names import FIELDS, SUMMARY
 from contact_results.files.stored_values import fields_digest
 from contact_results.result_warnings import remarks
-from contact_scene.quantities.accuracy_reached import AccuracyReached
 from contact_scene.quantities.field_metadata import Kind
 from contact_scene.quantities.increment import SCALARS
 from contact_scene.quantities.stated_error import (
+    AccuracyReached,
     StatedError,
     StatedErrors,
 )

@@ -22,12 +22,11 @@ from contact_results.stress.stress_maxima import (
     layer_name,
 )
 from contact_scene import Body
-from contact_scene.quantities.accuracy_reached import AccuracyReached
 from contact_scene.quantities.convention import (
     CONVENTION,
     OF_THE_INDENTER,
 )
-from contact_scene.quantities.stated_error import StatedError
+from contact_scene.quantities.stated_error import AccuracyReached, StatedError
 
 SECTION, VOLUME = "stress_section.vtu", "stress_volume.vtu"
 SURFACE = "stress_surface.vtu"  # the tractions

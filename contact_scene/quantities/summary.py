@@ -9,7 +9,6 @@ from pydantic import ConfigDict, Field, ValidationError, field_validator
 from pydantic.dataclasses import dataclass as pydantic_dataclass
 
 from contact_scene.quantities import residuals
-from contact_scene.quantities.accuracy_reached import AccuracyReached
 from contact_scene.quantities.convention import CONVENTION
 from contact_scene.quantities.field_metadata import Reported
 from contact_scene.quantities.increment import (
@@ -17,6 +16,7 @@ from contact_scene.quantities.increment import (
     State,
 )
 from contact_scene.quantities.stated_error import (
+    AccuracyReached,
     Companion,
     StatedError,
 )

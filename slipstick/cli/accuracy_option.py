@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from contact_results.directory.checkpoint import CheckpointDirectory
     from contact_scene import SceneFile
     from contact_scene.accuracy import AccuracyRequest
-    from contact_scene.quantities.accuracy_reached import AccuracyReached
+    from contact_scene.quantities.stated_error import AccuracyReached
     from slipstick.solvers.solver import Progress, Solver
 
 AccuracyOption: TypeAlias = Annotated[

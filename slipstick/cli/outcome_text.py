@@ -14,7 +14,7 @@ from contact_scene.quantities.stated_error import (
 
 if TYPE_CHECKING:
     from contact_results.surface import Result
-    from contact_scene.quantities.accuracy_reached import AccuracyReached
+    from contact_scene.quantities.stated_error import AccuracyReached
 
 FIRST, LAST = 10, 10  # of a long history, the steps that are shown
 NEGLIGIBLE = 1e-9  # of the largest value of a vector: round-off, shown as nothing

@@ -26,8 +26,7 @@ from slipstick.solvers.names import SolverName
 
 if TYPE_CHECKING:
     from contact_results.surface import Result
-    from contact_scene.quantities.accuracy_reached import AccuracyReached
-    from contact_scene.quantities.stated_error import StatedErrors
+    from contact_scene.quantities.stated_error import AccuracyReached, StatedErrors
     from slipstick.solvers.solver import Solver
 
 

@@ -33,8 +33,8 @@ if TYPE_CHECKING:
     from contact_results.surface import Result
     from contact_scene import SceneFile
     from contact_scene.accuracy import AccuracyRequest
-    from contact_scene.quantities.accuracy_reached import AccuracyReached
     from contact_scene.quantities.stated_error import (
+        AccuracyReached,
         StatedError,
         StatedErrors,
     )
