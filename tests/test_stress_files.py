@@ -24,7 +24,7 @@ from contact_results.stress.on_section import stress_on_section
 from contact_results.stress.points import StressField
 from contact_results.stress.stress_maxima import extremes
 from contact_results.stress_files import write_stress
-from contact_scene.quantities.convention import CONVENTION
+from contact_scene.quantities.field_metadata import CONVENTION
 from contact_scene.quantities.increment import (
     SCALARS,
     components,

@@ -17,7 +17,7 @@ from test_section_output import LOOP, TWISTED
 import slipstick
 from contact_results.directory.file_names import COLUMNS, SUMMARY
 from contact_results.result_files import write_result
-from contact_scene.quantities.convention import CONVENTION
+from contact_scene.quantities.field_metadata import CONVENTION
 from contact_scene.quantities.summary import (
     SUMMARY_VERSION,
     ContactStatus,

@@ -14,8 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from contact_results.directory.atomic_file import atomic_file
-from contact_scene.quantities.convention import CONVENTION
-from contact_scene.quantities.field_metadata import Reported
+from contact_scene.quantities.field_metadata import CONVENTION, Reported
 
 
 @dataclass(frozen=True)

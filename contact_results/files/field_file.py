@@ -15,8 +15,8 @@ import numpy as np
 from contact_results.directory.file_names import FIELDS
 from contact_results.files.stored_values import MAPS, STEP
 from contact_results.surface import Rings, surface_of
-from contact_scene.quantities.convention import CONVENTION
 from contact_scene.quantities.field_metadata import (
+    CONVENTION,
     Kind,
     Reported,
     reported,

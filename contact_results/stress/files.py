@@ -22,7 +22,7 @@ from contact_results.stress.stress_maxima import (
     layer_name,
 )
 from contact_scene import Body
-from contact_scene.quantities.convention import (
+from contact_scene.quantities.field_metadata import (
     CONVENTION,
     OF_THE_INDENTER,
 )

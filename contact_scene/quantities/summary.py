@@ -9,8 +9,7 @@ from pydantic import ConfigDict, Field, ValidationError, field_validator
 from pydantic.dataclasses import dataclass as pydantic_dataclass
 
 from contact_scene.quantities import residuals
-from contact_scene.quantities.convention import CONVENTION
-from contact_scene.quantities.field_metadata import Reported
+from contact_scene.quantities.field_metadata import CONVENTION, Reported
 from contact_scene.quantities.increment import (
     Quality,
     State,
