@@ -15,7 +15,7 @@ import pytest
 from command import slipstick
 from report_examples import case, made_by, report_of, run_record, study
 
-from contact_results.directory.directory_lock import acquire, release
+from contact_results.directory.run_lock import acquire, release
 from slipstick.cli.errors import ExitCode, exit_code
 from verification.cases.judged_case import CaseToJudge, JudgedCase
 from verification.judging.change import ChangeKind

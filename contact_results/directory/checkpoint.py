@@ -17,8 +17,8 @@ from typing import Any
 
 from contact_results.directory.atomic_file import atomic_file
 from contact_results.directory.checkpoint_file import Unusable, pack, unpacked
-from contact_results.directory.directory_lock import acquire, release
 from contact_results.directory.refusal import OutputRefused
+from contact_results.directory.run_lock import acquire, release
 from contact_results.directory.stop_signals import cleaned_up_when_stopped
 from contact_scene.quantities.stored_fields import (
     FieldStore,

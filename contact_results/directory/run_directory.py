@@ -16,10 +16,9 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from contact_results.directory.atomic_file import create_parents, remove_empty
-from contact_results.directory.directory_lock import acquire, release
 from contact_results.directory.file_names import RUN_FILES, SUMMARY, TIMING
 from contact_results.directory.refusal import OutputRefused
-from contact_results.directory.run_lock import in_sole_use
+from contact_results.directory.run_lock import acquire, in_sole_use, release
 from contact_results.directory.stop_signals import cleaned_up_when_stopped, stop_signals_held
 
 PAUSES = (0.1, 0.4, 1.6)  # seconds between attempts to replace a file

@@ -9,8 +9,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from contact_results.directory.atomic_file import atomic_file
-from contact_results.directory.directory_lock import acquire, release
 from contact_results.directory.refusal import OutputRefused
+from contact_results.directory.run_lock import acquire, release
 from contact_results.directory.stop_signals import stop_signals_held
 from verification.running.record import StudyRecord, dump_study
 from verification.running.report_record import PACKED_SUFFIX, Report, dump_report
