@@ -15,8 +15,8 @@ from semi_analytical.frf.surface import scalars
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients, RectangleIntegrals
 from semi_analytical.stress import default_depths, interfaces, subsurface, subsurface_section
-from semi_analytical.stress.cells import depth_coefficients
 from semi_analytical.stress.components import FIELDS, TRACTIONS
+from semi_analytical.stress.field import depth_coefficients
 from semi_analytical.stress.rectangle import RectanglePotentials, half_space_response
 
 GAUSS = np.polynomial.legendre.leggauss(16)

@@ -6,7 +6,6 @@ from contact_scene.rig import Rig, compliances
 from semi_analytical.frf.stack import stack_of
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients, RectangleIntegrals
 from semi_analytical.influence.coefficients import Composite, InfluenceCoefficients
-from semi_analytical.influence.layered import LayeredCoefficients
 
 
 def influence_coefficients(
@@ -41,6 +40,8 @@ def _of_body(
     if not body.deforms:
         return ()
     if body.layers or not isinstance(body.material, IsotropicMaterial):
+        from semi_analytical.influence.layered import LayeredCoefficients
+
         return (LayeredCoefficients(stack_of(body), spacing, offsets, remembered),)
     material = body.material
     return (HalfSpaceCoefficients(integrals, material.shear_modulus, material.poisson_ratio),)

@@ -12,14 +12,13 @@ import numpy as np
 from scipy.ndimage import correlate1d
 
 from contact_scene.array_types import Field, Indices
-from semi_analytical.frf.depth import Level, material_at
+from semi_analytical.frf.depth import Level
 from semi_analytical.frf.stack import Stack
 from semi_analytical.influence.layered_boxes import Boxes, joined
 from semi_analytical.influence.layered_cells import CELL_AVERAGE, FAR, MARGIN
 from semi_analytical.influence.layered_response import BATCH
 from semi_analytical.stress.components import each_response, empty_response
 from semi_analytical.stress.radial_table import DepthTable, clearance, depth_table, in_scene_axes
-from semi_analytical.stress.rectangle import RectanglePotentials, half_space_response
 
 # Distance of a box in units of its half side, as for the surface.
 CLEAR = 4.0
@@ -142,49 +141,22 @@ def _quartered(boxes: Boxes) -> Boxes:
     )
 
 
-def depth_coefficients(
+def layered_coefficients(
     stack: Stack,
     levels: tuple[Level, ...],
     spacing: tuple[float, float],
     shape: tuple[int, int],
     *,
-    sheared: bool = True,
+    sheared: bool,
 ) -> Iterator[Field]:
-    """Fields at offset (i dx, j dy), i, j >= 0, of each level in turn.
+    """Yield the part of the fields at each level that the layers cause, from a table.
 
-    Closed form of the outermost material within it, plus what the layers add; below it the whole
-    response, tabulated. Other quadrants follow by `components.parity`. Displacements
-    [length^3/force], stresses dimensionless.
-
-    spacing  cell sides [length]
-    shape    number of offsets along x and y, the zero offset included
-    sheared  include the responses to shear, before that to pressure
-    yields   shape (FIELDS, acting tractions, nx, ny)
+    At a level in the outermost layer, the response of a half-space of its material is left out.
+    Arguments and shapes as of `field.depth_coefficients`.
     """
+    reach = hypot((shape[0] + MARGIN) * spacing[0], (shape[1] + MARGIN) * spacing[1])
     for start in range(0, len(levels), AT_ONCE):
         batch = levels[start : start + AT_ONCE]
-        if not stack.layers:
-            for level in batch:
-                yield _closed_form(stack, level, spacing, shape, sheared)
-            continue
-        reach = hypot((shape[0] + MARGIN) * spacing[0], (shape[1] + MARGIN) * spacing[1])
         table = depth_table(stack, batch, reach, sheared=sheared)
         for index, level in enumerate(batch):
-            result = cell_integrals(table, index, clearance(stack, level), spacing, shape)
-            if level.layer == 0:
-                result += _closed_form(stack, level, spacing, shape, sheared)
-            yield result
-
-
-def _closed_form(
-    stack: Stack,
-    level: Level,
-    spacing: tuple[float, float],
-    shape: tuple[int, int],
-    sheared: bool,
-) -> Field:
-    """A half-space of the material at this level."""
-    x = (np.arange(shape[0] + 1, dtype=np.float64) - 0.5) * spacing[0]
-    y = (np.arange(shape[1] + 1, dtype=np.float64) - 0.5) * spacing[1]
-    potentials = RectanglePotentials(x, y, level.depth)
-    return half_space_response(potentials, material_at(stack, level), level.depth, sheared=sheared)
+            yield cell_integrals(table, index, clearance(stack, level), spacing, shape)

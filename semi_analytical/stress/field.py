@@ -11,16 +11,16 @@ from contact_scene import Body, Scene
 from contact_scene.array_types import Field, Indices
 from contact_scene.machine.free_memory import available_bytes
 from contact_scene.solver_errors import ResourceRefused
-from semi_analytical.frf.depth import Level
+from semi_analytical.frf.depth import Level, material_at
 from semi_analytical.frf.stack import Stack, stack_of
 from semi_analytical.grid import SurfaceGrid
-from semi_analytical.stress.cells import depth_coefficients
 from semi_analytical.stress.components import DISPLACEMENT, FIELDS, STRESS, TRACTIONS
 from semi_analytical.stress.convolution import plane_convolution, row_convolution
 from semi_analytical.stress.depths import (
     levels_of,
     line_weights,
 )
+from semi_analytical.stress.rectangle import RectanglePotentials, half_space_response
 
 DOUBLE = 8
 # Arrays of the size of the window at the peak besides the fields, measured with shear at 90² and
@@ -159,6 +159,52 @@ def fields_by_level(
     for level, coefficients in zip(levels, each, strict=True):
         fields = convolve(coefficients)[None]
         yield SubsurfaceField(grid.x, y, (level,), fields[:, DISPLACEMENT], fields[:, STRESS])
+
+
+def depth_coefficients(
+    stack: Stack,
+    levels: tuple[Level, ...],
+    spacing: tuple[float, float],
+    shape: tuple[int, int],
+    *,
+    sheared: bool = True,
+) -> Iterator[Field]:
+    """Yield the fields at offsets (i dx, j dy), i, j >= 0, of each level in turn.
+
+    The outermost material responds in closed form within it, and the layers add their part. Below
+    it the whole response is tabulated. Other quadrants follow by `components.parity`.
+    Displacements [length^3/force], stresses dimensionless.
+
+    spacing  cell sides [length]
+    shape    number of offsets along x and y, the zero offset included
+    sheared  include the responses to shear, before that to pressure
+    yields   shape (FIELDS, acting tractions, nx, ny)
+    """
+    if not stack.layers:
+        for level in levels:
+            yield _closed_form(stack, level, spacing, shape, sheared)
+        return
+    from semi_analytical.stress.cells import layered_coefficients
+
+    by_layers = layered_coefficients(stack, levels, spacing, shape, sheared=sheared)
+    for level, result in zip(levels, by_layers, strict=True):
+        if level.layer == 0:
+            result += _closed_form(stack, level, spacing, shape, sheared)
+        yield result
+
+
+def _closed_form(
+    stack: Stack,
+    level: Level,
+    spacing: tuple[float, float],
+    shape: tuple[int, int],
+    sheared: bool,
+) -> Field:
+    """A half-space of the material at this level."""
+    x = (np.arange(shape[0] + 1, dtype=np.float64) - 0.5) * spacing[0]
+    y = (np.arange(shape[1] + 1, dtype=np.float64) - 0.5) * spacing[1]
+    potentials = RectanglePotentials(x, y, level.depth)
+    return half_space_response(potentials, material_at(stack, level), level.depth, sheared=sheared)
 
 
 def _stack(body: Body | Scene | Stack) -> Stack:
