@@ -33,6 +33,8 @@ from contact_scene.solver_errors import SolverError, UnsupportedScene
 from fem_reference import plan as plan_of_elements
 from fem_reference import solve as solve_by_elements
 from semi_analytical import solve_discretised
+from verification.closed_forms.cone import ConeContact
+from verification.closed_forms.hertz import PointContact
 
 R = 0.018
 SHAPES = [
@@ -188,6 +190,19 @@ def test_what_a_shape_says_of_its_gap_is_true(shape, reach, angle) -> None:
         r = min(shape.contact_at(1e-12 * reach)) ** (1 / k)  # far below any radius that is drawn
         one, two = shape.initial_gap([r, 2 * r], 0.0)
         assert two / one == pytest.approx(2.0**k, rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("shape", "exact"),
+    [
+        (Paraboloid(material=RIGID, radius=R), PointContact.under_load(800.0, R, 2e9)),
+        (Cone(material=RIGID, slope_angle=0.3), ConeContact.under_load(800.0, 0.3, 2e9)),
+    ],
+)
+def test_a_contact_is_as_large_as_in_closed_form(shape: Any, exact: Any) -> None:
+    a, k = exact.contact_radius, shape.gap_exponent
+    assert shape.contact_at(exact.approach)[0] == pytest.approx(a**k, rel=1e-12)
+    assert shape.contact_under(800.0, 2e9)[0] == pytest.approx(a ** (k + 1), rel=1e-12)
 
 
 @given(ALL, st.floats(1e-9, 1.0), st.floats(1e3, 1e12))
