@@ -16,8 +16,7 @@ from contact_scene import (
     Sphere,
 )
 from semi_analytical import SurfaceGrid
-from verification.closed_forms.hertz import PointContact
-from verification.closed_forms.moduli import contact_modulus
+from verification.closed_forms.hertz import PointContact, contact_modulus
 
 RADIUS = 0.018
 YOUNG = 420e9

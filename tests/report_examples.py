@@ -7,12 +7,11 @@ from contact_scene.quantities.summary import EffectSummary
 from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.exhibits.table import Table
 from verification.judging.outcome import CaseOutcome, RunRecord, SceneRecord, Status, Verdict
-from verification.report.omissions import OMISSIONS
-from verification.running.provenance_record import Provenance
-from verification.running.record import StudyRecord
+from verification.report.sections import OMISSIONS
+from verification.running.provenance import Provenance
 from verification.running.report_record import Report, count
 from verification.running.sources import source_digest
-from verification.running.study import Conclusion, LostCase, Statement
+from verification.running.study import Conclusion, LostCase, Statement, StudyRecord
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 

@@ -86,7 +86,7 @@ from slipstick import solve as solve_file
 from slipstick.cli.commands.plan import requests_of
 from slipstick.solvers.names import SolverName
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
-from verification.closed_forms.moduli import tangential_modulus
+from verification.closed_forms.hertz import tangential_modulus
 
 SCENE = """
 [indenter]

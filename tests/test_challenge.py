@@ -21,18 +21,18 @@ from tests.cell_means import ellipse_means
 from verification import Answer, CannotDo, Field, Solver, judge
 from verification.adapters import surface
 from verification.challenge.cases import challenges
-from verification.challenge.cases_at_places import PLACES
+from verification.challenge.export import toml_text
+from verification.challenge.frictional_cases import PLACES
 from verification.challenge.judgement import judged
 from verification.challenge.python_api import Posed
 from verification.challenge.requested_quantities import (
     Challenge,
     Grade,
     Patch,
+    RoundTable,
 )
-from verification.challenge.round_table import RoundTable
-from verification.challenge.toml_text import toml_text
 from verification.judging.outcome import Status
-from verification.problems.elliptical import EXACT as ELLIPSE
+from verification.problems.classical import EXACT as ELLIPSE
 from verification.problems.paper_scene import HERTZ
 from verification.report.judgement_sheet import render_sheet, row_texts
 

@@ -16,8 +16,7 @@ from verification.closed_forms.axisymmetric_indentation import (
     AxisymmetricProfile,
     axisymmetric_indentation,
 )
-from verification.closed_forms.cattaneo_mindlin import PartialSlip
-from verification.closed_forms.ciavarella_jaeger import superpose
+from verification.closed_forms.cattaneo_mindlin import PartialSlip, superpose
 from verification.closed_forms.coated_indentation import (
     LayeredSurface,
     flat_punch,
@@ -28,8 +27,7 @@ from verification.closed_forms.cone import ConeContact
 from verification.closed_forms.elliptical_contact import EllipticalContact
 from verification.closed_forms.flat_punch import FlatPunchContact
 from verification.closed_forms.goodman import stick_ratio
-from verification.closed_forms.hertz import PointContact
-from verification.closed_forms.moduli import contact_modulus, tangential_modulus
+from verification.closed_forms.hertz import PointContact, contact_modulus, tangential_modulus
 from verification.closed_forms.sphere import SphereContact
 from verification.references import load_reference
 

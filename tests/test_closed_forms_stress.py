@@ -8,14 +8,15 @@ from scipy.integrate import quad
 from surface_quadrature import ray_integral
 
 from verification.closed_forms.coated_torsion import CoatedTorsion, TorsionalSurface, one_layer
+from verification.closed_forms.flat_punch import TiltedPunch
 from verification.closed_forms.hamilton_stress import hamilton_stress
-from verification.closed_forms.huber_stress import huber_stress, sliding_axis_shear
-from verification.closed_forms.sheared_surface import (
+from verification.closed_forms.huber_stress import (
+    huber_stress,
+    sliding_axis_shear,
     stress_by_hertz_pressure,
     stress_by_hertz_shear,
     trailing_edge_tension,
 )
-from verification.closed_forms.tilted_punch import TiltedPunch
 from verification.closed_forms.torsion import StuckTorsion, TorsionalPartialSlip
 
 A, PEAK = 0.8, 1.9

@@ -8,11 +8,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from verification.convergence.error_line import by_size, error_line
 from verification.convergence.observed_order import (
     ORDER_OFF,
     ObservedOrder,
     RefinedValue,
+    by_size,
+    error_line,
     numerical_uncertainty,
     observed_order,
     refined_value,

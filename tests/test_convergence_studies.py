@@ -13,8 +13,7 @@ from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.cone import ConeContact
 from verification.closed_forms.elliptical_contact import EllipticalContact
 from verification.closed_forms.flat_punch import FlatPunchContact
-from verification.closed_forms.hertz import PointContact
-from verification.closed_forms.moduli import tangential_modulus
+from verification.closed_forms.hertz import PointContact, tangential_modulus
 from verification.closed_forms.tangential_history import TangentialHistory
 from verification.closed_forms.torsion import TorsionalPartialSlip
 from verification.judging.case import Level

@@ -8,8 +8,7 @@ import pytest
 
 from verification.judging.case import Derived, Required
 from verification.judging.declared_case import Refined, Reported, Within, judged
-from verification.judging.observable import Observable
-from verification.judging.observables import (
+from verification.judging.observable import (
     APPROACH,
     CENTRAL_PRESSURE,
     CONTACT_RADIUS,
@@ -18,6 +17,7 @@ from verification.judging.observables import (
     SHIFT,
     STICK_RADIUS,
     WORK,
+    Observable,
 )
 from verification.judging.refinement_levels import (
     MIDDLE,
@@ -29,7 +29,7 @@ from verification.judging.refinement_levels import (
 )
 from verification.judging.run import Run
 from verification.problems.cattaneo_mindlin import sheared
-from verification.problems.hertz import BALL
+from verification.problems.classical import BALL
 from verification.problems.paper_scene import HERTZ, hertz_grid
 from verification.problems.problem import Problem
 

@@ -13,8 +13,8 @@ from semi_analytical.edge.film import FilmLaw, film_law
 from semi_analytical.edge.fit import NARROW, WIDE, Stencil, fit_about, peak_of
 from semi_analytical.edge.shape import EdgeShape, edge_shape
 from tests.cell_means import ellipse_means, elliptic_radius
-from verification.cell_means import cell_means, round_means
-from verification.problems.hertz import BALL
+from verification.norms import cell_means, round_means
+from verification.problems.classical import BALL
 from verification.studies.work_precision.setting import Method, PrecisionCase
 
 EXPONENTS = (0.0, 0.5, 0.51, 1.5, -0.5)

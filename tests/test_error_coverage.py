@@ -16,14 +16,12 @@ from contact_scene.quantities.stated_error import (
 )
 from verification.judging.case import Level
 from verification.judging.outcome import Status
-from verification.problems.drawn.known_scene import APPROACH, Truth
-from verification.problems.reference import Reference, ReferenceKind
+from verification.problems.drawn.drawing import APPROACH, Truth
+from verification.problems.problem import Reference, ReferenceKind
 from verification.running.row import CaseRecord, Row
 from verification.running.study import Settings
-from verification.studies.error_coverage.case import judged
-from verification.studies.error_coverage.coverage import Coverage, Share
-from verification.studies.error_coverage.request import ASKED, TRUE
-from verification.studies.error_coverage.study import ENOUGH, REQUESTS, cases, conclude
+from verification.studies.error_coverage.case import Coverage, Share, judged
+from verification.studies.error_coverage.study import ASKED, ENOUGH, REQUESTS, TRUE, cases, conclude
 
 SETTINGS = Settings(Level.FULL)
 

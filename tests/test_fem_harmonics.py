@@ -47,7 +47,7 @@ from fem_reference.contact.point_state import PointState
 from fem_reference.loads import Loads, NormalTarget, TangentialTarget
 from fem_reference.model import ContactModel
 from fem_reference.plan import Path
-from verification.observed.ring_tractions import tractions_at
+from verification.observed.ring_errors import tractions_at
 
 RINGS = 16  # on the contact radius
 HIGHEST = 8

@@ -45,7 +45,7 @@ from fem_reference import ContactAtZoneEdge, Increment, Method, Path, Result, pl
 from fem_reference.contact.increment import AT_EDGE
 from fem_reference.expected_radius import expected_radius
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
-from verification.closed_forms.moduli import tangential_modulus
+from verification.closed_forms.hertz import tangential_modulus
 from verification.closed_forms.torsion import TorsionalPartialSlip
 from verification.quantities import shift_along_x
 

@@ -12,10 +12,15 @@ from stack_strategies import stacks
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer
 from semi_analytical.frf.stack import Stack, stack_of
 from semi_analytical.frf.surface import half_space_scalars, remainder_scalars, scalars
-from verification.laws.frf_matrix import combined, composite_frf_matrix, frf_matrix
-from verification.laws.law import Law, apart, worst_violation
-from verification.laws.limit_laws import LIMIT_LAWS
-from verification.laws.symmetry_laws import SYMMETRY_LAWS
+from verification.laws.law import (
+    Law,
+    apart,
+    combined,
+    composite_frf_matrix,
+    frf_matrix,
+    worst_violation,
+)
+from verification.laws.limit_laws import LIMIT_LAWS, SYMMETRY_LAWS
 from verification.references import load_reference
 
 ROWS = load_reference("frf")["rows"]

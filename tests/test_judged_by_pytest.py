@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from verification.challenge.cases import challenges
-from verification.challenge.named_solver import named_solver
+from verification.challenge.python_api import named_solver
 from verification.problems.paper_scene import HERTZ
 
 # pytester forgets what an inner run imports: what is imported here need not be made again.

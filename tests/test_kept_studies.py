@@ -8,14 +8,23 @@ import pytest
 
 from verification.exhibits.chart import Chart
 from verification.judging.case import Level
-from verification.running.record import StudyRecord, dump_study
-from verification.running.stored_studies import stored_studies
-from verification.running.study import Conclusion, Records, Settings
+from verification.running.study import (
+    Conclusion,
+    Records,
+    Settings,
+    StudyRecord,
+    dump_study,
+    stored_studies,
+)
 from verification.studies.catalogue import STUDIES
-from verification.studies.stability.cell import StabilityCell
-from verification.studies.stability.record import CellRecord, Refusal, Verdict
+from verification.studies.stability.cell import (
+    CellRecord,
+    Refusal,
+    StabilityCell,
+    Verdict,
+    study_cells,
+)
 from verification.studies.stability.study import CELLS
-from verification.studies.stability.views import study_cells
 
 STUDY_FILES = Path(__file__).resolve().parents[1] / "reports" / "studies"
 KEPT = {record.name: record for record in stored_studies(STUDY_FILES)}

@@ -18,12 +18,12 @@ from verification.cases.catalogue import CASES, MODULE_OF, choose
 from verification.cases.fretting import paper_fretting_loop
 from verification.judging.case import Case, Derived, Level
 from verification.judging.run import SectionRun
-from verification.problems.reference import ReferenceKind
+from verification.problems.problem import ReferenceKind
 
 # What a command has loaded when its first case goes to a worker.
 AT_WORK = """
 from slipstick.cli.application import main
-from verification.running.local_workers import LocalWorkers
+from verification.running.case_pool import LocalWorkers
 def submit(self, *asked):
     print(*sys.modules)
     sys.exit()
@@ -33,7 +33,7 @@ main(sys.argv[1:])
 """
 JUDGED = """
 import sys
-from verification.cases.judged_case import CaseToJudge
+from verification.cases.catalogue import CaseToJudge
 CaseToJudge(sys.argv[1], "QUICK").compute()
 print(*sys.modules)
 """
@@ -62,7 +62,7 @@ def test_one_case_loads_no_other(program: str, tmp_path: Path) -> None:
     assert not within(modules, *(f"verification.cases.{name}" for name in others))
     assert not within(
         modules, "fem_reference", "skfem", "matplotlib", "jinja2", "verification.studies",
-        "verification.defects", "verification.peers", "verification.external_codes",
+        "verification.defects", "verification.peers",
         "verification.report.page", "verification.report.svg",
     )  # fmt: skip
 

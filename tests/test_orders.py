@@ -23,7 +23,7 @@ from verification.judging.order_of_convergence import (
 )
 from verification.judging.outcome import Status, Verdict
 from verification.judging.verdicts import judge_order, judge_quantity
-from verification.problems.reference import identity
+from verification.problems.problem import identity
 from verification.solver import Solver
 
 SIZES = 0.1 * 2.0 ** (-np.arange(6) / 2)

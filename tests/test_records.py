@@ -11,9 +11,9 @@ from command import slipstick
 from report_examples import made_by, study
 
 from verification.running import sources
-from verification.running.record import dump_study
 from verification.running.records import stored_records
 from verification.running.sources import age_text, closure, is_current
+from verification.running.study import dump_study
 from verification.studies.catalogue import STUDIES
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -14,38 +14,42 @@ from slipstick.cli.commands.compare import exit_code_of
 from verification.cases.catalogue import CASES
 from verification.cases.hertz import hertz_point
 from verification.judging.case import Level
-from verification.judging.change import ChangeKind
 from verification.judging.declared_case import Within, judged
 from verification.judging.declared_case import case as declared
 from verification.judging.judgement import judge
-from verification.judging.observables import APPROACH, CONTACT_RADIUS, PEAK_PRESSURE
+from verification.judging.observable import APPROACH, CONTACT_RADIUS, PEAK_PRESSURE
 from verification.judging.outcome import (
     FOUND_IN_A_RUN,
     CaseOutcome,
+    ChangeKind,
     FindingRecord,
     Status,
     Verdict,
 )
-from verification.judging.refinement import refinement
 from verification.judging.refinement_levels import (
     RefinementLevels,
     on_cells,
     on_elements,
     on_radii,
+    refinement,
 )
-from verification.problems.hertz import BALL
-from verification.regression import baseline_files, tolerances
-from verification.regression.acceptance import accept, baselines_of
-from verification.regression.baseline import COUNTERS, key_of, keys_of, recording
-from verification.regression.baseline_files import (
+from verification.problems.classical import BALL
+from verification.regression import baseline as baseline_files
+from verification.regression import tolerances
+from verification.regression.baseline import (
     BASELINES,
+    COUNTERS,
     REMOVED,
+    BaselineRefused,
+    accept,
+    baselines_of,
     dump_baseline,
+    key_of,
+    keys_of,
     read_baselines,
+    recording,
 )
-from verification.regression.comparison import compared
-from verification.regression.number_change import NOISE
-from verification.regression.refusal import BaselineRefused
+from verification.regression.comparison import NOISE, compared
 from verification.regression.tolerances import (
     LEAST,
     Acceptance,
@@ -59,7 +63,8 @@ from verification.regression.tolerances import (
 )
 from verification.report.files import write_report
 from verification.report.summary_text import counts_text, uncovered_lines
-from verification.running.report_record import Provenance, Report, count, load_report
+from verification.running.provenance import Provenance
+from verification.running.report_record import Report, count, load_report
 
 FULL_REPORT = Path(__file__).resolve().parents[1] / "reports/full/report.json.xz"
 COMMIT = "1a2b3c4d5e6f708192a3b4c5d6e7f8091a2b3c4d"

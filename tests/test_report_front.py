@@ -7,11 +7,13 @@ from pathlib import Path
 import pytest
 from report_examples import case, report_of, run_record, study, verdict
 
-from verification.exhibits.picture import Picture
-from verification.judging.change import Change, ChangeKind, Origin
+from verification.exhibits.chart import Picture
 from verification.judging.outcome import (
     RESIDUAL,
     CaseOutcome,
+    Change,
+    ChangeKind,
+    Origin,
     Verdict,
 )
 from verification.report.changes import moved_rows, worse_rows

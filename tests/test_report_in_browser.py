@@ -6,7 +6,7 @@ import pytest
 from browser import ACT, PAYLOADS, RAN, chromium, opened
 from report_examples import case, report_of, run_record, study
 
-from verification.exhibits.picture import Picture
+from verification.exhibits.chart import Picture
 from verification.report.page import render_page, render_sheets
 from verification.running.report_record import Report
 

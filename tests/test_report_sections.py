@@ -21,9 +21,8 @@ from verification.report.page import MAX_CHARTS, alignment, heading, render_page
 from verification.report.sections import TITLES, features, stored_records, study_section
 from verification.report.summary_text import counts_text, render_summary
 from verification.report.svg import compact
-from verification.running.record import StudyRecord, dump_study
 from verification.running.report_record import Report
-from verification.running.study import Statement
+from verification.running.study import Statement, StudyRecord, dump_study
 from verification.studies.catalogue import STUDIES
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -17,11 +17,9 @@ from report_examples import case, made_by, report_of, run_record, study
 
 from contact_results.directory.run_lock import acquire, release
 from slipstick.cli.errors import ExitCode, exit_code
-from verification.cases.judged_case import CaseToJudge, JudgedCase
-from verification.judging.change import ChangeKind
-from verification.judging.outcome import CaseOutcome, Status, Verdict
-from verification.judging.verdict_text import order_text
-from verification.regression.acceptance import accept, baselines_of
+from verification.cases.catalogue import CaseToJudge, JudgedCase
+from verification.judging.outcome import CaseOutcome, ChangeKind, Status, Verdict, order_text
+from verification.regression.baseline import accept, baselines_of
 from verification.regression.comparison import compared
 from verification.report.changes import change_rows
 from verification.report.files import (
@@ -34,16 +32,14 @@ from verification.report.files import (
     set_aside_report,
     write_report,
 )
-from verification.report.junit import render_junit
 from verification.report.page import render_page
 from verification.report.sections import stored_records
-from verification.report.summary_text import failure_lines, render_summary
+from verification.report.summary_text import failure_lines, render_junit, render_summary
 from verification.running import provenance
 from verification.running.case_store import CaseStore, DamagedRecord, _digest
-from verification.running.provenance_record import Provenance
-from verification.running.record import StudyRecord, dump_study
+from verification.running.provenance import Provenance
 from verification.running.report_record import Report, load_report
-from verification.running.study import LostCase
+from verification.running.study import LostCase, StudyRecord, dump_study
 
 REASON = "as computed"
 OTHER = made_by().model_copy(update={"sources": "those", "commit": "abc1234" + 33 * "0"})

@@ -16,13 +16,6 @@ from verification.judging.outcome import Status
 from verification.running import case_store
 from verification.running.row import CaseRecord
 from verification.running.study import Settings
-from verification.studies.seeded_defects.findings import (
-    caught_by_reference,
-    defect_runs,
-    healthy_runs,
-    passes_gate,
-    seen,
-)
 from verification.studies.seeded_defects.runs import (
     ERROR,
     HEALTHY,
@@ -33,7 +26,14 @@ from verification.studies.seeded_defects.runs import (
     caught,
     samples,
 )
-from verification.studies.seeded_defects.study import STUDY
+from verification.studies.seeded_defects.study import (
+    STUDY,
+    caught_by_reference,
+    defect_runs,
+    healthy_runs,
+    passes_gate,
+    seen,
+)
 
 QUICK = Settings(Level.QUICK)
 # Cases that take a fraction of a second.

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from verification.exhibits.picture import Picture
+from verification.exhibits.chart import Picture
 from verification.report.svg import image_address
 from verification.showcase import showcase
 

@@ -11,10 +11,16 @@ import pytest
 from contact_scene import FiniteElementDiscretisation
 from fem_reference import Increment, Method, Result, solve
 from verification.observed.sections import section_laws
-from verification.studies.stability.cell import LoadingPath, Solver, StabilityCell, Surface
+from verification.studies.stability.cell import (
+    LoadingPath,
+    Refusal,
+    Solver,
+    StabilityCell,
+    Surface,
+    Verdict,
+)
 from verification.studies.stability.judged import judged
 from verification.studies.stability.pose import TOLERANCE, pose
-from verification.studies.stability.record import Refusal, Verdict
 
 BOTH = [solver for solver in Solver if solver.by_elements]
 ORDINARY = StabilityCell(solver=Solver.COMPLEMENTARITY)

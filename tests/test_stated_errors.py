@@ -54,7 +54,7 @@ from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.coated_indentation import paraboloid as pressed_coating
 from verification.closed_forms.cone import ConeContact
 from verification.closed_forms.elliptical_contact import EllipticalContact
-from verification.closed_forms.moduli import contact_modulus, tangential_modulus
+from verification.closed_forms.hertz import contact_modulus, tangential_modulus
 from verification.problems.layered_scene import surface_of
 
 SLOW = pytest.mark.slow

@@ -16,8 +16,11 @@ from semi_analytical.stress.edge_rays import stress_by_root
 from semi_analytical.stress.point_force import stress_by_force
 from semi_analytical.stress.rectangle import RectanglePotentials, half_space_response
 from tests.cell_means import ellipse_means
-from verification.closed_forms.huber_stress import huber_stress
-from verification.closed_forms.sheared_surface import stress_by_hertz_shear, trailing_edge_tension
+from verification.closed_forms.huber_stress import (
+    huber_stress,
+    stress_by_hertz_shear,
+    trailing_edge_tension,
+)
 
 Field = NDArray[np.float64]
 

@@ -11,10 +11,8 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from verification.judging.outcome import Status
-from verification.running.record import json_text
-from verification.running.row import CaseRecord, Row, TypedRow, found, parameters_of
-from verification.running.row_files import row_files
-from verification.running.rules import RESIDUAL, converged, solved, within
+from verification.running.row import CaseRecord, Row, TypedRow, found, parameters_of, row_files
+from verification.running.study import RESIDUAL, converged, json_text, solved, within
 
 numbers = st.floats(allow_nan=False, allow_infinity=False) | st.none()
 names = st.text(st.characters(codec="utf-8", categories=["L", "N"]), min_size=1, max_size=8)

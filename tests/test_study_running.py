@@ -18,14 +18,11 @@ from contact_results.blas_threads import VARIABLES
 from slipstick.cli.commands.study import _studied
 from verification.judging.case import Level
 from verification.report.files import set_aside, write_study
-from verification.running.case_pool import KILLED, Answer, CaseEnd, run_cases
+from verification.running.case_pool import KILLED, Answer, CaseEnd, LocalWorkers, run_cases
 from verification.running.case_store import CaseStore, DamagedRecord, content_hash
-from verification.running.local_workers import LocalWorkers
 from verification.running.provenance import provenance
-from verification.running.record import StudyRecord
 from verification.running.row import CaseRecord
-from verification.running.stored_studies import stored_studies
-from verification.running.study import Settings
+from verification.running.study import Settings, StudyRecord, stored_studies
 from verification.studies.catalogue import STUDIES
 
 STUDY = ("maintain", "study", "coated-tractions", "--cells", "24", "--output", "out")

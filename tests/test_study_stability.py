@@ -16,17 +16,24 @@ from verification.judging.outcome import Status
 from verification.observed.surfaces import surface_violation
 from verification.report.drawing import look_of
 from verification.running.case_store import CaseStore
-from verification.running.row import CaseRecord
-from verification.running.row_files import row_files
+from verification.running.row import CaseRecord, row_files
 from verification.running.study import Settings
-from verification.studies.stability import solvers, study, verdicts
-from verification.studies.stability.cell import LoadingPath, Solver, StabilityCell, Surface
-from verification.studies.stability.charts import CLASSES, class_of, view_chart
-from verification.studies.stability.judged import StabilityRun, judged
+from verification.studies.stability import judged as judging
+from verification.studies.stability import study
+from verification.studies.stability.cell import (
+    CellRecord,
+    LoadingPath,
+    Refusal,
+    Solver,
+    StabilityCell,
+    Surface,
+    Verdict,
+    study_cells,
+    views,
+)
+from verification.studies.stability.judged import Solved, StabilityRun, by_superposition, judged
 from verification.studies.stability.pose import Posed, pose
-from verification.studies.stability.record import CellRecord, Refusal, Verdict
-from verification.studies.stability.solvers import Solved, by_superposition
-from verification.studies.stability.views import study_cells, views
+from verification.studies.stability.study import CLASSES, class_of, view_chart
 
 ORDINARY = StabilityCell(cells=16)
 HALF_SPACE = replace(ORDINARY, modulus_ratio=1.0)
@@ -122,7 +129,7 @@ def test_what_a_cell_is_refused_for_does_not_hang_on_words(
     def refuse(posed: Posed) -> Solved:
         raise error
 
-    monkeypatch.setitem(solvers.SOLVERS, ORDINARY.solver, refuse)
+    monkeypatch.setitem(judging.SOLVERS, ORDINARY.solver, refuse)
     if isinstance(error, SceneError):
         monkeypatch.setattr("verification.studies.stability.judged.pose", refuse)
     assert judged(ORDINARY).refused_for is kind
@@ -172,7 +179,7 @@ def test_an_answer_above_the_tolerance_is_silent_failure(monkeypatch: pytest.Mon
     def careless(posed: Posed) -> Solved:
         return by_superposition(replace(posed, tolerance=1e-4))
 
-    monkeypatch.setitem(solvers.SOLVERS, ORDINARY.solver, careless)
+    monkeypatch.setitem(judging.SOLVERS, ORDINARY.solver, careless)
     assert judged(ORDINARY).verdict is Verdict.SILENT
 
 
@@ -180,7 +187,7 @@ def test_giving_up_is_recorded_with_its_residual(monkeypatch: pytest.MonkeyPatch
     def helpless(posed: Posed) -> Solved:
         raise NotConverged("the shear", 60, 1e-3, 1e-8)
 
-    monkeypatch.setitem(solvers.SOLVERS, ORDINARY.solver, helpless)
+    monkeypatch.setitem(judging.SOLVERS, ORDINARY.solver, helpless)
     record = judged(ORDINARY)
     assert record.verdict is Verdict.NOT_CONVERGED
     assert record.residual == 1e-3
@@ -201,7 +208,7 @@ def test_contact_that_outgrows_its_window_gets_a_larger_one(
 ) -> None:
     narrow = pose(ORDINARY)
     grid = replace(narrow.grid, window=tuple(0.7 * side for side in narrow.grid.window))
-    assert len(solvers.by_superposition(replace(narrow, grid=grid)).increments) == 4
+    assert len(judging.by_superposition(replace(narrow, grid=grid)).increments) == 4
 
 
 def kept(found: dict[str, CellRecord]) -> dict[str, CaseRecord]:
@@ -294,15 +301,15 @@ def test_one_cell_in_a_hundred_may_give_up(share: int, outcome: Status) -> None:
     cells = [replace(ORDINARY, friction=0.001 * n) for n in range(100)]
     given_up = GOOD.model_copy(update={"verdict": Verdict.NOT_CONVERGED})
     found = dict.fromkeys(cells, GOOD) | dict.fromkeys(cells[:share], given_up)
-    assert verdicts.nearly_everything_converges(found).outcome is outcome
+    assert study.nearly_everything_converges(found).outcome is outcome
 
 
 def test_a_refusal_for_another_reason_is_not_due() -> None:
     beyond = replace(ORDINARY, push=1.001)
     for kind in Refusal:
         outcome = Status.PASS if kind is Refusal.FORCE else Status.FAIL
-        assert verdicts.refusals_are_due({beyond: refusal(kind)}).outcome is outcome
-        assert verdicts.refusals_are_due({ORDINARY: refusal(kind)}).outcome is Status.FAIL
+        assert study.refusals_are_due({beyond: refusal(kind)}).outcome is outcome
+        assert study.refusals_are_due({ORDINARY: refusal(kind)}).outcome is Status.FAIL
 
 
 def test_missing_records_make_the_map_inconclusive_not_good() -> None:
@@ -369,5 +376,5 @@ def test_every_cell_is_a_line_of_the_table() -> None:
 def test_verdicts_name_at_most_a_dozen_cells() -> None:
     bad = GOOD.model_copy(update={"verdict": Verdict.SILENT})
     cells = study_cells(Level.QUICK, 32)
-    text = verdicts.nothing_silent(dict.fromkeys(cells, bad)).measured
-    assert f"and {len(cells) - verdicts.MAX_NAMED} more" in text
+    text = study.nothing_silent(dict.fromkeys(cells, bad)).measured
+    assert f"and {len(cells) - study.MAX_NAMED} more" in text

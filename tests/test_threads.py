@@ -80,7 +80,7 @@ for _ in range(2):
         slipstick.cli.main(['run', 'scene.toml', '-o', 'out', '--solver=radial', '--figures=none'])
     except SystemExit as ending:
         assert not ending.code
-from verification.running.local_workers import cores
+from verification.running.case_pool import cores
 assert cores() >= 1
 """
 

@@ -12,9 +12,8 @@ import pytest
 from command import outcome, signalled
 
 from contact_scene.solver_errors import NotConverged
-from verification.cases.catalogue import choose
+from verification.cases.catalogue import choose, lost
 from verification.cases.histories import load_paths
-from verification.cases.judged_case import lost
 from verification.cases.partial_slip import near_sliding
 from verification.judging.case import Level
 from verification.judging.judgement import judge

@@ -14,14 +14,19 @@ from report_examples import case, report_of, run_record, verdict
 
 from verification.cases.hertz import hertz_point
 from verification.cases.partial_slip import cattaneo_mindlin
-from verification.exhibits.numbers import plain, value_text
-from verification.judging.change import Change, ChangeKind
+from verification.exhibits.table import plain, value_text
 from verification.judging.judgement import judge
-from verification.judging.outcome import CaseOutcome, Status
-from verification.judging.verdict_text import failure_line, failure_text
+from verification.judging.outcome import (
+    CaseOutcome,
+    Change,
+    ChangeKind,
+    Status,
+    failure_line,
+    failure_text,
+)
 from verification.report.files import JUNIT, PAGE, RECORD, SHEETS, SUMMARY, write_report
-from verification.report.omissions import OMISSIONS
 from verification.report.page import render_page, render_sheets
+from verification.report.sections import OMISSIONS
 from verification.running.provenance import provenance
 from verification.running.report_record import (
     Report,

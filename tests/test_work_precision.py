@@ -21,8 +21,7 @@ from verification.peers.environment import FAILED, PEERS, made_environment
 from verification.running.cold_cache import CACHE, cold_cache
 from verification.running.row import CaseRecord, parameters_of
 from verification.running.study import Conclusion, Settings
-from verification.studies.work_precision.contacts import CONTACTS
-from verification.studies.work_precision.setting import OWN, Method, PrecisionCase
+from verification.studies.work_precision.setting import CONTACTS, OWN, Method, PrecisionCase
 from verification.studies.work_precision.study import (
     STUDY,
     TARGETS,

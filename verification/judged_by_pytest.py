@@ -38,7 +38,7 @@ class SolverFile(pytest.File):
         """Yield a test for every case; raises Refused for a file without a solver."""
         from contact_results.directory.refusal import Refused
         from verification.challenge.cases import challenges
-        from verification.challenge.named_solver import module_of
+        from verification.challenge.python_api import module_of
 
         module = module_of(self.path)
         for name in ("solve", "CASES"):

@@ -20,7 +20,7 @@ from contact_results.stress.on_cells import stress_on_cells
 from contact_results.surface import Cells, surface_of
 from contact_scene import CoulombFriction, LoadStep, Scene
 from semi_analytical import Result, solve
-from verification.exhibits.picture import Picture
+from verification.exhibits.chart import Picture
 from verification.problems.layered_scene import coated, film, rigid_ball
 from verification.problems.paper_scene import HERTZ, NORMAL_FORCE, pressing, square_grid
 

@@ -2,20 +2,43 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import json
+import os
+import subprocess
+from collections.abc import Callable, Mapping
 from math import pi, sqrt, tan
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from verification.adapters.driven import driven
+from contact_results.blas_threads import VARIABLES
 from verification.challenge.answer import Answer, Field, Key
 from verification.challenge.python_api import (
     CannotDo,
     Posed,
 )
 from verification.peers.environment import Peer
+
+SECONDS_ALLOWED = 240
+SOURCES = Path(__file__).parents[2]
+
+
+def driven(python: Path, peer: Peer, request: Mapping[str, Any]) -> dict[str, Any]:
+    """What the driver found, on one thread; raises CannotDo as it says so, RuntimeError with its
+    last words."""
+    done = subprocess.run(
+        [str(python), "-m", peer.driver], input=json.dumps(request), capture_output=True,
+        text=True, check=False, timeout=SECONDS_ALLOWED,
+        env={**os.environ, **dict.fromkeys(VARIABLES, "1"), "PYTHONPATH": str(SOURCES)},
+    )  # fmt: skip
+    if done.returncode:
+        raise RuntimeError(f"{peer.module}: {done.stderr.strip().splitlines()[-1:]}")
+    found: dict[str, Any] = json.loads(done.stdout)
+    if "cannot" in found:
+        raise CannotDo(found["cannot"])
+    return found
+
 
 COARSEST, TOLERANCE = 32, 1e-8
 

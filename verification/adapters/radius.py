@@ -5,8 +5,7 @@ from __future__ import annotations
 from contact_scene import RadialDiscretisation
 from contact_scene.solver_errors import NotConverged, UnsupportedScene
 from radial import solve
-from verification.adapters.own_numbers import given_up, in_increments, scene_of
-from verification.adapters.rings import answer_on_rings
+from verification.adapters.own_numbers import answer_on_rings, given_up, in_increments, scene_of
 from verification.challenge.answer import Answer, Solver
 from verification.challenge.python_api import (
     CannotDo,

@@ -38,8 +38,7 @@ from verification.closed_forms.gao_chiu_lee import modulus_weight, ratio_weight
 from verification.judging.case import Case, Check, Comparison, Level, Required
 from verification.judging.declared_case import Falls, Refined, Reported, Row, Within, case, judged
 from verification.judging.drawings import PRESSURE, convergence, profile
-from verification.judging.observable import Observable, error_norm
-from verification.judging.observables import (
+from verification.judging.observable import (
     APPROACH,
     CENTRAL_PRESSURE,
     CONTACT_RADIUS,
@@ -47,8 +46,9 @@ from verification.judging.observables import (
     PEAK_PRESSURE,
     PRESSURE_L2,
     PRESSURE_WITHIN,
+    Observable,
+    error_norm,
 )
-from verification.judging.refinement import refinement
 from verification.judging.refinement_levels import (
     RefinementLevel,
     asked,
@@ -59,13 +59,13 @@ from verification.judging.refinement_levels import (
     on_elements,
     on_radii,
     part_of_side,
+    refinement,
 )
 from verification.judging.run import Run
 from verification.observed.end_state import normal_force
 from verification.problems import paper_scene as paper
-from verification.problems.classical import CONE, PUNCH, mean_pressure
+from verification.problems.classical import CONE, PUNCH, hertzian, mean_pressure
 from verification.problems.coated_ball import BARE, ROWS, coated_ball, solved_here
-from verification.problems.hertz import hertzian
 from verification.problems.layered_scene import (
     FREDHOLM,
     FREDHOLM_EQUATION,
@@ -79,8 +79,7 @@ from verification.problems.layered_scene import (
     surface_of,
 )
 from verification.problems.paper_scene import HERTZ
-from verification.problems.problem import OVER_PEAK, Problem
-from verification.problems.reference import Reference, ReferenceKind, closed_form
+from verification.problems.problem import OVER_PEAK, Problem, Reference, ReferenceKind, closed_form
 from verification.problems.shifted_grid import UNLIKE
 
 Field = NDArray[np.float64]

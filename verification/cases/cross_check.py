@@ -31,8 +31,7 @@ from semi_analytical.stress import subsurface
 from verification.cases.points_run import PointsRun
 from verification.closed_forms.coated_indentation import LayeredIndentation
 from verification.exhibits.chart import Chart, Look, Panel, curve
-from verification.exhibits.numbers import plain
-from verification.exhibits.table import NONE, Table
+from verification.exhibits.table import NONE, Table, plain
 from verification.judging.case import Case, Comparison, Finding, Level
 from verification.judging.refinement_levels import cells_label
 from verification.judging.run import (
@@ -43,13 +42,11 @@ from verification.judging.run import (
     Run,
     SectionRun,
 )
-from verification.observed.radial_profile import outward
-from verification.observed.ring_errors import judged_within
-from verification.observed.ring_tractions import tractions_at
+from verification.observed.ring_errors import judged_within, outward, tractions_at
 from verification.problems import paper_scene as paper
 from verification.problems.layered_scene import coated, exact_contact, film, pressed, rigid_ball
 from verification.problems.paper_scene import FRICTION, HERTZ, pressing
-from verification.problems.reference import ReferenceKind
+from verification.problems.problem import ReferenceKind
 from verification.quantities import shear_of, shift_along_x
 
 Field = NDArray[np.float64]

@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from functools import cached_property
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import LoadStep
-from verification.external_codes.recorded import Recorded, recorded
+from verification.closed_forms.hertz import PointContact
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import Judged, Within, case, judged
-from verification.judging.observable import error_norm
-from verification.judging.observables import NORMAL_FORCE
+from verification.judging.observable import NORMAL_FORCE, error_norm
 from verification.judging.pressing_errors import pressure_at, shear_at
 from verification.judging.refinement_levels import (
     on_cells,
@@ -24,8 +24,83 @@ from verification.judging.refinement_levels import (
 from verification.problems import paper_scene as paper
 from verification.problems.layered_scene import coated, film, pressed, rigid_ball
 from verification.problems.paper_scene import HERTZ
-from verification.problems.problem import Problem
-from verification.problems.reference import ReferenceKind
+from verification.problems.problem import Problem, ReferenceKind
+from verification.references import load_reference
+
+Field = NDArray[np.float64]
+LEFT_OF_CORRECTION = 1 / 20
+NAME = "external_code_calculix"
+# The recorded ball: W [N], R [mm], E [MPa], ν. Its gap is measured on the moved surface, which
+# raises the load by (1-2ν)(1+ν) p_H / 2E.
+MODULUS, RATIO = 210e3, 0.3
+RECORDED_BALL = PointContact.under_load(10.0, 1800.0, MODULUS / (1 - RATIO**2))
+MOVED_GAP = (1 - 2 * RATIO) * (1 + RATIO) * RECORDED_BALL.peak_pressure / (2 * MODULUS)
+
+
+class Certain(NamedTuple):
+    """A number, and its standard uncertainty."""
+
+    value: float
+    uncertainty: float
+
+
+class Profile(NamedTuple):
+    """A traction over p_H at some radii over a_H, and its standard uncertainty, the same at all."""
+
+    radii: Field
+    values: Field
+    uncertainty: float
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """One scene's record: coarse, fine, and the fine mesh with half the stiffness."""
+
+    record: Mapping[str, Any]
+
+    def __post_init__(self) -> None:
+        """Raises ValueError if the runs are not those three."""
+        coarse, fine, soft = self.record["runs"]
+        if not (
+            fine["elements"] == soft["elements"] == 2 * coarse["elements"]
+            and fine["stiffness"] == coarse["stiffness"] == 2 * soft["stiffness"]
+        ):
+            raise ValueError("expected runs: coarse, twice as fine, and that half as stiff")
+
+    @property
+    def normal_force(self) -> Certain:
+        """Over the nominal force."""
+        coarse, fine, soft = (float(run["normal_force"]) for run in self.record["runs"])
+        correction, refinement = fine - soft, fine - coarse
+        errors = (LEFT_OF_CORRECTION * correction, refinement, MOVED_GAP * fine)
+        return Certain(fine + correction, math.hypot(*errors))
+
+    @cached_property
+    def edge(self) -> float:
+        """Outermost radius that is touched on all three runs, over a_H."""
+        return float(min(run["radii"][-1] for run in self.record["runs"]))
+
+    def profile(self, traction: str, first: float, last: float) -> Profile:
+        """Pressure or shear at the radii that both meshes have, from `first` to `last` of a_H."""
+        coarse, fine, soft = self.record["runs"]
+        radii = np.array(coarse["radii"])
+        chosen = np.flatnonzero((radii >= first) & (radii <= last))
+
+        def at_common_radii(run: Mapping[str, Any]) -> Field:
+            every = 1 if run is coarse else 2
+            return np.array(run[traction])[every * chosen]
+
+        rough, good, weak = (at_common_radii(run) for run in (coarse, fine, soft))
+        correction, refinement = good - weak, good - rough
+        errors = np.hypot(LEFT_OF_CORRECTION * correction, refinement)
+        return Profile(radii[chosen], good + correction, float(np.max(errors)))
+
+
+def recorded(name: str) -> Recorded:
+    """The record of the scene of this name; KeyError if there is none."""
+    scenes = {each["name"]: each for each in load_reference(NAME)["scenes"]}
+    return Recorded(scenes[name])
+
 
 FIRST = 0.1  # Hertz radii; nearer to the axis are its bore and, with friction, a cusp
 EDGE = 3 / 16  # Hertz radii, three elements of the coarser mesh; its edge ripples that far

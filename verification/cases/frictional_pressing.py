@@ -9,6 +9,7 @@ from math import log, sqrt
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contact_scene import (
     RIGID,
@@ -21,20 +22,32 @@ from contact_scene import (
     Scene,
 )
 from contact_scene.discretisation import EdgeCorrection
+from contact_scene.quantities.residuals import worst
+from fem_reference.compliance.angular_grid import end_grid
+from fem_reference.compliance.point_compliance import PointCompliance
+from fem_reference.compliance.ring_compliance import RingCompliance
+from fem_reference.compliance.ring_edge import HatEdge
+from fem_reference.contact.alternating_iteration import CoupledProblem
+from fem_reference.contact.natural_map import Equations, Iterate
+from fem_reference.loads import NormalTarget, TangentialTarget
+from fem_reference.plan import Path
 from semi_analytical import one_way
 from semi_analytical.grid import SurfaceGrid
-from verification.cases.consistent_tangent import consistent_tangent
 from verification.cases.levels import ELEMENT_RADIUS, JUDGED_BY, PENALTY, because, finest
 from verification.closed_forms.goodman import stick_ratio
-from verification.convergence.cell_centres import at_centres
 from verification.exhibits.chart import Chart
 from verification.exhibits.convergence_chart import convergence_chart
-from verification.judging.case import Case, Comparison, Level, Quantity, Required
+from verification.judging.case import Case, Check, Comparison, Level, Quantity, Required
 from verification.judging.declared_case import Drawing, Reported, Row, Within, case, judged
 from verification.judging.drawings import PRESSURE as DRAWN_PRESSURE
 from verification.judging.drawings import Drawn, profile
-from verification.judging.observable import Observable, error_norm
-from verification.judging.observables import APPROACH, CONTACT_RADIUS, PEAK_PRESSURE
+from verification.judging.observable import (
+    APPROACH,
+    CONTACT_RADIUS,
+    PEAK_PRESSURE,
+    Observable,
+    error_norm,
+)
 from verification.judging.order_of_convergence import (
     Followed,
     NotYetAsymptotic,
@@ -72,9 +85,127 @@ from verification.problems.indentation import (
 )
 from verification.problems.layered_scene import half_space, pressed, rigid_ball
 from verification.problems.paper_scene import HERTZ, pressing
-from verification.problems.problem import OVER_PEAK, Problem
-from verification.problems.reference import ROUNDING, Reference, ReferenceKind
+from verification.problems.problem import (
+    OVER_PEAK,
+    ROUNDING,
+    Problem,
+    Reference,
+    ReferenceKind,
+    identity,
+)
 from verification.quantities import shear_of, shift_along_x
+
+Field = NDArray[np.float64]
+
+
+def at_centres(cells: tuple[int, int], field: Field) -> Field:
+    """A field (…, n, m) at the centres of other cells of the same window, bilinearly.
+
+    Means over the other cells would not do: where they cut cells of the field in two, these count
+    with the wrong part of their slope, an error of first order all over the surface.
+    """
+    along_x = _weights(cells[0], field.shape[-2])
+    along_y = _weights(cells[1], field.shape[-1])
+    return np.asarray(along_x @ field @ along_y.T)
+
+
+def _weights(to: int, of: int) -> Field:
+    """Weights (to, of) of linear interpolation between the centres of `of` equal intervals, at
+    those of `to` others; constant beyond the outermost."""
+    position = np.clip((np.arange(to) + 0.5) * of / to - 0.5, 0, of - 1)
+    left = np.minimum(position.astype(int), max(of - 2, 0))
+    weights = np.zeros((to, of))
+    rows = np.arange(to)
+    weights[rows, left] = 1 - (position - left)
+    weights[rows, np.minimum(left + 1, of - 1)] += position - left
+    return weights
+
+
+RINGS, HIGHEST, STATES = 5, 4, 8
+SPRINGS = 0.3  # of the penalty law, beside the exact law
+STEP = 1e-5  # of values of order one
+LEAST_PRESSURE = 0.1  # shears in slip bend with the radius of the friction limit
+SEED = 7
+
+
+def consistent_tangent() -> Check:
+    """Tangent against central differences, for the exact law and for springs.
+
+    A wrong one leaves all results as they are and only costs iterations.
+    """
+    return Check(
+        "consistent_tangent", "largest difference between the tangent of the equations and their "
+        "central differences", "", f"{2 * STATES} random states on {RINGS} rings", _worst,
+        identity(0.0, "the derivative of the equations; Newton's method converges linearly with "
+                 "another"),
+        Required(1e-8, f"central differences of step {STEP:g} of values of order one: what they "
+                 "neglect is a sixth of its square times a third derivative of 160, and rounding"),
+        1.0, "a traction of order one",
+    )  # fmt: skip
+
+
+def _worst() -> float:
+    return worst(*(_error(springs, seed) for springs in (0.0, SPRINGS) for seed in range(STATES)))
+
+
+def _error(springs: float, seed: int) -> float:
+    random = np.random.default_rng((SEED, seed))
+    compliance = PointCompliance(_rings(random), end_grid(HIGHEST), springs)
+    points = len(compliance.areas)
+    problem = CoupledProblem(
+        compliance,
+        random.uniform(-0.5, 0.5, points),
+        CoulombFriction(coefficient=0.4),
+        random.uniform(-0.1, 0.1, (2, points)),
+        NormalTarget(force=1.0),
+        TangentialTarget(load=0.2),
+    )
+    equations = Equations(problem)
+    tractions = np.concatenate(
+        [random.uniform(-0.2, 0.2, 2 * points), random.uniform(0, 1, points)]
+    )
+    here = Iterate(tractions, 0.1, 0.5, 0.2)
+    _, tangent, _ = equations.linearised(here)
+    largest, values = 0.0, here.values
+    for column in range(len(values)):
+        step = STEP * (np.arange(len(values)) == column)
+        above, below = Iterate.of(values + step), Iterate.of(values - step)
+        smooth = np.append(np.tile(_on_one_side(equations, above, below), 3), [True, True])
+        difference = (equations.missed(above) - equations.missed(below)) / (2 * STEP)
+        largest = worst(largest, *np.abs(difference - tangent[:, column])[smooth])
+    return largest
+
+
+def _on_one_side(equations: Equations, above: Iterate, below: Iterate) -> Any:
+    """Points that neither start to touch nor to slip between two iterates: there is no kink."""
+    sides = []
+    for at in (above, below):
+        _, _, in_slip = equations.linearised(at)
+        sides.append((equations.solution(at, in_slip, 0).pressure, in_slip))
+    (p, slips), (p_below, slips_below) = sides
+    apart = (p == 0) & (p_below == 0)
+    return (apart | (np.minimum(p, p_below) > LEAST_PRESSURE)) & (slips == slips_below)
+
+
+def _rings(random: np.random.Generator) -> RingCompliance:
+    """Rings with random symmetric positive definite harmonics."""
+    harmonics = []
+    for _ in range(HIGHEST + 1):
+        factor = random.normal(size=(3 * RINGS, 3 * RINGS))
+        harmonics.append((factor @ factor.T).reshape(3, RINGS, 3, RINGS) / RINGS)
+    radii = np.arange(RINGS) / RINGS
+    return RingCompliance(
+        radii=radii,
+        areas=random.uniform(0.5, 1.0, RINGS),
+        gap=0.0 * radii,
+        harmonics=tuple(harmonics),
+        path=Path.HARMONICS,
+        motion=np.zeros((2, RINGS)),
+        stretch=0.0 * radii,
+        reach=1.0,
+        edge=HatEdge(),
+    )
+
 
 ONE = "1"
 STICK_PART = Observable(

@@ -25,17 +25,17 @@ from verification.closed_forms.sphere import SphereContact
 from verification.judging.case import Case, Comparison, Level, Quantity, Required
 from verification.judging.declared_case import Falls, Refined, Reported, Within, case, judged
 from verification.judging.drawings import PRESSURE, convergence, profile
-from verification.judging.observable import Observable, number
-from verification.judging.observables import (
+from verification.judging.observable import (
     APPROACH,
     CONTACT_RADIUS,
     NORMAL_FORCE,
     PEAK_PRESSURE,
     PRESSURE_L2,
     PRESSURE_WITHIN,
+    Observable,
+    number,
 )
 from verification.judging.order_of_convergence import NotYetAsymptotic
-from verification.judging.refinement import refinement
 from verification.judging.refinement_levels import (
     MIDDLE,
     RefinementLevel,
@@ -45,16 +45,15 @@ from verification.judging.refinement_levels import (
     on_cells,
     on_springs,
     part_of_side,
+    refinement,
     with_edge_at,
 )
 from verification.judging.run import SOLVER_TOLERANCE, Run
 from verification.problems import paper_scene as paper
-from verification.problems.elliptical import BARREL, EXACT
-from verification.problems.hertz import BALL, LED_BALL, hertzian
+from verification.problems.classical import BALL, BARREL, EXACT, LED_BALL, hertzian
 from verification.problems.layered_scene import coated, film, pressed, rigid_ball
 from verification.problems.paper_scene import HERTZ, STEEL
-from verification.problems.problem import Problem
-from verification.problems.reference import ROUNDING, Reference, ReferenceKind
+from verification.problems.problem import ROUNDING, Problem, Reference, ReferenceKind
 from verification.problems.shifted_grid import UNLIKE
 
 ROWS = (

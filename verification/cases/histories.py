@@ -48,7 +48,7 @@ from verification.problems.paper_scene import (
     STEEL,
     pressing,
 )
-from verification.problems.reference import (
+from verification.problems.problem import (
     ROUNDING,
     Reference,
     ReferenceKind,

@@ -11,24 +11,25 @@ import numpy as np
 
 from contact_scene import Body, FlatPunch, LoadStep
 from verification.cases.levels import EDGE, IDENTITY, STAIRCASE, levels
-from verification.closed_forms.tilted_punch import TiltedPunch
+from verification.closed_forms.flat_punch import TiltedPunch
 from verification.judging.case import Case, Comparison, Level, Quantity, Required
 from verification.judging.declared_case import Falls, Refined, Within, case, judged
 from verification.judging.drawings import convergence, profile
-from verification.judging.observable import Observable, error_norm
-from verification.judging.observables import (
+from verification.judging.observable import (
     APPROACH,
     CENTRAL_PRESSURE,
     CONTACT_RADIUS,
     PRESSURE_L1,
+    Observable,
+    error_norm,
 )
 from verification.judging.order_of_convergence import NotYetAsymptotic
-from verification.judging.refinement import refinement
 from verification.judging.refinement_levels import (
     asked,
     on_cells,
     on_elements,
     part_of_side,
+    refinement,
     with_edge_at,
 )
 from verification.judging.run import Run
@@ -36,8 +37,7 @@ from verification.problems import paper_scene as paper
 from verification.problems.classical import CONE, PUNCH, PUNCH_RADIUS, PUNCH_WINDOW, mean_pressure
 from verification.problems.layered_scene import SUBSTRATE, pressed, rigid_ball
 from verification.problems.paper_scene import HERTZ, NORMAL_FORCE, STEEL
-from verification.problems.problem import Problem
-from verification.problems.reference import ROUNDING, Reference, ReferenceKind
+from verification.problems.problem import ROUNDING, Problem, Reference, ReferenceKind
 from verification.problems.shifted_grid import UNLIKE
 
 if TYPE_CHECKING:

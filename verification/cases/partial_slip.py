@@ -20,7 +20,7 @@ from contact_scene import (
 )
 from verification.cases.levels import SQUARE_ROOTS, STICK_BORDER, because, finest
 from verification.cases.points_run import PointsRun
-from verification.closed_forms.ciavarella_jaeger import superpose
+from verification.closed_forms.cattaneo_mindlin import superpose
 from verification.closed_forms.cone import ConeContact
 from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.judging.case import Case, Level
@@ -34,9 +34,15 @@ from verification.judging.declared_case import (
     judged,
 )
 from verification.judging.drawings import Drawn, convergence, profile
-from verification.judging.observable import Observable, error_norm
-from verification.judging.observables import ENERGY, SHEAR, SHIFT, STICK_RADIUS, WORK
-from verification.judging.refinement import refinement
+from verification.judging.observable import (
+    ENERGY,
+    SHEAR,
+    SHIFT,
+    STICK_RADIUS,
+    WORK,
+    Observable,
+    error_norm,
+)
 from verification.judging.refinement_levels import (
     RefinementLevel,
     RefinementLevels,
@@ -46,9 +52,10 @@ from verification.judging.refinement_levels import (
     named,
     on_cells,
     part_of_side,
+    refinement,
 )
 from verification.judging.run import per_radius
-from verification.observed.ring_tractions import tractions_at
+from verification.observed.ring_errors import tractions_at
 from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import (
     OVER_LIMIT,
@@ -57,8 +64,7 @@ from verification.problems.cattaneo_mindlin import (
 )
 from verification.problems.classical import CONE, SLOPE, UNDER_CONE, mean_pressure
 from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, NU_ZERO, STEEL
-from verification.problems.problem import Problem
-from verification.problems.reference import ReferenceKind
+from verification.problems.problem import Problem, ReferenceKind
 from verification.problems.shifted_grid import OFFSETS, UNLIKE
 from verification.quantities import force_along_x, shear_of, shift_along_x
 

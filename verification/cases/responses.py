@@ -13,16 +13,13 @@ from semi_analytical.frf.stack import Stack
 from semi_analytical.frf.surface import scalars
 from semi_analytical.influence.layered import LayeredCoefficients
 from verification.exhibits.chart import Chart, Look, Panel, curve
-from verification.exhibits.numbers import percent, plain
-from verification.exhibits.table import NONE, Table, table_of
+from verification.exhibits.table import NONE, Table, percent, plain, table_of
 from verification.judging.case import Case, Check, Level, Required
 from verification.judging.declared_case import case
-from verification.laws.frf_matrix import frf_matrix
-from verification.laws.law import worst_violation
-from verification.laws.limit_laws import LIMIT_LAWS
+from verification.laws.law import frf_matrix, worst_violation
+from verification.laws.limit_laws import LIMIT_LAWS, SYMMETRY_LAWS
 from verification.laws.sampling_route import SamplingErrors, sampling_errors
-from verification.laws.symmetry_laws import SYMMETRY_LAWS
-from verification.problems.reference import Reference, ReferenceKind, identity
+from verification.problems.problem import Reference, ReferenceKind, identity
 from verification.references import load_reference
 
 COEFFICIENT_SOURCE = "references/influence_coefficients.json: inverse transform, 1e-12"

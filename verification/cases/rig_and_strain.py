@@ -18,9 +18,15 @@ from verification.closed_forms.tangential_history import TangentialHistory
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import Falls, Row, Within, case, judged
 from verification.judging.drawings import Drawn, profile
-from verification.judging.observable import Observable, error_norm, number
-from verification.judging.observables import ENERGY, SHEAR, SHIFT, STICK_RADIUS
-from verification.judging.refinement import refinement
+from verification.judging.observable import (
+    ENERGY,
+    SHEAR,
+    SHIFT,
+    STICK_RADIUS,
+    Observable,
+    error_norm,
+    number,
+)
 from verification.judging.refinement_levels import (
     RefinementLevels,
     on_cells,
@@ -28,6 +34,7 @@ from verification.judging.refinement_levels import (
     on_radii,
     on_springs,
     part_of_side,
+    refinement,
 )
 from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import (
@@ -35,8 +42,7 @@ from verification.problems.cattaneo_mindlin import (
     SLIDING_SHIFT,
 )
 from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, NU_ZERO
-from verification.problems.problem import Problem
-from verification.problems.reference import ReferenceKind
+from verification.problems.problem import Problem, ReferenceKind
 from verification.problems.shifted_grid import UNLIKE
 from verification.quantities import shear_of
 from verification.references import load_reference

@@ -27,14 +27,15 @@ from semi_analytical.grid import SurfaceGrid
 from semi_analytical.stress import SubsurfaceField, interfaces, subsurface, subsurface_section
 from semi_analytical.stress.near_edge import NearEdge, near_edge
 from verification.closed_forms.hamilton_stress import hamilton_stress
-from verification.closed_forms.huber_stress import axis_stress, huber_stress, sliding_axis_shear
-from verification.closed_forms.sheared_surface import (
+from verification.closed_forms.huber_stress import (
+    axis_stress,
+    huber_stress,
+    sliding_axis_shear,
     stress_by_hertz_pressure,
     stress_by_hertz_shear,
     trailing_edge_tension,
 )
-from verification.exhibits.numbers import plain
-from verification.exhibits.table import NONE, Table
+from verification.exhibits.table import NONE, Table, plain
 from verification.judging.case import Case, Check, Level, Required
 from verification.judging.declared_case import Within, case, judged
 from verification.judging.observable import Observable, error_norm
@@ -46,8 +47,7 @@ from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import sheared
 from verification.problems.layered_scene import coated, film, pressed, rigid_ball
 from verification.problems.paper_scene import FRICTION, HERTZ, STEEL, hertz_grid
-from verification.problems.problem import Problem
-from verification.problems.reference import Reference, ReferenceKind, closed_form, identity
+from verification.problems.problem import Problem, Reference, ReferenceKind, closed_form, identity
 from verification.problems.shifted_grid import ShiftedGrid
 from verification.problems.torsion import TWISTED
 

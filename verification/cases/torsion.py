@@ -30,10 +30,15 @@ from verification.closed_forms.coated_torsion import CoatedTorsion, TorsionalSur
 from verification.judging.case import Case, Check, Level, Required
 from verification.judging.declared_case import Falls, Refined, Within, case, judged
 from verification.judging.drawings import Drawn, convergence, profile
-from verification.judging.observable import Observable, error_norm, number
-from verification.judging.observables import SHEAR_AROUND, STICK_RADIUS, TWIST
+from verification.judging.observable import (
+    SHEAR_AROUND,
+    STICK_RADIUS,
+    TWIST,
+    Observable,
+    error_norm,
+    number,
+)
 from verification.judging.order_of_convergence import Followed
-from verification.judging.refinement import refinement
 from verification.judging.refinement_levels import (
     asked,
     named,
@@ -41,6 +46,7 @@ from verification.judging.refinement_levels import (
     on_elements,
     on_radii,
     part_of_side,
+    refinement,
     with_edge_at,
 )
 from verification.judging.run import OVER_ANGLES
@@ -49,8 +55,7 @@ from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import OVER_LIMIT
 from verification.problems.layered_scene import coated, exact_contact, film, pressed, rigid_ball
 from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, pressing
-from verification.problems.problem import Problem
-from verification.problems.reference import ROUNDING, ReferenceKind, identity
+from verification.problems.problem import ROUNDING, Problem, ReferenceKind, identity
 from verification.problems.torsion import LED, OVER_TWIST, PARTS, STUCK, TO_AND_FRO, TWISTED
 from verification.quantities import energy_between, shear_of
 

@@ -16,13 +16,11 @@ from typing import Any
 
 import numpy as np
 
-from verification.convergence.error_line import error_line
-from verification.convergence.observed_order import observed_order, richardson
+from verification.convergence.observed_order import error_line, observed_order, richardson
 from verification.judging.case import Case, Check, Derived, Level, Quantity, Required
-from verification.judging.outcome import Verdict
-from verification.judging.verdict_text import failure_text, uncertainty_text
+from verification.judging.outcome import Verdict, failure_text, uncertainty_text
 from verification.judging.verdicts import judge_quantity
-from verification.problems.reference import Reference, ReferenceKind, closed_form
+from verification.problems.problem import Reference, ReferenceKind, closed_form
 
 LEVELS = (1.0, 2.0, 4.0)
 BESIDE = (1.0, -6.0, 8.0)

@@ -34,7 +34,7 @@ from verification.judging.run import SOLVER_TOLERANCE
 from verification.problems import paper_scene as paper
 from verification.problems.layered_scene import coated, film, pressed
 from verification.problems.paper_scene import HERTZ, NORMAL_FORCE, STEEL
-from verification.problems.reference import identity
+from verification.problems.problem import identity
 
 Field = NDArray[np.float64]
 

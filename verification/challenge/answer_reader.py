@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import math
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from decimal import Context, Decimal, InvalidOperation
 from pathlib import Path
 from types import MappingProxyType
@@ -22,13 +23,15 @@ from contact_scene.reading.units import (
     Kind,
     UnknownUnit,
 )
-from verification.challenge.answer import SAMPLINGS, Answer, Key, Solver, Vector
-from verification.challenge.answer_files import IN_ONE, rows, text_of
+from verification.challenge.answer import SAMPLINGS, Answer, Field, Key, Solver, Vector
 from verification.challenge.cases import challenges
 from verification.challenge.export import (
     ANSWER_COLUMNS,
     ANSWERS,
+    FIELD_COLUMNS,
+    FIELDS,
     GIVEN,
+    IN_PASCAL,
     LEVEL_COLUMNS,
     LEVELS,
     MANIFEST,
@@ -38,12 +41,151 @@ from verification.challenge.export import (
     SOLVER,
     digest,
 )
-from verification.challenge.field_tables import read_fields
 from verification.challenge.requested_quantities import (
     AskedPoints,
     Challenge,
     Grade,
 )
+
+IN_ONE = "answers.json"  # in place of the others
+PARTS = {LEVELS: "levels", ANSWERS: "values", FIELDS: "fields"}
+MAX_BYTES = 100_000_000
+
+
+def rows(
+    folder: Path, table: str, columns: tuple[str, ...]
+) -> Iterator[tuple[str, dict[str, str]]]:
+    """Place and cells of every row of LEVELS or ANSWERS. Raises Refused."""
+    if (folder / IN_ONE).exists():
+        for where, record in records(folder, table):
+            if missing := [name for name in columns if name not in record]:
+                raise Refused(f"{where}: no {', '.join(missing)}; expected {', '.join(columns)}")
+            yield where, {k: "" if v is None else str(v).strip() for k, v in record.items()}
+        return
+    path = folder / table
+    reader = csv.DictReader(text_of(path).splitlines(), restkey="more")
+    columns_are_there(f"{path}:1", reader.fieldnames or (), columns)
+    for row in reader:
+        where = f"{path}:{reader.line_num}"
+        if "more" in row:
+            raise Refused(
+                f"{where}: more values than columns; commas are between them, so that "
+                "numbers have a decimal point"
+            )
+        yield where, {k: (v or "").strip() for k, v in row.items()}
+
+
+def records(folder: Path, table: str) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Place and content of every record of one part of IN_ONE. Raises Refused."""
+    path, part = folder / IN_ONE, PARTS[table]
+    try:
+        content = json.loads(text_of(path))
+    except (ValueError, RecursionError) as error:
+        raise Refused(f"{path}: {error}") from None
+    found = content.get(part, []) if isinstance(content, dict) else None
+    if not isinstance(found, list) or not all(isinstance(one, dict) for one in found):
+        raise Refused(f"{path}: expected an object with lists of records {_words(PARTS.values())}")
+    for n, record in enumerate(found):
+        yield f"{path}: {part}[{n}]", record
+
+
+def columns_are_there(where: str, found: Sequence[str], expected: Sequence[str]) -> None:
+    """Raises Refused where one is missing, with what is there instead."""
+    missing = [name for name in expected if name not in found]
+    if not missing:
+        return
+    there = _words(found) or "nothing"
+    if len(found) == 1 and any(mark in found[0] for mark in ";\t"):
+        there += " (columns are separated by commas)"
+    raise Refused(
+        f"{where}: no column {', '.join(missing)}; expected {', '.join(expected)}; there is "
+        f"{there[:200]}"
+    )
+
+
+def text_of(path: Path) -> str:
+    """Of a regular file of a size that can be. Raises Refused."""
+    try:
+        if path.exists() and not path.is_file():
+            raise Refused(f"{path}: is not a regular file")
+        if path.stat().st_size > MAX_BYTES:
+            raise Refused(f"{path}: larger than {MAX_BYTES // 10**6} MB")
+        return path.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = getattr(error, "strerror", None) or "not text in UTF-8"
+        raise Refused(f"{path}: {reason}") from None
+
+
+def _words(names: Any) -> str:
+    return ", ".join(map(repr, names))
+
+
+Columns = Mapping[str, Any]  # numbers by the head of their column
+
+
+def read_fields(
+    folder: Path, challenge: Challenge, levels: Mapping[str, Any]
+) -> dict[str, dict[Key, Field]]:
+    """By level, quantity and loading step. Raises Refused."""
+    found: dict[str, dict[Key, Field]] = {}
+    in_one = (folder / IN_ONE).exists()
+    for where, level, step, columns in (_in_json if in_one else _in_files)(folder):
+        if level not in levels or not step.isdigit():
+            raise Refused(
+                f"{where}: level {level!r} and load_step {step!r}, expected a level of {LEVELS} "
+                f"({', '.join(levels)}) and a whole number"
+            )
+        here = [f.quantity for f in challenge.fields if f.step == int(step)]
+        if not here:
+            steps = ", ".join(dict.fromkeys(str(f.step) for f in challenge.fields))
+            raise Refused(
+                f"{where}: no traction of step {step} is asked, but of step {steps or 'none'}"
+            )
+        columns_are_there(where, list(columns), FIELD_COLUMNS)
+        quantities = [q for q in here if f"{q}{IN_PASCAL}" in columns]
+        if not quantities:
+            expected = " or ".join(f"'{q}{IN_PASCAL}'" for q in here)
+            there = ", ".join(map(repr, columns))
+            raise Refused(
+                f"{where}: no traction of step {step}, expected {expected}; there is {there}"
+            )
+        for quantity in quantities:
+            names = (*FIELD_COLUMNS[:2], f"{quantity}{IN_PASCAL}", FIELD_COLUMNS[2])
+            try:
+                field = Field(*(np.asarray(columns[name], dtype=float) for name in names))
+            except (ValueError, TypeError) as error:
+                raise Refused(f"{where}: {error}") from None
+            found.setdefault(level, {})[quantity, int(step)] = field
+    return found
+
+
+def _in_files(folder: Path) -> Iterator[tuple[str, str, str, Columns]]:
+    """Place, level, loading step, columns."""
+    tables = folder / FIELDS
+    for path in sorted(tables.glob("*")) if tables.is_dir() else ():
+        level, _, step = path.stem.rpartition("_")
+        if path.suffix != ".csv" or not level:
+            raise Refused(f"{path}: expected LEVEL_STEP.csv, with a level of {LEVELS}")
+        head, _, rest = text_of(path).partition("\n")
+        header = [name.strip() for name in head.split(",")]
+        columns_are_there(f"{path}:1", header, FIELD_COLUMNS)
+        lines = rest.splitlines()
+        try:
+            table = np.loadtxt(lines, delimiter=",", ndmin=2) if any(lines) else np.zeros((0, 0))
+            if table.shape[1] not in (0, len(header)):
+                raise ValueError(f"{table.shape[1]} numbers a row, expected {len(header)}")
+        except ValueError as error:
+            reason = str(error).partition("; use `usecols`")[0]
+            raise Refused(f"{path}, below its head: {reason}") from None
+        columns = table.T if table.size else np.zeros((len(header), 0))
+        yield f"{path}:1", level, step, dict(zip(header, columns, strict=True))
+
+
+def _in_json(folder: Path) -> Iterator[tuple[str, str, str, Columns]]:
+    for where, record in records(folder, FIELDS):
+        columns = {k: v for k, v in record.items() if k not in ("level", "load_step")}
+        yield where, str(record.get("level", "")), str(record.get("load_step", "")), columns
+
 
 _ENERGIES = {"J": "1", "mJ": "1e-3", "uJ": "1e-6", "µJ": "1e-6", "N m": "1", "N mm": "1e-3"}
 ENERGY = Kind("J", '"3 uJ"', MappingProxyType({unit: Decimal(f) for unit, f in _ENERGIES.items()}))

@@ -7,34 +7,200 @@ from collections.abc import Iterator
 from functools import cache
 from typing import Any
 
-from verification.challenge.cases_at_places import at_places
-from verification.challenge.changing_loads import changing_loads
-from verification.challenge.frictional_cases import frictional
-from verification.challenge.half_ellipsoids import (
-    Half,
-    HalfEllipsoids,
-    fitted,
-    round_halves,
-)
-from verification.challenge.often_asked import LARGE, SMALL, approach, contact_radius, stick_radius
-from verification.challenge.paper_figure import paper_figure
+from contact_scene import FlatPunch, IsotropicMaterial, LoadStep, Scene
+from contact_scene.geometry import Indenter
+from verification.challenge.frictional_cases import at_places, frictional
 from verification.challenge.requested_quantities import (
+    CLOSED,
+    LARGE,
+    SMALL,
     AskedField,
     AskedValue,
     Challenge,
+    Grade,
+    Half,
+    HalfEllipsoids,
+    approach,
+    contact_radius,
+    fitted,
+    round_halves,
+    stick_radius,
 )
-from verification.challenge.tilted_cases import tilted
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
+from verification.closed_forms.flat_punch import TiltedPunch
 from verification.closed_forms.tangential_history import TangentialHistory
 from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import sheared
-from verification.problems.classical import CONE, PUNCH
+from verification.problems.classical import BALL, BARREL, CONE, PUNCH, PUNCH_RADIUS
 from verification.problems.coated_ball import ROWS, coated_ball, solved_here
-from verification.problems.elliptical import BARREL
-from verification.problems.hertz import BALL
+from verification.problems.indentation import COATED, REFERENCE_ERROR
+from verification.problems.layered_scene import pressed, rigid_ball
 from verification.problems.loop_history import AMPLITUDE
-from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, NU_ZERO
+from verification.problems.paper_scene import (
+    CONTACT_MODULUS,
+    FRICTION,
+    FRICTION_LIMIT,
+    HERTZ,
+    NORMAL_FORCE,
+    NU_ZERO,
+    RADIUS,
+    STEEL,
+    pressing,
+)
 from verification.problems.problem import Problem
+from verification.references import load_reference
+
+# Slopes that close the gap at positive y and x; the punch touches all over, its load 0.24 radii
+# from the axis, and the ball's contact stays in the window.
+PUNCH_TILT, BALL_TILT = (0.004, 0.003), (0.008, 0.005)
+WORDS = (
+    "The tilt (φ_x, φ_y) is given: slopes that close the gap at positive y and at positive x, so "
+    "that h = h_i + u_z - approach - φ_x y - φ_y x. Approach is that of the origin."
+)
+
+
+def tilted() -> Iterator[Challenge]:
+    """All of them."""
+    yield tilted_punch()
+    yield tilted_ball()
+
+
+def tilted_punch() -> Challenge:
+    """A plane of displacement below the whole end."""
+    arm = 4 / 3 * CONTACT_MODULUS * PUNCH_RADIUS**3 / NORMAL_FORCE  # per slope
+    force_at = (arm * PUNCH_TILT[1], arm * PUNCH_TILT[0])
+    exact = TiltedPunch(PUNCH_RADIUS, CONTACT_MODULUS, NORMAL_FORCE, force_at)
+    punch = FlatPunch(radius=PUNCH_RADIUS, material=STEEL)
+    return _tilted(
+        "tilted_punch", "A flat punch pressed and tilted", punch, PUNCH_TILT,
+        "Galin's theorem; Sneddon 1951, § 52", force_at, (approach(exact.approach),),
+    )  # fmt: skip
+
+
+def tilted_ball() -> Challenge:
+    """A tilted paraboloid is a shifted one: x²/2R - φx = (x - Rφ)²/2R - Rφ²/2."""
+    drop = 0.5 * RADIUS * (BALL_TILT[0] ** 2 + BALL_TILT[1] ** 2)
+    return _tilted(
+        "tilted_ball", "A ball pressed and tilted", paper.paraboloid(STEEL), BALL_TILT,
+        "Hertz 1882, below the place where the slope is zero",
+        (RADIUS * BALL_TILT[1], RADIUS * BALL_TILT[0]),
+        (approach(HERTZ.approach - drop), contact_radius(HERTZ.contact_radius)),
+    )  # fmt: skip
+
+
+def _tilted(
+    name: str,
+    title: str,
+    indenter: Indenter,
+    tilt: tuple[float, float],
+    source: str,
+    force_at: tuple[float, float],
+    values: tuple[AskedValue, ...],
+) -> Challenge:
+    step = LoadStep(normal_force=NORMAL_FORCE, tilt=tilt)
+    scene = paper.frictionless(title, indenter, STEEL, step)
+    arm = max(force_at)
+    moments = (
+        AskedValue(
+            f"moment_{axis}", 1, "N m", f"Σ p {other} Δ, over all places", NORMAL_FORCE * at,
+            NORMAL_FORCE * arm, "the larger moment", Grade.C, uncertainty=CLOSED, limit=1,
+        )
+        for axis, other, at in (("x", "y", force_at[1]), ("y", "x", force_at[0]))
+    )  # fmt: skip
+    return Challenge(
+        name, title, f"{title}. {WORDS}", scene, source, (*values, *moments), (), SMALL
+    )
+
+
+RATIOS = (0.0, 0.3, 0.5)  # of Poisson
+STEPS = (
+    LoadStep(normal_force=0.8 * NORMAL_FORCE),
+    LoadStep(normal_force=NORMAL_FORCE, tangential_force=(50.0, 0.0)),
+    LoadStep(tangential_force=(50.0, 50.0)),
+    LoadStep(normal_force=0.9 * NORMAL_FORCE, tangential_force=(20.0, 60.0)),
+    LoadStep(torque=6e-3),
+)
+UNITS = {"shift_x": "m", "shift_y": "m", "twist": "rad", "dissipated_energy": "J"}
+MEANINGS = {
+    "shift_x": "tangential shift of the indenter along +x, relative to far points of the body",
+    "shift_y": "tangential shift of the indenter along +y, relative to far points of the body",
+    "twist": "rotation of the indenter about z relative to far points of the body, right-handed",
+    "dissipated_energy": "energy lost to friction since the first touch",
+}
+
+
+def scene_of(poisson_ratio: float) -> Scene:
+    """Identical bodies with the compliance of the paper's pair under pressure."""
+    modulus = 2 * CONTACT_MODULUS * (1 - poisson_ratio**2)
+    material = IsotropicMaterial(young_modulus=modulus, poisson_ratio=poisson_ratio)
+    scene = paper.frictional(
+        f"Ball under changing loads, ν = {poisson_ratio:g}", paper.paraboloid(material), material
+    )
+    return scene.model_copy(update={"loading": STEPS})
+
+
+def changing_loads() -> Iterator[Challenge]:
+    """All of them, with numbers of the radial solver in the limit of fine increments."""
+    content = load_reference("changing_loads")
+    for nu in RATIOS:
+        scene, ends = scene_of(nu), content["ends"][f"{nu:g}"]
+        yield Challenge(
+            f"changing_loads/nu={nu:g}",
+            f"Both forces change, the direction turns, then a twist: ν = {nu:g}",
+            f"{scene.title}. Each load step is a straight path from the preceding loads to its "
+            "own: pressed by 0.8 kN; 1 kN and 50 N along x; 50 N along y added; 0.9 kN "
+            "and (20, 60) N; a torque of 6 N mm about z.",
+            scene, content["source"],
+            tuple(_asked(step, name, value, ends) for step, values in ends.items()
+                  for name, value in values.items()),
+            (), SMALL, shares="the scene: two solvers of this program agree within the uncertainty",
+        )  # fmt: skip
+
+
+def _asked(step: str, name: str, value: float, ends: dict[str, dict[str, float]]) -> AskedValue:
+    """Relative to the largest shift, twist or energy of the path."""
+    kind = name.partition("_")[0]
+    scale = max(
+        abs(number)
+        for values in ends.values()
+        for other, number in values.items()
+        if other.startswith(kind)
+    )
+    return AskedValue(
+        name, int(step), UNITS[name], MEANINGS[name], value, scale, f"the largest {kind}", Grade.C,
+        uncertainty=load_reference("changing_loads")["uncertainty"][name],
+    )  # fmt: skip
+
+
+# Tangential force over µW: shift [length]. Extrapolated from 40 + 3 x 12 and 80 + 3 x 24 increments
+# on 128 x 128 cells, and by 64 elements over the radius: the means, which differ by 1e-4.
+SHIFTS = {0.3: 1.7327e-7, 0.6: 3.8068e-7, 0.9: 6.6704e-7}
+UNCERTAINTY = 1e-4
+
+
+def paper_figure() -> Challenge:
+    """Ball on a coating twice as stiff as its base and as thick as the Hertz radius."""
+    pushes = (LoadStep(tangential_force=(part * FRICTION_LIMIT, 0.0)) for part in SHIFTS)
+    title = "Coated body under a rigid ball, pressed with friction, then sheared"
+    scene = pressed(title, rigid_ball(), COATED.body, pressing(), *pushes, friction=FRICTION)
+    return Challenge(
+        "paper_figure_4", title,
+        f"{title}. Pressing leaves radial shear, and the way there matters: every force grows "
+        "in proportion to time.", scene,
+        f"{COATED.source}; the shifts by slipstick's finite elements and cells, which agree",
+        (approach(COATED.approach, REFERENCE_ERROR), *_shifts()), (), SMALL,
+        "for the approach nothing; the shifts are what two of them agree on",
+    )  # fmt: skip
+
+
+def _shifts() -> Iterator[AskedValue]:
+    for step, shift in enumerate(SHIFTS.values(), start=2):
+        yield AskedValue(
+            "shift_x", step, "m",
+            "tangential shift of the indenter along +x, relative to far points of the body",
+            shift, shift, "itself", Grade.C, uncertainty=UNCERTAINTY,
+        )  # fmt: skip
+
 
 PARTS = (0.3, 0.6, 0.9, 0.99)  # of µW
 QUARTERS = (0.25, 0.5, 0.75, 1.0)  # of the largest force of the loop

@@ -6,7 +6,7 @@ import csv
 import hashlib
 import io
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,12 +14,54 @@ import numpy as np
 
 from contact_results.directory.refusal import Refused
 from contact_results.directory.run_directory import files_at_once
+from contact_scene import Scene
 from contact_scene.stepping.load_path import (
     ControlKind,
     LoadRamp,
 )
-from verification.challenge.requested_quantities import Challenge
-from verification.challenge.toml_text import toml_text
+from verification.challenge.requested_quantities import Challenge, Patch
+
+
+def toml_text(scene: Scene | Patch) -> str:
+    """All that is not usual."""
+    if isinstance(scene, Patch):
+        tables = scene.document(exclude_defaults=True)
+        return "\n".join(_table(tables, ())).lstrip("\n") + "\n"
+    content = scene.model_dump(mode="json", exclude_defaults=True, exclude_none=True)
+    shape = scene.model_dump(mode="json")["indenter"]["shape"]
+    content["indenter"] = {"shape": shape, **content["indenter"]}
+    return "\n".join(_table(content, ())).lstrip("\n") + "\n"
+
+
+def _table(content: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
+    """Its own values first; tables and arrays of tables after them."""
+    deeper = {name: v for name, v in content.items() if _is_table(v) or _is_tables(v)}
+    for name, value in content.items():
+        if name not in deeper:
+            yield f"{name} = {_value(value)}"
+    for name, value in deeper.items():
+        here = (*path, name)
+        for one in [value] if _is_table(value) else value:
+            head = ".".join(here)
+            yield f"\n[{head}]" if _is_table(value) else f"\n[[{head}]]"
+            yield from _table(one, here)
+
+
+def _is_table(value: Any) -> bool:
+    return isinstance(value, dict)
+
+
+def _is_tables(value: Any) -> bool:
+    return isinstance(value, list) and bool(value) and all(map(_is_table, value))
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, list):
+        return f"[{', '.join(map(_value, value))}]"
+    if isinstance(value, float):
+        return repr(value)
+    return json.dumps(value, ensure_ascii=False)
+
 
 POINTS = "points.csv"
 SCHEMA = "slipstick-challenge/1"

@@ -3,17 +3,340 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from math import pi
 from typing import Any
 
-from verification.challenge.answer import Answer, Solver
+import numpy as np
+
+from verification.challenge.answer import Answer, Field, Key, Solver
 from verification.challenge.requested_quantities import (
+    AskedField,
+    AskedPoints,
+    AskedValue,
     Challenge,
     Grade,
 )
-from verification.challenge.verdicts import Row, omitted, rows_of
+from verification.convergence.observed_order import ILLEGIBLE, observed_order
 from verification.judging.outcome import Status
+from verification.norms import cell_means
+
+# Times N^(-3/4) π^(-1/4), √radius over the area of a disc of N cells: what the number of centres
+# in it may be off, as in Gauss's circle. Twice that is seen on our grids, whose axes are its own.
+SCATTER = 3.0
+
+
+def sums_of(
+    asked: AskedField, field: Field
+) -> Iterator[tuple[str, str, float, float, float, float]]:
+    """What sums over the points must give: name, sum in words, what it is, should be, is over, and
+    how far it may be off where points do no better."""
+    forces, exact = field.value * field.area, asked.traction
+    yield "load carried", "Σ value·area", float(np.sum(forces)), asked.total, asked.scale, 0.0
+    spread = float(np.sum(forces * (field.x**2 + field.y**2)))
+    reach = asked.scale * max(exact.semi_axes) ** 2
+    yield "spread of the load", "Σ value·area·r²", spread, exact.spread, reach, 0.0
+    area, scatter = _covered(field, exact.semi_axes)
+    yield "contact covered", "Σ area in the contact, over its own", area, 1.0, 1.0, scatter
+
+
+def _covered(field: Field, semi_axes: tuple[float, float]) -> tuple[float, float]:
+    """Part of an ellipse that the areas of a field cover, and how far an honest one may be from 1.
+
+    Areas are summed outwards, each in the middle of itself, up to where the edge lies between two
+    points. Rings, which stand on one ray, may end half a ring before it; centres of cells scatter.
+
+    semi_axes  of the ellipse around the origin, along x and y [length]
+    """
+    whole = pi * semi_axes[0] * semi_axes[1]
+    out = (field.x / semi_axes[0]) ** 2 + (field.y / semi_axes[1]) ** 2
+    order = np.argsort(out)
+    out, area = out[order], field.area[order] / whole
+    middles = np.cumsum(area) - area / 2
+    within = float(np.interp(1.0, out, middles, right=np.nan))
+    if np.isnan(within):
+        within = float(np.sum(area))
+    if not np.any(field.y):
+        return within, float(area[max(int(np.searchsorted(out, 1.0, "right")) - 1, 0)]) / 2
+    cells = 1 / float(np.median(area))
+    return within, SCATTER * cells**-0.75 * pi**-0.25
+
+
+STALLS_BELOW = 0.5  # upper end of the order's interval
+ORDER_OFF = 0.1
+FEWEST_LEVELS = 3
+KNOWN = 1e-13  # error that no discretisation has by itself
+IDLE = 25.0  # times the error: a standard uncertainty so much larger on every level says nothing
+WHOLE = "–"  # in place of a loading step
+
+
+@dataclass(frozen=True)
+class Row:
+    """A verdict.
+
+    value, reference, error  in the unit asked; the error over its scale. None where there is none
+    bound    of the error; None where something else is judged
+    grade    the best whose bound the error meets; None: none
+    """
+
+    quantity: str
+    step: int | None
+    level: str
+    status: Status
+    because: str
+    value: float | None = None
+    reference: float | None = None
+    error: float | None = None
+    bound: float | None = None
+    grade: Grade | None = None
+    order: tuple[float, float] | None = None
+    errors: tuple[tuple[float, float], ...] = ()  # by h, of all levels
+
+
+def rows_of(
+    challenge: Challenge, solver: Solver, answers: Sequence[Answer], asked: Grade | None
+) -> Iterator[Row]:
+    """On the finest level, with what all of them say of convergence.
+
+    answers  any order of levels
+    asked    the grade that all must meet; None: what is claimed, else the par of each
+    """
+    levels = sorted(answers, key=lambda one: -one.h)
+    demanded = asked or (Grade(solver.claimed_grade) if solver.claimed_grade else None)
+    for level in levels:
+        for step, reason in level.gave_up.items():
+            yield Row("solved", step or None, level.label, Status.FAIL, f"gave up: {reason}")
+    for value in challenge.values:
+        yield from _of_value(value, solver, levels, demanded or value.par)
+    for field in challenge.fields:
+        yield from _of_field(field, solver, levels, demanded or field.par)
+    for points in challenge.points:
+        yield from _of_points(points, solver, levels, demanded or points.par)
+
+
+def omitted(challenge: Challenge, answers: Sequence[Answer]) -> list[tuple[str, int, bool]]:
+    """What is asked and not answered on the finest level: quantity, step, whether it is required.
+    Steps that a solver gave up are told as such."""
+    finest = min(answers, key=lambda one: one.h)
+    if 0 in finest.gave_up:
+        return []
+    asked = [(v.quantity, v.step, v.required) for v in challenge.numbers]
+    asked += [(f.quantity, f.step, False) for f in challenge.fields]
+    return [
+        (quantity, step, required)
+        for quantity, step, required in asked
+        if not finest.has((quantity, step)) and step not in finest.gave_up
+    ]
+
+
+def _of_value(
+    asked: AskedValue, solver: Solver, levels: Sequence[Answer], grade: Grade
+) -> Iterator[Row]:
+    key = asked.quantity, asked.step
+    found = [(one, value) for one in levels if (value := one.value(key)) is not None]
+    if not found:
+        return
+    yield from _not_on_finest(key, found[-1][0], levels[-1])
+    errors = [(one.h, abs(value - asked.value) / asked.scale) for one, value in found]
+    finest, value = found[-1]
+    known = not solver.meshless and _known(asked, errors)
+    if known or asked.quantity in solver.knows_answer:
+        yield Row(
+            *key, finest.label, Status.INCONCLUSIVE,
+            "not judged: the mesh knows it", value, asked.value, errors[-1][1],
+        )  # fmt: skip
+        return
+    hint = _hint(value, asked)
+    yield _judged(key, finest.label, value, asked.value, errors, grade, asked.uncertainty, hint)
+    yield from _convergence(key, solver, errors, asked.uncertainty)
+    claims = [
+        (one.uncertainty(key), error) for (one, _), (_, error) in zip(found, errors, strict=True)
+    ]
+    yield from _of_claims(asked, finest.label, claims, grade)
+
+
+def _of_claims(
+    asked: AskedValue,
+    level: str,
+    claims: Sequence[tuple[float | None, float]],
+    grade: Grade,
+) -> Iterator[Row]:
+    """Whether the finest level's own uncertainty covers its error, and says something. It is idle
+    where it does not vouch for the class asked, and on every level is far above the error.
+
+    claims  standard uncertainty in the unit asked, and error over the scale, of every level
+    """
+    claimed, error = claims[-1]
+    if claimed is None:
+        return
+    scale = asked.scale
+    honest = error * scale <= 2 * math.hypot(claimed, asked.uncertainty * scale)
+    least = IDLE * 2 * asked.uncertainty
+    idle = 2 * claimed > grade.bound * scale and all(
+        u is not None and u > max(IDLE * e, least) * scale for u, e in claims
+    )
+    status = Status.INCONCLUSIVE if idle else Status.PASS if honest else Status.FAIL
+    because = f"error {error * scale:.3g}, claimed 2u = {2 * claimed:.3g} {asked.unit}"
+    if idle:
+        because += ": so wide that it says nothing"
+    yield Row(f"{asked.quantity}: own uncertainty", asked.step, level, status, because)
+
+
+def order_text(order: tuple[float, float]) -> str:
+    """In words where its interval holds two neighbouring whole orders, or more."""
+    value, half = order
+    # Zero has no sign.
+    return f"{round(value, 2) + 0.0:.2f} ± {half:.2f}" if half < ILLEGIBLE else "not known"
+
+
+def _of_field(
+    asked: AskedField, solver: Solver, levels: Sequence[Answer], grade: Grade
+) -> Iterator[Row]:
+    key = asked.quantity, asked.step
+    found = [(one, one.fields[key]) for one in levels if key in one.fields]
+    if not found:
+        return
+    yield from _not_on_finest(key, found[-1][0], levels[-1])
+    errors = []
+    for one, field in found:
+        if solver.sampling == "cell":
+            side = np.sqrt(field.area)
+            exact = cell_means(asked.traction.at, field.x, field.y, (side, side))
+        else:
+            exact = asked.traction.at(field.x, field.y)
+        off = np.abs(field.value - exact)
+        if asked.norm == "L2":
+            own = np.sqrt(np.sum(field.area * exact**2))
+            error = float(np.sqrt(np.sum(field.area * off**2)) / own) if own > 0 else math.inf
+        else:
+            error = float(np.sum(field.area * off) / asked.scale)
+        errors.append((one.h, error))
+    finest, field = found[-1][0].label, found[-1][1]
+    yield _judged(key, finest, None, None, errors, grade, asked.uncertainty, "")
+    yield from _convergence(key, solver, errors, asked.uncertainty)
+    yield from _of_areas(asked, field, finest, max(grade.bound, Grade.B.bound))
+
+
+def _of_areas(asked: AskedField, field: Field, level: str, bound: float) -> Iterator[Row]:
+    """Whether points stand for those around them, and for all of the contact: else they carry the
+    load but not where it is, or have only the places that are easy."""
+    for name, sums, has, should, scale, least in sums_of(asked, field):
+        missed, allowed = abs(has - should) / scale, max(bound, least)
+        if missed <= allowed:
+            status, because = Status.PASS, sums
+        else:
+            of = f"{has / should:.4g} of what it should be" if should else f"{has:.3g}, not 0"
+            status, because = Status.FAIL, f"{sums}: {of}"
+        yield Row(
+            f"{asked.quantity}: {name}", asked.step, level, status, because,
+            has, should, missed, allowed,
+        )  # fmt: skip
+
+
+def _of_points(
+    asked: AskedPoints, solver: Solver, levels: Sequence[Answer], grade: Grade
+) -> Iterator[Row]:
+    key = asked.quantity, asked.step
+    found = [(one, np.asarray(one.points[key])) for one in levels if key in one.points]
+    if not found:
+        return
+    errors = []
+    for one, values in found:
+        if values.shape != asked.values.shape:
+            raise ValueError(
+                f"{asked.quantity} of step {asked.step}: {values.size} numbers, expected one at "
+                f"each of the {len(asked.places)} places"
+            )
+        errors.append((one.h, float(np.max(np.abs(values - asked.values)) / asked.scale)))
+    yield from _not_on_finest(key, found[-1][0], levels[-1])
+    yield _judged(key, found[-1][0].label, None, None, errors, grade, asked.uncertainty, "")
+    yield from _convergence(key, solver, errors, asked.uncertainty)
+
+
+def _not_on_finest(key: Key, judged: Answer, finest: Answer) -> Iterator[Row]:
+    """Or who left out the worst would be judged by the rest."""
+    quantity, step = key
+    if not finest.has(key) and not {0, step} & finest.gave_up.keys():
+        yield Row(f"{quantity}: finest level", step, finest.label, Status.INCONCLUSIVE,
+                  f"not answered there; judged on level {judged.label}")  # fmt: skip
+
+
+def _judged(
+    key: Key,
+    level: str,
+    value: float | None,
+    reference: float | None,
+    errors: Sequence[tuple[float, float]],
+    grade: Grade,
+    uncertainty: float,
+    hint: str,
+) -> Row:
+    """The error of the finest level against a bound, with twice the reference's uncertainty."""
+    error, wide = errors[-1][1], 2 * uncertainty
+    if error + wide <= grade.bound:
+        status, because = Status.PASS, f"within class {grade}"
+    elif math.isfinite(error) and error - wide <= grade.bound:
+        status, because = Status.INCONCLUSIVE, "the reference is not certain enough to tell"
+    else:
+        status, because = Status.FAIL, f"beyond class {grade}{hint}"
+        because = because if math.isfinite(error) else "no finite number"
+    met = next((one for one in Grade if error + wide <= one.bound), None)
+    fit = _order(errors, wide)
+    return Row(
+        *key, level, status, because, value, reference, error, grade.bound, met, fit, tuple(errors)
+    )
+
+
+def _convergence(
+    key: Key, solver: Solver, errors: Sequence[tuple[float, float]], uncertainty: float
+) -> Iterator[Row]:
+    """Whether refinement stalls, and the order where one is claimed."""
+    quantity, step = key
+    fit = _order(errors, 2 * uncertainty)
+    if fit is None:
+        return
+    order, half = fit
+    told = f"order {order_text(fit)}"
+    if errors[-1][1] > Grade.A.bound and order + half < STALLS_BELOW:
+        yield Row(f"{quantity}: stalls", step, WHOLE, Status.FAIL,
+                  f"order below {order + half:.2f}: finer is hardly better", order=fit)  # fmt: skip
+    claimed = solver.claimed_orders.get(quantity)
+    if claimed is None:
+        return
+    least = claimed - ORDER_OFF
+    if order - half >= least:
+        status = Status.PASS
+    else:
+        status = Status.FAIL if order + half < least else Status.INCONCLUSIVE
+    yield Row(f"{quantity}: order", step, WHOLE, status, f"{told}, claimed {claimed:g}", order=fit)
+
+
+def _order(errors: Sequence[tuple[float, float]], wide: float) -> tuple[float, float] | None:
+    """Of the errors that the reference can tell from zero; None of too few levels."""
+    told = [(h, e) for h, e in errors if e > 1.5 * wide and e > 0 and math.isfinite(e)]
+    if len({h for h, _ in told}) < FEWEST_LEVELS:
+        return None
+    fit = observed_order(*zip(*told, strict=True))
+    return fit.order, fit.half_width
+
+
+def _known(asked: AskedValue, errors: Sequence[tuple[float, float]]) -> bool:
+    """Whether every level has an answer that no discretisation finds by itself."""
+    exact = max(KNOWN, 3 * asked.uncertainty)
+    return asked.limit is not None and len(errors) > 1 and all(e < exact for _, e in errors)
+
+
+def _hint(value: float, asked: AskedValue) -> str:
+    """What a slip would explain: a sign, a half, a unit."""
+    slips = {"with the other sign": -1.0, "halved": 0.5, "doubled": 2.0}
+    slips |= {f"times 1e{n}": 10.0**n for n in (-9, -6, -3, 3, 6, 9)}
+    for words, factor in slips.items():
+        if abs(factor * value - asked.value) <= Grade.C.bound * asked.scale:
+            return f"; {words} it would be within class C"
+    return ""
+
 
 PASSED, ACCURACY, GAVE_UP, INCONCLUSIVE = 0, 1, 3, 6  # exit codes
 COLOURS = {"A": "brightgreen", "B": "green", "C": "yellowgreen"}

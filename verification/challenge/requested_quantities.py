@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 from math import nan
 from typing import Any, TypeVar
 
 import numpy as np
+from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from contact_scene import Body, Scene
@@ -18,9 +20,170 @@ from contact_scene.stepping.load_path import (
     ControlKind,
     LoadRamp,
 )
-from verification.challenge.half_ellipsoids import HalfEllipsoids
-from verification.challenge.round_table import RoundTable
-from verification.problems.reference import ROUNDING
+from verification.problems.paper_scene import HERTZ
+from verification.problems.problem import ROUNDING
+
+Field = NDArray[np.float64]
+
+NODES = 64
+
+
+@dataclass(frozen=True)
+class Half:
+    """One term.
+
+    semi_axes    b_x, b_y [length]
+    coefficient  of the traction [force/length²]
+    series       c_0, c_1, …
+    """
+
+    semi_axes: tuple[float, float]
+    coefficient: float
+    series: tuple[float, ...] = (1.0,)
+
+    def __call__(self, x: Field, y: Field) -> Field:
+        """At positions [length]."""
+        b_x, b_y = self.semi_axes
+        s = np.minimum((x / b_x) ** 2 + (y / b_y) ** 2, 1.0)
+        shape = np.sqrt(1 - s) * chebyshev.chebval(2 * s - 1, self.series)
+        return np.asarray(self.coefficient * shape)
+
+    @property
+    def total(self) -> float:
+        """Its integral [force]."""
+        return self._integral(0)
+
+    @property
+    def spread(self) -> float:
+        """Its integral times x² + y² [force*length²]."""
+        return 0.5 * (self.semi_axes[0] ** 2 + self.semi_axes[1] ** 2) * self._integral(1)
+
+    def _integral(self, power: int) -> float:
+        """π b_x b_y ∫ s^(2 power) √(1 - s²) Σ c_k T_k ds²."""
+        nodes, weights = np.polynomial.legendre.leggauss(NODES)
+        root = 0.5 * (nodes + 1)  # √(1 - s²): smooth in it
+        shape = 2 * root**2 * chebyshev.chebval(1 - 2 * root**2, self.series)
+        shape *= (1 - root**2) ** power
+        b_x, b_y = self.semi_axes
+        return float(np.pi * b_x * b_y * self.coefficient * np.sum(0.5 * weights * shape))
+
+
+@dataclass(frozen=True)
+class HalfEllipsoids:
+    """The sum of terms."""
+
+    terms: tuple[Half, ...]
+
+    def at(self, x: Field, y: Field) -> Field:
+        """At positions [length]."""
+        return np.asarray(sum(term(x, y) for term in self.terms))
+
+    @property
+    def total(self) -> float:
+        """The force carried."""
+        return sum(term.total for term in self.terms)
+
+    @property
+    def spread(self) -> float:
+        """The force carried, times the square of its distance from the axis [force*length²]."""
+        return sum(term.spread for term in self.terms)
+
+    @property
+    def semi_axes(self) -> tuple[float, float]:
+        """Of the largest term, in which the others lie [length]."""
+        return max(term.semi_axes for term in self.terms)
+
+    def document(self) -> dict[str, Any]:
+        """As it is written for others."""
+        terms = [
+            {"b": list(t.semi_axes), "coef": t.coefficient, "cheb": list(t.series)}
+            for t in self.terms
+        ]
+        return {"halves": terms}
+
+
+def round_halves(*terms: tuple[float, float]) -> HalfEllipsoids:
+    """From radii and coefficients."""
+    return HalfEllipsoids(tuple(Half((b, b), coefficient) for b, coefficient in terms))
+
+
+def fitted(pressure: Callable[[Field], Field], radius: float, terms: int) -> HalfEllipsoids:
+    """A round pressure with a square-root edge as one term with a series, by interpolation.
+
+    pressure  at distances from the axis [force/length²]
+    """
+    t = chebyshev.chebpts1(terms)
+    r = radius * np.sqrt(0.5 * (t + 1))
+    scale = float(pressure(np.zeros(1))[0])
+    values = pressure(r) / (scale * np.sqrt(0.5 * (1 - t)))
+    series = chebyshev.chebfit(t, values, terms - 1)
+    return HalfEllipsoids((Half((radius, radius), scale, tuple(float(c) for c in series)),))
+
+
+INTERVALS = 200  # of each part between two kinks
+
+
+@dataclass(frozen=True, eq=False)
+class RoundTable:
+    """It stands for a `HalfEllipsoids` where no series of half-ellipsoids does.
+
+    radii   from 0 to the edge [length]
+    values  there [force/length²]
+    """
+
+    radii: Field
+    values: Field
+
+    def at(self, x: Field, y: Field) -> Field:
+        """At positions [length]."""
+        return np.interp(np.hypot(x, y), self.radii, self.values, right=0.0)
+
+    @property
+    def total(self) -> float:
+        """Its integral over the surface [force]."""
+        return self._integral(1)
+
+    @property
+    def spread(self) -> float:
+        """The same, times the square of the distance from the axis [force*length²]."""
+        return self._integral(3)
+
+    @property
+    def torque(self) -> float:
+        """The same, times the distance: of a traction around the axis [force*length]."""
+        return self._integral(2)
+
+    def _integral(self, power: int) -> float:
+        """2π ∫ q r^power dr by three points of Gauss, exact for a line times r³."""
+        nodes, weights = np.polynomial.legendre.leggauss(3)
+        width, middle = np.diff(self.radii), 0.5 * (self.radii[1:] + self.radii[:-1])
+        r = middle[:, None] + 0.5 * width[:, None] * nodes
+        q = np.interp(r, self.radii, self.values)
+        return float(np.pi * np.sum(width[:, None] * weights * q * r**power))
+
+    @property
+    def semi_axes(self) -> tuple[float, float]:
+        """The largest radius, twice [length]."""
+        return float(self.radii[-1]), float(self.radii[-1])
+
+    def document(self) -> dict[str, Any]:
+        """As it is written for others."""
+        return {"radii": self.radii.tolist(), "values": self.values.tolist()}
+
+
+def tabulated(traction: Callable[[Field], Field], *kinks: float) -> RoundTable:
+    """From a function of the radius, close where it is steep.
+
+    kinks  radii where it or its slope jumps, the last is the edge [length]
+    """
+    crowded = 0.5 * (1 - np.cos(np.pi * np.arange(INTERVALS + 1) / INTERVALS))  # at both ends
+    parts, start = [np.zeros(1)], 0.0
+    for end in kinks:
+        parts.append((start + (end - start) * crowded)[1:])
+        start = end
+    radii = np.concatenate(parts)
+    return RoundTable(radii, traction(radii))
+
 
 Value = TypeVar("Value", float, tuple[float, float])
 DIGITS = 10  # of the references, by which versions are told apart
@@ -229,3 +392,32 @@ def _digits(value: Any) -> Any:
     if isinstance(value, dict):
         return {name: _digits(one) for name, one in value.items()}
     return value
+
+
+# Sides of windows in which all of it fits, round on purpose: what is a multiple of the contact
+# radius knows the answer [length].
+SMALL, LARGE = 1.2e-3, 2.4e-3
+CLOSED = 1e-12  # of closed and semi-closed forms, relative
+
+
+def approach(value: float, uncertainty: float = CLOSED, step: int = 1) -> AskedValue:
+    """Relative to itself."""
+    meaning = "approach of points far from the contact in both bodies; positive when pressed"
+    return AskedValue("approach", step, "m", meaning, value, value, "itself",
+                      uncertainty=uncertainty, limit=2)  # fmt: skip
+
+
+def contact_radius(value: float, uncertainty: float = CLOSED) -> AskedValue:
+    """Relative to itself."""
+    meaning = "radius of the contact, or √(contact area / π)"
+    return AskedValue("contact_radius", 1, "m", meaning, value, value, "itself",
+                      uncertainty=uncertainty, limit=1)  # fmt: skip
+
+
+def stick_radius(value: float, step: int, uncertainty: float = CLOSED) -> AskedValue:
+    """Relative to Hertz's contact radius."""
+    return AskedValue(
+        "stick_radius", step, "m", "radius of the zone that has not slipped since the last turn",
+        value, HERTZ.contact_radius, "the contact radius", Grade.C, required=False,
+        uncertainty=uncertainty, limit=1,
+    )  # fmt: skip

@@ -14,8 +14,7 @@ from math import pi
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from verification.closed_forms.quadrature import unit_gauss
-from verification.closed_forms.validity import require_positive
+from verification.closed_forms.validity import require_positive, unit_gauss
 
 RadialFunction = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 

@@ -10,8 +10,10 @@ up to 7.5°, and stick vanishes between 0.987 and 0.9996 µW rather than at µW.
 nu = 0, and with nu = 0.3 in a band of 1–5 %. `slip` is therefore given for nu = 0 only.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import copysign, expm1, log1p, pi
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -110,3 +112,98 @@ class PartialSlip:
     @property
     def _force_ratio(self) -> float:
         return min(abs(self.tangential_force) / self.friction_limit, 1.0)
+
+
+class NormalContact(Protocol):
+    """What the superposition asks of a normal contact; positions are (r) or (x, y)."""
+
+    @property
+    def load(self) -> float:
+        """Normal load [force]."""
+
+    @property
+    def approach(self) -> float:
+        """Approach of distant points [length]."""
+
+    @property
+    def pressure(self) -> Callable[..., NDArray[np.float64]]:
+        """Pressure at a position [force/length²]."""
+
+    @property
+    def gap(self) -> Callable[..., NDArray[np.float64]]:
+        """Deformed gap at a position [length]."""
+
+
+@dataclass(frozen=True)
+class Superposition:
+    """Difference of two normal contacts, times µ; build with `superpose`.
+
+    full                  contact under the load W
+    stick                 contact under W - |T|/µ; its area is the stick zone
+    friction_coefficient  µ
+    modulus_ratio         E*/G*
+    tangential_force      T [force]
+    """
+
+    full: NormalContact
+    stick: NormalContact
+    friction_coefficient: float
+    modulus_ratio: float
+    tangential_force: float
+
+    @property
+    def shift(self) -> float:
+        """Tangential shift of the indenter, µ (E*/G*) times the difference in approach [length]."""
+        return self._signed * self.modulus_ratio * (self.full.approach - self.stick.approach)
+
+    def shear(self, *position: ArrayLike) -> NDArray[np.float64]:
+        """Shear traction on the lower body at (r) or (x, y) [force/length²].
+
+        Under an apex both pressures are infinite; ask at a distance from it.
+        """
+        return np.asarray(
+            self._signed * (self.full.pressure(*position) - self.stick.pressure(*position))
+        )
+
+    def slip(self, *position: ArrayLike) -> NDArray[np.float64]:
+        """Slip of the lower surface relative to the indenter, nu = 0, inside the contact [length].
+
+        It opposes the shear and is the gap left by the stick contact, scaled by µ E*/G*.
+        """
+        opened = self.stick.gap(*position) - self.full.gap(*position)
+        return np.asarray(-self._signed * self.modulus_ratio * opened)
+
+    @property
+    def _signed(self) -> float:
+        return copysign(self.friction_coefficient, self.tangential_force)
+
+
+def superpose(
+    contact_under_load: Callable[[float], NormalContact],
+    load: float,
+    tangential_force: float,
+    friction_coefficient: float,
+    modulus_ratio: float,
+) -> Superposition:
+    """Partial slip of the contact that `contact_under_load` describes.
+
+    contact_under_load    normal load [force], from zero, to the contact it makes
+    load                  W > 0 [force]
+    tangential_force      T, |T| <= µW [force]
+    friction_coefficient  µ > 0
+    modulus_ratio         E*/G* > 0
+
+    Raises ValueError when |T| > µW.
+    """
+    require_positive(
+        load=load, friction_coefficient=friction_coefficient, modulus_ratio=modulus_ratio
+    )
+    require_within_friction_limit(tangential_force, friction_coefficient, load)
+    stick_load = max(load - abs(tangential_force) / friction_coefficient, 0.0)
+    return Superposition(
+        contact_under_load(load),
+        contact_under_load(stick_load),
+        friction_coefficient,
+        modulus_ratio,
+        tangential_force,
+    )

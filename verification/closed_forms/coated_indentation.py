@@ -23,8 +23,7 @@ from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
-from verification.closed_forms.quadrature import unit_gauss
-from verification.closed_forms.validity import require_positive
+from verification.closed_forms.validity import require_positive, unit_gauss
 
 Array = NDArray[np.float64]
 Compliance = Callable[[Array], Array]

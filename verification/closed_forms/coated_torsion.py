@@ -25,8 +25,7 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 from scipy.special import j1
 
-from verification.closed_forms.quadrature import unit_gauss
-from verification.closed_forms.validity import require_positive
+from verification.closed_forms.validity import require_positive, unit_gauss
 
 Array = NDArray[np.float64]
 

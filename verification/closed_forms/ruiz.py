@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
-from verification.closed_forms.sheared_surface import (
+from verification.closed_forms.huber_stress import (
     stress_by_hertz_pressure,
     stress_by_hertz_shear,
 )

@@ -15,8 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
-from verification.closed_forms.quadrature import unit_gauss
-from verification.closed_forms.validity import require_non_negative, require_positive
+from verification.closed_forms.validity import require_non_negative, require_positive, unit_gauss
 
 SERIES_BELOW = 0.3
 SERIES_TERMS = 20

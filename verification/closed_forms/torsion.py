@@ -12,8 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 from scipy.special import ellipe, elliprd
 
-from verification.closed_forms.quadrature import unit_gauss
-from verification.closed_forms.validity import require_positive
+from verification.closed_forms.validity import require_positive, unit_gauss
 
 ORDER = 120
 

@@ -1,6 +1,10 @@
 """Range of validity: arguments outside it are refused by name."""
 
 import math
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
 
 # µW computed on two paths differs in the last digits; that much excess counts as T = µW.
 ROUNDING = 1e-14
@@ -30,3 +34,13 @@ def require_within_friction_limit(
             f"tangential force {tangential_force!r} exceeds friction limit {limit!r} "
             f"(= {friction_coefficient!r} * {load!r}): gross sliding, no static solution"
         )
+
+
+@cache
+def unit_gauss(order: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Nodes and weights with sum(weights * f(nodes)) = integral of f from 0 to 1."""
+    nodes, weights = np.polynomial.legendre.leggauss(order)
+    nodes, weights = (nodes + 1) / 2, weights / 2
+    nodes.setflags(write=False)
+    weights.setflags(write=False)
+    return nodes, weights

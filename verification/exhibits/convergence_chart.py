@@ -5,8 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from verification.convergence.error_line import ErrorLine, by_size, error_line
-from verification.convergence.observed_order import ObservedOrder
+from verification.convergence.observed_order import ErrorLine, ObservedOrder, by_size, error_line
 from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
 
 Errors = Mapping[str, Sequence[float]]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from verification.judging.order_of_convergence import OrderOfChange, OrderOfConvergence
 from verification.judging.run import AnyRun
-from verification.problems.reference import Reference, ReferenceKind
+from verification.problems.problem import Reference, ReferenceKind
 
 if TYPE_CHECKING:
     from verification.exhibits.chart import Chart

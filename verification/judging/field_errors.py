@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from verification import norms
-from verification.cell_means import cell_means
+from verification.norms import cell_means
 from verification.observed import ring_errors
 from verification.observed.ring_errors import judged_within
 from verification.observed.unseen import is_corrected

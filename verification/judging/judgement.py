@@ -12,15 +12,24 @@ from contact_scene.reading.scene_text import describe
 from contact_scene.solver_errors import SolverError
 from verification.judging.case import Case, Derived, Finding, Quantity
 from verification.judging.coverage import error_of, stated_errors
-from verification.judging.law_verdicts import judge_laws
 from verification.judging.outcome import (
+    IMBALANCE,
+    VIOLATION,
     CaseOutcome,
     FindingRecord,
     RunRecord,
     SceneRecord,
     Verdict,
 )
-from verification.judging.run import AnyRun, RadiiRun, Run, SectionRun
+from verification.judging.run import (
+    OTHER_NORMS,
+    OVER_ANGLES,
+    OVER_RINGS,
+    AnyRun,
+    RadiiRun,
+    Run,
+    SectionRun,
+)
 from verification.judging.verdicts import (
     finite,
     judge_check,
@@ -28,9 +37,52 @@ from verification.judging.verdicts import (
     judge_order,
     judge_quantity,
     judge_residuals,
+    judge_worst,
     unsolved,
 )
+from verification.observed.laws import observed
+from verification.observed.prescribed import Imbalance
+from verification.observed.unseen import Unseen, unseen
 from verification.quantities import largest_residual
+
+WITHIN = (
+    f"on cells and elements within {OTHER_NORMS:g} times the tolerance, as the norms of the solver "
+    f"are others; on radii within what sums over rings and angles leave: "
+    f"{OVER_RINGS:g}, or {OVER_ANGLES:g} where the solver interpolates between angles"
+)
+
+
+def judge_laws(case: Case, results: Mapping[str, Any]) -> tuple[Verdict, ...]:
+    """The largest violation and the largest imbalance of all runs that were solved, each against
+    the tolerance of its run."""
+    found = {run.label: observed(results[run.label]) for run in case.runs if run.label in results}
+    violated = {label: violation for label, (violation, _) in found.items()}
+    missing = {label: energy for label, (_, energy) in found.items() if energy is not None}
+    gaps = {label: unseen(results[label]) for label in found}
+    but_slip = sum(gaps.values(), Unseen()).of_slip
+    verdicts = [
+        judge_worst(
+            case, violated, VIOLATION, "largest violation of a law of contact and friction in any "
+            f"increment of the {{runs}} run(s); it is in this one{but_slip}",
+            "gap, overlap, friction, slip against shear, forces, moments and energy lost, found "
+            "again in the fields",
+            WITHIN, lambda run: run.laws,
+        )
+    ]  # fmt: skip
+    if missing:
+        but_energy = sum((gaps[label] for label in missing), Unseen()).of_energy
+        verdicts.append(
+            judge_worst(
+                case, missing, IMBALANCE, "largest part of the energy that any increment cannot "
+                f"account for of the {{runs}} run(s); it is in this one{{where}}{but_energy}",
+                "first law: work put in is stored, dissipated or left open by the increment",
+                f"residuals within the tolerance move the energy by a few times as much; {WITHIN}",
+                lambda run: run.energy,
+                {label: f", {e.terms}" for label, e in missing.items() if isinstance(e, Imbalance)},
+            )
+        )  # fmt: skip
+    return tuple(verdicts)
+
 
 Results = Mapping[str, Any]
 Solve = Callable[[AnyRun], Any]

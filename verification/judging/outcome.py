@@ -1,5 +1,7 @@
 """What came out of a case: plain values that go into `report.json` as they are."""
 
+from __future__ import annotations
+
 import math
 import sys
 from enum import StrEnum
@@ -9,12 +11,130 @@ from pydantic import Field, model_validator
 
 from contact_scene.quantities.summary import EffectSummary
 from contact_scene.reading.description import Description
-from verification.convergence.observed_order import ORDER_WIDTH, order_is_kept
+from contact_scene.reading.engineering_units import engineering_unit
+from verification.convergence.observed_order import ILLEGIBLE, ORDER_WIDTH, order_is_kept
 from verification.exhibits.chart import Chart
-from verification.exhibits.table import Table
-from verification.judging.change import Change, CounterChange, Gone, Origin
+from verification.exhibits.table import NOT_FINITE, Table, plain, value_text
 from verification.judging.order_of_convergence import Followed, Refinement
 from verification.solver import Method, Solver
+
+SHORT_COMMIT = 7
+
+
+class ChangeKind(StrEnum):
+    """How a number compares with the recorded one."""
+
+    UNCHANGED = "unchanged"
+    """Also what other processors and versions leave: a millionth of what errors are divided by, or
+    a hundredth of what is allowed; of counts, a twentieth over a case."""
+
+    DRIFT = "drift"
+    """Differs, and is still within what its reference allows, or has none."""
+
+    BETTER = "better"
+    """The error has fallen far without a reason on record."""
+
+    WORSE = "worse"
+    """The error has grown by half or more, and by more than the noise of machines, though it is
+    still allowed."""
+
+    DEARER = "dearer"
+    """More iterations, convolutions or factorisations for the same."""
+
+    OUTSIDE = "outside"
+    """Fails, and did not when it was recorded; or has moved away from its reference by more than is
+    allowed at all. An order that can no longer be judged is held to what was allowed when it was
+    recorded."""
+
+    NEW = "new"
+
+    GONE = "gone"
+    """Recorded, and no longer measured: deletions are accepted with a reason, too."""
+
+    @property
+    def matters(self) -> bool:
+        """Whether the baseline does not describe the number any more."""
+        return self is not ChangeKind.UNCHANGED
+
+    @property
+    def regresses(self) -> bool:
+        """Whether it must be accepted with a reason before the commit passes."""
+        return self in (
+            ChangeKind.OUTSIDE, ChangeKind.WORSE, ChangeKind.DEARER, ChangeKind.GONE
+        )  # fmt: skip
+
+
+class Change(Description):
+    """A quantity or finding beside the recorded one."""
+
+    kind: ChangeKind
+    recorded: bool = True
+    """Whether there is anything to compare with."""
+
+    was: float | None = None
+    """Null if nothing was recorded, or a number that is not finite."""
+
+    moved: float | None = None
+    """|value - was| as a part of the allowed error; null where nothing is allowed or known."""
+
+    since: str
+    """Commit that the recorded number is from, as a reader sees it."""
+
+    remark: str = ""
+
+
+class CounterChange(Description):
+    """A count of a case's solves that differs from the recorded one."""
+
+    name: str
+    kind: ChangeKind
+    was: int
+    now: int
+    remark: str = ""
+
+
+class Gone(Description):
+    """What was recorded and is not measured any more."""
+
+    name: str
+    run: str
+    unit: str
+    was: float | None
+
+
+class GoneCase(Description):
+    """A case that was recorded and is not in a report of all cases any more."""
+
+    name: str
+    since: str
+    """Commit that its recording is from, as a reader sees it."""
+
+
+class Origin(Description):
+    """Where the recorded numbers of a case come from."""
+
+    commit: str | None
+    changed: bool
+    """Whether the source differed from that commit."""
+
+    date: str
+    reason: str
+    """Why they were accepted."""
+
+    differs: tuple[str, ...] = ()
+    """What is different now, of processor and versions."""
+
+    @property
+    def name(self) -> str:
+        """The commit as a reader sees it."""
+        return commit_text(self.commit, changed=self.changed)
+
+
+def commit_text(commit: str | None, *, changed: bool) -> str:
+    """A commit in a sentence."""
+    text = "an unknown commit" if commit is None else commit[:SHORT_COMMIT]
+    return f"{text} with changes" if changed else text
+
 
 # Verdicts that any case has.
 SOLVED, RESIDUAL = "solved", "largest_residual"
@@ -109,7 +229,7 @@ class Verdict(Description):
     """Against the recorded value; null if the case has no baseline of this level."""
 
     @model_validator(mode="after")
-    def _states_what_it_measured(self) -> "Verdict":
+    def _states_what_it_measured(self) -> Verdict:
         """A record that was changed by hand, or by a defect, contradicts itself somewhere."""
         problem = _contradiction(self)
         if problem:
@@ -289,7 +409,7 @@ class CaseOutcome(Description):
     """What was recorded and is not measured any more."""
 
     @model_validator(mode="after")
-    def _names_runs_that_it_has(self) -> "CaseOutcome":
+    def _names_runs_that_it_has(self) -> CaseOutcome:
         labels = [run.label for run in self.runs]
         named = [label for verdict in self.verdicts for label in verdict.runs]
         named += [run.planned for run in self.runs if run.planned is not None]
@@ -311,3 +431,87 @@ class CaseOutcome(Description):
         if self.count(Status.FAIL):
             return Status.FAIL
         return Status.INCONCLUSIVE if self.count(Status.INCONCLUSIVE) else Status.PASS
+
+
+SYMBOLS = {Status.PASS: "✓", Status.FAIL: "✗", Status.INCONCLUSIVE: "?"}
+
+
+WORDS = {Status.PASS: "pass", Status.FAIL: "FAIL", Status.INCONCLUSIVE: "inconclusive"}
+
+
+ROUNDING = 1e-12
+
+
+PERCENT_SHOWN_TO = 9.995
+
+
+def clearance_text(verdict: Verdict) -> str:
+    """The error as a part of what is allowed: 45 %, or a multiple if much larger."""
+    part = verdict.clearance
+    if part is None:
+        return "–"
+    if 0 < part < 0.005:
+        return "< 1 %"
+    return f"{100 * part:.0f} %" if part < PERCENT_SHOWN_TO else f"{part:.3g} times"
+
+
+def uncertainty_text(verdict: Verdict) -> str:
+    """The reference's own uncertainty relative to what errors are; empty where it is rounding."""
+    part = (verdict.reference_uncertainty or 0.0) / verdict.scale
+    return f"± {plain(part, 2)}, " if part > ROUNDING else ""
+
+
+def order_text(verdict: Verdict) -> str:
+    """An observed order with its interval; words where that is too wide for a number."""
+    if verdict.value is None or verdict.interval is None:
+        return NOT_FINITE
+    half = verdict.interval
+    if half >= ILLEGIBLE:
+        return "no order can be read"
+    return f"{verdict.value:.2f} ± {f'{half:.2f}' if half >= 0.005 else plain(half, 1)}"
+
+
+def moved_text(change: Change) -> str:
+    """How far a number is from the recorded one, in units of what is allowed."""
+    return "–" if change.moved is None else f"{plain(change.moved, 2)} U"
+
+
+def failure_line(case: str, verdict: Verdict, level: str) -> str:
+    """What failed, where, by how much, since when, and how to see it again."""
+    word = "FAIL" if verdict.status is Status.FAIL else "MOVED"
+    return (
+        f"{word} {case}/{verdict.name} [{verdict.run}]: {failure_text(verdict)}; "
+        f"reproduce: slipstick verify {case} --level {level}"
+    )
+
+
+def failure_text(verdict: Verdict) -> str:
+    """The value, what was expected and allowed, and the recorded value where there is one."""
+    if verdict.name == SOLVED:
+        return verdict.meaning + _was_text(verdict)
+    measured, reference = (
+        value_text(value, verdict.unit) for value in (verdict.value, verdict.reference)
+    )
+    excess = "" if verdict.clearance is None else f" ({verdict.clearance:.2g} U)"
+    return (
+        f"{measured}, expected {reference} ± {_allowed_text(verdict)}{excess}{_was_text(verdict)}"
+    )
+
+
+def _allowed_text(verdict: Verdict) -> str:
+    """What is allowed, in the unit that the value or its reference is shown in."""
+    allowed, unit = verdict.allowed * verdict.scale, verdict.unit
+    if unit in ("", "°"):
+        return plain(allowed, 2) + unit
+    largest = max(abs(verdict.reference), 0.0 if verdict.reference else abs(verdict.value or 0.0))
+    scale = engineering_unit(largest or allowed, unit)
+    return f"{plain(allowed / scale.size, 2)} {scale.name}"
+
+
+def _was_text(verdict: Verdict) -> str:
+    """The recorded value and the commit it is from, where there is one."""
+    change = verdict.regression
+    if change is None or not change.recorded:
+        return ""
+    why = f" ({change.remark})" if verdict.status is Status.INCONCLUSIVE and change.remark else ""
+    return f"; was {value_text(change.was, verdict.unit)} at {change.since}{why}"

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from verification.judging.observable import error_norm
-from verification.observed.radial_profile import along_radii, outward
-from verification.observed.ring_errors import at_radii, judged_within
+from verification.observed.ring_errors import along_radii, at_radii, judged_within, outward
 from verification.problems.cattaneo_mindlin import OVER_LIMIT
 from verification.problems.problem import OVER_PEAK, Problem
 from verification.quantities import shear_of

@@ -7,10 +7,10 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import Any
 
-from verification.convergence.error_line import by_size
 from verification.convergence.observed_order import (
     ORDER_OFF,
     ORDER_WIDTH,
+    by_size,
     numerical_uncertainty,
     observed_order,
 )
@@ -25,7 +25,7 @@ from verification.judging.outcome import (
     order_status,
 )
 from verification.judging.run import AnyRun
-from verification.problems.reference import Reference, ReferenceKind, identity
+from verification.problems.problem import Reference, ReferenceKind, identity
 from verification.quantities import largest_residual
 
 Results = Mapping[str, Any]

@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import semi_analytical
-from verification.observed.surface_energy import surface_imbalance
-from verification.observed.surfaces import surface_violation
+from verification.observed.surfaces import surface_imbalance, surface_violation
 
 
 def observed(result: Any) -> tuple[float, float | None]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,10 +11,7 @@ from contact_scene import ControlKind, Scene
 from contact_scene.rig import prescribed_motions
 
 if TYPE_CHECKING:
-    from contact_scene.stepping.load_path import (
-        ScalarControl,
-        VectorControl,
-    )
+    from contact_scene.stepping.load_path import ScalarControl, VectorControl
 
 
 def missed(scene: Scene, steps: Sequence[Any]) -> Iterator[float]:
@@ -46,3 +43,25 @@ def _missed(
     by_force = control.kind is ControlKind.FORCE
     told, scale = (force, scales[0]) if by_force else (motion, scales[1])
     return float(np.max(np.abs(np.subtract(0.0 if told is None else told, control.end)))) / scale
+
+
+class Imbalance(float):
+    """Difference of two energies of an increment, relative to the largest energy so far.
+
+    terms  the increment, from 1, and the energies, in words
+    """
+
+    terms: str
+
+    def __new__(cls, number: int, largest: float, difference: float, **terms: float) -> Imbalance:
+        """Compare energies [force length] of the increment of this number."""
+        found = super().__new__(cls, abs(difference) / largest)
+        said = (f"{name.replace('_', ' ')} {energy:.6g} J" for name, energy in terms.items())
+        found.terms = f"increment {number}: {', '.join(said)}; difference {difference:.3g} J"
+        return found
+
+
+def largest_of(found: Iterable[float]) -> float:
+    """Return the largest of dimensionless numbers; infinite if one is not finite, 0 without any."""
+    numbers = list(found)
+    return max(numbers, default=0.0) if np.all(np.isfinite(numbers)) else float("inf")

@@ -21,8 +21,7 @@ from scipy.interpolate import CubicSpline
 
 from contact_scene.friction import FRICTIONLESS
 from radial import Increment, Result
-from verification.observed.imbalance import Imbalance, largest_of
-from verification.observed.prescribed import missed
+from verification.observed.prescribed import Imbalance, largest_of, missed
 
 Field = NDArray[np.float64]
 

@@ -7,9 +7,20 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import map_coordinates
+
+from fem_reference import Increment
+from fem_reference.compliance.angular_grid import (
+    AngularGrid,
+    axisymmetric_grid,
+    end_grid,
+    mid_grid,
+)
+from semi_analytical.grid import SurfaceGrid
 
 if TYPE_CHECKING:
     from fem_reference import Increment
+    from fem_reference.compliance.angular_grid import AngularGrid
 
 Field = NDArray[np.float64]
 SHOWN = 1.1  # contact radii
@@ -67,3 +78,71 @@ def judged_within(elements: int) -> float:
     """Part of the contact radius where tractions are judged: 0.9, or less on coarse meshes, where
     the ripple of the last five elements at the edge reaches further in."""
     return min(0.9, 1 - 5 / elements)
+
+
+def tractions_at(
+    increment: Increment, x: Field, y: Field, direction: tuple[float, float] = (1.0, 0.0)
+) -> tuple[Field, Field]:
+    """Shear (2, …) along x and y, and pressure (…), at points of any shape.
+
+    direction  of the tangential load, as the plan has it
+    Linear between rings and the trigonometric polynomial through the points on a ring, as the
+    solution itself; zero beyond the last ring.
+    """
+    r, theta = np.hypot(x, y), np.arctan2(y, x)
+    load = np.arctan2(direction[1], direction[0])
+    grid = _grid_of(increment)
+    rings = len(increment.radii)
+    parts = (increment.shear_radial, increment.shear_circumferential, increment.pressure)
+    values = np.zeros((3, rings, grid.points))
+    for value, part in zip(values, parts, strict=True):
+        if part is not None:
+            value[:] = part.reshape(rings, -1)
+    amplitudes = [_between_rings(f, increment.radii, r.ravel()) for f in grid.amplitudes(values)]
+    cosines, sines = grid.modes((theta - load).ravel())
+    q_r, q_theta, p = (
+        np.sum(f * waves.T, axis=1).reshape(r.shape)
+        for f, waves in zip(amplitudes, (cosines, sines, cosines), strict=True)
+    )
+    q = np.stack([q_r * np.cos(theta) - q_theta * np.sin(theta),
+                  q_r * np.sin(theta) + q_theta * np.cos(theta)])  # fmt: skip
+    if increment.shear_along_load is not None:
+        f = np.interp(r, increment.radii, increment.shear_along_load, right=0.0)
+        q = q + np.multiply.outer(np.array(direction), f)
+    return q, p
+
+
+def _grid_of(increment: Increment) -> AngularGrid:
+
+    if increment.angles is None:
+        return axisymmetric_grid()
+    points = len(increment.angles)
+    return end_grid(points - 1) if increment.angles[0] == 0 else mid_grid(points)
+
+
+def _between_rings(amplitudes: Field, radii: Field, r: Field) -> Field:
+    """Amplitudes (points, harmonics) at radii r."""
+    return np.stack([np.interp(r, radii, f, right=0.0) for f in amplitudes.T], axis=1)
+
+
+DIRECTIONS = 16
+
+
+def outward(shear: Field, grid: SurfaceGrid) -> Field:
+    """Component away from the axis (nx, ny) of a shear (2, nx, ny)."""
+    x, y = grid.coordinates()
+    r = np.hypot(x, y)
+    return np.asarray((shear[0] * x + shear[1] * y) / np.where(r > 0, r, 1.0))
+
+
+def along_radii(field: Field, grid: SurfaceGrid, r: Field) -> Field:
+    """Values (distances, directions) at distances r from the axis, in 16 directions.
+
+    field  (nx, ny), not negative, falling like a square root towards the edge of the contact
+
+    The square of such a field is nearly linear at the edge, so that is interpolated.
+    """
+    angle = (np.arange(DIRECTIONS) + 0.5) * 2 * np.pi / DIRECTIONS
+    x, y = r[:, None] * np.cos(angle), r[:, None] * np.sin(angle)
+    at = [(x - grid.x[0]) / grid.spacing[0], (y - grid.y[0]) / grid.spacing[1]]
+    return np.asarray(np.sqrt(map_coordinates(np.maximum(field, 0.0) ** 2, at, order=1)))

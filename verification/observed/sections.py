@@ -13,16 +13,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_reference import Increment, Path, Result
-from verification.observed.imbalance import largest_of
-from verification.observed.prescribed import missed
+from verification.observed.prescribed import largest_of, missed
 from verification.observed.rings import Rings
-from verification.observed.section_energy import EnergeticState, energy_missing
-from verification.observed.spring_states import spring_stiffness
 from verification.observed.springs import (
+    EnergeticState,
+    energy_missing,
     energy_won,
     least_slip,
     observed_springs,
     other_than_motion,
+    spring_stiffness,
 )
 
 Field = NDArray[np.float64]

@@ -8,17 +8,245 @@ limits of p and λ together.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fem_reference import Increment, Result
-from verification.observed.section_energy import EnergeticState
-from verification.observed.spring_states import SpringState, SpringSurface
+from contact_scene import CoulombFriction, IsotropicMaterial
+from fem_reference import Increment, Path, Result
+from fem_reference.compliance.gauss_points import gauss_points
+from verification.observed.prescribed import Imbalance
+from verification.observed.rings import along_load, model_of, section_radii
 from verification.observed.surfaces import LEAST_SLIP
 
 Field = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class EnergeticState:
+    """An increment as its energy sees it; q, passed and slip (components, points).
+
+    weights     area of the points [length^2]
+    stored      in the bodies, and in springs that obey no other law [force length]
+    undeformed  gap before any load [length]
+    limit       of friction [force/length^2]
+    gap         what the motion of the indenter leaves between the surfaces [length]
+    passed      motion of the body's particles past the indenter's since the start [length]; None
+                where undefined
+    slip        as it is told [length]; less than the motion where particles first met on the way
+    yields      whether springs take up what is left of overlap and motion
+    """
+
+    told: Increment
+    weights: Field
+    stored: float
+    undeformed: Field
+    pressure: Field
+    gap: Field
+    shear: Field
+    limit: Field
+    passed: Field | None
+    slip: Field
+    yields: bool = False
+
+
+def energy_missing(states: Sequence[EnergeticState]) -> Iterator[Imbalance]:
+    """What any increment cannot account for, or tells otherwise, over the largest energy so far."""
+    before, worked, lost = None, 0.0, 0.0
+    largest = 0.0
+    for number, state in enumerate(states, start=1):
+        work, told = state.told.trapezoidal_work, state.told.dissipated_energy
+        dissipated = told or 0.0
+        if work is None or state.passed is None or (np.any(state.shear) and told is None):
+            return  # the motion is undefined, and with it all that follows
+        largest = max(largest, *(abs(e) for e in (state.stored, work, dissipated)))
+        alone = state.told.elastic_energy
+        if alone is not None and state.told.overlap is None:
+            difference = alone - state.stored
+            yield Imbalance(number, largest, difference, stored=state.stored, stated=alone)
+        if state.told.halvings == 0:  # else there are states in between
+            spent = work - worked, dissipated - lost
+            for difference, terms in _missing(before, state, *spent):
+                yield Imbalance(number, largest, difference, **terms)
+        before, worked, lost = state, work, dissipated
+
+
+def _missing(
+    before: EnergeticState | None, after: EnergeticState, work: float, dissipated: float
+) -> Iterator[tuple[float, dict[str, float]]]:
+    start = before or _at_rest(after)
+    assert start.passed is not None
+    assert after.passed is not None
+    w, p, q = after.weights, (start.pressure, after.pressure), (start.shear, after.shear)
+    passed = after.passed - start.passed
+    slipped, limits = after.slip - start.slip, start.limit + after.limit
+    # Along the shear, which slip opposes, and as large as the mean of the limits; what parts may
+    # have stuck until then, and loses half its shear at the start along its way.
+    size = np.abs(np.hypot.reduce(q[1], axis=0))
+    along = np.divide(q[1], size, out=np.zeros_like(q[1]), where=size > 0)
+    lost = -0.5 * limits * np.sum(along * slipped, axis=0)
+    parts = (p[0] > 0) & (p[1] == 0)
+    lost[parts] = 0.5 * (np.hypot.reduce(q[0], axis=0) * np.hypot.reduce(slipped, axis=0))[parts]
+    own = float(np.sum(w * lost))
+    closing = 0.5 * w * (p[1] * start.gap - p[0] * after.gap)
+    if after.yields:
+        closing = closing + 0.5 * w * (p[0] * start.gap - p[1] * after.gap)
+    else:
+        # What gap is left in a lasting contact is missing.
+        closing = closing[(p[0] > 0) != (p[1] > 0)]
+    turning = -own - 0.5 * float(np.sum(w * (q[0] + q[1]) * passed))
+    stored, unresolved = after.stored - start.stored, float(np.sum(closing)) + turning
+    terms = {"work": work, "stored": stored, "dissipated": own, "unresolved": unresolved}
+    yield work - stored - own - unresolved, terms
+    yield dissipated - own, {"dissipated": own, "stated": dissipated}
+
+
+def _at_rest(state: EnergeticState) -> EnergeticState:
+    """Before first touch, on the points of a state."""
+    nothing, still = np.zeros_like(state.pressure), np.zeros_like(state.shear)
+    return EnergeticState(
+        state.told, state.weights, 0.0, state.undeformed, nothing, state.undeformed, still, nothing,
+        still, still,
+    )  # fmt: skip
+
+
+def spring_stiffness(result: Result, element: float) -> float:
+    """ε = c E*/h, E* of the outermost materials [force/length^3].
+
+    element  length of a contact edge [length]
+    """
+    softness = 0.0
+    for body in (result.scene.body, result.scene.indenter):
+        outermost = body.layers[0].material if body.layers else body.material
+        if isinstance(outermost, IsotropicMaterial):
+            softness += (1 - outermost.poisson_ratio**2) / outermost.young_modulus
+    return result.discretisation.penalty / (softness * element)
+
+
+@dataclass(frozen=True)
+class SpringSurface:
+    """Gauss points, what forces on them displace, and the springs.
+
+    by_force  (n, n) per component of displacement and force, "z", "t": normal, tangential
+    moves     how a unit of the indenter's shift or twist moves its points along the shear: 1, r
+              [length], or 0
+    twists    whether it is a twist
+    along     unit vector of the load
+    """
+
+    weights: Field
+    gap: Field
+    by_force: dict[str, Field]
+    moves: Field
+    twists: bool
+    along: tuple[float, float]
+    stiffness: float
+    friction: CoulombFriction
+
+    @classmethod
+    def of(cls, result: Result) -> SpringSurface:
+        """Of the increments of a result."""
+        radii, nodes = result.increments[-1].radii, section_radii(result)
+        middle = float(radii[0] + radii[2]) / 2  # of the first element
+        model = model_of(result, middle / float(nodes[1]))
+        points = gauss_points(model.radii, model.rim)
+        path = result.plan.path
+        pressing = model.compliance(0).matrix
+        blocks = {"zz": pressing[1, :, 1]}
+        if path is Path.PRESSING_WITH_FRICTION:
+            blocks |= {"zt": pressing[1, :, 0], "tz": pressing[0, :, 1], "tt": pressing[0, :, 0]}
+        elif path is Path.SHEARING:
+            blocks["tt"] = along_load(model)
+        elif path is Path.TWISTING:
+            blocks["tt"] = model.torsion().matrix[0, :, 0]
+        moves = {Path.SHEARING: np.ones_like(points.radii), Path.TWISTING: points.radii}
+        by_force = {
+            name: points.compliance(block) / points.weights[:, None]
+            for name, block in blocks.items()
+        }
+        return cls(
+            weights=2 * np.pi * points.weights,
+            gap=model.gap(points.radii),
+            by_force=by_force,
+            moves=moves.get(path, np.zeros_like(points.radii)),
+            twists=path is Path.TWISTING,
+            along=result.plan.direction,
+            stiffness=spring_stiffness(result, float(model.radii[2])),
+            friction=model.friction,
+        )
+
+    def displaced(self, component: str, p: Field, q: Field | None) -> Field:
+        """By pressure and shear [length]."""
+        nothing = np.zeros((len(p), len(p)))
+        by_shear = 0.0 if q is None else self.by_force.get(component + "t", nothing) @ q
+        return np.asarray(self.by_force.get(component + "z", nothing) @ p + by_shear)
+
+    def motion(self, told: Increment) -> float | None:
+        """Shift of the indenter along the load [length], or its twist; None where undefined."""
+        if self.twists:
+            return told.twist
+        shift = told.tangential_shift
+        return None if shift is None else float(np.dot(shift, self.along))
+
+    def force(self, told: Increment) -> float:
+        """Along the load [force], or the torque [force length]."""
+        if self.twists:
+            return told.torque or 0.0
+        return float(np.dot(told.tangential_force or (0.0, 0.0), self.along))
+
+
+@dataclass(frozen=True)
+class SpringState:
+    """An increment at the points.
+
+    overlap  v [length]
+    passed   how far the indenter's points have gone past the body's along the shear [length];
+             None without shear, and where the motion of the indenter is undefined
+    """
+
+    told: Increment
+    p: Field
+    q: Field | None
+    slip: Field | None
+    overlap: Field
+    passed: Field | None
+
+    @classmethod
+    def of(cls, told: Increment, surface: SpringSurface) -> SpringState:
+        p = told.pressure
+        sheared = (
+            (told.shear_radial, told.slip_radial),
+            (told.shear_along_load, told.slip_along_load),
+            (told.shear_circumferential, told.slip_circumferential),
+        )
+        q, slip = next((pair for pair in sheared if pair[0] is not None), (None, None))
+        overlap = told.approach - surface.gap - surface.displaced("z", p, q)
+        motion = surface.motion(told)
+        passed = None
+        if q is not None and motion is not None:
+            passed = surface.moves * motion - surface.displaced("t", p, q)
+            if told.bulk_strain is not None:
+                passed = passed - told.bulk_strain[0] * told.radii
+        return cls(told, p, q, slip, overlap, passed)
+
+    def energetic(self, surface: SpringSurface) -> EnergeticState:
+        """What the first law is about."""
+        p, q = self.p, np.zeros_like(self.p) if self.q is None else self.q
+        u_z, u_t = (surface.displaced(component, p, self.q) for component in "zt")
+        stored = 0.5 * float(np.sum(surface.weights * (p * u_z + q * u_t)))
+        passed, slip = self.passed, self.slip
+        if self.q is None:
+            passed = np.zeros_like(p)
+        slip = np.zeros_like(p) if slip is None else slip
+        return EnergeticState(
+            self.told, surface.weights, stored, surface.gap, p, -self.overlap, q[None],
+            surface.friction.limit(p), None if passed is None else -passed[None],
+            slip[None], yields=True,
+        )  # fmt: skip
+
+
 Mask = NDArray[np.bool_]
 
 # Of the approach: slip is the small difference of motions that pressing makes as large as that, so

@@ -4,12 +4,40 @@ from __future__ import annotations
 
 from math import pi, radians
 
-from contact_scene import Cone, FlatPunch
+from contact_scene import Cone, Ellipsoid, FlatPunch, LoadStep, Scene
 from verification.closed_forms.cone import ConeContact
+from verification.closed_forms.elliptical_contact import EllipticalContact
 from verification.closed_forms.flat_punch import FlatPunchContact
 from verification.problems import paper_scene as paper
-from verification.problems.paper_scene import CONTACT_MODULUS, NORMAL_FORCE, STEEL, pressing
-from verification.problems.problem import Problem
+from verification.problems.paper_scene import CONTACT_MODULUS, HERTZ, NORMAL_FORCE, STEEL, pressing
+from verification.problems.problem import OVER_PEAK, Problem
+
+SOURCE = "Hertz 1882; Johnson 1985, ch. 4"
+
+
+def hertzian(scene: Scene) -> Problem:
+    """A scene whose single step ends in the paper's contact."""
+    return Problem(
+        scene,
+        (HERTZ,),
+        HERTZ.contact_radius,
+        SOURCE,
+        scales={OVER_PEAK: HERTZ.peak_pressure},
+        equations=(
+            r"a^3 = \frac{3 W R}{4 E^*},\quad \delta = \frac{a^2}{R},\quad "
+            r"p = \frac{3 W}{2 \pi a^2} \sqrt{1 - r^2/a^2}",
+        ),
+    )
+
+
+def _pressed(title: str, load: LoadStep) -> Problem:
+    ball = paper.paraboloid(paper.STEEL)
+    return hertzian(paper.frictionless(title, ball, paper.STEEL, load))
+
+
+BALL = _pressed("Ball on a half-space (paper's data, paraboloid)", paper.pressing())
+LED_BALL = _pressed("Ball on a half-space, approach prescribed", LoadStep(approach=HERTZ.approach))
+
 
 SLOPE = radians(1.0)  # of the cone's flank
 PUNCH_RADIUS = 0.4e-3
@@ -43,3 +71,24 @@ PUNCH = Problem(
 def mean_pressure(of: Problem) -> float:
     """Of a round contact under the paper's force [force/length²]."""
     return NORMAL_FORCE / (pi * of.radius**2)
+
+
+RADII = (90e-3, 18e-3)
+EXACT = EllipticalContact.under_load(paper.NORMAL_FORCE, RADII, paper.CONTACT_MODULUS)
+BARREL = Problem(
+    paper.frictionless(
+        "Barrel on a half-space (radii 90 mm and 18 mm)",
+        Ellipsoid(radii=RADII, material=paper.STEEL),
+        paper.STEEL,
+        paper.pressing(),
+    ),
+    (EXACT,),
+    EXACT.semi_axes[0],
+    "Hertz 1882, by Carlson's elliptic integrals",
+    across=EXACT.semi_axes[1],
+    equations=(
+        r"\frac{R_x}{R_y} = \frac{(a/b)^2 \mathbf{E}(e) - \mathbf{K}(e)}"
+        r"{\mathbf{K}(e) - \mathbf{E}(e)},\quad "
+        r"p = \frac{3 W}{2 \pi a b} \sqrt{1 - x^2/a^2 - y^2/b^2}",
+    ),
+)

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from verification.problems.hertz import hertzian
+from verification.problems.classical import hertzian
 from verification.problems.layered_scene import (
     FREDHOLM,
     FREDHOLM_EQUATION,
@@ -18,9 +18,7 @@ from verification.problems.layered_scene import (
     rigid_ball,
 )
 from verification.problems.paper_scene import HERTZ
-from verification.problems.problem import OVER_PEAK, Problem
-from verification.problems.reference import ReferenceKind
-from verification.problems.tabulated import TabulatedContact
+from verification.problems.problem import OVER_PEAK, Problem, ReferenceKind, TabulatedContact
 from verification.references import load_reference
 
 SOURCE = "references/coated_frictionless_paraboloid.json: Fredholm equation, two settings agree"

@@ -10,9 +10,7 @@ from contact_scene import Body
 from verification.problems.cattaneo_mindlin import OVER_LIMIT
 from verification.problems.layered_scene import coated, film, half_space, pressed, rigid_ball
 from verification.problems.paper_scene import HERTZ, pressing
-from verification.problems.problem import OVER_PEAK, Problem
-from verification.problems.reference import ReferenceKind
-from verification.problems.tabulated import TabulatedContact
+from verification.problems.problem import OVER_PEAK, Problem, ReferenceKind, TabulatedContact
 from verification.references import load_reference
 
 OVER_HERTZ_RADIUS = "a_H"

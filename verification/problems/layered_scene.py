@@ -27,7 +27,7 @@ from verification.closed_forms.coated_indentation import (
 )
 from verification.problems import paper_scene as paper
 from verification.problems.paper_scene import HERTZ, pressing
-from verification.problems.reference import Reference, ReferenceKind
+from verification.problems.problem import Reference, ReferenceKind
 
 SUBSTRATE = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 FREDHOLM = "Fredholm equation for the Abel transform of the pressure, to 1e-13"

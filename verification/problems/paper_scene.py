@@ -19,8 +19,7 @@ from contact_scene import (
 from contact_scene.geometry import Indenter
 from semi_analytical.grid import SurfaceGrid
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
-from verification.closed_forms.hertz import PointContact
-from verification.closed_forms.moduli import contact_modulus, tangential_modulus
+from verification.closed_forms.hertz import PointContact, contact_modulus, tangential_modulus
 
 RADIUS = 18e-3
 NORMAL_FORCE = 1e3

@@ -4,13 +4,53 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from enum import StrEnum
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import Scene
-from verification.problems.reference import ROUNDING, Reference, ReferenceKind
+from verification.problems.paper_scene import HERTZ
+
+ROUNDING = 1e-12  # relative uncertainty of a closed form in double precision
+
+
+class ReferenceKind(StrEnum):
+    """Where a reference comes from."""
+
+    CLOSED_FORM = "closed form"
+    SEMI_CLOSED = "semi-closed"
+    THEORY = "theory"
+    EXTERNAL_CODE = "external code"
+    OTHER_SOLVER = "other solver"
+    OWN_REFINEMENT = "own refinement"  # the same solver on a coarser discretisation
+    IDENTITY = "identity"  # holds exactly by a theorem or by the equations themselves
+
+
+@dataclass(frozen=True)
+class Reference:
+    """A number somebody else vouches for.
+
+    uncertainty  standard uncertainty u_ref, in the unit of the value
+    """
+
+    value: float
+    kind: ReferenceKind
+    source: str
+    uncertainty: float = 0.0
+
+
+def closed_form(value: float, source: str, scale: float | None = None) -> Reference:
+    """A closed form, uncertain by rounding of itself or of the scale it is compared on."""
+    uncertainty = ROUNDING * abs(value if scale is None else scale)
+    return Reference(value, ReferenceKind.CLOSED_FORM, source, uncertainty)
+
+
+def identity(value: float, source: str) -> Reference:
+    """A value that follows from the equations themselves."""
+    return Reference(value, ReferenceKind.IDENTITY, source)
+
 
 Field = NDArray[np.float64]
 OVER_RADIUS, OVER_PEAK = "the contact radius", "p_H"
@@ -57,3 +97,46 @@ class Problem:
     def no_error(self, scale: float) -> Reference:
         """Reference of the norm of an error: zero, as uncertain as the answer is."""
         return Reference(0.0, self.kind, self.source, self.uncertainty * scale)
+
+
+@dataclass(frozen=True, eq=False)
+class TabulatedContact:
+    """Numbers of a contact, and profiles at a few radii.
+
+    row  of the reference: numbers relative to Hertz's contact of the substrate
+    """
+
+    row: Mapping[str, Any]
+
+    @property
+    def contact_radius(self) -> float:
+        """[length]."""
+        return float(self.row["a_over_aH"]) * HERTZ.contact_radius
+
+    @property
+    def approach(self) -> float:
+        """[length]."""
+        return float(self.row["delta_over_deltaH"]) * HERTZ.approach
+
+    @property
+    def friction(self) -> float:
+        """µ."""
+        return float(self.row["mu"])
+
+    @property
+    def radii(self) -> Field:
+        """Distances from the axis at which profiles are given [length]."""
+        return np.array(self.row["r_over_a"]) * self.contact_radius
+
+    def pressure(self, r: Field) -> Field:
+        """At the radii of the row, and linear between [force/length²]."""
+        return np.interp(r, self.radii, np.array(self.row["p_over_pH"]) * HERTZ.peak_pressure)
+
+    def shear(self, r: Field) -> Field:
+        """Outward, at the radii of the row, and linear between [force/length²]."""
+        limit = self.friction * HERTZ.peak_pressure
+        return np.interp(r, self.radii, np.array(self.row["q_over_mu_pH"]) * limit)
+
+    def size_of_shear(self, r: Field) -> Field:
+        """Of either sign [force/length²]."""
+        return np.abs(self.shear(r))

@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+import json
 import math
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field, model_validator
 
+from contact_results.directory.atomic_file import atomic_file
+from contact_results.directory.refusal import Refused
 from contact_scene.reading.description import Description
+from verification.judging.case import Level
 from verification.judging.outcome import (
     FOUND_IN_A_RUN,
     Count,
@@ -19,7 +26,13 @@ from verification.judging.outcome import (
 
 if TYPE_CHECKING:
     from verification.judging.outcome import CaseOutcome
-    from verification.running.report_record import Provenance
+    from verification.running.provenance import Provenance
+    from verification.running.report_record import Report
+
+
+class BaselineRefused(Refused):
+    """A baseline that cannot be read, or a report that must not become one."""
+
 
 BASELINE_VERSION = 1
 COUNTERS = ("increments", "iterations", "convolutions", "factorizations")
@@ -188,3 +201,181 @@ def _quantity(verdict: Verdict) -> RecordedQuantity:
 
 def _run(run: RunRecord) -> RecordedRun:
     return RecordedRun(label=run.label, **{name: getattr(run, name) for name in COUNTERS})
+
+
+BASELINES = Path(__file__).resolve().parents[1] / "baselines"
+ENDING, REMOVED = ".json", "REMOVED.md"
+REMOVED_HEAD = """# Removed baseline keys
+
+Each removed key of an accepted baseline, with its successor or the reason for its removal.
+
+| case | quantity [run] | successor, or reason |
+| --- | --- | --- |
+"""
+REMEDY = "restore it from the repository, or delete it and accept it anew"
+
+
+def read_baselines(directory: Path | None = None) -> dict[str, Baseline]:
+    """Every baseline of a folder by the name of its case; none is a state, not an error.
+
+    directory  None: those of the package
+
+    Raises BaselineRefused for the first file that is not a whole baseline of the case it is named
+    after.
+    """
+    folder = BASELINES if directory is None else directory
+    files = sorted(folder.glob(f"*{ENDING}")) if folder.is_dir() else []
+    return {path.stem: _read(path) for path in files}
+
+
+def write_baselines(
+    recordings: Mapping[str, Recording | None],
+    level: str,
+    directory: Path,
+    removed: Mapping[str, Sequence[str]] = MappingProxyType({}),
+    reason: str = "",
+) -> tuple[Path, ...]:
+    """Record cases at a level; their recordings at other levels stay.
+
+    recordings  by case; None deletes the recording
+    removed     keys by case that are no longer recorded, for `REMOVED.md`
+
+    Everything is read before anything is written. Raises BaselineRefused for a file in the way
+    that is no baseline.
+    """
+    texts: dict[Path, str] = {}
+    for case, recorded in recordings.items():
+        path = directory / f"{case}{ENDING}"
+        levels = _read(path).levels if path.exists() else {}
+        levels = {name: one for name, one in levels.items() if name != level}
+        if recorded is not None:
+            levels[level] = recorded
+        ordered = {name: levels[name] for name in _in_order(levels)}
+        texts[path] = dump_baseline(Baseline(case=case, levels=ordered)) if ordered else ""
+    if removed:
+        path = directory / REMOVED
+        head = path.read_text(encoding="utf-8") if path.exists() else REMOVED_HEAD
+        because = reason.replace("|", "/")
+        rows = (
+            f"| {case} | {', '.join(keys).replace('|', '/')} | {level}: {because} |\n"
+            for case, keys in removed.items()
+        )
+        texts[path] = head + "".join(rows)
+    for path, text in texts.items():
+        if not text:
+            path.unlink()
+            continue
+        with atomic_file(path) as temporary:
+            temporary.write_text(text, encoding="utf-8", newline="\n")
+    return tuple(path for path in texts if path.suffix == ENDING)
+
+
+def dump_baseline(baseline: Baseline) -> str:
+    """The text of its file; equal baselines give equal text, and every bit of a number returns."""
+    content = baseline.model_dump(mode="json")
+    return json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def _in_order(levels: Iterable[str]) -> list[str]:
+    return sorted(levels, key=lambda name: Level[name.upper()])
+
+
+def _read(path: Path) -> Baseline:
+    if path.exists() and not path.is_file():
+        raise BaselineRefused(f"baseline {path} is not a regular file")
+    try:
+        baseline = Baseline.model_validate_json(path.read_bytes())
+    except OSError as error:
+        raise BaselineRefused(f"baseline {path} cannot be read: {error.strerror}") from error
+    except ValueError as error:
+        problem = " ".join(str(error).splitlines()[:3])
+        raise BaselineRefused(f"baseline {path} is damaged: {problem}; {REMEDY}") from None
+    unknown = sorted(baseline.levels.keys() - {level.name.lower() for level in Level})
+    for wrong, text in (
+        (baseline.schema_version != BASELINE_VERSION, f"is of version {baseline.schema_version}"),
+        (baseline.case != path.stem, f"is of case {baseline.case!r}"),
+        (bool(unknown), f"has a level {', '.join(unknown)}"),
+    ):
+        if wrong:
+            raise BaselineRefused(f"baseline {path} {text}; {REMEDY}")
+    return baseline
+
+
+def accept(
+    report: Report,
+    reason: str,
+    directory: Path,
+    names: Collection[str] = (),
+    *,
+    with_failures: bool = False,
+    with_changes: bool = False,
+) -> tuple[Path, ...]:
+    """Record the cases of a report as what later ones are compared with; the files written.
+
+    reason         why these numbers are right
+    names          cases of the report; none means all
+    with_failures  also where a verdict failed
+    with_changes   also if the source differed from its commit, or has none: "was … at 1a2b3c4"
+                   is then not what that commit gives
+
+    Keys that the earlier recording has and the report has not are listed in `REMOVED.md` with the
+    reason; so is a case that a whole report lacks, whose recording is deleted.
+
+    Raises BaselineRefused for a report that must not be recorded; nothing is written then.
+    """
+    reason = " ".join(reason.split())
+    earlier = {
+        case: baseline.levels[report.level]
+        for case, baseline in read_baselines(directory).items()
+        if report.level in baseline.levels and (not names or case in names)
+    }
+    cases = _chosen(report, () if report.chosen else earlier, names)
+    failed = [f"{c.name}/{v.name}" for c in cases for v in c.verdicts if v.status is Status.FAIL]
+    for refused, text in (
+        (not reason, "a baseline needs a reason: --because 'why these numbers are right'"),
+        (
+            bool(failed) and not with_failures,
+            f"{len(failed)} failed, the first is {', '.join(failed[:1])}; correct it, or accept "
+            "it --with-failures",
+        ),
+        (
+            not _reproducible(report) and not with_changes,
+            "the report was made from a source that no commit holds, so nobody could make its "
+            "numbers again; commit, verify, then accept, or accept it --with-changes",
+        ),
+    ):
+        if refused:
+            raise BaselineRefused(text)
+    recordings = {case.name: recording(case, report.provenance, reason) for case in cases}
+    lost = {} if report.chosen else dict.fromkeys(earlier.keys() - recordings.keys())
+    changes: dict[str, Recording | None] = recordings | lost
+    gone = {
+        case: keys_of(earlier[case]) - keys_of(changes[case]) for case in earlier.keys() & changes
+    }
+    removed = {case: sorted(keys) for case, keys in sorted(gone.items()) if keys}
+    return write_baselines(changes, report.level, directory, removed, reason)
+
+
+def baselines_of(report: Report, reason: str) -> dict[str, Baseline]:
+    """A report in the place of baselines, to compare another one with it."""
+    return {
+        case.name: Baseline(
+            case=case.name, levels={report.level: recording(case, report.provenance, reason)}
+        )
+        for case in report.cases
+    }
+
+
+def _chosen(
+    report: Report, removable: Collection[str], names: Collection[str]
+) -> list[CaseOutcome]:
+    missing = sorted(set(names) - {case.name for case in report.cases} - set(removable))
+    if missing:
+        raise BaselineRefused(
+            f"the report has no case {', '.join(missing)}; --from names the report"
+        )
+    return [case for case in report.cases if not names or case.name in names]
+
+
+def _reproducible(report: Report) -> bool:
+    return report.provenance.commit is not None and not report.provenance.changed

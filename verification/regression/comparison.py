@@ -2,12 +2,26 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from verification.judging.change import Change, Gone, GoneCase, Origin, commit_text
+from verification.judging.outcome import (
+    FOUND_IN_A_RUN,
+    Change,
+    ChangeKind,
+    CounterChange,
+    Gone,
+    GoneCase,
+    Origin,
+    Status,
+    commit_text,
+)
+from verification.problems.problem import ROUNDING
 from verification.regression.baseline import (
+    COUNTERS,
     Baseline,
+    BaselineRefused,
     Key,
     RecordedBy,
     RecordedFinding,
@@ -16,13 +30,154 @@ from verification.regression.baseline import (
     key_of,
     recorded_by,
 )
-from verification.regression.counters import counter_changes
-from verification.regression.number_change import finding_change, quantity_change
-from verification.regression.refusal import BaselineRefused
 
 if TYPE_CHECKING:
-    from verification.judging.outcome import CaseOutcome
+    from verification.judging.outcome import CaseOutcome, FindingRecord, Verdict
+    from verification.regression.baseline import RecordedFinding, RecordedQuantity, Recording
     from verification.running.report_record import Report
+
+
+SAME_DIGITS = 1e-8  # relative, of what a reference is
+# Processors and versions end solves at other iterates within their tolerance (1e-8), and what is
+# measured on them may differ by somewhat more. Less than that is no change on any machine.
+NOISE = 1e-6  # of what errors are divided by; of a finding, of itself
+NOISE_OF_TOLERANCE = 0.01
+SAME_COUNT = 0.05  # an iteration sooner or later
+TOLERANCE_KEPT = 0.01  # relative; derived tolerances follow the last digits of small differences
+
+# Worse: an error that has become this many times larger, by more than the noise of machines: what
+# is far inside a wide tolerance has no other guard.
+WORSE_BY = 1.5
+# How far below its tolerance a solve ends says nothing of its answer.
+ENDS_OF_SOLVES = FOUND_IN_A_RUN
+
+# Suspiciously better: an error that has become this many times smaller, by at least that part of
+# the tolerance.
+BETTER_BY = 2.0
+BETTER_BY_PART = 0.05
+
+
+def quantity_change(verdict: Verdict, was: RecordedQuantity | None, origin: Origin) -> Change:
+    """How a judged quantity compares with the recorded one."""
+    if was is None:
+        failed = verdict.status is Status.FAIL
+        kind = ChangeKind.OUTSIDE if failed else ChangeKind.NEW
+        return Change(kind=kind, recorded=False, since=origin.name)
+    allowed = min(verdict.most_allowed, was.allowed)
+    difference = _difference(verdict.value, was.value)
+    moved = difference / allowed if allowed > 0 else math.inf
+    return Change(
+        kind=_kind(verdict, was, difference, allowed),
+        was=was.value,
+        moved=moved if math.isfinite(moved) else None,
+        since=origin.name,
+        remark="; ".join(_remarks(verdict, was)),
+    )
+
+
+def finding_change(finding: FindingRecord, was: RecordedFinding | None, origin: Origin) -> Change:
+    """How a finding compares with the recorded one: whole numbers are counts, whatever of."""
+    if was is None:
+        return Change(kind=ChangeKind.NEW, recorded=False, since=origin.name)
+    values = [value or 0.0 for value in (finding.value, was.value)]
+    counts = all(value.is_integer() for value in values)
+    noise = (SAME_COUNT if counts else NOISE) * max(map(abs, values))
+    same = _difference(finding.value, was.value) <= noise
+    kind = ChangeKind.UNCHANGED if same else ChangeKind.DRIFT
+    return Change(kind=kind, was=was.value, since=origin.name)
+
+
+def _kind(verdict: Verdict, was: RecordedQuantity, difference: float, allowed: float) -> ChangeKind:
+    if verdict.status is Status.FAIL and was.status is not Status.FAIL:
+        return ChangeKind.OUTSIDE
+    if was.status is Status.FAIL and verdict.status is not Status.FAIL:
+        return ChangeKind.BETTER
+    if difference > allowed and _is_farther(verdict, was):
+        return ChangeKind.OUTSIDE
+    # Before what is judged otherwise: derived tolerances grow with the error.
+    ends = verdict.name in ENDS_OF_SOLVES
+    now = verdict.model_copy(update={"reference": was.reference})
+    if was.covered and not verdict.covered:
+        return ChangeKind.WORSE
+    if not ends and grows(was, now, WORSE_BY, NOISE * verdict.scale):
+        return ChangeKind.WORSE
+    if any(_remarks(verdict, was)):
+        return ChangeKind.DRIFT
+    if ends:
+        return ChangeKind.UNCHANGED
+    if difference <= max(NOISE * verdict.scale, NOISE_OF_TOLERANCE * allowed):
+        return ChangeKind.UNCHANGED
+    better = grows(verdict, was, BETTER_BY, BETTER_BY_PART * allowed)
+    return ChangeKind.BETTER if better else ChangeKind.DRIFT
+
+
+def _is_farther(verdict: Verdict, was: RecordedQuantity) -> bool:
+    """Whether the value has moved away from the reference; of an order that was recorded with too
+    wide an interval nobody can tell. One that has become so is held to what was allowed when it
+    passed: its own interval is of the levels that lost it."""
+    if was.status is Status.INCONCLUSIVE:
+        return False
+    if verdict.status is Status.INCONCLUSIVE and verdict.value is not None:
+        return abs(verdict.value - verdict.reference) > was.allowed
+    if verdict.value is None or was.value is None:
+        return was.value is not None
+    return abs(verdict.value - verdict.reference) > abs(was.value - was.reference)
+
+
+def grows(
+    small: Verdict | RecordedQuantity, large: Verdict | RecordedQuantity, by: float, least: float
+) -> bool:
+    """Whether the error of one is so much larger than that of the other that somebody should know
+    why. An order has an interval for that.
+
+    by     times
+    least  at least by as much, in the unit of the value
+    """
+    if small.tolerance_kind == "order" or small.value is None or large.value is None:
+        return False
+    error, larger = (
+        abs(one.value - one.reference) for one in (small, large) if one.value is not None
+    )
+    return larger >= by * error and larger - error >= least
+
+
+def _remarks(verdict: Verdict, was: RecordedQuantity) -> Iterator[str]:
+    """What else than the value is not as recorded."""
+    if was.covered and not verdict.covered:
+        stated = verdict.stated_error
+        yield f"stated error {'not converged' if stated is None else f'{stated:.2e}'}: not covered"
+    if verdict.status is not was.status:
+        lost = was.status is Status.PASS and verdict.status is Status.INCONCLUSIVE
+        held = ", held to the recorded tolerance" if lost else ""
+        yield f"{was.status} -> {verdict.status}{held}"
+    allowed = verdict.most_allowed
+    if not math.isclose(allowed, was.allowed, rel_tol=TOLERANCE_KEPT):
+        yield f"tolerance {allowed:.2e}, was {was.allowed:.2e}"
+    floor = ROUNDING * verdict.scale
+    if not math.isclose(verdict.reference, was.reference, rel_tol=SAME_DIGITS, abs_tol=floor):
+        yield f"reference was {was.reference:.9g}"
+    if verdict.unit != was.unit:
+        yield f"unit was {was.unit or 'none'}"
+
+
+def _difference(value: float | None, was: float | None) -> float:
+    """Distance of two numbers, of which None is one that is not finite."""
+    if value is None or was is None:
+        return 0.0 if value is was else math.inf
+    return abs(value - was)
+
+
+def counter_changes(case: CaseOutcome | Recording, recorded: Recording) -> Iterator[CounterChange]:
+    """The counts of all solves together that differ from the recorded ones; solves that are new or
+    gone are left out, they are told apart."""
+    then = {run.label: run for run in recorded.runs}
+    both = [(run, then[run.label]) for run in case.runs if run.label in then]
+    for name in COUNTERS:
+        now, was = (sum(getattr(pair[i], name) for pair in both) for i in (0, 1))
+        if abs(now - was) > SAME_COUNT * was:
+            kind = ChangeKind.DEARER if now > was else ChangeKind.DRIFT
+            remark = f"{now / was:.3g} times" if was else ""
+            yield CounterChange(name=name, kind=kind, was=was, now=now, remark=remark)
 
 
 def compared(report: Report, baselines: Mapping[str, Baseline]) -> Report:

@@ -16,8 +16,7 @@ from typing import TYPE_CHECKING
 from contact_results.directory.atomic_file import atomic_file
 from contact_scene.reading.description import Description
 from verification.judging.outcome import Status, Verdict
-from verification.regression.baseline import key_of
-from verification.regression.refusal import BaselineRefused
+from verification.regression.baseline import BaselineRefused, key_of
 
 if TYPE_CHECKING:
     from verification.judging.outcome import CaseOutcome

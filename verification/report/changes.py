@@ -7,10 +7,16 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from verification.exhibits.numbers import value_text
-from verification.judging.change import Change, ChangeKind, Origin
-from verification.judging.outcome import CaseOutcome, FindingRecord, Verdict
-from verification.judging.verdict_text import moved_text
+from verification.exhibits.table import value_text
+from verification.judging.outcome import (
+    CaseOutcome,
+    Change,
+    ChangeKind,
+    FindingRecord,
+    Origin,
+    Verdict,
+    moved_text,
+)
 from verification.running.report_record import Report
 
 DIGITS = 9  # enough to see what changed

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from contact_results.figures import style
 from verification.exhibits.chart import Chart, Curve, Look, Panel
-from verification.exhibits.numbers import plain
+from verification.exhibits.table import plain
 
 WIDTH = 6.6
 HEIGHT_PER_UNIT = 1.5

@@ -12,9 +12,9 @@ from contact_results.directory.atomic_file import atomic_file
 from contact_results.directory.refusal import OutputRefused
 from contact_results.directory.run_lock import acquire, release
 from contact_results.directory.stop_signals import stop_signals_held
-from verification.running.record import StudyRecord, dump_study
 from verification.running.report_record import PACKED_SUFFIX, Report, dump_report
-from verification.running.stored_studies import RECORD as STUDY_RECORD
+from verification.running.study import RECORD as STUDY_RECORD
+from verification.running.study import StudyRecord, dump_study
 
 PAGE, SHEETS = "index.html", "sheets.html"  # the front, and one sheet per case
 RECORD = "report.json"
@@ -111,9 +111,8 @@ def write_study(record: StudyRecord, rows: Mapping[str, str], directory: Path) -
 def _rendered(report: Report) -> dict[str, str]:
     """The files that are drawn, by name."""
     # Drawing takes long to import: a command that only prepares a directory does without.
-    from verification.report.junit import render_junit
     from verification.report.page import render_page, render_sheets
-    from verification.report.summary_text import render_summary
+    from verification.report.summary_text import render_junit, render_summary
 
     return {
         PAGE: render_page(report), SHEETS: render_sheets(report), JUNIT: render_junit(report),

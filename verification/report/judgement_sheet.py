@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from verification.challenge.judgement import Judgement
-from verification.challenge.verdicts import WHOLE, Row, order_text
+from verification.challenge.judgement import WHOLE, Judgement, Row, order_text
 from verification.convergence.observed_order import ILLEGIBLE
-from verification.exhibits.chart import Chart
-from verification.exhibits.log_chart import drawable, log_chart, point_curves
+from verification.exhibits.chart import Chart, drawable, log_chart, point_curves
 from verification.exhibits.table import NONE, Table
-from verification.judging.status_words import SYMBOLS, WORDS
+from verification.judging.outcome import SYMBOLS, WORDS
 from verification.report.page import environment
 
 COLUMNS = ("quantity", "step", "level", "verdict", "error", "bound", "class", "order", "because")

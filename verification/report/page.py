@@ -10,11 +10,14 @@ from functools import cache
 import jinja2
 from markupsafe import Markup
 
-from verification.exhibits.numbers import plain, value_text
-from verification.exhibits.table import Table
-from verification.judging.outcome import FOUND_IN_A_RUN, CaseOutcome, Status, Verdict
-from verification.judging.status_words import SYMBOLS, WORDS
-from verification.judging.verdict_text import (
+from verification.exhibits.table import Table, plain, value_text
+from verification.judging.outcome import (
+    FOUND_IN_A_RUN,
+    SYMBOLS,
+    WORDS,
+    CaseOutcome,
+    Status,
+    Verdict,
     clearance_text,
     failure_text,
     order_text,
@@ -32,9 +35,8 @@ from verification.report.files import PAGE, SHEETS
 from verification.report.sections import claims_line, features, study_section
 from verification.report.summary_text import counts_text
 from verification.report.svg import image_address, inline_svg, with_shared_styles
-from verification.running.record import StudyRecord
 from verification.running.report_record import Report
-from verification.running.study_text import measured_text
+from verification.running.study import StudyRecord, measured_text
 
 MAX_WORSE = 6  # on the front; the rest stands below
 MAX_MOVED = 40

@@ -12,8 +12,7 @@ from urllib.parse import quote
 import matplotlib
 
 from contact_results.figures import style
-from verification.exhibits.chart import Chart
-from verification.exhibits.picture import Picture
+from verification.exhibits.chart import Chart, Picture
 from verification.report.drawing import GRID_COLOUR, INK, REFERENCE_COLOUR, draw
 
 # Colours of a diagram become variables of the page, which has a light and a dark value of each.

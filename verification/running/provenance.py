@@ -8,8 +8,35 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from contact_results.directory.machine import library_versions, machine, program_version
-from verification.running.report_record import Provenance
+from contact_scene.reading.description import Description
 from verification.running.sources import source_digest
+
+
+class Provenance(Description):
+    """Who made the numbers, when, on what, and how long it took."""
+
+    program_version: str
+    commit: str | None
+    """Commit of the source; null outside a repository."""
+
+    changed: bool
+    """Whether the source differed from that commit."""
+
+    modules: tuple[str, ...] = ()
+    """Modules that made the numbers; none in older records."""
+
+    sources: str | None = None
+    """Digest of these modules and of all that they import from the project."""
+
+    command: str
+    date: str
+    """Coordinated universal time, ISO 8601."""
+
+    machine: dict[str, str | int | None]
+    libraries: dict[str, str | None]
+    seconds: dict[str, float]
+    """Wall seconds by case."""
+
 
 SOURCE = Path(__file__).resolve().parents[2]
 SECONDS_FOR_GIT = 10

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from verification.running.provenance_record import Provenance
+from verification.running.provenance import Provenance
 from verification.running.report_record import PACKED_SUFFIX, load_report
-from verification.running.stored_studies import RECORD, stored_studies
+from verification.running.study import RECORD, stored_studies
 
 REPORTS = Path("reports")
 FULL, REPORT = "full", "report.json"

@@ -7,16 +7,13 @@ from typing import Any
 from pydantic import ValidationError, model_validator
 
 from contact_scene.reading.description import Description
-from verification.exhibits.picture import Picture
+from verification.exhibits.chart import Picture
 from verification.judging.case import Level
-from verification.judging.change import GoneCase
 from verification.judging.coverage import LEAST_SHARE, share_covered
-from verification.judging.outcome import CaseOutcome, Status, Verdict
-from verification.running.provenance_record import Provenance
-from verification.running.record import StudyRecord, json_text
+from verification.judging.outcome import CaseOutcome, GoneCase, Status, Verdict
+from verification.running.provenance import Provenance
 from verification.running.sources import is_current
-
-__all__ = ["Provenance", "Report"]
+from verification.running.study import StudyRecord, json_text
 
 REPORT_VERSION = 1
 PACKED_SUFFIX = ".xz"

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from verification.running.provenance_record import Provenance
+    from verification.running.provenance import Provenance
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGES = (

@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import json
+import math
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from pathlib import Path
+from typing import Any, Protocol
+
+from pydantic import model_validator
 
 from contact_scene.reading.description import Description
 from verification.exhibits.chart import Chart
-from verification.exhibits.table import Table
+from verification.exhibits.table import Table, plain
 from verification.judging.case import Level
-from verification.judging.outcome import Status
+from verification.judging.outcome import Status, commit_text
+from verification.running.provenance import Provenance
 from verification.running.row import CaseRecord, Row
+from verification.running.sources import age_text
 
 STUDY_VERSION = 1
 
@@ -100,3 +108,176 @@ class Study:
     question: str
     cases: Callable[[Settings], tuple[StudyCase, ...]]
     conclude: Callable[[Settings, Records], Conclusion]
+
+
+class StudyRecord(Description):
+    """All that the page of a study shows."""
+
+    schema_version: int = STUDY_VERSION
+    name: str
+    title: str
+    question: str
+    level: str
+    conclusion: Conclusion
+    lost: tuple[LostCase, ...]
+    """Cases that have no record: the conclusion does without them."""
+
+    provenance: Provenance
+    own_cells: bool = False
+    """Whether somebody chose the cells: it is then of no level."""
+
+    @model_validator(mode="after")
+    def _is_of_this_version(self) -> StudyRecord:
+        if self.schema_version != STUDY_VERSION:
+            raise ValueError(f"it is of version {self.schema_version}, not {STUDY_VERSION}")
+        return self
+
+    @property
+    def status(self) -> Status:
+        """Fail if a statement failed or a case was lost."""
+        outcomes = {statement.outcome for statement in self.conclusion.statements}
+        if self.lost or Status.FAIL in outcomes:
+            return Status.FAIL
+        return Status.INCONCLUSIVE if Status.INCONCLUSIVE in outcomes else Status.PASS
+
+
+def dump_study(record: StudyRecord) -> str:
+    """The record as JSON text, without what is as it is where nothing is said of it."""
+    said = record.model_dump(mode="json", exclude_defaults=True)
+    return json_text({"schema_version": record.schema_version} | said)
+
+
+def json_text(values: dict[str, Any]) -> str:
+    """JSON, indented; what holds nothing but numbers and texts, such as the points of a curve or
+    the measures of a row, takes one line."""
+    text = json.dumps(values, indent=1, ensure_ascii=False, allow_nan=False)
+    # No text of JSON has a line's end in it: only the space between values is changed.
+    return re.sub(r"[\[{]\n[^\[\]{}]*[\]}]", lambda m: re.sub(r"\n *", " ", m[0]), text) + "\n"
+
+
+def study_failure_line(study: StudyRecord) -> str:
+    """What a study of the same sources found wrong first, and how to see it again."""
+    failed = [s for s in study.conclusion.statements if s.outcome is Status.FAIL]
+    found = [f"{s.claim}: {s.measured}" for s in failed]
+    found += [f"{case.name} was lost: {case.reason}" for case in study.lost]
+    more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
+    return f"FAIL study {study.name}: {found[0]}{more}; reproduce: {study.provenance.command}"
+
+
+def measured_text(study: StudyRecord) -> str:
+    """Return the origin of a record that is older than the code; empty for a current one."""
+    made = study.provenance
+    age = age_text(made)
+    return age and f", {age}: measured at {commit_text(made.commit, changed=made.changed)}"
+
+
+RECORD = "study.json"
+
+
+def stored_studies(
+    directory: Path, left_out: Callable[[str], None] | None = None
+) -> tuple[StudyRecord, ...]:
+    """The records of all studies that have left theirs in a folder of this directory, by name.
+
+    left_out  is told of a record that is broken or of another version; without it that raises
+              ValueError, naming the file
+    """
+    records = []
+    for path in sorted(directory.glob(f"*/{RECORD}")):
+        try:
+            records.append(StudyRecord.model_validate_json(path.read_bytes()))
+        except ValueError as error:
+            problem = f"{path} is no record of a study that can be read"
+            if left_out is None:
+                raise ValueError(problem) from error
+            left_out(problem)
+    return tuple(sorted(records, key=lambda record: record.name))
+
+
+RESIDUAL = "largest_residual"  # of any increment of a case, by the name of its measure
+
+
+def judged(good: bool, *, complete: bool = True) -> Status:
+    """The outcome of a claim; open where cases are missing that it is about."""
+    if not complete:
+        return Status.INCONCLUSIVE
+    return Status.PASS if good else Status.FAIL
+
+
+def largest(rows: Iterable[Row], name: str) -> float:
+    """The largest magnitude of a measure over the rows that have it; infinite where one is not
+    finite, 0 without rows."""
+    values = [row.measures[name] for row in rows if name in row.measures]
+    return max((math.inf if v is None else abs(v) for v in values), default=0.0)
+
+
+def total(rows: Iterable[Row], counter: str) -> int:
+    """Sum of a counter over the rows."""
+    return sum(row.counters.get(counter, 0) for row in rows)
+
+
+def solved(claim: str, count: int, asked: int, what: str = "") -> Statement:
+    """Whether all that was asked for has a record.
+
+    what  is counted, in a word
+    """
+    return Statement(
+        claim=claim,
+        outcome=judged(count == asked),
+        measured=f"{count} of {asked}{what and ' '}{what}",
+        about=Row(counters={"found": count, "asked": asked}),
+    )
+
+
+def converged(
+    rows: Sequence[Row],
+    tolerance: float,
+    where: str,
+    *,
+    claim: str = "every increment converged",
+    asked: int = 0,
+) -> Statement:
+    """Whether every increment of all cases ended within the tolerance.
+
+    where  in words
+    asked  rows that there should be: open with fewer
+    """
+    worst = largest(rows, RESIDUAL)
+    return Statement(
+        claim=claim,
+        outcome=judged(worst <= tolerance, complete=len(rows) >= asked),
+        measured=f"largest residual {_text(worst)} {where}",
+        because=f"allowed {tolerance:g}",
+        about=_measures({RESIDUAL: worst}),
+    )
+
+
+def within(
+    what: str, rows: Sequence[Row], allowed: Mapping[str, float], because: str, *, asked: int = 0
+) -> Statement:
+    """Whether measures are nowhere larger than allowed, by name; those that a row lacks are not
+    asked of it.
+
+    asked  rows that there should be: open with fewer
+    """
+    worst = {name: largest(rows, name) for name in allowed}
+    limits = ", ".join(f"{name} ≤ {plain(most)}" for name, most in allowed.items())
+    return Statement(
+        claim=f"{what}: {limits}",
+        outcome=judged(all(worst[n] <= allowed[n] for n in allowed), complete=len(rows) >= asked),
+        measured=", ".join(f"{name} {_text(error)}" for name, error in worst.items()),
+        because=because,
+        about=_measures(worst),
+    )
+
+
+def _text(value: float) -> str:
+    return plain(_finite(value), 2)
+
+
+def _measures(values: Mapping[str, float]) -> Row:
+    return Row(measures={name: _finite(value) for name, value in values.items()})
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None

@@ -22,8 +22,7 @@ from contact_results.surface import surface_of
 from contact_scene import LoadStep, Scene
 from contact_scene.array_types import Field
 from verification.exhibits.chart import Chart, Curve, Look, Panel, curve, stacked
-from verification.exhibits.numbers import plain
-from verification.exhibits.table import Table, table_of
+from verification.exhibits.table import Table, plain, table_of
 from verification.judging.case import Level
 from verification.judging.run import SOLVER_TOLERANCE
 from verification.problems.layered_scene import coated, exact_contact, film, pressed, rigid_ball
@@ -36,8 +35,17 @@ from verification.problems.paper_scene import (
 )
 from verification.quantities import largest_residual
 from verification.running.row import CaseRecord, Row, found, parameters_of, value_of
-from verification.running.rules import RESIDUAL, converged, judged, solved
-from verification.running.study import Conclusion, Records, Settings, Statement, Study
+from verification.running.study import (
+    RESIDUAL,
+    Conclusion,
+    Records,
+    Settings,
+    Statement,
+    Study,
+    converged,
+    judged,
+    solved,
+)
 
 RATIOS = (0.5, 1.0, 2.0, 4.0)
 FORCES = (0.0, 0.3, 0.6, 0.9)  # T / µW

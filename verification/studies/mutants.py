@@ -22,8 +22,15 @@ from typing import Any
 from verification.exhibits.table import NONE, Table, table_of
 from verification.judging.case import Level
 from verification.running.row import CaseRecord, found, parameters_of
-from verification.running.rules import judged, solved
-from verification.running.study import Conclusion, Records, Settings, Statement, Study
+from verification.running.study import (
+    Conclusion,
+    Records,
+    Settings,
+    Statement,
+    Study,
+    judged,
+    solved,
+)
 
 ROOT = Path(__file__).resolve().parents[2]
 COPIED = (

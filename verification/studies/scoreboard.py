@@ -17,8 +17,7 @@ from verification.challenge.python_api import (
     CannotDo,
     judge,
 )
-from verification.exhibits.numbers import plain
-from verification.exhibits.table import NONE, Table
+from verification.exhibits.table import NONE, Table, plain
 from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.peers.environment import PEERS, made_environment, peers_directory

@@ -57,7 +57,7 @@ def baseline(
     no longer has, and cases that a report of all cases no longer has, are listed in REMOVED.md with
     the reason.
     """  # fmt: skip
-    from verification.regression.baseline_files import BASELINES
+    from verification.regression.baseline import BASELINES
 
     folder = BASELINES if directory is None else directory
     if not accept:
@@ -65,7 +65,7 @@ def baseline(
             raise typer.BadParameter("--because gives the reason of --accept, which is not there")
         _list(folder, names or [])
         return
-    from verification.regression.acceptance import accept as record
+    from verification.regression.baseline import accept as record
 
     report = read_report(source)
     files = record(
@@ -81,8 +81,8 @@ def baseline(
 
 def _list(folder: Path, names: list[str]) -> None:
     from slipstick.cli.terminal import print_table
-    from verification.judging.change import commit_text
-    from verification.regression.baseline_files import read_baselines
+    from verification.judging.outcome import commit_text
+    from verification.regression.baseline import read_baselines
 
     rows = [
         (case, level, commit_text(of.by.commit, changed=of.by.changed), of.by.date[:10],

@@ -77,7 +77,7 @@ def compare(
 
 def exit_code_of(report: Report) -> ExitCode:
     """What a compared report amounts to."""
-    from verification.judging.change import ChangeKind
+    from verification.judging.outcome import ChangeKind
     from verification.report.changes import change_rows, without_baseline
 
     kinds = {row.kind for row in change_rows(report)}
@@ -90,8 +90,7 @@ def exit_code_of(report: Report) -> ExitCode:
 
 
 def _baselines(place: Path | None) -> dict[str, Baseline]:
-    from verification.regression.acceptance import baselines_of
-    from verification.regression.baseline_files import read_baselines
+    from verification.regression.baseline import baselines_of, read_baselines
     from verification.report.files import record_in
 
     if place is None or (place.is_dir() and not record_in(place).is_file()):
@@ -101,8 +100,7 @@ def _baselines(place: Path | None) -> dict[str, Baseline]:
 
 def _print_changes(report: Report) -> None:
     from slipstick.cli.terminal import print_table
-    from verification.judging.change import ChangeKind
-    from verification.judging.verdict_text import failure_line
+    from verification.judging.outcome import ChangeKind, failure_line
     from verification.report.changes import change_rows, changes_text, origins
 
     for case in report.cases:

@@ -65,7 +65,7 @@ def judge(
     from slipstick.cli.terminal import print_table
     from verification.challenge.answer_reader import read_answers
     from verification.challenge.judgement import judged
-    from verification.challenge.named_solver import names_a_solver
+    from verification.challenge.python_api import names_a_solver
     from verification.challenge.requested_quantities import Grade
     from verification.report.judgement_sheet import COLUMNS, render_sheet, row_texts
 
@@ -98,8 +98,7 @@ def _solved(
     from slipstick.cli.options import unknown_names
     from verification.challenge.answer import Solver
     from verification.challenge.cases import challenges
-    from verification.challenge.named_solver import named_solver
-    from verification.challenge.python_api import CannotDo
+    from verification.challenge.python_api import CannotDo, named_solver
     from verification.challenge.python_api import judge as judge_solver
 
     if case is None:

@@ -33,7 +33,7 @@ def records(
     made.
     """
     from slipstick.cli.terminal import print_table
-    from verification.judging.change import commit_text
+    from verification.judging.outcome import commit_text
     from verification.running.records import stored_records
     from verification.running.sources import age_text
 

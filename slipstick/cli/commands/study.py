@@ -21,8 +21,7 @@ from slipstick.solvers.names import SolverName
 
 if TYPE_CHECKING:
     from verification.running.case_pool import Workers
-    from verification.running.record import StudyRecord
-    from verification.running.study import Settings, Study
+    from verification.running.study import Settings, Study, StudyRecord
 
 LEAST_CELLS = 16
 LEAST_LEVELS, MAX_LEVELS = 4, 10
@@ -143,9 +142,8 @@ def _studied(
     from verification.running.case_pool import run_cases
     from verification.running.case_store import CaseStore
     from verification.running.provenance import provenance
-    from verification.running.record import StudyRecord
-    from verification.running.row import CaseRecord
-    from verification.running.row_files import row_files
+    from verification.running.row import CaseRecord, row_files
+    from verification.running.study import StudyRecord
 
     refuse_if_unwritable(directory)
     with in_sole_use(directory):
@@ -236,7 +234,7 @@ def _command(
 
 
 def _print_outcome(record: StudyRecord, directory: Path) -> None:
-    from verification.judging.status_words import SYMBOLS, WORDS
+    from verification.judging.outcome import SYMBOLS, WORDS
     from verification.report.files import PAGE
 
     for lost in record.lost:

@@ -38,8 +38,7 @@ from slipstick.sweep_chart import (
 )
 from verification.running.case_pool import run_cases
 from verification.running.case_store import CaseStore
-from verification.running.row import CaseRecord
-from verification.running.row_files import ROWS, row_files
+from verification.running.row import ROWS, CaseRecord, row_files
 
 TABLE, CHART, CASES = "sweep.csv", "sweep.png", "points"
 

@@ -11,7 +11,7 @@ from slipstick.cli.errors import ExitCode
 from slipstick.cli.options import LevelName, SchedulerOption, directory, optional, workers_at
 
 if TYPE_CHECKING:
-    from verification.exhibits.picture import Picture
+    from verification.exhibits.chart import Picture
     from verification.judging.case import Case
     from verification.judging.outcome import CaseOutcome
     from verification.running.case_pool import CaseEnd, Workers
@@ -83,7 +83,7 @@ def verify(
     from verification.cases.catalogue import choose
     from verification.judging.case import Level
     from verification.judging.outcome import Status
-    from verification.running.local_workers import ThisProcess, cores
+    from verification.running.case_pool import ThisProcess, cores
 
     chosen = Level[level.name]
     listing = f"slipstick verify --list --level {level}"
@@ -115,11 +115,10 @@ def _verified(
     fresh: bool,
 ) -> Report:
     from contact_results.directory.run_lock import in_sole_use
-    from verification.regression.baseline_files import read_baselines
+    from verification.regression.baseline import read_baselines
     from verification.regression.comparison import compared
     from verification.report.files import refuse_if_unwritable, set_aside_report, write_report
-    from verification.report.omissions import OMISSIONS
-    from verification.report.sections import PLACES, stored_records
+    from verification.report.sections import OMISSIONS, PLACES, stored_records
     from verification.running.provenance import provenance
     from verification.running.report_record import Report, count
 
@@ -163,7 +162,7 @@ def judged(
     Raises OutputRefused, before any work, where nothing can be written.
     """
     from slipstick.cli.case_progress import case_progress, resume_hint
-    from verification.cases.judged_case import CaseToJudge, JudgedCase, lost
+    from verification.cases.catalogue import CaseToJudge, JudgedCase, lost
     from verification.regression.tolerances import held_to, read_tolerances
     from verification.report.files import refuse_if_unwritable
     from verification.running.case_pool import run_cases
@@ -192,8 +191,8 @@ def judged(
 def _verdict(end: CaseEnd) -> str:
     """State the verdict of a case, with its counts and seconds."""
     from slipstick.cli.case_progress import how_it_ended
-    from verification.cases.judged_case import JudgedCase
-    from verification.judging.status_words import SYMBOLS, WORDS
+    from verification.cases.catalogue import JudgedCase
+    from verification.judging.outcome import SYMBOLS, WORDS
 
     if not isinstance(end.record, JudgedCase):
         return how_it_ended(end)
@@ -223,8 +222,7 @@ def _left_out(problem: str) -> None:
 
 
 def _print_outcome(report: Report, directory: Path) -> None:
-    from verification.judging.change import ChangeKind
-    from verification.judging.status_words import SYMBOLS, WORDS
+    from verification.judging.outcome import SYMBOLS, WORDS, ChangeKind
     from verification.report.changes import change_rows, changes_text
     from verification.report.files import PAGE
     from verification.report.summary_text import counts_text, failure_lines, uncovered_lines

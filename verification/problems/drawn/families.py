@@ -15,8 +15,15 @@ from contact_scene.body_pair import contact_modulus
 from contact_scene.geometry import ShapedBody
 from verification.closed_forms.elliptical_contact import EllipticalContact
 from verification.problems.drawn import drawing as of
-from verification.problems.drawn.drawing import Bodies, Profile, Rng, logarithmic
-from verification.problems.drawn.known_scene import CELLS, ELEMENTS, KnownScene
+from verification.problems.drawn.drawing import (
+    CELLS,
+    ELEMENTS,
+    Bodies,
+    KnownScene,
+    Profile,
+    Rng,
+    logarithmic,
+)
 from verification.problems.drawn.references import (
     Posed,
     beside_the_centre,

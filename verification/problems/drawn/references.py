@@ -18,19 +18,28 @@ from numpy.typing import NDArray
 import radial
 import semi_analytical
 from contact_errors.error_formula import AT_EDGES
+from contact_errors.stress_errors import stress_errors
 from contact_errors.values import Values, prescribed, values_of
+from contact_results.stress.loaded_bodies import state_of_result
+from contact_results.stress.on_cells import stress_on_cells
+from contact_results.stress.on_disc import stress_on_disc
+from contact_results.stress.on_section import stress_on_section
+from contact_results.stress.stress_maxima import extremes
 from contact_scene import Ellipsoid, LoadStep, Paraboloid, Scene, SurfaceDiscretisation
 from contact_scene.body_pair import contact_modulus
+from contact_scene.quantities.stated_error import (
+    StatedError,
+    StatedErrors,
+)
 from contact_scene.stepping.increment_error import with_error
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.elliptical_contact import EllipticalContact
-from verification.closed_forms.ruiz import CycledContact
-from verification.closed_forms.sheared_surface import (
+from verification.closed_forms.huber_stress import (
     stress_by_hertz_pressure,
     stress_by_hertz_shear,
 )
-from verification.problems.drawn.drawing import Rng, closes
-from verification.problems.drawn.known_scene import (
+from verification.closed_forms.ruiz import CycledContact
+from verification.problems.drawn.drawing import (
     AMPLITUDE,
     APPROACH,
     CELLS,
@@ -55,11 +64,31 @@ from verification.problems.drawn.known_scene import (
     WORK,
     Fineness,
     KnownScene,
+    Rng,
     Truth,
+    closes,
     known,
 )
-from verification.problems.drawn.stress_maxima import stress_maxima
-from verification.problems.reference import ROUNDING, Reference, ReferenceKind
+from verification.problems.problem import ROUNDING, Reference, ReferenceKind
+
+WHOLE = "body"  # among the regions
+
+
+def stress_maxima(
+    result: Any, step: int, errors: StatedErrors | None = None
+) -> dict[str, tuple[float, StatedError]]:
+    """Return those of the whole body at the end of a step, by measure [force/length²]."""
+    state = state_of_result(result, step, errors)
+    below = stress_on_disc if state.pressed else stress_on_section if state.on_rings else None
+    field = (below or stress_on_cells)(state)
+    found = extremes(field, state.body)
+    of_stress = stress_errors(state, field, found)
+    return {
+        e.measure: (e.value, error)
+        for e, error in zip(found, of_stress, strict=True)
+        if e.region == WHOLE
+    }
+
 
 Array = NDArray[np.float64]
 

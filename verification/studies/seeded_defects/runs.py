@@ -11,8 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from verification.cases.catalogue import case_of, choose
-from verification.cases.judged_case import CaseToJudge, JudgedCase, lost
+from verification.cases.catalogue import CaseToJudge, JudgedCase, case_of, choose, lost
 from verification.defects.defect import planted
 from verification.defects.healthy_contacts import FAMILIES
 from verification.defects.registry import DEFECTS

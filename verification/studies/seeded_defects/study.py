@@ -2,17 +2,392 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+from verification.cases.catalogue import CASES
+from verification.defects.defect import Defect
+from verification.defects.healthy_contacts import FAMILIES, THIN
+from verification.defects.outputs import PLANTED
 from verification.defects.registry import DEFECTS
+from verification.exhibits.chart import Chart, Look, Panel, curve, stacked
+from verification.exhibits.table import Table, plain, table_of
+from verification.judging.case import Level
+from verification.judging.outcome import Status
+from verification.running.row import CaseRecord
 from verification.running.study import (
     Conclusion,
     Records,
     Settings,
+    Statement,
     Study,
     StudyCase,
+    total,
 )
-from verification.studies.seeded_defects.findings import defect_runs, healthy_runs, seen
-from verification.studies.seeded_defects.statements import statements
-from verification.studies.seeded_defects.tables import charts, tables
+from verification.studies.seeded_defects.runs import (
+    ERROR,
+    GATE,
+    HEALTHY,
+    Caught,
+    DefectRun,
+    HealthyRun,
+    Sample,
+    caught,
+    samples,
+)
+
+DRAWS = {
+    "hertz": 60,
+    "cone": 40,
+    "partial_slip": 40,
+    "coated": 30,
+    "flat_punch": 20,
+    "fem_hertz": 20,
+    THIN: 30,
+}
+
+
+def seen_by(settings: Settings, defect: Defect) -> tuple[str, ...]:
+    """The cases under a defect: those that ought to see it, or the whole quick catalogue."""
+    if settings.level is Level.QUICK:
+        return defect.cases
+    return CASES
+
+
+def defect_runs(settings: Settings) -> tuple[DefectRun, ...]:
+    """All defects, and the same cases without any."""
+    runs = [
+        DefectRun(defect.name, case)
+        for defect in DEFECTS.values()
+        for case in seen_by(settings, defect)
+    ]
+    cases = dict.fromkeys(run.case for run in runs)
+    return (*runs, *(DefectRun(HEALTHY, case) for case in cases))
+
+
+def healthy_runs() -> tuple[HealthyRun, ...]:
+    """All draws of all families."""
+    return tuple(HealthyRun(family, draw) for family in FAMILIES for draw in range(DRAWS[family]))
+
+
+@dataclass(frozen=True)
+class Sighting:
+    """A verdict that fails under a defect and not without it."""
+
+    case: str
+    verdict: Caught
+
+
+@dataclass(frozen=True)
+class Seen:
+    """What the verification says of a defect.
+
+    complete  whether all its cases have a record, and the healthy ones beside them
+    """
+
+    defect: Defect
+    cases: tuple[str, ...]
+    complete: bool
+    sightings: tuple[Sighting, ...]
+
+    @property
+    def best(self) -> Sighting | None:
+        """The verdict that misses by most; a number before an error without one."""
+        return max(self.sightings, key=lambda s: s.verdict.clearance or -1.0, default=None)
+
+    @property
+    def by(self) -> tuple[str, ...]:
+        """The cases that saw it."""
+        return tuple(dict.fromkeys(sighting.case for sighting in self.sightings))
+
+
+def seen(settings: Settings, records: Records, defect: Defect) -> Seen:
+    """What the cases say of a defect. Without the healthy record a failure counts for nothing."""
+    cases = seen_by(settings, defect)
+    sightings, complete = [], True
+    for case in cases:
+        sick, well = found(records, defect.name, case), found(records, HEALTHY, case)
+        if sick is None or well is None:
+            complete = False
+            continue
+        before = {(verdict.quantity, verdict.run) for verdict in caught(well)}
+        sightings += [
+            Sighting(case, verdict)
+            for verdict in caught(sick)
+            if (verdict.quantity, verdict.run) not in before
+        ]
+    return Seen(defect, cases, complete, tuple(sightings))
+
+
+def found(records: Records, defect: str, case: str) -> CaseRecord | None:
+    """The record of a case under a defect."""
+    record = records.get(DefectRun(defect, case).name)
+    return record if isinstance(record, CaseRecord) else None
+
+
+def healthy(records: Records) -> Mapping[str, list[CaseRecord]]:
+    """Records of the healthy contacts, by family."""
+    families: dict[str, list[CaseRecord]] = {family: [] for family in FAMILIES}
+    for run in healthy_runs():
+        record = records.get(run.name)
+        if isinstance(record, CaseRecord):
+            families[run.family].append(record)
+    return families
+
+
+def all_healthy(records: Records) -> list[CaseRecord]:
+    """Records of the healthy contacts of all families."""
+    return [record for there in healthy(records).values() for record in there]
+
+
+def derived(records: list[CaseRecord]) -> list[Sample]:
+    """The samples that have an error bar."""
+    return [s for record in records for s in samples(record) if s.uncertainty is not None]
+
+
+def covered(sample: Sample) -> bool:
+    """Whether the error bar contains the true value."""
+    if sample.error is None or sample.uncertainty is None:
+        return False
+    return sample.error <= sample.uncertainty
+
+
+def caught_by_reference(record: CaseRecord) -> bool:
+    """Whether a reference or an order sees the defect, and not the laws in the fields alone."""
+    return any(not one.by_law for one in caught(record))
+
+
+def passes_gate(record: CaseRecord) -> bool:
+    """Whether a fixed gate of 1 % lets all quantities of the case pass."""
+    error = record.measures[ERROR]
+    return error is not None and error <= GATE
+
+
+COVERAGE = 0.95
+LEAST_SAMPLES = 200
+LEAST_THIN = 40
+LEAST_HEALTHY = 30
+
+
+def statements(
+    settings: Settings, records: Records, all_seen: Sequence[Seen]
+) -> tuple[Statement, ...]:
+    """All of them, in the order of the page."""
+    return (
+        _all_caught(all_seen),
+        _healthy_cases(settings, records),
+        _planted(records),
+        _false_alarms(records),
+        _coverage(records),
+        _coverage_of_thin_layers(records),
+    )
+
+
+def _all_caught(all_seen: Sequence[Seen]) -> Statement:
+    missed = [one.defect.name for one in all_seen if one.complete and not one.sightings]
+    open_ = sum(not one.complete and not one.sightings for one in all_seen)
+    caught = sum(bool(one.sightings) for one in all_seen)
+    text = f"{caught} of {len(all_seen)}"
+    if missed:
+        text += f"; missed: {', '.join(missed)}"
+    if open_:
+        text += f"; not yet judged: {open_}"
+    return Statement(
+        claim="the verification catches every seeded defect",
+        outcome=_status(not missed, open_ == 0),
+        measured=text,
+        because="by a verdict that passes without it, judged as `slipstick verify` does",
+    )
+
+
+def _healthy_cases(settings: Settings, records: Records) -> Statement:
+    runs = [run for run in defect_runs(settings) if run.defect == HEALTHY]
+    there = [record for run in runs if (record := found(records, HEALTHY, run.case)) is not None]
+    failed, verdicts = total(there, "failed"), total(there, "verdicts")
+    return Statement(
+        claim="without a defect the same cases pass",
+        outcome=_status(failed == 0, len(there) == len(runs)),
+        measured=f"{failed} of {verdicts} verdicts failed in {len(there)} of {len(runs)} cases",
+    )
+
+
+def _planted(records: Records) -> Statement:
+    there = [
+        record
+        for defect in PLANTED
+        for case in defect.cases
+        if (record := found(records, defect.name, case)) is not None
+    ]
+    wanted = sum(len(defect.cases) for defect in PLANTED)
+    both = sum(caught_by_reference(record) and passes_gate(record) for record in there)
+    return Statement(
+        claim=f"errors of first order, of a floor and of a bias fail, though a fixed gate of "
+        f"{100 * GATE:g} % passes them",
+        outcome=_status(both == len(there), len(there) == wanted),
+        measured=f"{both} of {len(there)} pairs of an error and a case",
+    )
+
+
+def _false_alarms(records: Records) -> Statement:
+    there = all_healthy(records)
+    wanted = len(healthy_runs())
+    alarms, verdicts = total(there, "failed"), total(there, "verdicts")
+    return Statement(
+        claim="healthy contacts raise no alarm",
+        outcome=_status(alarms == 0, len(there) == wanted),
+        measured=f"{alarms} of {verdicts} verdicts failed on {len(there)} contacts",
+        because=f"at least {LEAST_HEALTHY} are asked for",
+    )
+
+
+def _coverage(records: Records) -> Statement:
+    return _covered_by_bars(
+        f"error bars U = 2u contain the true error in at least {100 * COVERAGE:g} %",
+        derived(all_healthy(records)),
+        LEAST_SAMPLES,
+        "of the tolerances that are derived from refinement, before they are capped",
+    )
+
+
+def _coverage_of_thin_layers(records: Records) -> Statement:
+    return _covered_by_bars(
+        f"so they do where the coarser grids do not resolve a layer, in at least "
+        f"{100 * COVERAGE:g} %",
+        derived(healthy(records)[THIN]),
+        LEAST_THIN,
+        "the error is of one order on the finer grids alone; the bars take in by how much the "
+        "limits of finer and coarser grids differ",
+    )
+
+
+def _covered_by_bars(claim: str, samples: list[Sample], least: int, because: str) -> Statement:
+    inside = sum(map(covered, samples))
+    share = inside / len(samples) if samples else 1.0
+    return Statement(
+        claim=claim,
+        outcome=_status(share >= COVERAGE, len(samples) >= least),
+        measured=f"{inside} of {len(samples)}" + (f": {100 * share:.1f} %" if samples else ""),
+        because=because,
+    )
+
+
+def _status(good: bool, complete: bool) -> Status:
+    """A miss counts even while cases are open."""
+    if not good:
+        return Status.FAIL
+    return Status.PASS if complete else Status.INCONCLUSIVE
+
+
+def tables(records: Records, all_seen: Sequence[Seen]) -> tuple[Table, ...]:
+    """Of defects, of planted errors, and of healthy contacts."""
+    return (_defects(all_seen), _gates(records), _families(records))
+
+
+def _defects(all_seen: Sequence[Seen]) -> Table:
+    def of_best(text: Callable[[Sighting], str]) -> Callable[[Seen], str]:
+        return lambda one: "–" if one.best is None else text(one.best)
+
+    def clearance(best: Sighting) -> str:
+        return "–" if best.verdict.clearance is None else plain(best.verdict.clearance, 2)
+
+    return table_of(
+        "Seeded defects",
+        {
+            "defect": lambda one: one.defect.name,
+            "what is broken": lambda one: one.defect.broken,
+            "caught by": of_best(lambda best: f"{best.case}/{best.verdict.quantity}"),
+            "how": of_best(lambda best: best.verdict.how),
+            "error / allowed": of_best(clearance),
+            "cases": _votes,
+        },
+        all_seen,
+        "The verdict that misses by most; an error in units of what is allowed.",
+    )
+
+
+def _votes(one: Seen) -> str:
+    if one.best is None:
+        return "missed" if one.complete else "not judged"
+    return f"{len(one.by)} of {len(one.cases)}"
+
+
+def _gates(records: Records) -> Table:
+    pairs = [
+        (defect.name, case, record)
+        for defect in PLANTED
+        for case in defect.cases
+        if (record := found(records, defect.name, case)) is not None
+    ]
+    return table_of(
+        "Planted errors under a fixed gate and under the harness",
+        {
+            "error": lambda of: of[0],
+            "case": lambda of: of[1],
+            "largest error": lambda of: _percent(of[2].measures[ERROR]),
+            f"gate of {100 * GATE:g} %": lambda of: "passes" if passes_gate(of[2]) else "fails",
+            "harness": lambda of: "{failed} of {verdicts} fail".format(**of[2].counters),
+            "verdicts": lambda of: ", ".join(sorted({v.quantity for v in caught(of[2])})) or "–",
+        },
+        pairs,
+        "The largest error of any quantity of the case, relative to its scale.",
+    )
+
+
+def _percent(error: float | None) -> str:
+    return "–" if error is None else f"{100 * error:.3f} %"
+
+
+def _families(records: Records) -> Table:
+    families = healthy(records)
+    bars = {family: derived(there) for family, there in families.items()}
+    return table_of(
+        "Healthy contacts",
+        {
+            "family": str,
+            "contacts": lambda of: str(len(families[of])),
+            "verdicts": lambda of: str(total(families[of], "verdicts")),
+            "false alarms": lambda of: str(total(families[of], "failed")),
+            "within U": lambda of: (
+                f"{sum(map(covered, bars[of]))} of {len(bars[of])}" if bars[of] else "–"
+            ),
+            "largest error / U": lambda of: (
+                plain(max(_parts(bars[of]), default=0.0), 2) if bars[of] else "–"
+            ),
+        },
+        families,
+        "Tolerances of flat punches are not derived: their rim is a staircase of cells.",
+    )
+
+
+def _parts(samples: Iterable[Sample]) -> list[float]:
+    """Errors in units of U, of the samples that have both."""
+    return [s.error / s.uncertainty for s in samples if s.error is not None and s.uncertainty]
+
+
+def charts(records: Records) -> tuple[Chart, ...]:
+    """How the true errors are spread over their error bars; none without samples."""
+    curves = []
+    for number, (family, there) in enumerate(healthy(records).items()):
+        parts = sorted(_parts(derived(there)))
+        if parts:
+            shares = [(k + 1) / len(parts) for k in range(len(parts))]
+            curves.append(curve(family, parts, shares, series=number))
+    if not curves:
+        return ()
+    bound = curve("U", [1.0, 1.0], [0.0, 1.0], Look.BOUND)
+    panel = Panel(
+        x_label="error / U", y_label="share of samples below", curves=(*curves, bound), height=2.2
+    )
+    return (
+        stacked(
+            "error_bars",
+            "True errors in units of their error bars",
+            "Share of the healthy samples whose true error is below a part of U = 2u. "
+            "What lies right of 1 is not covered.",
+            panel,
+        ),
+    )
+
 
 REMARKS = (
     "A defect counts as caught by a verdict that fails under it and passes without it. No verdict "

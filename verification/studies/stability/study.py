@@ -2,16 +2,361 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+
+from verification.exhibits.chart import Chart, Curve, Look, Panel, curve, stacked
+from verification.exhibits.table import Table, plain, table_of
 from verification.judging.case import Level
+from verification.judging.run import OTHER_NORMS
 from verification.running.row import found
-from verification.running.study import Conclusion, Records, Settings, Study
-from verification.studies.stability.cell import StabilityCell
-from verification.studies.stability.charts import view_chart
+from verification.running.study import Conclusion, Records, Settings, Statement, Study, judged
+from verification.studies.stability.cell import (
+    CellRecord,
+    Refusal,
+    Solver,
+    StabilityCell,
+    Verdict,
+    View,
+    study_cells,
+    views,
+)
 from verification.studies.stability.judged import StabilityRun
-from verification.studies.stability.record import CellRecord
-from verification.studies.stability.tables import tables
-from verification.studies.stability.verdicts import answer, statements
-from verification.studies.stability.views import study_cells, views
+
+Found = Mapping[StabilityCell, CellRecord]
+Item = tuple[StabilityCell, CellRecord]
+
+MAX_NAMED = 12
+MAX_WAYS = 4
+LEAST_SHARE = 0.99  # of the cells that are not refused
+LARGEST_FORCE = 1.0  # T/µW that friction carries
+NAMES = {
+    Solver.SEMI_ANALYTICAL: "semi-analytical",
+    Solver.COMPLEMENTARITY: "finite elements, complementarity",
+    Solver.PENALTY: "finite elements, penalty",
+}
+WORK = {True: "linear systems", False: "convolutions"}  # by whether finite elements solve it
+
+
+def statements(found: Found) -> tuple[Statement, ...]:
+    """All there is to say, solver by solver."""
+    told: list[Statement] = []
+    for solver in Solver:
+        cells = of_solver(found, solver)
+        about = (nothing_silent, nearly_everything_converges, refusals_are_due, cost)
+        told += (_of(solver, state(cells)) for state in about)
+    return tuple(told)
+
+
+def of_solver(found: Found, solver: Solver) -> Found:
+    """The cells that it was asked to solve."""
+    return {cell: record for cell, record in found.items() if cell.solver is solver}
+
+
+def ended(found: Found, *so: Verdict) -> Found:
+    """The cells that ended in one of these ways."""
+    return {cell: record for cell, record in found.items() if record.verdict in so}
+
+
+def answer(found: Found) -> str:
+    """To the question of the map, in one sentence; empty without cells."""
+    if not found:
+        return ""
+    ends = Counter(record.verdict for record in found.values())
+    refused = ended(found, Verdict.REFUSED)
+    asked = Counter(NAMES[cell.solver] for cell in found)
+    return (
+        f"Of {len(found)} cells ({'; '.join(f'{name}: {n}' for name, n in asked.items())}) "
+        f"{ends[Verdict.CONVERGED]} converged, with "
+        f"residuals of {_worst(found)} at most, and {len(refused)} were refused, "
+        f"{len(_duly(refused))} of these for a force above µW or because a section cannot pose "
+        "them; "
+        f"{ends[Verdict.NOT_CONVERGED]} gave up and {ends[Verdict.SILENT]} are wrong in silence."
+    )
+
+
+def _worst(found: Found) -> str:
+    """The largest residual of the cells that converged."""
+    solved = ended(found, Verdict.CONVERGED).values()
+    return plain(max((r.worst or 0.0 for r in solved), default=0.0), 2)
+
+
+def nothing_silent(found: Found) -> Statement:
+    """No answer that breaks the equations is given as if it were good."""
+    silent = ended(found, Verdict.SILENT)
+    return Statement(
+        claim="no cell is wrong in silence",
+        outcome=judged(not silent, complete=bool(found)),
+        measured=f"{len(silent)} of {len(found)} cells{_list(silent)}",
+        because="residuals of the solver within its tolerance, and the laws of contact and "
+        "friction found again in what it returns",
+    )
+
+
+def nearly_everything_converges(found: Found) -> Statement:
+    """Nearly every cell that has a solution gets one."""
+    given_up, solved = ended(found, Verdict.NOT_CONVERGED), ended(found, Verdict.CONVERGED)
+    asked = len(solved) + len(given_up)
+    enough = bool(solved) and len(solved) >= LEAST_SHARE * asked
+    return Statement(
+        claim=f"at least {LEAST_SHARE:.0%} of the cells that are not refused converge",
+        outcome=judged(enough, complete=bool(found)),
+        measured=f"{len(solved)} of {asked} converged, largest residual {_worst(found)}; "
+        f"{len(given_up)} not converged{_list(given_up)}",
+        because="a solver that gives up says so, with its residual; every such cell has a row",
+    )
+
+
+def refusals_are_due(found: Found) -> Statement:
+    """Refused is what asks for more than µW, and what a solver cannot pose; nothing else."""
+    refused = ended(found, Verdict.REFUSED)
+    due = {cell: kind for cell in found if (kind := _due(cell))}
+    wrong = sorted((refused.keys() | due) - _duly(refused), key=lambda cell: cell.name)
+    beyond = sum(kind is Refusal.FORCE for kind in due.values())
+    unposable = len(due) - beyond
+    return Statement(
+        claim="refused is a force above µW"
+        + (", and what is not of revolution" if unposable else "")
+        + "; nothing else",
+        outcome=judged(not wrong, complete=bool(found)),
+        measured=f"{len(refused)} refused, {beyond} ask for more than µW"
+        + (f", {unposable} are not of revolution" if unposable else "")
+        + _list(wrong),
+        because="the only cells of the map that have no solution, or none on a section: one "
+        "of each kind",
+    )
+
+
+def cost(found: Found) -> Statement:
+    """What the cells took: a finding."""
+    solved = ended(found, Verdict.CONVERGED).values()
+    if not solved:
+        return Statement(claim="cost", outcome=None, measured="no cell converged")
+    by_elements = next(iter(found)).solver.by_elements
+    per_increment = [r.work / r.increments for r in solved]
+    ways = Counter(r.way for r in solved).most_common(MAX_WAYS)
+    halved = sum(r.halvings > 0 for r in solved)
+    return Statement(
+        claim="cost",
+        outcome=None,
+        measured=f"{np.median(per_increment):.0f} {WORK[by_elements]} per increment in the median "
+        f"cell, {max(per_increment):.0f} in the dearest; {halved} cells halved increments. Most "
+        "often: " + ", ".join(f"{way}: {count}" for way, count in ways),
+        because="deterministic counts; increments are as large as can be, T comes in one step",
+    )
+
+
+def _due(cell: StabilityCell) -> Refusal:
+    """What a cell has to be refused for; nothing if it has a solution."""
+    if not cell.posable:
+        return Refusal.POSE
+    return Refusal.FORCE if cell.push > LARGEST_FORCE else Refusal.NONE
+
+
+def _duly(refused: Found) -> set[StabilityCell]:
+    """Those that are refused for what they have to be."""
+    return {cell for cell, r in refused.items() if r.refused_for and r.refused_for is _due(cell)}
+
+
+def _of(solver: Solver, statement: Statement) -> Statement:
+    return statement.model_copy(update={"claim": f"{NAMES[solver]}: {statement.claim}"})
+
+
+def _list(cells: Iterable[StabilityCell]) -> str:
+    """Their names, the first of them."""
+    names = [cell.name for cell in cells]
+    if not names:
+        return ""
+    more = f" and {len(names) - MAX_NAMED} more" if len(names) > MAX_NAMED else ""
+    return ": " + ", ".join(names[:MAX_NAMED]) + more
+
+
+# Coordinates as people read them.
+AXES = {
+    "friction": "µ", "push": "T / µW", "modulus_ratio": "E1/E2", "thickness": "h/a",
+    "poisson_ratio": "ν of the layer", "path": "path", "surface": "surface", "load": "W / W(a)",
+    "length": "a (m)", "modulus": "E2 (Pa)", "solver": "solver",
+}  # fmt: skip
+
+# Classes from best to worst, each with the series whose colour and shape it takes; a place shows
+# the worst of its cells. First the decades of the residual over what is allowed.
+CLASSES = (
+    ("residual ≤ allowed / 100", 4),
+    ("residual ≤ allowed / 10", 2),
+    ("residual ≤ allowed", 0),
+    ("refused", 3),
+    ("not converged", 1),
+    ("silent", 5),
+)
+SHAPES = "downward triangle, upward triangle, disc, diamond, square, cross"
+DECADES = (0.01, 0.1)  # upper ends of the first two, over what is allowed
+ENDS = {Verdict.REFUSED: 3, Verdict.NOT_CONVERGED: 4, Verdict.SILENT: 5}
+HALVED = "*"
+HEIGHT_PER_ROW, HEIGHT_OF_AXES = 0.24, 0.5
+THOUSANDS = 10_000  # from here on the cost is rounded to them
+
+
+def class_of(record: CellRecord) -> int:
+    """Number of the class of a cell."""
+    if record.verdict in ENDS:
+        return ENDS[record.verdict]
+    return sum(_part_of_allowed(record) > decade for decade in DECADES)
+
+
+def _part_of_allowed(record: CellRecord) -> float:
+    """The worse of both residuals over what is allowed of each, as `judged` holds them [1]."""
+    stated, seen = record.residual or 0.0, record.observed or 0.0
+    return max(stated, seen / OTHER_NORMS) / record.tolerance
+
+
+def view_chart(view: View, found: Mapping[str, CellRecord]) -> Chart:
+    """One view of the map; places without a record stay empty."""
+    x_values, y_values = view.values(view.x), view.values(view.y)
+    places: dict[int, list[tuple[int, int]]] = {n: [] for n in range(len(CLASSES))}
+    notes = []
+    for i, x in enumerate(x_values):
+        for j, y in enumerate(y_values):
+            records = [found[cell.name] for cell in view.at(x, y) if cell.name in found]
+            if records:
+                places[max(map(class_of, records))].append((i, j))
+                notes.append((float(i), float(j), _cost(records)))
+    return stacked(
+        f"stability_{view.name.replace('-', '_')}",
+        view.title,
+        "Colour and shape: the worst residual of the cells at a place beside what "
+        f"is allowed, or how they ended ({'; '.join(_legend())}). Allowed is the tolerance, and of "
+        f"what the fields alone show {OTHER_NORMS:g} times that. Number: the most "
+        f"{WORK[view.by_elements]} that one of them took"
+        f"{' (steps of Newton or of the active set)' if view.by_elements else ''}, with "
+        f"{HALVED} where increments were halved.",
+        Panel(
+            x_label=AXES[view.x],
+            y_label=AXES[view.y],
+            curves=tuple(_tiles(n, where) for n, where in places.items() if where),
+            height=HEIGHT_OF_AXES + HEIGHT_PER_ROW * len(y_values),
+            notes=tuple(notes),
+            x_places=_texts(x_values),
+            y_places=_texts(y_values),
+        ),
+    )
+
+
+def _tiles(number: int, where: list[tuple[int, int]]) -> Curve:
+    x, y = zip(*where, strict=True)
+    label, series = CLASSES[number]
+    return curve(label, map(float, x), map(float, y), Look.TILES, series)
+
+
+def _legend() -> list[str]:
+    return [f"{s}: {label}" for s, (label, _) in zip(SHAPES.split(", "), CLASSES, strict=True)]
+
+
+def _cost(records: list[CellRecord]) -> str:
+    most = max(record.work for record in records)
+    mark = HALVED if any(record.halvings for record in records) else ""
+    number = "–" if most == 0 else str(most) if most < THOUSANDS else f"{most / 1000:.0f}k"
+    return number + mark
+
+
+def _texts(values: Iterable[Any]) -> tuple[str, ...]:
+    return tuple(str(v) if isinstance(v, str) else plain(v, 6) for v in values)
+
+
+MAX_ROWS = 60  # of good cells; the others have all of theirs
+
+
+def tables(found: Found) -> tuple[Table, ...]:
+    """The solvers, what did not converge, and the cells of either kind of solver."""
+    groups = [[i for i in found.items() if i[0].solver.by_elements is kind] for kind in WORK]
+    bad = [*ended(found, Verdict.NOT_CONVERGED, Verdict.SILENT).items()]
+    return (
+        _of_solvers(found),
+        *([_of_bad(bad)] if bad else []),
+        *(_of_cells(group) for group in reversed(groups) if group),
+    )
+
+
+def _of_solvers(found: Found) -> Table:
+    cells = {solver: of_solver(found, solver) for solver in Solver}
+    solved = {solver: [*ended(of, Verdict.CONVERGED).values()] for solver, of in cells.items()}
+    return table_of(
+        "The solvers",
+        {
+            "solver": lambda s: NAMES[s],
+            "cells": lambda s: str(len(cells[s])),
+            **{v: lambda s, v=v: str(len(ended(cells[s], v))) for v in Verdict},  # type: ignore[misc]
+            "largest residual": lambda s: _largest(r.residual for r in solved[s]),
+            "from the fields": lambda s: _largest(r.observed for r in solved[s]),
+            "increments": lambda s: str(sum(r.increments for r in solved[s])),
+            "work": lambda s: str(sum(r.work for r in solved[s])),
+        },
+        Solver,
+        "Work: convolutions of the semi-analytical solver, linear systems of the finite elements.",
+    )
+
+
+def _of_bad(bad: list[Item]) -> Table:
+    return table_of(
+        f"Not solved: all of these {len(bad)} cells",
+        {
+            "cell": lambda i: i[0].name,
+            "verdict": lambda i: i[1].verdict,
+            "worst residual": lambda i: _number(i[1].worst),
+            "reason": lambda i: i[1].reason or "–",
+        },
+        bad,
+    )
+
+
+def _of_cells(group: list[Item]) -> Table:
+    """The worst classes first, of one those that halved increments, then the dearest."""
+    by_elements = group[0][0].solver.by_elements
+    solver = "finite elements" if by_elements else "the semi-analytical solver"
+    shown = sorted(group, key=_hardness)[:MAX_ROWS]
+    some = f"The {len(shown)} hardest of {len(group)} cells of {solver}"
+    return table_of(
+        f"The cells of {solver}" if len(shown) == len(group) else some,
+        {
+            "cell": lambda i: i[0].name,
+            "verdict": lambda i: _outcome(i[1]),
+            "worst residual": lambda i: _number(i[1].residual),
+            "from the fields": lambda i: _number(i[1].observed),
+            "increments": lambda i: str(i[1].increments),
+            "halved": lambda i: str(i[1].halvings),
+            "way": lambda i: i[1].way or "–",
+            "rounds": lambda i: str(i[1].rounds),
+            WORK[by_elements]: lambda i: str(i[1].work),
+        },
+        shown,
+        "A cell is named by the coordinates that differ from the ordinary ones; all of them "
+        "are in `rows.csv`, which `slipstick maintain study stability` writes. Rounds: the most "
+        "that pressure and shear took to agree in an increment.",
+    )
+
+
+def _hardness(item: Item) -> tuple[int, int, int]:
+    record = item[1]
+    return -class_of(record), -record.halvings, -record.work
+
+
+def _outcome(record: CellRecord) -> str:
+    """The verdict and its reason, without the name of the exception that begins a refusal."""
+    reason = record.reason
+    if record.verdict is Verdict.REFUSED:
+        reason = reason.partition(": ")[2] or reason
+    return f"{record.verdict}: {reason}" if reason else str(record.verdict)
+
+
+def _largest(values: Iterable[float | None]) -> str:
+    return _number(max((value or 0.0 for value in values), default=None))
+
+
+def _number(value: float | None) -> str:
+    return "–" if value is None else plain(value, 2)
+
 
 CELLS = {Level.QUICK: 32, Level.STANDARD: 32, Level.FULL: 48}
 

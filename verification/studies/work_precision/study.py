@@ -6,15 +6,19 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from contact_scene.quantities.residuals import worst
-from verification.exhibits.chart import Chart, Look
-from verification.exhibits.log_chart import Points, log_chart, point_curves
-from verification.exhibits.numbers import plain
-from verification.exhibits.table import NONE, Table
+from verification.exhibits.chart import Chart, Look, Points, log_chart, point_curves
+from verification.exhibits.table import NONE, Table, plain
 from verification.running.row import CaseRecord, found, value_of
-from verification.running.rules import judged, solved
-from verification.running.study import Conclusion, Records, Settings, Statement, Study
-from verification.studies.work_precision.contacts import CONTACTS
-from verification.studies.work_precision.setting import Method, PrecisionCase, all_cases
+from verification.running.study import (
+    Conclusion,
+    Records,
+    Settings,
+    Statement,
+    Study,
+    judged,
+    solved,
+)
+from verification.studies.work_precision.setting import CONTACTS, Method, PrecisionCase, all_cases
 
 TARGETS = (0.1, 0.01, 0.001, 0.0001)
 ASKED = 0.001  # the target of the answer
