@@ -20,6 +20,7 @@ from contact_scene.reading.engineering_units import (
     engineering_unit,
 )
 
+BAR = {"fraction": 0.05, "pad": 0.03}
 SECTION, AXIS, SURFACE = "stress_section.png", "stress_axis.png", "stress_surface.png"
 
 
@@ -47,10 +48,13 @@ def section_plot(field: StressField, body: Body, title: str) -> Figure:
         "tension (largest principal)": np.maximum(points.principal[0], 0.0),
     }
     half = float(points.x.min()) >= 0
-    figure = _titled(6.4 if half else 9.0, 6.4, title)
-    axes = figure.subplots(2, 2, sharex=True, sharey=True)
+    width = 6.4 if half else 9.0
+    figure = _titled(width, 6.4, title)
+    place = {"bottom": 0.08, "top": 0.92, "wspace": 0.2, "hspace": 0.1}
+    place |= {"left": 0.7 / width, "right": 1 - 0.75 / width}  # labels of either side [inch]
+    axes = figure.subplots(2, 2, sharex=True, sharey=True, gridspec_kw=place)
     for ax, (name, values) in zip(axes.flat, panels.items(), strict=True):
-        length = draw_section(figure, ax, field, body, values, name)
+        length = draw_section(figure, ax, field, body, values, name, bar=BAR)
     for ax in axes[-1]:
         ax.set_xlabel(length.labelled(field.label))
     for ax in axes[:, 0]:
@@ -64,8 +68,9 @@ def axis_plot(field: StressField, body: Body, title: str) -> Figure:
     depth = field.shown[1]
     lines = {"on the z axis": field.axis, **_below_edge(field)}
     length = engineering_unit(depth, "m")
-    figure = _titled(4.6 * len(lines) + 0.8, 4.8, title)
-    axes = figure.subplots(1, len(lines), sharey=True, squeeze=False)[0]
+    figure = _titled(4.2 * len(lines) + 1.4, 4.8, title)
+    place = {"left": 0.08, "right": 0.86, "bottom": 0.11, "top": 0.88, "wspace": 0.08}
+    axes = figure.subplots(1, len(lines), sharey=True, squeeze=False, gridspec_kw=place)[0]
     for ax, (where, points) in zip(axes, lines.items(), strict=True):
         draw_depth(ax, points, body, depth, length)
         ax.set_title(where)
@@ -77,7 +82,8 @@ def axis_plot(field: StressField, body: Body, title: str) -> Figure:
 def surface_plot(field: StressField, body: Body, title: str) -> Figure:
     """Stresses along the surface; call within `figure_style`."""
     figure = _titled(6.4, 3.4, title)
-    draw_surface(figure.subplots(), field)
+    place = {"left": 0.12, "right": 0.97, "bottom": 0.15, "top": 0.8}
+    draw_surface(figure.subplots(gridspec_kw=place), field)
     return figure
 
 
@@ -182,6 +188,6 @@ def _named(component: str) -> str:
 
 
 def _titled(width: float, height: float, title: str) -> Figure:
-    figure = style.new_figure(width, height)
+    figure = style.new_figure(width, height, arranged=False)
     figure.suptitle(fill(title, int(13 * width)), fontsize=9.0)
     return figure
