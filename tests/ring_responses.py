@@ -41,13 +41,15 @@ def rings(per_unit: int, reach: float, highest: int, *bodies: Coating) -> RingCo
     hats = _hats(per_unit, len(radii), highest)
     nodes = np.sort(np.concatenate([radii, (radii[1:] + radii[:-1]) / 2]))
     harmonics = tuple(_harmonic(n, hats, ss, tt, zz, C) for n in range(highest + 1))
+    basis = hats_on(nodes)
     return RingCompliance(
         radii=radii,
-        areas=hats_on(nodes).weights,
+        areas=basis.weights,
         gap=0.0 * radii,
         harmonics=harmonics,
         path=Path.HARMONICS,
         motion=np.zeros((2, len(radii))),
+        stretch=basis.arms / basis.weights,
         reach=float(radii[-1]),
         edge=HatEdge(),
     )
