@@ -10,7 +10,20 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 from command import outcome, slipstick
-from contact_scenes import LOAD, MU, PRESS, YOUNG, A, grid, hertz, paraboloid, push, scene, steel
+from contact_scenes import (
+    LOAD,
+    MU,
+    PRESS,
+    RADIUS,
+    YOUNG,
+    A,
+    grid,
+    hertz,
+    paraboloid,
+    push,
+    scene,
+    steel,
+)
 from scene_texts import COARSE, STEEL_BALL_PRESSED
 
 import contact_errors
@@ -55,6 +68,8 @@ from verification.closed_forms.coated_indentation import paraboloid as pressed_c
 from verification.closed_forms.cone import ConeContact
 from verification.closed_forms.elliptical_contact import EllipticalContact
 from verification.closed_forms.hertz import contact_modulus, tangential_modulus
+from verification.problems.drawn.drawing import Profile
+from verification.problems.drawn.references import Similar
 from verification.problems.layered_scene import surface_of
 
 SLOW = pytest.mark.slow
@@ -292,6 +307,24 @@ def cone() -> Known:
     return Known(pressed, {"contact_radius": A, "approach": contact.approach}, cells(32))
 
 
+def pushed_cone(part: float) -> Known:
+    """By the principle of Jaeger and Ciavarella, with ν = 0."""
+    sharp = Cone(slope_angle=0.02, material=LOOSE)
+    posed = scene(PRESS, push(part), indenter=sharp, body=LOOSE)
+    shift, _, lost, _ = Similar(posed, LOAD, MU).first(part * MU * LOAD)
+    return Known(posed, {"tangential_shift": shift, "dissipated_energy": lost}, cells(48))
+
+
+def ridge(**shape: float) -> Known:
+    """The largest pressure of a rounded flat or a ring, by finer cells."""
+    profile = Profile(scale=RADIUS, material=steel(), **shape)
+    posed = scene(PRESS, friction=None).model_copy(update={"indenter": profile})
+    asked = SurfaceDiscretisation(window=(3 * A, 3 * A), cells=(60, 60))
+    finer = asked.model_copy(update={"cells": (256, 256)})
+    (end,) = package.solve(posed, "semi-analytical", finer).steps
+    return Known(posed, {"peak_pressure": end.peak_pressure}, asked, uncertain=2e-4)
+
+
 def stiff_film(stiffer: float, thickness: float, count: int) -> Known:
     film = Layer(thickness=thickness * A, material=steel(young_modulus=stiffer * YOUNG))
     body = Body(material=steel(), layers=(film,))
@@ -349,6 +382,9 @@ KNOWN: dict[str, Callable[[], Known]] = {
     "Cattaneo and Mindlin": cattaneo,
     "Cattaneo and Mindlin, elements": lambda: cattaneo("fem-complementarity"),
     "cone": cone,
+    "cone pushed": lambda: pushed_cone(0.95),
+    "rounded flat": lambda: ridge(flat=0.5 * A),
+    "ring": lambda: ridge(ring=0.5 * A),
     **{
         f"film, E ratio {E:g}, h = {h:g} a, {n} cells": lambda E=E, h=h, n=n: stiff_film(E, h, n)
         for E, h, n in ((20.0, 0.5, 48), (42.6, 0.5, 58), (40.0, 0.083, 37), (0.5, 0.2, 33))
