@@ -35,8 +35,8 @@ from contact_errors.error_formula import (
     stated,
 )
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
-from contact_results.stress.on_cells import stress_on_cells
-from contact_results.stress.on_disc import stress_on_disc
+from contact_results.stress.on_cells import stress_at_cells, stress_on_cells
+from contact_results.stress.on_disc import stress_at_radii, stress_on_disc
 from contact_results.stress.on_section import stress_on_section
 from contact_results.stress.points import StressField, StressPoints
 from contact_results.stress.stress_maxima import (
@@ -51,6 +51,7 @@ from contact_scene.quantities.stated_error import (
     StatedError,
     StatedErrors,
 )
+from contact_scene.solver_errors import UnsupportedScene
 
 Field = NDArray[np.float64]
 Key = tuple[str, str]
@@ -88,6 +89,35 @@ def largest_stresses(
     if errors is not None:
         stated = stress_errors(state, field, list(largest.values()))
     return {name: (largest[name].value, error) for name, error in zip(largest, stated, strict=True)}
+
+
+def stress_at(
+    state: LoadedBodies, x: Field, y: Field, levels: Sequence[Any], *, indenter: bool = False
+) -> tuple[StressPoints, Field]:
+    """Compute the stress at points (n,) of levels with the error of its components (n,).
+
+    Raises UnsupportedScene for finite elements.
+    """
+    if state.pressed is not None:
+        here, other = (
+            stress_at_radii(state, x, y, levels, indenter=indenter, fineness=fineness)
+            for fineness in (1, int(COARSE))
+        )
+        others, growth = [other], np.full(len(x), 1 - COARSE ** (-BELIEVED * SMOOTH))
+    elif state.on_rings:
+        raise UnsupportedScene(
+            "finite elements give the stress at their nodes in one plane; solve the scene with "
+            "--solver semi-analytical or radial"
+        )
+    else:
+        here, *others = (
+            stress_at_cells(one, x, y, levels, indenter=indenter)
+            for one in (state, on_wide_cells(state, 0), on_wide_cells(state, 1))
+        )
+        near = here.depth < NEAR * _side(state)
+        growth = np.where(near, _growth(ROOT), _growth(SMOOTH))
+    apart = [np.max(np.abs(here.stress - other.stress), axis=0) for other in others]
+    return here, np.max(apart, axis=0) / growth
 
 
 def _field(state: LoadedBodies, *, indenter: bool = False, depths: Any = None) -> StressField:

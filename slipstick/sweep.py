@@ -166,7 +166,7 @@ class SweepPoint:
             return self.record(f"{type(error).__name__}: {error}")
         record = self.record()
         for name in self.wanted:
-            value, stated, axis, unit = numbers[name]
+            value, stated, axis, unit = numbers.get(name, (None, None, "", "Pa"))
             known = uncertainty(stated, axis or "x")
             size = known.size if known else 0.0 if stated else None  # without one it is exact
             for column, number in ((name, value), (f"{name} error", size)):

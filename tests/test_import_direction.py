@@ -146,6 +146,7 @@ ORDERS = {
         "figures",
         "result_files",
         "stress_files",
+        "stress_history",
         "export",
     ),
     "contact_errors": (

@@ -67,6 +67,56 @@ def test_traction_on_the_interface_is_the_largest_of_one_side(place: Path) -> No
     assert found[0]["error"]["error"] < 0.1 * found[0]["value"]
 
 
+def at_points(place: Path, source: str, out: str, *arguments: object) -> list[dict[str, str]]:
+    ended = outcome("stress", place / source, "-o", place / out, *arguments, cwd=ROOT)
+    assert ended.returncode == 0, ended.stderr
+    return rows(place / out / "stress_history.csv")
+
+
+SIGMA = tuple(f"sigma_{name} [Pa]" for name in ("xx", "yy", "zz", "yz", "xz", "xy"))
+
+
+def test_stress_at_a_point_is_that_of_the_table_on_both_sides(place: Path) -> None:
+    found = at_points(place, "run", "point", "--at", "0,0,interface 1", "--step", 2)
+    sides = [row for row in rows(place / "out/stress_axis.csv") if float(row["depth [m]"]) == 1e-4]
+    assert len(found) == len(sides) == 2
+    for row, of_axis in zip(found, sides, strict=True):
+        assert row["material"] == of_axis["material"]
+        for name in SIGMA:
+            assert float(row[name]) == pytest.approx(float(of_axis[name]), rel=1e-9, abs=1.0)
+
+
+def test_cells_and_rings_have_the_same_stress_at_points_within_their_errors(place: Path) -> None:
+    points = ("--at", "0.3 mm,0,0.25 mm", "--at", "0,0.3 mm,0.25 mm", "--at", "-.3mm,.2mm,.15mm")
+    cells = at_points(place, "run", "cells", *points)
+    rings = at_points(place, "scene.toml", "rings", *points, "--solver", "radial")
+    for one, other in zip(cells, rings, strict=True):
+        allowed = float(one["error [Pa]"]) + float(other["error [Pa]"])
+        assert allowed < 2e7
+        for name in SIGMA:
+            assert abs(float(one[name]) - float(other[name])) <= allowed
+    assert rings[0]["sigma_xx [Pa]"] == rings[1]["sigma_yy [Pa]"]
+    assert abs(float(rings[2]["sigma_xy [Pa]"])) > 1e7
+
+
+def test_a_history_of_points_needs_the_fields_of_all_increments(place: Path) -> None:
+    point = ("--at", "0.2 mm,0,interface 1", "--history")
+    shown = at_points(place, "scene.toml", "steps", *point)
+    assert [(row["point"], row["step"], row["increment"]) for row in shown] == [
+        (point, step, "1") for point in "12" for step in "12"
+    ]
+    four = ("--set", "loading[2].increments=4", "--figures", "none", "--no-error")
+    for name, more in (("ends", ()), ("all", ("--all-fields",))):
+        outcome("run", place / "scene.toml", "-o", place / name, *four, *more, cwd=ROOT)
+    refused = outcome("stress", place / "ends", "-o", place / "no", *point, cwd=ROOT)
+    assert refused.returncode == 2
+    assert "run again with --all-fields" in " ".join(refused.stderr.replace("│", " ").split())
+    found = at_points(place, "all", "history", *point)
+    assert len(found) == 10
+    assert float(found[4][SIGMA[2]]) == pytest.approx(float(shown[1][SIGMA[2]]), rel=1e-5)
+    assert (place / "history/stress_history.png").is_file()
+
+
 def test_run_and_scene_give_the_same(place: Path) -> None:
     ended = outcome("stress", place / "run", "-o", place / "of_run", "--figures", "none", cwd=ROOT)
     assert ended.returncode == 0, ended.stderr
@@ -121,6 +171,10 @@ def test_indenter_has_its_own_stress(place: Path) -> None:
     [
         (["{}/run", "--step", "3"], "no step 3"),
         (["{}/out"], "is no run: it has no"),
+        (["{}/run", "--history"], "add --at X,Y,Z"),
+        (["{}/run", "--at", "0,0"], "expected X,Y,Z"),
+        (["{}/run", "--at", "0,0,-1"], "--at"),
+        (["{}/run", "--at", "0,0,0", "--volume"], "--volume is not of points"),
         (["{}/run", "--depths", "-1"], "expected a finite length"),
         (["{}/run", "--depths", "1 kN"], "expected a length"),
         (["{}/run", "--set", "title=a"], "--set says what to solve"),

@@ -35,6 +35,13 @@ MAPS = "maps"  # group of the arrays that the scene reads from files
 STEP = "step"
 
 
+class FieldsAtEndsOnly(KeyError):
+    """Fields of an increment within a load step were not stored."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
 @contextmanager
 def opened(path: Path) -> Iterator[h5py.File]:
     """Open an HDF5 file for reading; raises ValueError where h5py cannot read it, for links and for
@@ -80,13 +87,13 @@ def ends_of_steps(steps: NDArray[Any]) -> NDArray[np.intp]:
 def row_of(dataset: h5py.Dataset, increment: int) -> int:
     """Return the first index of a dataset for an increment, counted from 0.
 
-    Raises KeyError for an increment within a load step whose fields were not stored.
+    Raises FieldsAtEndsOnly for an increment within a load step whose fields were not stored.
     """
     if dataset.dims[0].label != STEP:
         return increment
     found = np.flatnonzero(ends_of_steps(values(dataset.parent["step"])) == increment)
     if not len(found):
-        raise KeyError(
+        raise FieldsAtEndsOnly(
             f"{dataset.file.filename} has {dataset.name} at the ends of load steps only, and "
             f"increment {increment + 1} is not one of them; run again with --all-fields"
         )

@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from contact_results.directory.file_names import FIELDS
-from contact_results.files.stored_run import load
-from contact_results.files.stored_values import MISREAD, ends_of_steps
+from contact_results.files.stored_run import StoredRun, load
+from contact_results.files.stored_values import MISREAD, FieldsAtEndsOnly, ends_of_steps
 from contact_results.stress.points import StressPoints
 from contact_results.surface import Surface, surface_of, surface_on
 from contact_scene import Body, CoulombFriction, FiniteElementDiscretisation, Scene
 from contact_scene.array_types import Field
 from contact_scene.bulk_strain import Strain, stress_by
 from contact_scene.geometry import ShapedBody
-from contact_scene.quantities.increment import State
+from contact_scene.quantities.increment import SCALARS, State
 from contact_scene.quantities.stated_error import (
     ErrorStatus,
     StatedError,
@@ -118,14 +119,27 @@ def state_of_result(
     """
     ends = {end.step: end for end in result.steps}
     end = _in_contact(ends[_existing(step, sorted(ends))])
+    return _of_result(result, end, None if errors is None else errors.steps[end.step - 1])
+
+
+def states_of_result(result: Result) -> Iterator[tuple[int, int, LoadedBodies | None]]:
+    """Load step, increment and state of every increment of a result; None of separated bodies."""
+    for increment in result.increments:
+        state = _of_result(result, increment, None) if increment.contact_area else None
+        yield increment.step, increment.index, state
+
+
+def _of_result(
+    result: Result, increment: Any, errors: Mapping[str, StatedError] | None
+) -> LoadedBodies:
     surface = surface_of(result)
-    fields = {name: surface.scalar(end, name) for name in TRACTIONS}
+    fields = {name: surface.scalar(increment, name) for name in TRACTIONS}
     return _state(
         result.scene,
         result.solver,
-        end,
-        None if errors is None else errors.steps[end.step - 1],
-        step=end.step,
+        increment,
+        errors,
+        step=increment.step,
         axes=surface.axes,
         tractions={name: field for name, field in fields.items() if field is not None},
         discretisation=getattr(result, "discretisation", None),
@@ -138,31 +152,66 @@ def state_of_run(directory: Path, step: int | None) -> LoadedBodies:
 
     Raises NoSuchState, also for a file that is no result, and ResourceRefused.
     """
-    try:
-        run = load(directory)
-    except (FileNotFoundError, ValueError) as error:
-        raise NoSuchState(f"{error}; give the output of a run, or a scene file") from None
+    run = _run_of(directory)
     chosen = _existing(step, list(range(1, len(run.summary.steps) + 1)))
     end = _in_contact(run.summary.steps[chosen - 1])
+    last = int(ends_of_steps(run.increments["step"].array)[chosen - 1])
+    return _of_run(run, directory, last, end, end.errors, chosen)
+
+
+def states_of_run(directory: Path) -> Iterator[tuple[int, int, LoadedBodies | None]]:
+    """Load step, increment and state of every increment of a stored run; None of separated bodies.
+
+    Raises what `state_of_run` does, and NoSuchState for a run that has no fields of its increments.
+    """
+    run = _run_of(directory)
+    scalars = {name: run.increments[name].array for name in SCALARS if name in run.increments}
+    places = zip(
+        *(run.increments[name].array.tolist() for name in ("step", "increment")), strict=True
+    )
+    for n, (step, index) in enumerate(places):
+        values = {name: array[n] for name, array in scalars.items()}
+        known = {name: None if np.any(np.isnan(value)) else value for name, value in values.items()}
+        end = SimpleNamespace(**(dict.fromkeys(SCALARS) | known))
+        yield step, index, _of_run(run, directory, n, end, None, step) if end.contact_area else None
+
+
+def _run_of(directory: Path) -> StoredRun:
+    try:
+        return load(directory)
+    except (FileNotFoundError, ValueError) as error:
+        raise NoSuchState(f"{error}; give the output of a run, or a scene file") from None
+
+
+def _of_run(
+    run: StoredRun,
+    directory: Path,
+    increment: int,
+    end: Any,
+    errors: Mapping[str, StatedError] | None,
+    step: int,
+) -> LoadedBodies:
+    """Read the state of an increment, from 0, with its scalars."""
     try:
         # A file lists names by the alphabet; fields have the radii first.
         order = sorted(run.coordinates, key=lambda name: name == "angles")
         axes = {name: run.coordinates[name].array for name in order}
-        last = int(ends_of_steps(run.increments["step"].array)[chosen - 1])
         names = [name for name in TRACTIONS if name in run.increments]
-        tractions = {name: run.increments.at(name, last) for name in names}
+        tractions = {name: run.increments.at(name, increment) for name in names}
         shape = tuple(n for places in axes.values() for n in places.shape)
         for name, field in tractions.items():
             if field.shape != (expected := (2, *shape) if name == "shear" else shape):
                 raise ValueError(f"{name} has shape {field.shape}, expected {expected}")
+    except FieldsAtEndsOnly as error:
+        raise NoSuchState(f"{error}, or give the scene file") from None
     except MISREAD as error:
         raise NoSuchState(f"{directory / FIELDS} is not the {FIELDS} of a run: {error}") from None
     return _state(
         run.scene,
         run.summary.solver,
         end,
-        end.errors,
-        step=chosen,
+        errors,
+        step=step,
         axes=axes,
         tractions=tractions,
         discretisation=run.discretisation,

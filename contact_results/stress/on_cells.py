@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
+from math import ceil
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -31,6 +32,8 @@ MARGIN = 1.6
 # The same of levels with a largest stress at the edge of the window: behind a pushed contact the
 # stress at an interface is largest about two contact radii from the middle.
 WIDE_MARGIN = 2.4
+NEIGHBOURS = 4  # cells beside a point, for the interpolation
+LEVEL = ("depth", "layer")
 # Numbers per point of the volume: displacement and stress of each level and of all, cells; places,
 # tensors and invariants of the file.
 NUMBERS = (9 + 9 + 8) + (3 + 3 + 9 + 4)
@@ -42,6 +45,27 @@ def estimated_bytes(grid: SurfaceGrid) -> int:
 
     nx, ny = (round(MARGIN * cells) for cells in grid.cells)
     return required_bytes((nx, ny), 1) - FIXED
+
+
+@one_thread()
+def stress_at_cells(
+    state: LoadedBodies, x: Field, y: Field, levels: Sequence[Level], *, indenter: bool = False
+) -> StressPoints:
+    """Stress at points (n,), by cubic interpolation between the cells of their levels."""
+    from semi_analytical.stress import subsurface
+
+    body = state.indenter if indenter else state.body
+    reach = [float(np.max(np.abs(places))) for places in (x, y)]
+    grid, pressure, shear = _with_margin(state, 0.0, reach)
+    if indenter and shear is not None:
+        shear = -shear
+    tractions = _as_seen_from_afar(state, pressure, shear)
+    fields = {level: subsurface(body, grid, *tractions, [level]) for level in set(levels)}
+    found = [fields[level].below(*at) for *at, level in zip(x, y, levels, strict=True)]
+    displacement, stress = (np.concatenate(parts).T for parts in zip(*found, strict=True))
+    depth, layer = (np.array([getattr(level, name) for level in levels]) for name in LEVEL)
+    points = StressPoints(x, y, depth, layer, displacement, stress, at_edge=x != x)
+    return state.strained(points, indenter)
 
 
 @one_thread()
@@ -239,14 +263,21 @@ def _on_edge(edge: NearEdge, stress: Field) -> StressPoints:
     )
 
 
-def _with_margin(state: LoadedBodies, margin: float) -> tuple[SurfaceGrid, Field, Field | None]:
-    """Grid, pressure and shear on a window that is no smaller than it was."""
+def _with_margin(
+    state: LoadedBodies, margin: float, reach: Sequence[float] = (0.0, 0.0)
+) -> tuple[SurfaceGrid, Field, Field | None]:
+    """Grid, pressure and shear on a window that is no smaller than it was.
+
+    margin  half a window in half extents of the contact
+    reach   half a window along x and y at least [length]
+    """
     from semi_analytical import SurfaceGrid
 
     x, y = state.axes["x"], state.axes["y"]
     pressure, shear = state.tractions["pressure"], state.tractions.get("shear")
     sides = [float(c[-1] - c[0]) / (len(c) - 1) for c in (x, y)]
-    widths = [_margin(pressure, axis, margin) for axis in (0, 1)]
+    halves = [ceil(r / side) - len(c) // 2 for r, side, c in zip(reach, sides, (x, y), strict=True)]
+    widths = [max(_margin(pressure, axis, margin), halves[axis] + NEIGHBOURS) for axis in (0, 1)]
     pad = [(width, width) for width in widths]
     cells = (len(x) + 2 * widths[0], len(y) + 2 * widths[1])
     grid = SurfaceGrid(cells, (cells[0] * sides[0], cells[1] * sides[1]))

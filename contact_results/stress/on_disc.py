@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,7 +12,11 @@ from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import StressField, StressPoints
 from contact_results.stress.radial_body import RadialBody
 from contact_results.stress.stress_maxima import extremes
+from contact_scene.array_types import Field
 from contact_scene.machine.blas_threads import one_thread
+
+if TYPE_CHECKING:
+    from semi_analytical.frf.depth import Level
 
 SHOWN = 3.0  # contact radii to the sides and in depth
 
@@ -54,6 +59,34 @@ def stress_on_disc(
     extreme = extremes(field, state.indenter if indenter else state.body)
     nearer = [body.largest(one) for one in extreme if one.region in body.parts.named]
     return replace(field, points=StressPoints.joined([field.points, *nearer]))
+
+
+@one_thread()
+def stress_at_radii(
+    state: LoadedBodies,
+    x: Field,
+    y: Field,
+    levels: Sequence[Level],
+    *,
+    indenter: bool = False,
+    fineness: int = 1,
+) -> StressPoints:
+    """Stress at points (n,) below the tractions of the radial solver; raises UnsupportedScene.
+
+    fineness  multiplies the number of orders and points
+    """
+    body = RadialBody.of(state, indenter, fineness)
+    c, s = body.direction
+    along, across = c * x + s * y, c * y - s * x
+    found = []
+    for px, py, level in zip(along, across, levels, strict=True):
+        if body.is_round:
+            r = np.hypot(px, py)
+            point = body.points([level], np.array([r]), np.zeros(1)).in_a_row
+            found.append(point.turned((px / r, py / r) if r else (1.0, 0.0)))
+        else:
+            found.append(body.points([level], np.array([px]), np.array([py])).in_a_row)
+    return StressPoints.joined(found).turned(body.direction)
 
 
 def _both_sides(right: StressPoints) -> StressPoints:

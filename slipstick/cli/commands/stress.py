@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from contact_results.stress.points import StressField
     from contact_results.stress.stress_maxima import Extreme
     from contact_results.surface import Result
-    from contact_scene import SceneFile
+    from contact_scene import Body, SceneFile
     from contact_scene.accuracy import AccuracyRequest
     from contact_scene.quantities.stated_error import (
         AccuracyReached,
@@ -75,6 +75,22 @@ def stress(
             "sides of every interface are always there.",
         ),
     ] = None,
+    at: Annotated[
+        list[str] | None,
+        optional(
+            "--at",
+            metavar="X,Y,Z",
+            help="Stress at a point alone, such as '0.3 mm,0,20 um'; 'interface 1' as Z stands for "
+            "both sides of it. Any number of times.",
+        ),
+    ] = None,
+    history: Annotated[
+        bool,
+        typer.Option(
+            "--history",
+            help="With --at: over all increments of a scene, or of a run with --all-fields.",
+        ),
+    ] = False,
     indenter: Annotated[
         bool, typer.Option("--indenter", help="The indenter instead of the body; z points up.")
     ] = False,
@@ -101,8 +117,11 @@ def stress(
 
     With --accuracy, or a table [accuracy] in the scene, the scene is solved as by 'run';
     "max_principal 1%" binds the largest tension in the body.
+
+    With --at, DIR receives stress_history.csv and .png instead.
     """
     from contact_results.directory.run_directory import refuse_files_above
+    from contact_scene import read_scene_file
 
     refuse_files_above(output)
     asked = None if depths is None else [_length(text) for text in depths.split(",")]
@@ -112,9 +131,13 @@ def stress(
         _refuse_beside_run(given | {"--accuracy": accuracy, "--most-seconds": most_seconds})
     else:
         _refuse_beside_section(chosen, asked, volume)
+    if at or history:
+        _refuse_beside_points(at, {"--depths": depths, "--volume": volume, "--accuracy": accuracy})
+        read = None if source.is_dir() else read_scene_file(source, overrides or ())
+        _write_points(source, read, at or [], step, chosen, output, history, indenter)
+        return
     from contact_results.stress.stress_maxima import extremes
     from contact_results.stress_files import write_stress
-    from contact_scene import read_scene_file
 
     reached = None
     with ExitStack() as until_written:
@@ -166,6 +189,92 @@ def stress(
     by_increments = 0.0 if on_disc else state.by_increments
     _print(found, errors, by_increments, reached, field.how.get("edge"), output)
     leave_unless_met(reached)
+
+
+def _refuse_beside_points(at: list[str] | None, given: dict[str, object]) -> None:
+    if not at:
+        raise typer.BadParameter("--history is of chosen points; add --at X,Y,Z")
+    for option, value in given.items():
+        if value:
+            raise typer.BadParameter(f"{option} is not of points; leave it out, or leave --at out")
+
+
+def _write_points(
+    source: Path,
+    contents: SceneFile | None,
+    at: list[str],
+    step: int | None,
+    chosen: SolverName,
+    output: Path,
+    history: bool,
+    indenter: bool,
+) -> None:
+    """Write the stress at points, at the end of a load step or over all increments."""
+    from contact_errors.stress_errors import stress_at
+    from contact_results.stress.loaded_bodies import (
+        NoSuchState,
+        state_of_result,
+        state_of_run,
+        states_of_result,
+        states_of_run,
+    )
+    from contact_results.stress_history import StressIncrement, write_history
+    from contact_scene.quantities.field_metadata import CONVENTION, OF_THE_INDENTER
+    from contact_scene.solver_errors import ContactNotResolved, SolverError, UnsupportedScene
+    from slipstick.cli.terminal import tell
+
+    made = []
+    left_out: SolverError = ContactNotResolved("the bodies are separated, and have no stress")
+    try:
+        if contents is None:
+            states: Any = states_of_run(source) if history else [state_of_run(source, step)]
+        else:
+            result, _ = _solved(contents, chosen, error=False)
+            states = states_of_result(result) if history else [state_of_result(result, step)]
+        for state in states:
+            number, index, state = state if history else (state.step, None, state)
+            if state is None:
+                continue
+            title, body = state.title, (state.indenter if indenter else state.body)
+            x, y, levels = _points_of(at, body)
+            try:
+                found = stress_at(state, x, y, levels, indenter=indenter)
+                made.append(StressIncrement(number, index, *found))
+            except UnsupportedScene as error:  # a contact too small for rings
+                left_out = error
+                tell(f"step {number}, increment {index} is left out: {error}")
+    except NoSuchState as error:
+        raise typer.BadParameter(str(error)) from None
+    if not made:
+        raise left_out
+    title = f"{title or 'Stress'}: {'indenter' if indenter else 'body'}"
+    write_history(made, body, output, OF_THE_INDENTER if indenter else CONVENTION, title)
+    typer.echo(f"results in {output}")
+
+
+def _points_of(at: list[str], body: Body) -> tuple[Any, Any, list[Any]]:
+    """Places x and y of the points (n,), and their levels."""
+    import numpy as np
+
+    from semi_analytical.frf.stack import stack_of
+    from semi_analytical.stress import interfaces
+    from semi_analytical.stress.depths import levels_of
+
+    if not body.deforms:
+        raise typer.BadParameter("the body is rigid: there is no stress in it")
+    sides = {f"interface {k}": pair for k, pair in enumerate(interfaces(body), 1)}
+    found = []
+    for text in at:
+        parts = [part.strip() for part in text.split(",")]
+        if len(parts) != 3:
+            raise typer.BadParameter(f"got --at {text}, expected X,Y,Z such as '0.3 mm,0,20 um'")
+        x, y = (_length(part, "--at") for part in parts[:2])
+        try:
+            levels = sides.get(parts[2]) or levels_of(stack_of(body), [_length(parts[2], "--at")])
+        except ValueError as error:
+            raise typer.BadParameter(f"--at {text}: {error}") from None
+        found += [(x, y, level) for level in levels]
+    return np.array([p[0] for p in found]), np.array([p[1] for p in found]), [p[2] for p in found]
 
 
 def _state_of_run_directory(directory: Path, step: int | None) -> LoadedBodies:
@@ -291,7 +400,7 @@ def _errors(
     return stress_errors(state, field, found, indenter=indenter)
 
 
-def _length(text: str) -> float:
+def _length(text: str, option: str = "--depths") -> float:
     """A plain number in metres, or a number with a unit."""
     from pydantic import TypeAdapter, ValidationError
 
@@ -305,7 +414,7 @@ def _length(text: str) -> float:
         return TypeAdapter(Length).validate_python(text)
     except ValidationError as error:
         reason = error.errors()[0]["msg"]
-        raise typer.BadParameter(f"--depths: {reason}") from None
+        raise typer.BadParameter(f"{option}: {reason}") from None
 
 
 def _print(
