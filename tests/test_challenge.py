@@ -589,9 +589,6 @@ def test_a_changed_problem_is_refused(
             f"{LEVEL_HEAD}1,solved,,4,um,nan,\n",
             "unknowns is nan, expected a positive",
         ),
-        ("answers.json", "[]", "answers.json: expected an object with lists of records 'levels'"),
-        ("answers.json", "{", "answers.json: "),
-        ("answers.json", '{"levels": [{"level": 1}]}', "levels[0]: no status, reason, h, h_unit"),
         ("solver.toml", "solver = 3", "solver.toml: solver is 3, expected a table"),
         ("solver.toml", "claims = []\nsolver.name = 'a'", "claims is [], expected a table"),
         (
@@ -641,39 +638,6 @@ def test_a_traction_that_is_not_asked_of_a_step_is_named(
     (tmp_path / "fields" / "1_1.csv").write_text("x [m],y [m],area [m^2],pressure [Pa]\n0,0,1,1\n")
     assert slipstick("judge", tmp_path) == 2
     assert "no traction of step 1 is asked, but of step 2, 3, 4, 5" in capsys.readouterr().err
-
-
-@pytest.mark.parametrize("name", ["cattaneo_mindlin", "sliding_stress"])
-def test_one_file_answers_as_all_tables_do(
-    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    challenge, lines = challenges()[name], []
-    for folder, at_once in ((tmp_path / "tables", False), (tmp_path / "one", True)):
-        slipstick("challenge", "export", name, "-o", folder)
-        fill(folder, exact(challenge, 1e-3, cells=48), challenge)
-        if at_once:
-            in_one_file(folder)
-        assert slipstick("judge", folder) == 0
-        lines.append(capsys.readouterr().out)
-    assert lines[0].replace("tables", "one") == lines[1]
-    assert " 0 of " in lines[1]
-
-
-def in_one_file(folder: Path) -> None:
-    """The tables of a folder as answers.json in their place."""
-    parts: dict[str, list[dict[str, object]]] = {"fields": []}
-    for part, table in (("levels", "levels.csv"), ("values", "answers.csv")):
-        with (folder / table).open() as file:
-            parts[part] = list(csv.DictReader(file))
-        (folder / table).unlink()
-    for path in sorted((folder / "fields").iterdir()):
-        head = path.read_text().partition("\n")[0].split(",")
-        numbers = np.loadtxt(path, delimiter=",", skiprows=1)
-        columns: dict[str, object] = dict(zip(head, numbers.T.tolist(), strict=True))
-        level, step = path.stem.split("_")
-        parts["fields"].append({"level": level, "load_step": step, **columns})
-        path.unlink()
-    (folder / "answers.json").write_text(json.dumps(parts))
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="has no such devices and queues")

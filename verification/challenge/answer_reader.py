@@ -47,8 +47,6 @@ from verification.challenge.requested_quantities import (
     Grade,
 )
 
-IN_ONE = "answers.json"  # in place of the others
-PARTS = {LEVELS: "levels", ANSWERS: "values", FIELDS: "fields"}
 MAX_BYTES = 100_000_000
 
 
@@ -56,12 +54,6 @@ def rows(
     folder: Path, table: str, columns: tuple[str, ...]
 ) -> Iterator[tuple[str, dict[str, str]]]:
     """Place and cells of every row of LEVELS or ANSWERS. Raises Refused."""
-    if (folder / IN_ONE).exists():
-        for where, record in records(folder, table):
-            if missing := [name for name in columns if name not in record]:
-                raise Refused(f"{where}: no {', '.join(missing)}; expected {', '.join(columns)}")
-            yield where, {k: "" if v is None else str(v).strip() for k, v in record.items()}
-        return
     path = folder / table
     reader = csv.DictReader(text_of(path).splitlines(), restkey="more")
     columns_are_there(f"{path}:1", reader.fieldnames or (), columns)
@@ -73,20 +65,6 @@ def rows(
                 "numbers have a decimal point"
             )
         yield where, {k: (v or "").strip() for k, v in row.items()}
-
-
-def records(folder: Path, table: str) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Place and content of every record of one part of IN_ONE. Raises Refused."""
-    path, part = folder / IN_ONE, PARTS[table]
-    try:
-        content = json.loads(text_of(path))
-    except (ValueError, RecursionError) as error:
-        raise Refused(f"{path}: {error}") from None
-    found = content.get(part, []) if isinstance(content, dict) else None
-    if not isinstance(found, list) or not all(isinstance(one, dict) for one in found):
-        raise Refused(f"{path}: expected an object with lists of records {_words(PARTS.values())}")
-    for n, record in enumerate(found):
-        yield f"{path}: {part}[{n}]", record
 
 
 def columns_are_there(where: str, found: Sequence[str], expected: Sequence[str]) -> None:
@@ -128,8 +106,7 @@ def read_fields(
 ) -> dict[str, dict[Key, Field]]:
     """By level, quantity and loading step. Raises Refused."""
     found: dict[str, dict[Key, Field]] = {}
-    in_one = (folder / IN_ONE).exists()
-    for where, level, step, columns in (_in_json if in_one else _in_files)(folder):
+    for where, level, step, columns in _in_files(folder):
         if level not in levels or not step.isdigit():
             raise Refused(
                 f"{where}: level {level!r} and load_step {step!r}, expected a level of {LEVELS} "
@@ -181,12 +158,6 @@ def _in_files(folder: Path) -> Iterator[tuple[str, str, str, Columns]]:
         yield f"{path}:1", level, step, dict(zip(header, columns, strict=True))
 
 
-def _in_json(folder: Path) -> Iterator[tuple[str, str, str, Columns]]:
-    for where, record in records(folder, FIELDS):
-        columns = {k: v for k, v in record.items() if k not in ("level", "load_step")}
-        yield where, str(record.get("level", "")), str(record.get("load_step", "")), columns
-
-
 _ENERGIES = {"J": "1", "mJ": "1e-3", "uJ": "1e-6", "µJ": "1e-6", "N m": "1", "N mm": "1e-3"}
 ENERGY = Kind("J", '"3 uJ"', MappingProxyType({unit: Decimal(f) for unit, f in _ENERGIES.items()}))
 KINDS = {"m": LENGTH, "Pa": PRESSURE, "J": ENERGY, "N m": MOMENT, "rad": ROTATION}
@@ -200,7 +171,7 @@ def read_answers(directory: Path) -> tuple[Challenge, Solver, tuple[Answer, ...]
     Raises Refused with file, line, what came and what is expected.
     """
     challenge = _challenge(directory)
-    file = directory / (IN_ONE if (directory / IN_ONE).exists() else ANSWERS)
+    file = directory / ANSWERS
     solver = _solver(directory / SOLVER)
     levels = dict(_levels(directory, challenge.window))
     values: dict[str, dict[Key, float | tuple[float, float]]] = {name: {} for name in levels}
