@@ -154,10 +154,10 @@ class Levels:
         began, began_processor = time.perf_counter(), time.process_time()
         with self.keeping(fineness) as store, self.watching(fineness) as progress:
             result = self.solver.solve(fineness, progress, store)
-        run, companions = solved_run(self.solver, result)
+        run, coarse = solved_run(self.solver, result)
         values, errors = list(run.values), list(run.errors())
         if self.stress_at is not None:
-            at, stated = self.stress_at - 1, StatedErrors(tuple(errors), companions)
+            at, stated = self.stress_at - 1, StatedErrors(tuple(errors), coarse)
             wanted = (f"{LARGEST_TENSION}@body",)
             for value, error in largest_stresses(result, stated, wanted, self.stress_at).values():
                 values[at] = {**values[at], LARGEST_TENSION: np.array([abs(value)])}
@@ -166,7 +166,7 @@ class Levels:
             fineness=self.solver.fineness_of(result),
             result=result,
             values=values,
-            stated=StatedErrors(tuple(errors), companions),
+            stated=StatedErrors(tuple(errors), coarse),
             run=run,
             seconds=time.perf_counter() - began,
             processor_seconds=time.process_time() - began_processor,

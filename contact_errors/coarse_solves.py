@@ -19,7 +19,7 @@ from contact_errors.error_formula import Comparison, Features, SolvedRun
 from contact_errors.values import Values, values_of
 from contact_scene import Scene
 from contact_scene.quantities.stated_error import (
-    Companion,
+    CoarseSolveRecord,
     Part,
     StatedErrors,
 )
@@ -110,8 +110,8 @@ class DiscretisedSolver(ABC):
     @classmethod
     def stated_errors(cls, result: Any) -> StatedErrors:
         """Estimate the errors of all numbers at the ends of all steps, by coarse solves."""
-        run, companions = solved_run(cls.of(result), result)
-        return StatedErrors(tuple(run.errors()), companions)
+        run, coarse = solved_run(cls.of(result), result)
+        return StatedErrors(tuple(run.errors()), coarse)
 
     @property
     @abstractmethod
@@ -201,21 +201,23 @@ class DiscretisedSolver(ABC):
         """Largest memory of a solve [byte]."""
 
 
-def solved_run(solver: DiscretisedSolver, result: Any) -> tuple[SolvedRun, tuple[Companion, ...]]:
+def solved_run(
+    solver: DiscretisedSolver, result: Any
+) -> tuple[SolvedRun, tuple[CoarseSolveRecord, ...]]:
     """Make the coarse solves of a result, each once.
 
     The first coarse solve has the increments of the run. The increments are then changed on its
     cells, or on few cells where that takes less time. All further coarse solves have the fewest
     increments, and the effect of the increments on the numbers is added.
     """
-    run, made = solver.fineness_of(result), list[Companion]()
+    run, made = solver.fineness_of(result), list[CoarseSolveRecord]()
     known: dict[Fineness, Any] = {run: result}
 
     def solved(differs: str, coarse: Fineness) -> Any:
         """Result of a coarse solve; None for a refused one."""
         if coarse not in known:
             shown, increments = solver.shown(coarse.space), coarse.increments
-            record = Companion(differs=differs, increments=increments, **shown)
+            record = CoarseSolveRecord(differs=differs, increments=increments, **shown)
             try:
                 known[coarse] = solver.solve(coarse)
                 made.append(record.model_copy(update=_spent(known[coarse])))

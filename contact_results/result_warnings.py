@@ -37,7 +37,7 @@ NO_BORDER = (
 )
 
 
-def remarks(result: Result) -> tuple[str, ...]:
+def warnings_of(result: Result) -> tuple[str, ...]:
     """In sentences, for people."""
     found = (
         *unlikely(result.scene),
@@ -96,8 +96,8 @@ def _edges_left(result: semi_analytical.Result) -> Iterator[str]:
             left.setdefault(NOT_CORRECTED.format(report.cause), []).append(str(end.step))
         elif report is not None and not report.border:
             left.setdefault(NO_BORDER, []).append(str(end.step))
-    for remark, steps in left.items():
-        yield f"at the end of step {', '.join(steps)} {remark}"
+    for text, steps in left.items():
+        yield f"at the end of step {', '.join(steps)} {text}"
 
 
 def left_out(result: semi_analytical.Result) -> float:

@@ -140,11 +140,14 @@ def solve(
 
 
 def stated_errors(result: Result) -> StatedErrors:
-    """How far off the numbers of a result may be, by coarser solves beside it.
+    """Estimate the errors of the scalars of a result by coarse solves.
 
-    `steps` has of every loading step a table from the name of a scalar to its error, in the unit of
-    the scalar, with its parts and whether it has converged; `companions` says what was solved. A
-    companion that has no answer leaves its errors unknown.
+    Returns
+    -------
+    StatedErrors
+        `steps` maps, for each load step, the name of a scalar to its error in the unit of the
+        scalar, with the parts of the error and its status. `coarse_solves` lists the coarse
+        solves. If a coarse solve fails, the errors that need it are unknown.
     """
     return solver_of(result).errors(result)
 

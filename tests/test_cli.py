@@ -181,7 +181,7 @@ def test_check_lists_every_mistake(scene: Path, capsys: pytest.CaptureFixture[st
 
 def test_check_speaks_json(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert slipstick("check", scene, "--json") == 0
-    assert json.loads(capsys.readouterr().out) == {"valid": True, "problems": [], "remarks": []}
+    assert json.loads(capsys.readouterr().out) == {"valid": True, "problems": [], "warnings": []}
     assert slipstick("check", scene, "--json", "--set", "indenter.radus=1") == 2
     outcome = json.loads(capsys.readouterr().out)
     assert outcome["valid"] is False

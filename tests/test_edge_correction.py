@@ -20,7 +20,7 @@ from contact_scenes import (
 
 import radial
 import slipstick
-from contact_results.result_warnings import remarks
+from contact_results.result_warnings import warnings_of
 from contact_scene import HeightMap, LoadStep, RadialDiscretisation, Scene, SurfaceDiscretisation
 from semi_analytical import SurfaceGrid, plan, solve
 from semi_analytical.edge_correction.pressure import LEAST_FACTOR, relaxation_factor
@@ -155,7 +155,7 @@ def test_where_the_stick_border_cannot_follow_the_pressure_is_corrected_alone():
     of = scene(*loading, indenter=paraboloid(ALIKE), body=ALIKE)
     result = solved(of)
     assert [end.edge_report.border for end in result.steps] == [True, True, False]
-    assert any("step 3 " in told and "stick" in told for told in remarks(result))
+    assert any("step 3 " in told and "stick" in told for told in warnings_of(result))
     end, exact = (
         result.steps[-1],
         PointContact.under_load(1.2 * LOAD, RADIUS, EXACT.contact_modulus),
@@ -173,8 +173,8 @@ def test_where_the_contact_is_too_thin_the_pressure_stays_and_the_remarks_say_so
     np.testing.assert_array_equal(plain.steps[-1].pressure, asked.steps[-1].pressure)
     assert asked.steps[-1].edge_change is None
     told = "the edge of the contact is not corrected: the contact is too thin"
-    assert any(told in remark for remark in remarks(asked))
-    assert not any("corrected" in remark for remark in remarks(plain))
+    assert any(told in remark for remark in warnings_of(asked))
+    assert not any("corrected" in remark for remark in warnings_of(plain))
 
 
 def test_whoever_asks_for_nothing_has_edges_inside_the_cells():
@@ -193,7 +193,7 @@ def test_a_pressure_that_is_not_smooth_at_its_edge_is_left_as_it_is():
     rough = HeightMap(file=heights, spacing=WINDOW / CELLS, material=steel())
     result = solved(frictionless(PRESS, indenter=rough), "last", grid)
     assert result.steps[-1].edge_change is None
-    assert any("edge is rough" in told for told in remarks(result))
+    assert any("edge is rough" in told for told in warnings_of(result))
 
 
 @pytest.mark.parametrize("eigenvalue", [0.0, -0.5, -0.99, -1.5, -2.0])

@@ -106,7 +106,7 @@ DEAR = {
     ],
 )
 def test_estimated_memory_is_the_peak_of_the_run(text: str, tmp_path: Path) -> None:
-    """Solving, companions, files and figures, in a process of its own."""
+    """Solving, coarse solves, files and figures, in a process of its own."""
     path = tmp_path / "scene.toml"
     path.write_text(text, encoding="utf-8")
     contents = read_scene_file(path)

@@ -538,7 +538,7 @@ def test_a_coarse_solve_without_result_leaves_its_part_to_the_other(
 
     monkeypatch.setattr(CellSolver, "solve", refusing)
     stated = stated_errors(result)
-    assert "did not converge" in (stated.companions[0].refused or "")
+    assert "did not converge" in (stated.coarse_solves[0].refused or "")
     assert stated.steps[0]["approach"].error is not None
     refused |= {8}
     assert stated_errors(result).steps[0]["approach"].error is None
@@ -585,8 +585,8 @@ def runs(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[dict[str, 
 def test_a_run_writes_the_errors_and_counts_their_solves_apart(runs: Any) -> None:
     with_errors, without = (deepcopy(summary) for summary, _ in runs.values())
     assert {step.pop("errors") is None for step in without["steps"]} == {True}
-    assert without.pop("companions") is None
-    assert len(with_errors.pop("companions")) >= 2
+    assert without.pop("coarse_solves") is None
+    assert len(with_errors.pop("coarse_solves")) >= 2
     for step in with_errors["steps"]:
         errors = step.pop("errors")
         numbers = [name for name in (*PHYSICAL, *OF_CYCLES) if step[name] is not None]

@@ -16,7 +16,7 @@ from scene_texts import STEEL_ON_STEEL
 
 import semi_analytical
 from contact_results.files.summary_file import summary_of
-from contact_results.result_warnings import remarks
+from contact_results.result_warnings import warnings_of
 from contact_scene import (
     RIGID,
     Body,
@@ -123,7 +123,7 @@ def told(amplitude, wave, cells, size=1.0):
     for n in (cells, POINTS):
         result = solve(pressed, SurfaceGrid((n, n), rough.extent), 1e-6)
         peaks.append(result.steps[0].peak_pressure)
-        found = [re.search(r"pressure of (\S+) of the peak", told) for told in remarks(result)]
+        found = [re.search(r"pressure of (\S+) of the peak", told) for told in warnings_of(result)]
         if n == cells:
             named = next((float(match[1]) for match in found if match), None)
     assert not found, "nothing is left out on cells as fine as the map"
@@ -234,7 +234,7 @@ def test_ball_is_told_by_its_contact_radius(radii: float, large: bool) -> None:
     ball = Paraboloid(radius=MILLIMETRE, material=RIGID)
     result = strain_solved(ball, Body(material=STEEL), radii**2 * MILLIMETRE)
     assert bool(strain_remarks(result)) is large
-    said = summary_of(result, ()).remarks
+    said = summary_of(result, ()).warnings
     assert tuple(told for told in said if told.startswith("strains of")) == strain_remarks(result)
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from contact_results.directory import file_names
 from contact_results.key_numbers import key_numbers
-from contact_results.result_warnings import remarks
+from contact_results.result_warnings import warnings_of
 from contact_scene.quantities.stated_error import StatedError
 from contact_scene.reading.engineering_units import engineering_unit
 
@@ -67,7 +67,7 @@ def write_page(
         *(_row(name, text) for name, text in key_numbers(result.steps, errors)),
         "</table>" + ("" if errors is not None else "<p>Errors were left out.</p>"),
         f'<p class="soft">{READ_ON}</p>',
-        *(f"<p><strong>Remark:</strong> {escape(remark)}.</p>" for remark in remarks(result)),
+        *(f"<p><strong>Warning:</strong> {escape(text)}.</p>" for text in warnings_of(result)),
         '<div class="figures">',
         *(_figure(path) for path in drawn if path.is_file()),
         "</div><h2>Settings</h2><table>",

@@ -80,7 +80,7 @@ class StoredGroup(Mapping[str, StoredValues]):
 class StoredRun:
     """What `slipstick run` has written.
 
-    summary      state at the end of every step, effects, remarks
+    summary      state at the end of every load step, effects, warnings
     scene        what was solved
     coordinates  of the fields: x and y of cells, or radii and angles of rings
     increments   every field and scalar by increment; fields of a run with an accuracy by step
@@ -135,7 +135,7 @@ def load(directory: str | PathLike[str]) -> StoredRun:
         groups = [StoredGroup(fields, group) for group in ("/", "increments", "last_cycle")]
     except (*MISREAD, SceneError) as error:
         raise ValueError(f"{fields} is not the {FIELDS} of a run: {error}") from None
-    if record.schema_version > 2 and record.fields_digest != fields_digest(fields):
+    if record.fields_digest != fields_digest(fields):
         raise ValueError(
             f"{fields} was changed or damaged, or is of another run: its digest is not that in "
             f"{summary}; run again"

@@ -11,7 +11,7 @@ import numpy as np
 
 from contact_results.directory.file_names import FIELDS, SUMMARY
 from contact_results.files.stored_values import fields_digest
-from contact_results.result_warnings import remarks
+from contact_results.result_warnings import warnings_of
 from contact_scene.quantities.field_metadata import Kind
 from contact_scene.quantities.increment import SCALARS
 from contact_scene.quantities.stated_error import (
@@ -70,8 +70,8 @@ def summary_of(
                 groupby(increments, lambda increment: increment.step), stated, strict=False
             )
         ),
-        remarks=remarks(result),
-        companions=errors.companions if errors else None,
+        warnings=warnings_of(result),
+        coarse_solves=errors.coarse_solves if errors else None,
         accuracy=accuracy,
     )
 

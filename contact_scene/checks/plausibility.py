@@ -1,7 +1,7 @@
-"""Whether the numbers of a scene are of a size that such quantities have.
+"""Warnings about implausible numbers in a scene.
 
-A factor of a thousand is quickly lost between a data sheet and a scene file, and what comes out is
-as valid as anything else. Nothing here is an error: remarks are for whoever wrote the scene.
+Unit errors, such as a factor of 1000 between a data sheet and a scene file, give a valid scene with
+wrong results. The warnings refuse no scene.
 """
 
 import math
@@ -89,7 +89,7 @@ _DEEP, _THIN = 20.0, 1e-4
 
 
 def implausible(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
-    """Remarks on numbers that are hardly what was meant, with what perhaps was.
+    """Return warnings about implausible numbers, with the probable intention.
 
     fineness  tables of the scene file that say how finely it is to be solved, by name
     Numbers near one that make sense together, of a scene without units, are none.

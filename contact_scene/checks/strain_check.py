@@ -28,7 +28,7 @@ class StepEnd(Protocol):
 
 
 def beyond_linear_theory(scene: Scene, ends: Iterable[StepEnd]) -> tuple[str, ...]:
-    """A remark if strains are not small at the end of some loading step, on the worst of them."""
+    """Return a warning about the largest strain if it exceeds linear theory in any load step."""
     found = [
         (strain, where, step)
         for step, end in enumerate(ends, start=1)

@@ -57,8 +57,8 @@ class StatedError(Description):
 EXACT = StatedError(error=0.0, parts={}, status=ErrorStatus.EXACT)
 
 
-class Companion(Description):
-    """A coarser solve of the same scene, made for the errors alone. Its work is not part of the
+class CoarseSolveRecord(Description):
+    """Coarse solve of the same scene, for the error estimate alone. Its work is not part of the
     counts of any step."""
 
     differs: str
@@ -89,11 +89,11 @@ class Companion(Description):
 
 @dataclass(frozen=True)
 class StatedErrors:
-    """Errors of every step of a result by the names of its scalars, and the companions they come
-    from."""
+    """Errors of every step of a result by the names of its scalars, and their coarse
+    solves."""
 
     steps: tuple[Mapping[str, StatedError], ...]
-    companions: tuple[Companion, ...]
+    coarse_solves: tuple[CoarseSolveRecord, ...]
 
 
 class AccuracySettings(Description):

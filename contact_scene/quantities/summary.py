@@ -16,7 +16,7 @@ from contact_scene.quantities.increment import (
 )
 from contact_scene.quantities.stated_error import (
     AccuracyReached,
-    Companion,
+    CoarseSolveRecord,
     StatedError,
 )
 from contact_scene.reading.description import (
@@ -25,7 +25,7 @@ from contact_scene.reading.description import (
     Description,
 )
 
-SUMMARY_VERSION = 3  # 2 had counters of the solver and no digest, 1 no convention
+SUMMARY_VERSION = 4
 
 Ratio: TypeAlias = Annotated[float, Field(json_schema_extra={"unit": "1"})]
 Metre: TypeAlias = Annotated[float, Field(json_schema_extra={"unit": "m"})]
@@ -153,14 +153,14 @@ class RunSummary(Description):
     steps: tuple[StepSummary, ...]
     """One entry for every `[[loading]]` table, in order."""
 
-    remarks: tuple[str, ...] = ()
-    """What to bear in mind of these results: a theory that has come to its end."""
+    warnings: tuple[str, ...] = ()
+    """Warnings: implausible input, strains beyond linear theory, unresolved roughness."""
 
-    companions: tuple[Companion, ...] | None = None
-    """The coarser solves that the errors come from; null where errors were left out."""
+    coarse_solves: tuple[CoarseSolveRecord, ...] | None = None
+    """Coarse solves of the error estimate; null if errors were left out."""
 
     accuracy: AccuracyReached | None = None
-    """What accuracy was asked for and reached; null where none was asked for."""
+    """Requested and reached accuracy; null if none was requested."""
 
     fields_digest: str | None = None
     """SHA-256 of the file of fields, `result.h5`."""

@@ -50,7 +50,7 @@ SetOption: TypeAlias = Annotated[
 
 
 def odd_numbers(contents: SceneFile) -> tuple[str, ...]:
-    """Remarks on what is hardly meant in a scene file."""
+    """Return warnings about implausible numbers in a scene file."""
     from contact_scene.checks.plausibility import implausible
 
     fineness = {name: getattr(contents, name) for name in ("semi_analytical", "fem_reference")}
@@ -61,10 +61,10 @@ def warn_of_odd_numbers(contents: SceneFile) -> tuple[str, ...]:
     """Tell them, before anything is solved; returns what was told."""
     from slipstick.cli.terminal import tell
 
-    remarks = odd_numbers(contents)
-    for remark in remarks:
-        tell(f"warning: {remark}")
-    return remarks
+    warnings = odd_numbers(contents)
+    for warning in warnings:
+        tell(f"warning: {warning}")
+    return warnings
 
 
 _OPTION = typer.Option(

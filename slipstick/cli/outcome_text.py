@@ -32,11 +32,11 @@ def solved_in(result: Result, seconds: float) -> Iterator[tuple[str, str]]:
 
 def how_stated(stated: StatedErrors, seconds: float | None) -> Iterator[tuple[str, str]]:
     """Where the errors come from; in how many seconds, if they were measured apart."""
-    made = " and ".join(dict.fromkeys(companion.differs for companion in stated.companions))
+    made = " and ".join(dict.fromkeys(solve.differs for solve in stated.coarse_solves))
     yield "errors", f"from {made}" + ("" if seconds is None else f", in {seconds:.2f} s")
-    for companion in stated.companions:
-        if companion.refused:
-            yield "", f"no answer with {companion.differs}: {companion.refused}"
+    for solve in stated.coarse_solves:
+        if solve.refused:
+            yield "", f"no answer with {solve.differs}: {solve.refused}"
 
 
 def how_accurate(accuracy: AccuracyReached) -> Iterator[tuple[str, str]]:

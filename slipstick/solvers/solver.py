@@ -55,7 +55,7 @@ class Solver(Protocol):
         """The result of a plan; raises a SolverError."""
 
     def errors(self, result: Any) -> StatedErrors:
-        """How far off the numbers of a result may be, by companion solves."""
+        """Estimate the errors of a result by coarse solves."""
 
     def refined(self, scene: Scene, fineness: Any, *, stress: bool = False) -> DiscretisedSolver:
         """The solver with a discretisation that can be refined.

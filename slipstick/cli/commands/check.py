@@ -32,9 +32,9 @@ def check(
         problems = [{"key": p.key, **_without_path(asdict(p))} for p in error.problems]
         typer.echo(json.dumps({"valid": False, "problems": problems}, indent=2))
         raise typer.Exit(ExitCode.INVALID) from None
-    remarks = odd_numbers(contents)
+    warnings = odd_numbers(contents)
     if as_json:
-        typer.echo(json.dumps({"valid": True, "problems": [], "remarks": remarks}, indent=2))
+        typer.echo(json.dumps({"valid": True, "problems": [], "warnings": warnings}, indent=2))
         return
 
     from contact_scene.reading.scene_text import describe
@@ -47,8 +47,8 @@ def check(
         print_pairs(
             [("accuracy", ", ".join(f"{name} {100 * share:.3g} %" for name, share in shares))]
         )
-    for remark in remarks:
-        tell(f"warning: {remark}")
+    for warning in warnings:
+        tell(f"warning: {warning}")
 
 
 def _without_path(problem: dict[str, object]) -> dict[str, object]:

@@ -144,14 +144,14 @@ def run(
                 all_fields=all_fields,
             )
         write_timing(stopwatch, staging, result.increments)
-    from contact_results.result_warnings import remarks
+    from contact_results.result_warnings import warnings_of
 
     if request is None:
         forget_rounds(output)
     _print_outcome(chosen, result, stated, reached, stopwatch.wall_seconds)
-    for remark in remarks(result):
-        if remark not in told:
-            tell(f"warning: {remark}")
+    for warning in warnings_of(result):
+        if warning not in told:
+            tell(f"warning: {warning}")
     if not error:
         typer.echo("  no errors: --no-error left them out")
     typer.echo(f"results in {output}")
