@@ -51,6 +51,10 @@ class Band:
     region: Mask
     domain: ReducedDomain
 
+    def __getstate__(self) -> dict[str, object]:
+        """Leave out of checkpoints what is computed from the region."""
+        return {"region": self.region, "domain": self.domain}
+
     @cached_property
     def depth(self) -> Field:
         """(nx, ny), see `depth_of`."""
