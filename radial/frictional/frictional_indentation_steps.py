@@ -236,7 +236,7 @@ class Rubbing:
         raised = _beyond(places, end.raised - end.deeper, -end.deeper)
         gap[apart] = indenter.initial_gap(r[apart], 0.0) - end.contact.approach
         gap[apart] += displacement(end.contact, x[apart]) + raised(r[apart])
-        sticks = np.asarray(state.at(np.abs(end.sliding), r) < 0.5) & (x < 1)
+        sticks = np.asarray(state.at(np.abs(end.sliding), r) == 0) & (x < 1)
         stored = end.elastic_energy(bare[: n + 1])
         increment = Increment(
             step=reached.place.step,
