@@ -35,6 +35,7 @@ from contact_scene.quantities.stated_error import (
     Part,
     StatedError,
 )
+from contact_scene.quantities.summary import OF_CYCLES
 from contact_scene.stepping.increment_error import near_gross_slip
 
 Numbers = NDArray[np.float64]
@@ -58,13 +59,13 @@ LIMITS: Mapping[str, float] = MappingProxyType(
 )
 
 CONTACT_EDGE = frozenset({"contact_radius", "contact_area"})
-STICK_EDGE = frozenset({"stick_radius", "stick_area"})
+STICK_EDGE = frozenset({"stick_radius", "stick_area", "stick_centre"})
 # Largest values in cells that the edge cuts anywhere.
 AT_EDGES, PEAK = frozenset({"slip_amplitude", "ruiz_f1", "ruiz_f2"}), "peak_pressure"
 OF_SLIP = frozenset(
     {
         *("tangential_shift", "tangential_force", "twist", "torque", "dissipated_energy"),
-        *("actuator_shift", "energy_per_cycle", "input_work", *AT_EDGES),
+        *("actuator_shift", "input_work", *OF_CYCLES),
     }
 )
 

@@ -15,26 +15,25 @@ from contact_scene.quantities.increment import (
     SCALARS,
     State,
 )
+from contact_scene.quantities.summary import OF_CYCLES
 from contact_scene.rig import Rig, prescribed_motions
 from contact_scene.stepping.load_path import ControlKind
 
 if TYPE_CHECKING:
-    from contact_results.cycles import FrettingCycle
     from contact_results.surface import Result
 
 # A scalar is (1,), a vector (2,).
 Values: TypeAlias = Mapping[str, NDArray[np.float64]]
 
 PHYSICAL = tuple(name for name, mark in reported(State).items() if mark.physical)
-OF_CYCLES = ("energy_per_cycle", "slip_amplitude", "ruiz_f1", "ruiz_f2")
-
-
-_STRAINS = frozenset({"bulk_strain", "bulk_shear"})
 
 
 def values_of(result: Result) -> tuple[Values, ...]:
     """Return the scalars that are defined at the end of each load step, by name."""
-    closed = {cycle.cycle.end: _of_cycle(cycle) for cycle in fretting_cycles(result)}
+    closed = {
+        cycle.cycle.end: {name: cycle.numbers.get(name) for name in OF_CYCLES}
+        for cycle in fretting_cycles(result)
+    }
     return tuple(
         {
             name: np.atleast_1d(np.asarray(value, dtype=float))
@@ -57,19 +56,14 @@ def prescribed(ramp: LoadRamp, rig: Rig | None) -> frozenset[str]:
         (ramp.twisting.kind, "torque", "twist"),
         (ramp.tilting.kind, "moment", "tilt"),
     )
-    return _STRAINS | frozenset(
-        force if kind is ControlKind.FORCE else motion for kind, force, motion in controls
+    by_force = ramp.tangential.kind is ControlKind.FORCE
+    amplitude = "shift_amplitude" if shift == "tangential_shift" else "actuator_amplitude"
+    return frozenset(
+        {
+            *("bulk_strain", "bulk_shear", "force_amplitude" if by_force else amplitude),
+            *(force if kind is ControlKind.FORCE else motion for kind, force, motion in controls),
+        }
     )
-
-
-def _of_cycle(cycle: FrettingCycle) -> dict[str, float | None]:
-    f2 = cycle.ruiz_f2
-    return {
-        "energy_per_cycle": cycle.dissipated_energy,
-        "slip_amplitude": float(np.max(cycle.slip_amplitude)),
-        "ruiz_f1": float(np.max(cycle.ruiz_f1)),
-        "ruiz_f2": None if f2 is None else float(np.max(f2)),
-    }
 
 
 def scale(name: str, values: Values) -> float:

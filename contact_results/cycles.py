@@ -8,8 +8,8 @@ largest tension within it. Authors who take the whole range for δ get twice the
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import reduce
 from itertools import chain, groupby
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_results.loop import loop_numbers
 from contact_results.surface import Cells, Surface, surface_of
 from contact_scene.array_types import Field, Vector
 from contact_scene.quantities.cycles import (
@@ -49,6 +50,7 @@ class FrettingCycle(WithFields):
     cycle            steps between which it lies
     input_work       None where a motion is undefined
     dissipation      None for a solver that does not keep it
+    loop             numbers of `loop_numbers`
     surface_tension  σ_T, at the ends of the steps in the cycle, tension positive. None on rings,
                      or if the tangential force is constant
     """
@@ -68,6 +70,20 @@ class FrettingCycle(WithFields):
         Field | None,
         Reported("Pa", "Largest stress of the surface along the change of tangential force.", F),
     ] = None
+    loop: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def numbers(self) -> dict[str, Any]:
+        """The cycle by the names of `contact_scene.quantities.summary.Closed`."""
+        f2 = self.ruiz_f2
+        return {
+            "cycle_start": self.cycle.start,
+            "energy_per_cycle": self.dissipated_energy,
+            "slip_amplitude": float(np.max(self.slip_amplitude)),
+            "ruiz_f1": float(np.max(self.ruiz_f1)),
+            "ruiz_f2": None if f2 is None else float(np.max(f2)),
+            **self.loop,
+        }
 
     @property
     def ruiz_f1(self) -> Annotated[Field, Reported("Pa m", "Largest shear times amplitude.", F)]:
@@ -111,7 +127,11 @@ def fretting_cycles(result: Result) -> tuple[FrettingCycle, ...]:
         path = [steps[cycle.start - 1][-1], *chain(*steps[cycle.start : cycle.end])]
         if all(increment.dissipated_energy is not None for increment in path):
             stress = tension.within(path) if tension else None
-            cycles.append(fields.kept(_fretting_cycle(surface, cycle, path, stress)))
+            found = _fretting_cycle(surface, cycle, path, stress)
+            loop = loop_numbers(path, found.dissipated_energy, result.scene.friction, surface)
+            cycles.append(fields.kept(replace(found, loop={"from_virgin": False, **loop})))
+    if cycles:
+        cycles[0] = replace(cycles[0], loop={**cycles[0].loop, "from_virgin": True})
     return tuple(cycles)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import NamedTuple, Protocol, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeVar
 
 import numpy as np
 
@@ -16,7 +16,11 @@ from contact_scene.quantities.increment import (
     numbers,
 )
 from contact_scene.quantities.stated_error import StatedError
-from contact_scene.reading.engineering_units import engineering_unit
+from contact_scene.quantities.summary import OF_CYCLES
+from contact_scene.reading.engineering_units import EngineeringUnit, engineering_unit
+
+if TYPE_CHECKING:
+    from contact_results.cycles import FrettingCycle
 
 FIRST, LAST = 10, 10  # of a long history, the steps that are shown
 NEGLIGIBLE = 1e-9  # of the largest value of a vector: round-off, shown as nothing
@@ -134,3 +138,48 @@ def _columns(steps: Sequence[tuple[State, Errors]], history: Sequence[State]) ->
 
 def _cut(value: float | None, negligible: float) -> float | None:
     return 0.0 if value is not None and abs(value) <= negligible else value
+
+
+# Symbols of fretting tests, and units that suit products.
+SYMBOLS = {
+    **{"energy_per_cycle": "E_d", "force_amplitude": "Q*", "actuator_amplitude": "δ*"},
+    **{"shift_amplitude": "δ", "loop_opening": "δ_g", "energy_ratio": "A"},
+    **{"energy_friction": "µ_e", "limit_share": "Q*/µW", "gross_slip_share": "to gross\nslip"},
+    **{"slip_amplitude": "slip\namplitude", "ruiz_f1": "F1", "ruiz_f2": "F2"},
+    "stick_centre": "centre of\nstick",
+}
+PRODUCTS = {"Pa m": EngineeringUnit(1e3, "MPa mm"), "Pa^2 m": EngineeringUnit(1e9, "MPa² mm")}
+
+
+def cycle_columns(
+    cycles: Sequence[FrettingCycle], errors: Sequence[Errors] | None = None
+) -> dict[str, list[str]]:
+    """Headings and texts of the closed load cycles, one row each; of many the first and the last.
+
+    errors  of the numbers of every step
+    """
+    shown, gap = _shown(cycles)
+    rows = [cycle.numbers for cycle in shown]
+    stated = [errors[cycle.cycle.end - 1] if errors is not None else {} for cycle in shown]
+    columns = {
+        "cycle": [
+            f"{cycle.cycle.start + 1}–{cycle.cycle.end}{' (first)' * row['from_virgin']}"
+            for cycle, row in zip(shown, rows, strict=True)
+        ],
+        "regime": [str(row["regime"].value) for row in rows],
+    }
+    for name, symbol in SYMBOLS.items():
+        mark, found = OF_CYCLES[name], [row.get(name) for row in rows]
+        for axis in "xy" if mark.kind is Kind.VECTOR else " ":
+            values = [v["xy".index(axis)] if isinstance(v, tuple) else v for v in found]
+            known = [abs(value) for value in values if value is not None]
+            if not known or (mark.kind is Kind.VECTOR and not any(known)):
+                continue
+            unit = PRODUCTS.get(mark.unit) or engineering_unit(max(known), mark.unit)
+            bars = [uncertainty(of_step.get(name), axis) for of_step in stated]
+            texts = [number_text(*pair, unit.size) for pair in zip(values, bars, strict=True)]
+            columns[f"{symbol} {axis}".strip() + f"\n{unit.name}"] = texts
+    if gap is not None:
+        for texts in columns.values():
+            texts.insert(gap, "…")
+    return columns

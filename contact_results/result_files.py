@@ -9,6 +9,7 @@ from contact_results.cycles import fretting_cycles
 from contact_results.files.field_file import write_fields
 from contact_results.files.summary_file import write_summary
 from contact_results.files.tables import write_tables
+from contact_results.key_numbers import cycle_columns
 from contact_scene.quantities.stated_error import AccuracyReached, StatedErrors
 
 if TYPE_CHECKING:
@@ -23,21 +24,26 @@ def write_result(
     errors: StatedErrors | None = None,
     accuracy: AccuracyReached | None = None,
     all_fields: bool = False,
-) -> None:
+) -> dict[str, list[str]]:
     """Write summary, fields, tables, figures and their page into a directory that has none of them.
+
+    Returns the columns of `cycle_columns`, none without a cycle.
 
     figures         one picture and the page, all pictures and the page, or neither
     accuracy        that the result was refined to
     all_fields store the fields of all increments, not of the last one of each load step
     """
     cycles = fretting_cycles(result)
-    write_tables(result, cycles, directory)
+    stated = errors.steps if errors else None
+    shown = cycle_columns(cycles, stated) if cycles else {}
+    write_tables(result, cycles, directory, stated)
     write_fields(result, cycles, directory, all_fields=all_fields)
     write_summary(result, cycles, directory, errors, accuracy)
     if figures != "none":
         from contact_results.figures.figure_files import write_figures
         from contact_results.figures.run_page import write_page
 
-        of_last = errors.steps[-1] if errors else None
+        of_last = stated[-1] if stated else None
         write_figures(result, cycles, directory, of_last, everything=figures == "all")
-        write_page(result, directory, of_last)
+        write_page(result, directory, of_last, shown)
+    return shown

@@ -5,6 +5,8 @@ import pytest
 import fem_reference
 import radial
 import semi_analytical
+from contact_results.cycles import fretting_cycles
+from contact_results.key_numbers import cycle_columns
 from contact_scene import (
     FiniteElementDiscretisation,
     IsotropicMaterial,
@@ -130,3 +132,31 @@ def test_a_rig_without_springs_is_refused_and_a_very_soft_one_advised_against():
     assert not unlikely(loop(2e-3 * STIFFNESS, press))
     (advice,) = unlikely(loop(5e-4 * STIFFNESS, press))
     assert "prescribe tangential_force" in advice
+
+
+@pytest.mark.parametrize(
+    ("amplitude", "regime", "share"),
+    [(1e-10, "stick", 1e-2), (0.6e-6, "partial slip", 0.5), (3e-6, "gross slip", 4.0)],
+)
+def test_the_regime_of_a_loop_follows_its_amplitude(amplitude, regime, share):
+    """At gross slip the work exceeds that of Mindlin's loop; 5 E_d/4Q*δ is below 5."""
+    once = steps((amplitude, -amplitude, amplitude, -amplitude))
+    result = on_cells(scene({"normal_force": "1 kN"}, *once))
+    first, second = (cycle.numbers for cycle in fretting_cycles(result))
+    assert first["from_virgin"]
+    assert not second["from_virgin"]
+    assert first["regime"] == second["regime"] == regime
+    assert (first["gross_slip_share"] > 1) == (regime == "gross slip")
+    assert first["gross_slip_share"] < share
+    assert first["shift_amplitude"] == pytest.approx(amplitude)
+    assert first["energy_ratio"] == pytest.approx(first["gross_slip_share"] / 5)
+    assert first["actuator_amplitude"] is None
+
+
+def test_a_cycle_of_torsion_has_no_loop_of_force():
+    turns = ({"twist": turn, "increments": 2} for turn in (1e-3, -1e-3, 1e-3))
+    (cycle,) = fretting_cycles(on_cells(scene({"normal_force": "1 kN"}, *turns)))
+    assert cycle.numbers["energy_per_cycle"] > 0
+    assert "force_amplitude" not in cycle.numbers
+    (texts,) = zip(*cycle_columns([cycle]).values(), strict=True)
+    assert texts[:2] == ("3–4 (first)", "partial slip")

@@ -32,7 +32,7 @@ from contact_errors.coarse_solves import Fineness, ratios, recounted
 from contact_errors.error_formula import Comparison, Features, SolvedRun, largest_so_far
 from contact_errors.on_cells import CellSolver
 from contact_errors.stress_errors import largest_stresses, on_wide_cells, stress_errors
-from contact_errors.values import OF_CYCLES, PHYSICAL, values_of
+from contact_errors.values import PHYSICAL, values_of
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
 from contact_results.stress.on_cells import stress_on_cells
 from contact_results.stress.stress_maxima import extremes
@@ -55,6 +55,7 @@ from contact_scene.quantities.stated_error import (
     ErrorStatus,
     StatedError,
 )
+from contact_scene.quantities.summary import OF_CYCLES
 from contact_scene.reading.scene_file import read_scene_file
 from contact_scene.solver_errors import NotConverged
 from contact_scene.stepping.increment_error import (

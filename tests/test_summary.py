@@ -145,7 +145,7 @@ RESULTS = {
                                      "radial"),
 }  # fmt: skip
 # Names of rows, not quantities.
-LABELS = {"step", "increment", "start_step", "end_step"}
+LABELS = {"step", "increment", "start_step", "end_step", "regime"}
 
 
 @pytest.fixture(scope="module")

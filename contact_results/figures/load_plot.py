@@ -21,7 +21,8 @@ Values = NDArray[np.float64]
 class Loop(NamedTuple):
     """A load and its motion at the ends of all increments that have both, by name.
 
-    along  in which direction, in words
+    along     in which direction, in words
+    actuator  motions of the actuator of a rig
     """
 
     path: list[Increment]
@@ -30,6 +31,7 @@ class Loop(NamedTuple):
     motion: str
     motions: Values
     along: str
+    actuator: Values | None = None
 
     @property
     def work(self) -> float:
@@ -46,7 +48,7 @@ def moved(increments: Sequence[Increment]) -> int:
 def draw_loop(ax: Any, result: Result) -> None:
     """Force and shift of every increment along the direction of the largest force, or torque and
     twist where they do more work."""
-    path, force, forces, motion, motions, along = max(
+    path, force, forces, motion, motions, along, actuator = max(
         _loops(result.increments), key=lambda loop: loop.work
     )
     x, across = on_axis(motion, motions, along)
@@ -55,6 +57,10 @@ def draw_loop(ax: Any, result: Result) -> None:
     ax.axhline(0.0, color=style.GREY, linewidth=0.5)
     ax.axvline(0.0, color=style.GREY, linewidth=0.5)
     ax.plot(x, y, color=style.LINE_COLOURS[0], marker=".", markersize=3.5, linewidth=1.2)
+    if actuator is not None:
+        unit = motions @ x / (motions @ motions)  # of the axis
+        style_of = {"color": style.LINE_COLOURS[2], "linestyle": "--", "linewidth": 1.0}
+        ax.plot(unit * actuator, y, label="actuator", **style_of)
     ends = [n for n, i in enumerate(path) if i.index == i.increments_in_step]
     ax.plot(x[ends], y[ends], "o", color=style.LINE_COLOURS[1], markersize=5, label="end of a step")
     ax.margins(0.08)
@@ -76,7 +82,7 @@ def _loops(increments: Sequence[Increment]) -> list[Loop]:
         found.append(
             Loop(
                 path, "tangential_force", force @ direction, "tangential_shift", shift,
-                _along(direction),
+                _along(direction), _actuator(path, direction),
             )
         )  # fmt: skip
     path = [i for i in increments if i.torque is not None and i.twist is not None]
@@ -85,6 +91,13 @@ def _loops(increments: Sequence[Increment]) -> list[Loop]:
         twist = np.array([i.twist for i in path])
         found.append(Loop(path, "torque", torque, "twist", twist, ""))
     return found
+
+
+def _actuator(path: Sequence[Increment], direction: Values) -> Values | None:
+    shifts = [i.actuator_shift for i in path]
+    if any(shift is None for shift in shifts):
+        return None
+    return np.array(shifts) @ direction
 
 
 def _direction(force: Values) -> Values:

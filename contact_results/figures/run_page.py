@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -41,6 +41,12 @@ READ_ON = (
     "result.h5 (fields), columns.csv (unit and meaning of every name). z points into the lower "
     "body, and tractions are those on it."
 )
+LOOPS = (
+    "E_d: energy per cycle; Q*, δ, δ*: half ranges of force, of the shift of the contact and of a "
+    "rig's actuator; δ_g: half the opening of the loop at the middle force; A = E_d/4Q*δ*; µ_e = "
+    "E_d/4Wδ_g; to gross slip: 5 E_d/4Q*δ, 1 where Mindlin's loop begins to slip all over; F1, F2: "
+    "Ruiz's parameters. The first cycle starts from the virgin state."
+)
 POLICY = (
     "default-src 'none'; img-src data:; style-src 'unsafe-inline'; base-uri 'none'; "
     "form-action 'none'"
@@ -48,11 +54,15 @@ POLICY = (
 
 
 def write_page(
-    result: Result, directory: Path, errors: Mapping[str, StatedError] | None = None
+    result: Result,
+    directory: Path,
+    errors: Mapping[str, StatedError] | None = None,
+    cycles: Mapping[str, Sequence[str]] | None = None,
 ) -> None:
     """Write the page of a run whose figures are in the directory; equal results give equal bytes.
 
     errors  of the last step; None where they were left out
+    cycles  columns of `cycle_columns`
     """
     title = escape(result.scene.title or "Contact")
     drawn = [directory / name for name in file_names.RUN_FILES if name.endswith(".png")]
@@ -66,6 +76,7 @@ def write_page(
         _row("status", result.steps[-1].status.value),
         *(_row(name, text) for name, text in key_numbers(result.steps, errors)),
         "</table>" + ("" if errors is not None else "<p>Errors were left out.</p>"),
+        *(_cycles(cycles) if cycles else ()),
         f'<p class="soft">{READ_ON}</p>',
         *(f"<p><strong>Warning:</strong> {escape(text)}.</p>" for text in warnings_of(result)),
         '<div class="figures">',
@@ -89,6 +100,15 @@ def _settings(result: Result) -> Iterator[tuple[str, str]]:
     yield "increments", str(len(result.increments))
     for effect in result.plan.effects:
         yield effect.name, f"{'on' if effect.on else 'off'}: {effect.why}"
+
+
+def _cycles(columns: Mapping[str, Sequence[str]]) -> Iterator[str]:
+    """The table of load cycles."""
+    yield "<h2>Load cycles</h2><table><tr>"
+    yield from (f'<th scope="col">{escape(heading)}</th>' for heading in columns)
+    for texts in zip(*columns.values(), strict=True):
+        yield "</tr><tr>" + "".join(f"<td>{escape(text)}</td>" for text in texts)
+    yield f'</tr></table><p class="soft">{LOOPS}</p>'
 
 
 def _row(name: str, text: str) -> str:

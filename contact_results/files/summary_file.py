@@ -95,7 +95,7 @@ def _step_summary(
             name: _together(mark.kind, [getattr(increment, name) for increment in within])
             for name, mark in SCALARS.items()
         },
-        **_cycle_keys(cycle),
+        **(cycle.numbers if cycle else {}),
         residuals=Residuals(**residuals),
         status=end.status,
         errors=None if errors is None else dict(errors),
@@ -110,17 +110,3 @@ def _together(kind: Kind, values: Sequence[Any]) -> Any:
     if end is None:
         return None
     return tuple(map(float, end)) if kind is Kind.VECTOR else float(end)
-
-
-def _cycle_keys(cycle: FrettingCycle | None) -> dict[str, Any]:
-    """The keys of a step that closes a cycle; none of them for others."""
-    if cycle is None:
-        return {}
-    f2 = cycle.ruiz_f2
-    return {
-        "cycle_start": cycle.cycle.start,
-        "energy_per_cycle": cycle.dissipated_energy,
-        "slip_amplitude": float(np.max(cycle.slip_amplitude)),
-        "ruiz_f1": float(np.max(cycle.ruiz_f1)),
-        "ruiz_f2": None if f2 is None else float(np.max(f2)),
-    }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,12 +13,14 @@ from contact_results.directory.file_names import COLUMNS, CYCLES, INCREMENTS, PR
 from contact_results.files.csv_file import STEP, Column, marked, write_meanings, write_table
 from contact_results.surface import Rings, surface_of
 from contact_scene.array_types import Field
-from contact_scene.quantities.field_metadata import reported
+from contact_scene.quantities.field_metadata import Kind, reported
 from contact_scene.quantities.increment import (
     SCALARS,
     components,
     numbers,
 )
+from contact_scene.quantities.stated_error import StatedError
+from contact_scene.quantities.summary import OF_CYCLES, Closed
 
 if TYPE_CHECKING:
     from contact_results.surface import Increment, Result, Surface
@@ -99,6 +101,12 @@ def write_increments(result: Result, directory: Path) -> None:
     write_table(directory / INCREMENTS, INCREMENT_COLUMNS, rows)
 
 
+# Numbers of a loop that the other columns do not have.
+OF_LOOPS = [
+    name
+    for name in OF_CYCLES
+    if name not in ("energy_per_cycle", "slip_amplitude", "ruiz_f1", "ruiz_f2")
+]
 LARGEST = "Of the surface, where it is largest: "
 
 
@@ -115,18 +123,63 @@ def _cycle_columns() -> tuple[Column, ...]:
     for name, before in (("ruiz_f1", ()), ("ruiz_f2", ("surface_tension",))):
         columns += (marked(field, marks[field], LARGEST) for field in (*before, name))
         columns += (Column(f"{name}_{axis}", "m", f"Where {name} is largest.") for axis in "xy")
+    loop = reported(Closed)
+    columns += (Column("regime", None, loop["regime"].meaning),)
+    columns += (marked("from_virgin", loop["from_virgin"]),)
+    columns += (marked(part, OF_CYCLES[name]) for name in OF_LOOPS for part in _parts(name))
+    for name, mark in OF_CYCLES.items():
+        means = f"Stated error of {name}; empty where nothing can be said."
+        columns += (Column(f"{part}_error", mark.unit, means) for part in _parts(name))
     return tuple(columns)
+
+
+def _parts(name: str) -> tuple[str, ...]:
+    vector = OF_CYCLES[name].kind is Kind.VECTOR
+    return (f"{name}_x", f"{name}_y") if vector else (name,)
+
+
+def _values(name: str, value: Any) -> tuple[float | None, ...]:
+    """A number, or two of a vector; empty cells for None."""
+    return value if isinstance(value, tuple) else (value,) * len(_parts(name))
 
 
 CYCLE_COLUMNS = _cycle_columns()
 
 
-def write_cycles(cycles: Sequence[FrettingCycle], surface: Surface, directory: Path) -> None:
+def write_cycles(
+    cycles: Sequence[FrettingCycle],
+    surface: Surface,
+    directory: Path,
+    errors: Sequence[Mapping[str, StatedError]] | None = None,
+) -> None:
     """Write one row per cycle, fields by their largest value and Ruiz's parameters with its place;
-    no file if there is no cycle."""
+    no file if there is no cycle.
+
+    errors  of the numbers of every step
+    """
     if not cycles:
         return
-    write_table(directory / CYCLES, CYCLE_COLUMNS, (_cycle_row(cycle, surface) for cycle in cycles))
+    rows = (
+        [
+            *_cycle_row(cycle, surface),
+            *_loop_row(cycle, errors[cycle.cycle.end - 1] if errors else {}),
+        ]
+        for cycle in cycles
+    )
+    write_table(directory / CYCLES, CYCLE_COLUMNS, rows)
+
+
+def _loop_row(
+    cycle: FrettingCycle, errors: Mapping[str, StatedError]
+) -> Iterator[str | int | float | None]:
+    numbers = cycle.numbers
+    yield numbers["regime"].value
+    yield int(numbers["from_virgin"])
+    for name in OF_LOOPS:
+        yield from _values(name, numbers.get(name))
+    for name in OF_CYCLES:
+        stated = errors.get(name)
+        yield from _values(name, None if stated is None else stated.error)
 
 
 def _cycle_row(cycle: FrettingCycle, surface: Surface) -> list[int | float | None]:
@@ -155,10 +208,18 @@ def _largest(field: Field | None, surface: Surface) -> tuple[float | None, ...]:
     return float(field[largest]), float(x[largest]), float(y[largest])
 
 
-def write_tables(result: Result, cycles: Sequence[FrettingCycle], directory: Path) -> None:
-    """Write the tables, and the meanings of their columns."""
+def write_tables(
+    result: Result,
+    cycles: Sequence[FrettingCycle],
+    directory: Path,
+    errors: Sequence[Mapping[str, StatedError]] | None = None,
+) -> None:
+    """Write the tables, and the meanings of their columns.
+
+    errors  of the numbers of every step
+    """
     write_profiles(result, directory)
     write_increments(result, directory)
-    write_cycles(cycles, surface_of(result), directory)
+    write_cycles(cycles, surface_of(result), directory, errors)
     tables = {PROFILES: PROFILE_COLUMNS, INCREMENTS: INCREMENT_COLUMNS}
     write_meanings(directory / COLUMNS, tables | ({CYCLES: CYCLE_COLUMNS} if cycles else {}))

@@ -9,7 +9,7 @@ from pydantic import ConfigDict, Field, ValidationError, field_validator
 from pydantic.dataclasses import dataclass as pydantic_dataclass
 
 from contact_scene.quantities import residuals
-from contact_scene.quantities.field_metadata import CONVENTION, Reported
+from contact_scene.quantities.field_metadata import CONVENTION, Kind, Reported, reported
 from contact_scene.quantities.increment import (
     Quality,
     State,
@@ -42,6 +42,14 @@ class ContactStatus(StrEnum):
     SEPARATED = "separated"
 
 
+class Regime(StrEnum):
+    """How the surfaces slip over one computed cycle."""
+
+    STICK = "stick"
+    PARTIAL_SLIP = "partial slip"
+    GROSS_SLIP = "gross slip"
+
+
 STRICT = ConfigDict(
     extra="forbid",
     allow_inf_nan=False,
@@ -64,7 +72,7 @@ class Closed:
         Reported(
             "",
             "The earlier step, from 1, that ended with the same loads: from its end to the end of "
-            "this one is a cycle. Null, with the four that follow, where no cycle closes or "
+            "this one is a cycle. Null, with what follows of a cycle, where no cycle closes or "
             "nothing is sheared.",
         ),
     ] = None
@@ -92,7 +100,62 @@ class Closed:
             "product is largest; null for solvers that do not compute the stress at the surface.",
         ),
     ] = None
+    force_amplitude: Annotated[
+        float | None,
+        Reported("N", "Q*, half the range of the tangential force along its largest change."),
+    ] = None
+    shift_amplitude: Annotated[
+        float | None, Reported("m", "delta, half the range of the tangential shift, that way.")
+    ] = None
+    actuator_amplitude: Annotated[
+        float | None,
+        Reported("m", "delta*, half the range of the actuator's shift; null without a rig."),
+    ] = None
+    loop_opening: Annotated[
+        float | None,
+        Reported("m", "delta_g, half the distance of the two shifts at the middle force."),
+    ] = None
+    energy_ratio: Annotated[
+        float | None,
+        Reported("", "A = E_d/(4 Q* delta*), the energy over that of a rectangular loop."),
+    ] = None
+    energy_friction: Annotated[
+        float | None,
+        Reported("", "mu_e = E_d/(4 W delta_g), the coefficient of friction by the energy."),
+    ] = None
+    limit_share: Annotated[
+        float | None,
+        Reported("", "Q*/(mu W); null where the friction limit is not mu times the force."),
+    ] = None
+    gross_slip_share: Annotated[
+        float | None,
+        Reported(
+            "",
+            "Distance to the transition: 5 E_d/(4 Q* delta), which Mindlin's loop (nu = 0) starts "
+            "at 0 and has at 1 where gross slip begins.",
+        ),
+    ] = None
+    stick_centre: Annotated[
+        tuple[float, float] | None,
+        Reported("m", "Centre of the stick zone at the end of the cycle.", Kind.VECTOR),
+    ] = None
+    regime: Annotated[
+        Regime | None,
+        Reported("", "Sticks all, slips in part, or slips all at some time of the cycle."),
+    ] = None
+    from_virgin: Annotated[
+        bool | None,
+        Reported("", "Whether the cycle is the first one, which starts from the virgin state."),
+    ] = None
     residuals: Residuals
+
+
+# The numbers of a cycle, which have errors.
+OF_CYCLES = {
+    name: mark
+    for name, mark in reported(Closed).items()
+    if name not in ("cycle_start", "regime", "from_virgin")
+}
 
 
 @pydantic_dataclass(frozen=True, kw_only=True, config=STRICT)

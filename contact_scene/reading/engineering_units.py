@@ -27,6 +27,8 @@ class EngineeringUnit:
 
 def engineering_unit(magnitude: float, unit: str) -> EngineeringUnit:
     """The prefixed form of an SI unit that suits numbers up to this magnitude."""
+    if not unit:
+        return EngineeringUnit(1.0, "")
     exponents = [e for e in PREFIXES if e <= LARGEST_PREFIX.get(unit, 9)]
     smallest = SMALLEST.get(unit, 1.0) * (1 - 1e-9)  # 0.1 mm stays 0.1 mm in spite of round-off
     if magnitude > 0:

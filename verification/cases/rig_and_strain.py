@@ -8,10 +8,13 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
+from contact_results.cycles import fretting_cycles
 from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.on_cells import stress_on_cells
 from contact_scene import Ellipsoid, IsotropicMaterial, Layer, LoadStep, Rig
+from contact_scene.quantities.summary import OF_CYCLES
 from verification.cases.levels import SQUARE_ROOTS
+from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.eccentric_contact import EccentricContact
 from verification.closed_forms.elliptical_contact import EllipticalContact
 from verification.closed_forms.tangential_history import TangentialHistory
@@ -76,6 +79,16 @@ class Sprung:
         """Since the start [force length]."""
         return self.state.dissipated_energy
 
+    @property
+    def loaded_force(self) -> float:
+        """Q* of the last branch [force]."""
+        return abs(self.tangential_force)
+
+    @property
+    def loaded(self) -> PartialSlip:
+        """First loading to Q*."""
+        return replace(self.state.virgin, tangential_force=self.loaded_force)
+
     def moved_to(self, actuator: float) -> Sprung:
         """The state at another shift of the actuator [length]."""
 
@@ -127,9 +140,7 @@ def _stored() -> Observable:
 
 def _exact_work(end: Sprung) -> float:
     """Σ of first loading T - δ and of a whole loop: stored after loading, and all dissipated."""
-    once = end.state.virgin
-    force = abs(end.tangential_force)
-    loaded = replace(once, tangential_force=force)
+    loaded = end.loaded
     # ∫ T dδ of first loading: with y = c/a, T = µW (1 - y³), δ = s (1 - y²).
     y = loaded.stick_radius / loaded.contact_radius
     area = 1 - y**2 - 2 * (1 - y**5) / 5
@@ -137,9 +148,31 @@ def _exact_work(end: Sprung) -> float:
     return stored + end.dissipated_energy / (FRICTION_LIMIT * SLIDING_SHIFT)
 
 
-def once_lost(loaded: Any) -> float:
+def once_lost(loaded: PartialSlip) -> float:
     """Dissipation of first loading over µW and its shift [1]."""
     return float(loaded.dissipated_energy / (FRICTION_LIMIT * SLIDING_SHIFT))
+
+
+def _of_loop(name: str) -> Observable:
+    """A number of the loop as a fretting test has it."""
+
+    def measure(result: Any, *_: Any) -> float:
+        (cycle,) = fretting_cycles(result)
+        return float(cycle.numbers[name])
+
+    def exact(end: Sprung) -> float:
+        lost, force = 4 * once_lost(end.loaded) * FRICTION_LIMIT * SLIDING_SHIFT, end.loaded_force
+        opening = end.state.loaded_to(0.0).shift
+        numbers = {
+            "loop_opening": abs(opening),
+            "energy_ratio": lost / (4 * force * ACTUATED),
+            "energy_friction": lost / (4 * paper.NORMAL_FORCE * abs(opening)),
+            "gross_slip_share": 5 * lost / (4 * force * end.shift),
+        }
+        return float(numbers[name])
+
+    mark = OF_CYCLES[name]
+    return Observable(name, mark.meaning, mark.unit, measure, exact, scalar=(name, 0))
 
 
 def series_spring(level: Level = Level.QUICK) -> Case:
@@ -157,6 +190,10 @@ def series_spring(level: Level = Level.QUICK) -> Case:
             for step in (2, 3)
         ),
     )
+    loops = tuple(
+        Within(_of_loop(name), 5e-3, why)
+        for name in ("loop_opening", "energy_ratio", "energy_friction", "gross_slip_share")
+    )
     works = Within(_stored(), 1e-2, f"{why}; springs stored as much as the contact")
     cells = 64 if level is Level.QUICK else 128
     return case(
@@ -165,9 +202,9 @@ def series_spring(level: Level = Level.QUICK) -> Case:
         "The paper's contact with ν = 0 behind a spring of 100 N/µm, somewhat softer than the "
         "contact. The actuator is moved by 1.5 µm, back and forth again. The spring is a constant "
         "in the compliance of all three solvers.",
-        judged(on_cells(problem, (cells,), of="cells"), (*rows, works)),
-        judged(on_elements(problem, (16,), over=0.97, of="elements"), rows),
-        judged(on_radii(problem, "rings"), (*rows, works)),
+        judged(on_cells(problem, (cells,), of="cells"), (*rows, *loops, works)),
+        judged(on_elements(problem, (16,), over=0.97, of="elements"), (*rows, *loops)),
+        judged(on_radii(problem, "rings"), (*rows, *loops, works)),
         no_order="the constant has no error of its own; fretting_loop judges the contact",
     )
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 import fem_reference.energy
-from contact_results import cycles
+from contact_results import cycles, loop
 from contact_scene import CoulombFriction, HeightMap, Scene, bulk_strain, rig
 from contact_scene.friction import FRICTIONLESS
 from contact_scene.stepping import load_stepping
@@ -187,6 +187,16 @@ def _shift_of_actuator(patches: Patches) -> None:
     patches.function(rig, "of_contact", wrap)
 
 
+def _contact_for_actuator(patches: Patches) -> None:
+    def wrap(whole: Any) -> Any:
+        def along(path: Any, name: str, direction: Any) -> Any:
+            return whole(path, name.replace("actuator", "tangential"), direction)
+
+        return along
+
+    patches.function(loop, "_along", wrap)
+
+
 def _work_of_strain(patches: Patches) -> None:
     patches.function(sheared, "strain_moments", lambda whole: lambda *given: np.zeros(3))
 
@@ -206,6 +216,10 @@ HISTORIES = (
     Defect(
         "actuator-shift", "The shift of the actuator is told for that of the contact.",
         ("series_spring",), _shift_of_actuator,
+    ),
+    Defect(
+        "contact-for-actuator", "A loop's δ* is the shift of the contact, not of the actuator.",
+        ("series_spring",), _contact_for_actuator,
     ),
     Defect(
         "strain-work", "The work of a bulk strain is left out of the balance.",

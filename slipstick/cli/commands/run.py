@@ -135,7 +135,7 @@ def run(
         with stopwatch.phase("write"):
             from contact_results.result_files import write_result
 
-            write_result(
+            cycles = write_result(
                 result,
                 staging,
                 figures=figures.value,
@@ -148,7 +148,7 @@ def run(
 
     if request is None:
         forget_rounds(output)
-    _print_outcome(chosen, result, stated, reached, stopwatch.wall_seconds)
+    _print_outcome(chosen, result, stated, reached, stopwatch.wall_seconds, cycles)
     for warning in warnings_of(result):
         if warning not in told:
             tell(f"warning: {warning}")
@@ -171,6 +171,7 @@ def _print_outcome(
     stated: "StatedErrors | None",
     reached: "AccuracyReached | None",
     seconds: dict[str, float],
+    cycles: dict[str, list[str]],
 ) -> None:
     from contact_results.key_numbers import outcome_columns
     from slipstick.cli.outcome_text import how_accurate, how_stated, solved_in
@@ -181,4 +182,5 @@ def _print_outcome(
     solved = solved_in(result, seconds["solve"])
     print_pairs([*solver.layout(result), *solved, *stated_in, *accurate])
     columns = outcome_columns(result.steps, stated.steps if stated else None)
-    print_table(columns, zip(*columns.values(), strict=True), numbers=True)
+    for table in (columns, *([cycles] if cycles else ())):
+        print_table(table, zip(*table.values(), strict=True), numbers=True)

@@ -18,12 +18,13 @@ from contact_errors.coarse_solves import DiscretisedSolver
 from contact_errors.error_formula import LIMITS, PEAK, PER_ITERATION, PER_TOLERANCE, Features
 from contact_errors.on_cells import CellSolver
 from contact_errors.on_elements import ElementSolver
-from contact_errors.values import OF_CYCLES, Values, scale, values_of
+from contact_errors.values import Values, scale, values_of
 from contact_scene import Scene, SceneFile, read_scene_file
 from contact_scene.quantities.increment import (
     SCALARS,
     components,
 )
+from contact_scene.quantities.summary import OF_CYCLES
 from contact_scene.solver_errors import SolverError
 from fem_reference import Method
 from verification.quantities import largest_residual
