@@ -87,6 +87,18 @@ def test_offset_slope_and_area_of_a_loop_are_found_with_our_part(place: Path) ->
     assert float(found["energy per cycle"][2]) == pytest.approx(0.9 * 1.02, abs=3e-3)
     assert float(found["force along the loop"][3]) == pytest.approx(0.1 * 60, rel=0.3)
 
+    # Neither the first point of the cycle nor the number of points matters.
+    finer = [np.interp(np.linspace(0, 47, 142), np.arange(48), each) for each in (shift, force)]
+    columns = zip(("shift [m]", "T [N]"), (np.roll(each, 50) for each in finer), strict=True)
+    gap = against(place, table(place / "rolled.csv", **dict(columns)))["force along the loop"][3]
+    assert float(gap) < 0.01 * float(found["force along the loop"][3])
+
+    end = json.loads((place / "run/summary.json").read_text(encoding="utf-8"))["steps"][-1]
+    moves = [end["errors"][f"tangential_{name}"]["error"][0] for name in ("shift", "force")]
+    parts = (2 * e / np.ptp(each) for e, each in zip(moves, (shift, force), strict=True))
+    of_slope = [float(text) for text in found["slope"][1].split("±")]
+    assert of_slope[1] / of_slope[0] == pytest.approx(sum(parts), rel=0.1)
+
     error = float(computed.split("±")[1])
     expected = 100 * error / float(found["energy per cycle"][3])
     assert float(found["energy per cycle"][4].split()[0]) == pytest.approx(expected, rel=0.03)
