@@ -37,7 +37,7 @@ from contact_scene.quantities.field_metadata import (
 from contact_scene.quantities.summary import StepSummary
 from contact_scene.solver_errors import SolverError, UnsupportedScene
 from slipstick.solving import solve, stated_errors
-from verification.running.row import CaseRecord
+from verification.running.study import CaseRecord
 
 _NUMBER = r"([+-]?(?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
 _UNIT = r"(?: +((?!log\b)[^\s0-9]\S*(?: [^\s0-9]\S*)*?))?"

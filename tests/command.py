@@ -36,7 +36,7 @@ def signalled(name: str, *, saved: int) -> str:
     machine is: some are done then and some are not."""
     return f"""
 import signal
-from verification.running.case_store import CaseStore
+from verification.running.case_pool import CaseStore
 kept, save = [], CaseStore.save
 def save_and_signal(*arguments):
     save(*arguments)

@@ -4,8 +4,7 @@ from contact_scene import (
     IsotropicMaterial,
 )
 from contact_scene.quantities.summary import EffectSummary
-from verification.exhibits.chart import Chart, Look, Panel, curve
-from verification.exhibits.table import Table
+from verification.exhibits.chart import Chart, Look, Panel, Table, curve
 from verification.judging.outcome import CaseOutcome, RunRecord, SceneRecord, Status, Verdict
 from verification.report.sections import OMISSIONS
 from verification.running.provenance import Provenance

@@ -6,7 +6,7 @@ import time
 from dataclasses import dataclass
 
 from contact_scene.reading.description import Description
-from verification.running.row import CaseRecord
+from verification.running.study import CaseRecord
 
 
 class Number(Description):

@@ -5,8 +5,7 @@ import pytest
 
 from verification.judging.case import Level
 from verification.judging.outcome import Status
-from verification.running.row import CaseRecord, Row
-from verification.running.study import Conclusion, Settings
+from verification.running.study import CaseRecord, Conclusion, Row, Settings
 from verification.studies.coated_tractions import (
     CELLS,
     FORCES,

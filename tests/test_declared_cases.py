@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from verification.judging.case import Derived, Required
-from verification.judging.declared_case import Refined, Reported, Within, judged
-from verification.judging.observable import (
+from verification.judging.declared_case import (
     APPROACH,
     CENTRAL_PRESSURE,
     CONTACT_RADIUS,
@@ -18,6 +17,10 @@ from verification.judging.observable import (
     STICK_RADIUS,
     WORK,
     Observable,
+    Refined,
+    Reported,
+    Within,
+    judged,
 )
 from verification.judging.refinement_levels import (
     MIDDLE,

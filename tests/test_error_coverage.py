@@ -18,8 +18,7 @@ from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.problems.drawn.drawing import APPROACH, Truth
 from verification.problems.problem import Reference, ReferenceKind
-from verification.running.row import CaseRecord, Row
-from verification.running.study import Settings
+from verification.running.study import CaseRecord, Row, Settings
 from verification.studies.error_coverage.case import Coverage, Share, judged
 from verification.studies.error_coverage.study import ASKED, ENOUGH, REQUESTS, TRUE, cases, conclude
 

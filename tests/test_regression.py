@@ -14,10 +14,15 @@ from slipstick.cli.commands.compare import exit_code_of
 from verification.cases.catalogue import CASES
 from verification.cases.hertz import hertz_point
 from verification.judging.case import Level
-from verification.judging.declared_case import Within, judged
+from verification.judging.declared_case import (
+    APPROACH,
+    CONTACT_RADIUS,
+    PEAK_PRESSURE,
+    Within,
+    judged,
+)
 from verification.judging.declared_case import case as declared
 from verification.judging.judgement import judge
-from verification.judging.observable import APPROACH, CONTACT_RADIUS, PEAK_PRESSURE
 from verification.judging.outcome import (
     FOUND_IN_A_RUN,
     CaseOutcome,

@@ -14,7 +14,7 @@ from report_examples import (
     verdict,
 )
 
-from verification.exhibits.table import Table
+from verification.exhibits.chart import Table
 from verification.judging.outcome import Status
 from verification.report.files import SHEETS
 from verification.report.page import MAX_CHARTS, alignment, heading, render_page

@@ -36,7 +36,7 @@ from verification.report.page import render_page
 from verification.report.sections import stored_records
 from verification.report.summary_text import failure_lines, render_junit, render_summary
 from verification.running import provenance
-from verification.running.case_store import CaseStore, DamagedRecord, _digest
+from verification.running.case_pool import CaseStore, DamagedRecord, _digest
 from verification.running.provenance import Provenance
 from verification.running.report_record import Report, load_report
 from verification.running.study import LostCase, StudyRecord, dump_study

@@ -13,9 +13,8 @@ from verification.defects.outputs import PLANTED
 from verification.defects.registry import DEFECTS
 from verification.judging.case import Level
 from verification.judging.outcome import Status
-from verification.running import case_store
-from verification.running.row import CaseRecord
-from verification.running.study import Settings
+from verification.running import case_pool as case_store
+from verification.running.study import CaseRecord, Settings
 from verification.studies.seeded_defects.runs import (
     ERROR,
     HEALTHY,

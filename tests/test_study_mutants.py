@@ -7,8 +7,7 @@ import pytest
 
 from verification.judging.case import Level
 from verification.judging.outcome import Status
-from verification.running.row import CaseRecord
-from verification.running.study import Settings
+from verification.running.study import CaseRecord, Settings
 from verification.studies import mutants
 from verification.studies.mutants import HEALTHY, KERNELS, MutantRun, cases, conclude
 

@@ -11,8 +11,19 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from verification.judging.outcome import Status
-from verification.running.row import CaseRecord, Row, TypedRow, found, parameters_of, row_files
-from verification.running.study import RESIDUAL, converged, json_text, solved, within
+from verification.running.study import (
+    RESIDUAL,
+    CaseRecord,
+    Row,
+    TypedRow,
+    converged,
+    found,
+    json_text,
+    parameters_of,
+    row_files,
+    solved,
+    within,
+)
 
 numbers = st.floats(allow_nan=False, allow_infinity=False) | st.none()
 names = st.text(st.characters(codec="utf-8", categories=["L", "N"]), min_size=1, max_size=8)

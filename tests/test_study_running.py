@@ -18,11 +18,18 @@ from contact_results.blas_threads import VARIABLES
 from slipstick.cli.commands.study import _studied
 from verification.judging.case import Level
 from verification.report.files import set_aside, write_study
-from verification.running.case_pool import KILLED, Answer, CaseEnd, LocalWorkers, run_cases
-from verification.running.case_store import CaseStore, DamagedRecord, content_hash
+from verification.running.case_pool import (
+    KILLED,
+    Answer,
+    CaseEnd,
+    CaseStore,
+    DamagedRecord,
+    LocalWorkers,
+    content_hash,
+    run_cases,
+)
 from verification.running.provenance import provenance
-from verification.running.row import CaseRecord
-from verification.running.study import Settings, StudyRecord, stored_studies
+from verification.running.study import CaseRecord, Settings, StudyRecord, stored_studies
 from verification.studies.catalogue import STUDIES
 
 STUDY = ("maintain", "study", "coated-tractions", "--cells", "24", "--output", "out")

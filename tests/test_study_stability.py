@@ -15,9 +15,8 @@ from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.observed.surfaces import surface_violation
 from verification.report.drawing import look_of
-from verification.running.case_store import CaseStore
-from verification.running.row import CaseRecord, row_files
-from verification.running.study import Settings
+from verification.running.case_pool import CaseStore
+from verification.running.study import CaseRecord, Settings, row_files
 from verification.studies.stability import judged as judging
 from verification.studies.stability import study
 from verification.studies.stability.cell import (

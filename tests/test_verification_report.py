@@ -14,7 +14,7 @@ from report_examples import case, report_of, run_record, verdict
 
 from verification.cases.hertz import hertz_point
 from verification.cases.partial_slip import cattaneo_mindlin
-from verification.exhibits.table import plain, value_text
+from verification.exhibits.chart import plain, value_text
 from verification.judging.judgement import judge
 from verification.judging.outcome import (
     CaseOutcome,

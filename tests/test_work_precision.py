@@ -19,8 +19,7 @@ from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.peers.environment import FAILED, PEERS, made_environment
 from verification.running.cold_cache import CACHE, cold_cache
-from verification.running.row import CaseRecord, parameters_of
-from verification.running.study import Conclusion, Settings
+from verification.running.study import CaseRecord, Conclusion, Settings, parameters_of
 from verification.studies.work_precision.setting import CONTACTS, OWN, Method, PrecisionCase
 from verification.studies.work_precision.study import (
     STUDY,

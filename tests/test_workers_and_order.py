@@ -13,8 +13,7 @@ import pytest
 from command import outcome
 from study_cases import Killed, Loop, Number, Refusing, Square
 
-from verification.running.case_pool import OTHER_CODE, run_cases
-from verification.running.case_store import CaseStore, DamagedRecord
+from verification.running.case_pool import OTHER_CODE, CaseStore, DamagedRecord, run_cases
 from verification.running.cluster import ClusterUnavailable, ClusterWorkers
 from verification.running.study import StudyCase
 
@@ -69,7 +68,7 @@ import sys
 from pathlib import Path
 from study_cases import Endless
 from verification.running.case_pool import run_cases
-from verification.running.case_store import CaseStore
+from verification.running.case_pool import CaseStore
 if __name__ == "__main__":
     run_cases([Endless(sys.argv[1])], CaseStore(Path(sys.argv[2])), 1, print)
 """

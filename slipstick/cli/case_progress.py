@@ -9,8 +9,7 @@ from contextlib import contextmanager
 from rich.console import Console
 
 from contact_results.directory.stop_signals import cleaned_up_when_stopped
-from verification.running.case_pool import CaseEnd, Observer
-from verification.running.case_store import CaseStore
+from verification.running.case_pool import CaseEnd, CaseStore, Observer
 from verification.running.study import StudyCase
 
 

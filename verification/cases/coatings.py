@@ -36,9 +36,7 @@ from verification.closed_forms.coated_indentation import (
 )
 from verification.closed_forms.gao_chiu_lee import modulus_weight, ratio_weight
 from verification.judging.case import Case, Check, Comparison, Level, Required
-from verification.judging.declared_case import Falls, Refined, Reported, Row, Within, case, judged
-from verification.judging.drawings import PRESSURE, convergence, profile
-from verification.judging.observable import (
+from verification.judging.declared_case import (
     APPROACH,
     CENTRAL_PRESSURE,
     CONTACT_RADIUS,
@@ -46,9 +44,17 @@ from verification.judging.observable import (
     PEAK_PRESSURE,
     PRESSURE_L2,
     PRESSURE_WITHIN,
+    Falls,
     Observable,
+    Refined,
+    Reported,
+    Row,
+    Within,
+    case,
     error_norm,
+    judged,
 )
+from verification.judging.drawings import PRESSURE, convergence, profile
 from verification.judging.refinement_levels import (
     RefinementLevel,
     asked,

@@ -30,8 +30,7 @@ from semi_analytical.grid import SurfaceGrid
 from semi_analytical.stress import subsurface
 from verification.cases.points_run import PointsRun
 from verification.closed_forms.coated_indentation import LayeredIndentation
-from verification.exhibits.chart import Chart, Look, Panel, curve
-from verification.exhibits.table import NONE, Table, plain
+from verification.exhibits.chart import NONE, Chart, Look, Panel, Table, curve, plain
 from verification.judging.case import Case, Comparison, Finding, Level
 from verification.judging.refinement_levels import cells_label
 from verification.judging.run import (

@@ -14,8 +14,14 @@ from numpy.typing import NDArray
 from contact_scene import LoadStep
 from verification.closed_forms.hertz import PointContact
 from verification.judging.case import Case, Level
-from verification.judging.declared_case import Judged, Within, case, judged
-from verification.judging.observable import NORMAL_FORCE, error_norm
+from verification.judging.declared_case import (
+    NORMAL_FORCE,
+    Judged,
+    Within,
+    case,
+    error_norm,
+    judged,
+)
 from verification.judging.pressing_errors import pressure_at, shear_at
 from verification.judging.refinement_levels import (
     on_cells,

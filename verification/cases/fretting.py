@@ -18,17 +18,6 @@ from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.exhibits.profile_chart import ProfileLabels, Section
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import (
-    Drawing,
-    Falls,
-    Reported,
-    Row,
-    Within,
-    case,
-    judged,
-)
-from verification.judging.drawings import convergence, profile, radial_chart
-from verification.judging.field_errors import away_from_edges
-from verification.judging.observable import (
     APPROACH,
     ENERGY,
     ENERGY_PER_CYCLE,
@@ -41,9 +30,18 @@ from verification.judging.observable import (
     STICK_RADIUS,
     TWIST,
     WORK,
+    Drawing,
+    Falls,
     Observable,
+    Reported,
+    Row,
+    Within,
+    case,
     error_norm,
+    judged,
 )
+from verification.judging.drawings import convergence, profile, radial_chart
+from verification.judging.field_errors import away_from_edges
 from verification.judging.refinement_levels import (
     RefinementLevel,
     RefinementLevels,

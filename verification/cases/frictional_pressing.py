@@ -38,16 +38,21 @@ from verification.closed_forms.goodman import stick_ratio
 from verification.exhibits.chart import Chart
 from verification.exhibits.convergence_chart import convergence_chart
 from verification.judging.case import Case, Check, Comparison, Level, Quantity, Required
-from verification.judging.declared_case import Drawing, Reported, Row, Within, case, judged
-from verification.judging.drawings import PRESSURE as DRAWN_PRESSURE
-from verification.judging.drawings import Drawn, profile
-from verification.judging.observable import (
+from verification.judging.declared_case import (
     APPROACH,
     CONTACT_RADIUS,
     PEAK_PRESSURE,
+    Drawing,
     Observable,
+    Reported,
+    Row,
+    Within,
+    case,
     error_norm,
+    judged,
 )
+from verification.judging.drawings import PRESSURE as DRAWN_PRESSURE
+from verification.judging.drawings import Drawn, profile
 from verification.judging.order_of_convergence import (
     Followed,
     NotYetAsymptotic,

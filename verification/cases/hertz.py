@@ -23,18 +23,23 @@ from verification.cases.levels import (
 from verification.closed_forms.hertz import PointContact
 from verification.closed_forms.sphere import SphereContact
 from verification.judging.case import Case, Comparison, Level, Quantity, Required
-from verification.judging.declared_case import Falls, Refined, Reported, Within, case, judged
-from verification.judging.drawings import PRESSURE, convergence, profile
-from verification.judging.observable import (
+from verification.judging.declared_case import (
     APPROACH,
     CONTACT_RADIUS,
     NORMAL_FORCE,
     PEAK_PRESSURE,
     PRESSURE_L2,
     PRESSURE_WITHIN,
+    Falls,
     Observable,
+    Refined,
+    Reported,
+    Within,
+    case,
+    judged,
     number,
 )
+from verification.judging.drawings import PRESSURE, convergence, profile
 from verification.judging.order_of_convergence import NotYetAsymptotic
 from verification.judging.refinement_levels import (
     MIDDLE,

@@ -32,7 +32,7 @@ from contact_scene.quantities.residuals import worst
 from semi_analytical import SurfaceGrid, all_effects
 from verification.cases.levels import IDENTITY
 from verification.closed_forms.hertz import PointContact
-from verification.exhibits.table import NONE, Table
+from verification.exhibits.chart import NONE, Table
 from verification.judging.case import Case, Check, Comparison, Finding, Level, Quantity, Required
 from verification.judging.declared_case import case
 from verification.judging.run import OTHER_NORMS, SOLVER_TOLERANCE, Run, SectionRun, per_radius

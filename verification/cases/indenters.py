@@ -13,16 +13,20 @@ from contact_scene import Body, FlatPunch, LoadStep
 from verification.cases.levels import EDGE, IDENTITY, STAIRCASE, levels
 from verification.closed_forms.flat_punch import TiltedPunch
 from verification.judging.case import Case, Comparison, Level, Quantity, Required
-from verification.judging.declared_case import Falls, Refined, Within, case, judged
-from verification.judging.drawings import convergence, profile
-from verification.judging.observable import (
+from verification.judging.declared_case import (
     APPROACH,
     CENTRAL_PRESSURE,
     CONTACT_RADIUS,
     PRESSURE_L1,
+    Falls,
     Observable,
+    Refined,
+    Within,
+    case,
     error_norm,
+    judged,
 )
+from verification.judging.drawings import convergence, profile
 from verification.judging.order_of_convergence import NotYetAsymptotic
 from verification.judging.refinement_levels import (
     asked,

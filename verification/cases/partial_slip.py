@@ -25,24 +25,22 @@ from verification.closed_forms.cone import ConeContact
 from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import (
-    Falls,
-    Refined,
-    Reported,
-    Row,
-    Within,
-    case,
-    judged,
-)
-from verification.judging.drawings import Drawn, convergence, profile
-from verification.judging.observable import (
     ENERGY,
     SHEAR,
     SHIFT,
     STICK_RADIUS,
     WORK,
+    Falls,
     Observable,
+    Refined,
+    Reported,
+    Row,
+    Within,
+    case,
     error_norm,
+    judged,
 )
+from verification.judging.drawings import Drawn, convergence, profile
 from verification.judging.refinement_levels import (
     RefinementLevel,
     RefinementLevels,

@@ -12,8 +12,17 @@ from contact_scene.quantities.residuals import worst
 from semi_analytical.frf.stack import Stack
 from semi_analytical.frf.surface import scalars
 from semi_analytical.influence.layered import LayeredCoefficients
-from verification.exhibits.chart import Chart, Look, Panel, curve
-from verification.exhibits.table import NONE, Table, percent, plain, table_of
+from verification.exhibits.chart import (
+    NONE,
+    Chart,
+    Look,
+    Panel,
+    Table,
+    curve,
+    percent,
+    plain,
+    table_of,
+)
 from verification.judging.case import Case, Check, Level, Required
 from verification.judging.declared_case import case
 from verification.laws.law import frf_matrix, worst_violation

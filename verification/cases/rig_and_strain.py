@@ -19,17 +19,21 @@ from verification.closed_forms.eccentric_contact import EccentricContact
 from verification.closed_forms.elliptical_contact import EllipticalContact
 from verification.closed_forms.tangential_history import TangentialHistory
 from verification.judging.case import Case, Level
-from verification.judging.declared_case import Falls, Row, Within, case, judged
-from verification.judging.drawings import Drawn, profile
-from verification.judging.observable import (
+from verification.judging.declared_case import (
     ENERGY,
     SHEAR,
     SHIFT,
     STICK_RADIUS,
+    Falls,
     Observable,
+    Row,
+    Within,
+    case,
     error_norm,
+    judged,
     number,
 )
+from verification.judging.drawings import Drawn, profile
 from verification.judging.refinement_levels import (
     RefinementLevels,
     on_cells,

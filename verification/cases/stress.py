@@ -35,10 +35,9 @@ from verification.closed_forms.huber_stress import (
     stress_by_hertz_shear,
     trailing_edge_tension,
 )
-from verification.exhibits.table import NONE, Table, plain
+from verification.exhibits.chart import NONE, Table, plain
 from verification.judging.case import Case, Check, Level, Required
-from verification.judging.declared_case import Within, case, judged
-from verification.judging.observable import Observable, error_norm
+from verification.judging.declared_case import Observable, Within, case, error_norm, judged
 from verification.judging.refinement_levels import (
     RINGS_SHOWN,
     on_radii,

@@ -28,16 +28,20 @@ from semi_analytical import solve_discretised
 from verification.cases.levels import SQUARE_ROOTS, levels, order_levels
 from verification.closed_forms.coated_torsion import CoatedTorsion, TorsionalSurface, one_layer
 from verification.judging.case import Case, Check, Level, Required
-from verification.judging.declared_case import Falls, Refined, Within, case, judged
-from verification.judging.drawings import Drawn, convergence, profile
-from verification.judging.observable import (
+from verification.judging.declared_case import (
     SHEAR_AROUND,
     STICK_RADIUS,
     TWIST,
+    Falls,
     Observable,
+    Refined,
+    Within,
+    case,
     error_norm,
+    judged,
     number,
 )
+from verification.judging.drawings import Drawn, convergence, profile
 from verification.judging.order_of_convergence import Followed
 from verification.judging.refinement_levels import (
     asked,

@@ -28,13 +28,17 @@ from verification.closed_forms.cone import ConeContact
 from verification.closed_forms.flat_punch import FlatPunchContact
 from verification.closed_forms.hertz import PointContact, contact_modulus, tangential_modulus
 from verification.judging.case import Case, Level
-from verification.judging.declared_case import Refined, Row, Within, case, judged
-from verification.judging.observable import (
+from verification.judging.declared_case import (
     APPROACH,
     CONTACT_RADIUS,
     PEAK_PRESSURE,
     SHIFT,
     STICK_RADIUS,
+    Refined,
+    Row,
+    Within,
+    case,
+    judged,
 )
 from verification.judging.refinement_levels import (
     RefinementLevel,

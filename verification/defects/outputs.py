@@ -17,7 +17,7 @@ from contact_scene.quantities.increment import numbers
 from verification.convergence import observed_order
 from verification.defects.defect import Defect, Patches
 from verification.judging import outcome, verdicts
-from verification.running import case_store
+from verification.running import case_pool
 
 SIDES = {"above": "below", "below": "above"}
 
@@ -214,7 +214,7 @@ def _truncated(patches: Patches) -> None:
 
         return save
 
-    patches.method(case_store.CaseStore, "save", wrap)
+    patches.method(case_pool.CaseStore, "save", wrap)
 
 
 SEEN = ("dissimilar_bodies", "fem_hertz")

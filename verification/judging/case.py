@@ -12,8 +12,7 @@ from verification.judging.run import AnyRun
 from verification.problems.problem import Reference, ReferenceKind
 
 if TYPE_CHECKING:
-    from verification.exhibits.chart import Chart
-    from verification.exhibits.table import Table
+    from verification.exhibits.chart import Chart, Table
 
 
 class Level(IntEnum):

@@ -3,11 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
-from verification.exhibits.chart import Chart
-from verification.exhibits.table import Table
+import numpy as np
+
+from contact_scene.quantities.increment import (
+    SCALARS,
+    components,
+)
+from verification.exhibits.chart import Chart, Table
+from verification.judging import field_errors
 from verification.judging.case import (
     Case,
     Check,
@@ -17,8 +23,8 @@ from verification.judging.case import (
     Quantity,
     Required,
 )
-from verification.judging.observable import Observable
 from verification.judging.order_of_convergence import (
+    Followed,
     NotYetAsymptotic,
     OrderOfChange,
     OrderOfConvergence,
@@ -28,6 +34,263 @@ from verification.judging.refinement_levels import (
     RefinementLevels,
 )
 from verification.judging.run import AnyRun
+from verification.observed.end_state import central_pressure
+from verification.problems.cattaneo_mindlin import (
+    OVER_LIMIT,
+    OVER_SLIDING_SHIFT,
+    OVER_SLIDING_WORK,
+)
+from verification.problems.loop_history import OVER_LARGEST_SHIFT, loop_energy
+from verification.problems.problem import OVER_PEAK, OVER_RADIUS, Problem, Reference
+from verification.quantities import unit_of
+
+Measure = Callable[[Any, int, Problem], float]
+
+
+@dataclass(frozen=True)
+class Observable:
+    """A number of a step's end, or the norm of an error there.
+
+    name     of its order of convergence, after `order_of_`
+    meaning  for people. In braces is what each discretisation has its own words for
+    unit     SI; empty for a ratio
+    measure  from a result, the index of a step and the problem to the number
+    value    the same in the problem's answer to the step; None: an error, which should vanish
+    over     the scale that errors are relative to, by its name in the problem; empty: the value
+             itself, or one for an error
+    over_is  what an error without scale is relative to, in words
+    of       what an order of it is an order of
+    step     index of the loading step
+    label    in charts
+    source   of this number, where it is not the problem's
+    part     the load that it is measured at, over its limit, where that tells numbers apart
+    scalar   registered scalar and component, whose error solvers state; None for other numbers
+    """
+
+    name: str
+    meaning: str
+    unit: str
+    measure: Measure
+    value: Callable[[Any], float] | None
+    over: str = ""
+    over_is: str = ""
+    of: Followed | None = None
+    step: int = -1
+    label: str = ""
+    source: str = ""
+    part: float | None = None
+    scalar: tuple[str, int] | None = None
+
+    def at(self, step: int, part: float, of: str) -> Observable:
+        """The same at the end of another step, which the load reaches a part of something in."""
+        when = f"{part:g} {of}"
+        return replace(
+            self,
+            meaning=self.meaning.replace("{when}", f" at {when}"),
+            step=step,
+            label=when,
+            part=part,
+        )
+
+    @property
+    def verdict(self) -> str:
+        """The name of a verdict on it."""
+        return self.name if self.part is None else f"{self.name}_at_{self.part:g}"
+
+    def over_stops(self, stops: str) -> Observable:
+        """The root mean square of its errors over all steps but the first: single ones change their
+        sign from grid to grid, as edges of contact and stick zone fall anywhere.
+
+        stops  in words
+        """
+
+        def mean(result: Any, step: int, problem: Problem) -> float:
+            each = (replace(self, step=k).error(problem) for k in range(1, len(problem.ends)))
+            return float(np.sqrt(np.mean([error(result) ** 2 for error in each])))
+
+        meaning = self.meaning.replace("{when}", f" at {stops}, root mean square")
+        changed = replace(self, meaning=meaning, unit="", measure=mean, value=None, over="")
+        return replace(changed, scalar=None)
+
+    def said(self, words: Mapping[str, str]) -> str:
+        """The meaning in the words of a discretisation."""
+        return self.meaning.format_map({"when": "", **words})
+
+    def read(self, problem: Problem) -> Callable[[Any], float]:
+        """What measures it on a result."""
+        return lambda result: self.measure(result, self.step, problem)
+
+    def reference(self, problem: Problem) -> Reference:
+        """What should be measured."""
+        scale = problem.scale(self.over) if self.over else None
+        if self.value is None:
+            known = problem.no_error(1.0 if scale is None else scale)
+        else:
+            known = problem.reference(self.value(problem.ends[self.step]), scale)
+        return replace(known, source=self.source or known.source)
+
+    def scale(self, problem: Problem) -> float | None:
+        """What errors are divided by; None: the reference."""
+        if self.over:
+            return problem.scale(self.over)
+        return 1.0 if self.value is None else None
+
+    @property
+    def scale_name(self) -> str:
+        """What errors are divided by, in words."""
+        return self.over or self.over_is or "the reference"
+
+    def error(self, problem: Problem) -> Callable[[Any], float]:
+        """The relative error of a result, of either sign."""
+        read, value, scale = self.read(problem), self.reference(problem).value, self.scale(problem)
+        if scale is None:
+            return lambda result: read(result) / value - 1
+        return lambda result: (read(result) - value) / scale
+
+
+def number(
+    name: str,
+    meaning: str,
+    *,
+    quantity: str = "",
+    exact: str = "",
+    over: str = "",
+    of: Followed | None = None,
+    source: str = "",
+) -> Observable:
+    """A registered quantity of a step's end; NaN where the step has none.
+
+    quantity  its registered name, with _x or _y of a vector; empty: the name
+    exact     what the exact answer calls it; empty: the name
+    """
+    quantity = quantity or name
+    known = next(known for known in SCALARS if quantity in components(known))
+    part = components(known).index(quantity)
+
+    def read(result: Any, step: int, _: Problem) -> float:
+        value = getattr(result.steps[step], known)
+        return float("nan") if value is None else float(np.ravel(value)[part])
+
+    return Observable(
+        name,
+        meaning,
+        unit_of(quantity),
+        read,
+        lambda end: float(getattr(end, exact or name)),
+        over,
+        of=of,
+        label="" if of is None else of.value,
+        source=source,
+        scalar=(known, part),
+    )
+
+
+def error_norm(
+    name: str,
+    meaning: str,
+    measure: Measure,
+    over_is: str = "the exact field",
+    *,
+    unit: str = "",
+    over: str = "",
+    of: Followed | None = None,
+    norm: str = "",
+    source: str = "",
+) -> Observable:
+    """The norm of the error of a field.
+
+    norm  in charts
+    """
+    label = "" if of is None else f"{of.value} ({norm})" if norm else of.value
+    return Observable(
+        name, meaning, unit, measure, None, over, over_is, of, label=label, source=source
+    )
+
+
+APPROACH = number("approach", "approach of the bodies since first touch", of=Followed.APPROACH)
+PEAK_PRESSURE = number(
+    "peak_pressure", "largest pressure of any {point}", of=Followed.PEAK_PRESSURE
+)
+CONTACT_RADIUS = number("contact_radius", "{edge}", of=Followed.CONTACT_RADIUS)
+NORMAL_FORCE = number("normal_force", "force that the approach takes", exact="load")
+CENTRAL_PRESSURE = Observable(
+    "central_pressure", "pressure {axis}", "Pa",
+    lambda result, step, _: central_pressure(result, step),
+    lambda exact: float(exact.pressure(0.0)), of=Followed.PEAK_PRESSURE, label="central pressure",
+)  # fmt: skip
+SHIFT = number(
+    "shift", "tangential shift{when}", quantity="tangential_shift_x", over=OVER_SLIDING_SHIFT,
+    of=Followed.SHIFT,
+)  # fmt: skip
+STICK_RADIUS = number("stick_radius", "{stick}{when}", over=OVER_RADIUS)
+ENERGY = number(
+    "energy", "energy dissipated{when}", quantity="dissipated_energy",
+    exact="dissipated_energy", of=Followed.ENERGY, source="Mindlin and Deresiewicz 1953",
+)  # fmt: skip
+WORK = replace(ENERGY, over=OVER_SLIDING_WORK)
+TWIST = number("twist", "twist{when}", of=Followed.TWIST)
+PRESSURE_L1 = error_norm(
+    "pressure",
+    "pressure over the {domain}, L1",
+    field_errors.pressure_l1,
+    of=Followed.PRESSURE,
+    norm="L1",
+)
+PRESSURE_L2 = error_norm(
+    "pressure",
+    "pressure over the {domain}, L2",
+    field_errors.pressure_l2,
+    of=Followed.PRESSURE,
+    norm="L2",
+)
+PRESSURE_WITHIN = error_norm(
+    "pressure", "largest error of the pressure within {within} of the radius, over p_H",
+    field_errors.largest_pressure_error, OVER_PEAK,
+)  # fmt: skip
+SHEAR = error_norm(
+    "shear",
+    "{sum}|q - q_exact| / {sum}µp{when}",
+    field_errors.shear_error,
+    "Σµp",
+    of=Followed.SHEAR,
+)
+SHEAR_AROUND = error_norm(
+    "shear",
+    "largest error of the shear{when}, a tenth of the radius to either side of the stick edge "
+    "apart, over µp_H",
+    field_errors.shear_around_error,
+    OVER_LIMIT,
+)
+# Of a fretting loop as a whole; the answer to it is an `ExactLoop`.
+LARGEST_SHIFT_ERROR = error_norm(
+    "largest_shift_error",
+    "largest difference of the shift in any increment",
+    lambda result, _, problem: problem.ends[-1].largest_shift_error(result),
+    unit="m",
+    over=OVER_LARGEST_SHIFT,
+)
+LARGEST_STICK_RADIUS_ERROR = error_norm(
+    "largest_stick_radius_error",
+    "largest difference of the stick radius in any increment",
+    lambda result, _, problem: problem.ends[-1].largest_stick_radius_error(result),
+    unit="m",
+    over=OVER_RADIUS,
+)
+LARGEST_SHEAR_ERROR = error_norm(
+    "largest_shear_error",
+    "largest Σ|q - q_exact| / Σµp of any increment",
+    lambda result, _, problem: problem.ends[-1].largest_shear_error(result),
+    "Σµp",
+)
+ENERGY_PER_CYCLE = Observable(
+    "energy_per_cycle",
+    "energy dissipated from 0.9 µW to -0.9 µW and back",
+    "J",
+    lambda result, *_: loop_energy(result),
+    lambda loop: float(loop.energy_per_cycle),
+    scalar=("energy_per_cycle", 0),
+)
+
 
 Allowed = float | Mapping[int, float] | Callable[[RefinementLevel], float]
 Results = Mapping[str, Any]

@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.exhibits.convergence_chart import convergence_chart
 from verification.exhibits.profile_chart import Profile, ProfileLabels, Section, profile_chart
-from verification.judging.declared_case import Drawing, Falls, Row
-from verification.judging.observable import Observable
+from verification.judging.declared_case import Drawing, Falls, Observable, Row
 from verification.judging.refinement_levels import RefinementLevels
 from verification.judging.run import Run
 from verification.observed.ring_errors import SHOWN, at_radii

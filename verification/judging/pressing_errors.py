@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from verification.judging.observable import error_norm
+from verification.judging.declared_case import error_norm
 from verification.observed.ring_errors import along_radii, at_radii, judged_within, outward
 from verification.problems.cattaneo_mindlin import OVER_LIMIT
 from verification.problems.problem import OVER_PEAK, Problem

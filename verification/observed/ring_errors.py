@@ -9,13 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import map_coordinates
 
-from fem_reference import Increment
-from fem_reference.compliance.angular_grid import (
-    AngularGrid,
-    axisymmetric_grid,
-    end_grid,
-    mid_grid,
-)
 from semi_analytical.grid import SurfaceGrid
 
 if TYPE_CHECKING:
@@ -113,6 +106,7 @@ def tractions_at(
 
 
 def _grid_of(increment: Increment) -> AngularGrid:
+    from fem_reference.compliance.angular_grid import axisymmetric_grid, end_grid, mid_grid
 
     if increment.angles is None:
         return axisymmetric_grid()

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from verification.exhibits.table import value_text
+from verification.exhibits.chart import value_text
 from verification.judging.outcome import (
     CaseOutcome,
     Change,

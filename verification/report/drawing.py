@@ -11,8 +11,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
 from contact_results.figures import style
-from verification.exhibits.chart import Chart, Curve, Look, Panel
-from verification.exhibits.table import plain
+from verification.exhibits.chart import Chart, Curve, Look, Panel, plain
 
 WIDTH = 6.6
 HEIGHT_PER_UNIT = 1.5

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from verification.challenge.judgement import WHOLE, Judgement, Row, order_text
 from verification.convergence.observed_order import ILLEGIBLE
-from verification.exhibits.chart import Chart, drawable, log_chart, point_curves
-from verification.exhibits.table import NONE, Table
+from verification.exhibits.chart import NONE, Chart, Table, drawable, log_chart, point_curves
 from verification.judging.outcome import SYMBOLS, WORDS
 from verification.report.page import environment
 

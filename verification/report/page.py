@@ -10,7 +10,7 @@ from functools import cache
 import jinja2
 from markupsafe import Markup
 
-from verification.exhibits.table import Table, plain, value_text
+from verification.exhibits.chart import Table, plain, value_text
 from verification.judging.outcome import (
     FOUND_IN_A_RUN,
     SYMBOLS,

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from verification.exhibits.table import plain
+from verification.exhibits.chart import plain
 from verification.judging.outcome import Status
 from verification.running.report_record import Report
 from verification.running.sources import is_current

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from xml.etree import ElementTree
 
-from verification.exhibits.table import value_text
+from verification.exhibits.chart import value_text
 from verification.judging.coverage import judged_errors
 from verification.judging.outcome import (
     SYMBOLS,

@@ -21,8 +21,17 @@ from contact_errors.error_formula import BELIEVED
 from contact_results.surface import surface_of
 from contact_scene import LoadStep, Scene
 from contact_scene.array_types import Field
-from verification.exhibits.chart import Chart, Curve, Look, Panel, curve, stacked
-from verification.exhibits.table import Table, plain, table_of
+from verification.exhibits.chart import (
+    Chart,
+    Curve,
+    Look,
+    Panel,
+    Table,
+    curve,
+    plain,
+    stacked,
+    table_of,
+)
 from verification.judging.case import Level
 from verification.judging.run import SOLVER_TOLERANCE
 from verification.problems.layered_scene import coated, exact_contact, film, pressed, rigid_ball
@@ -34,17 +43,21 @@ from verification.problems.paper_scene import (
     square_grid,
 )
 from verification.quantities import largest_residual
-from verification.running.row import CaseRecord, Row, found, parameters_of, value_of
 from verification.running.study import (
     RESIDUAL,
+    CaseRecord,
     Conclusion,
     Records,
+    Row,
     Settings,
     Statement,
     Study,
     converged,
+    found,
     judged,
+    parameters_of,
     solved,
+    value_of,
 )
 
 RATIOS = (0.5, 1.0, 2.0, 4.0)

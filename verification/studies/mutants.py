@@ -19,16 +19,18 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from verification.exhibits.table import NONE, Table, table_of
+from verification.exhibits.chart import NONE, Table, table_of
 from verification.judging.case import Level
-from verification.running.row import CaseRecord, found, parameters_of
 from verification.running.study import (
+    CaseRecord,
     Conclusion,
     Records,
     Settings,
     Statement,
     Study,
+    found,
     judged,
+    parameters_of,
     solved,
 )
 

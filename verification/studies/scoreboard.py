@@ -17,12 +17,19 @@ from verification.challenge.python_api import (
     CannotDo,
     judge,
 )
-from verification.exhibits.table import NONE, Table, plain
+from verification.exhibits.chart import NONE, Table, plain
 from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.peers.environment import PEERS, made_environment, peers_directory
-from verification.running.row import CaseRecord, Row
-from verification.running.study import Conclusion, Records, Settings, Statement, Study
+from verification.running.study import (
+    CaseRecord,
+    Conclusion,
+    Records,
+    Row,
+    Settings,
+    Statement,
+    Study,
+)
 
 OURS = {
     surface.ON_CELLS.name: (surface.ON_CELLS, surface.answer),

@@ -139,11 +139,9 @@ def _studied(
     from contact_results.directory.run_lock import in_sole_use
     from slipstick.cli.case_progress import case_progress, how_it_ended, resume_hint
     from verification.report.files import CASES, refuse_if_unwritable, set_aside, write_study
-    from verification.running.case_pool import run_cases
-    from verification.running.case_store import CaseStore
+    from verification.running.case_pool import CaseStore, run_cases
     from verification.running.provenance import provenance
-    from verification.running.row import CaseRecord, row_files
-    from verification.running.study import StudyRecord
+    from verification.running.study import CaseRecord, StudyRecord, row_files
 
     refuse_if_unwritable(directory)
     with in_sole_use(directory):

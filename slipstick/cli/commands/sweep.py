@@ -36,9 +36,8 @@ from slipstick.sweep_chart import (
     SweptQuantity,
     write_sweep_chart,
 )
-from verification.running.case_pool import run_cases
-from verification.running.case_store import CaseStore
-from verification.running.row import ROWS, CaseRecord, row_files
+from verification.running.case_pool import CaseStore, run_cases
+from verification.running.study import ROWS, CaseRecord, row_files
 
 TABLE, CHART, CASES = "sweep.csv", "sweep.png", "points"
 

@@ -165,8 +165,7 @@ def judged(
     from verification.cases.catalogue import CaseToJudge, JudgedCase, lost
     from verification.regression.tolerances import held_to, read_tolerances
     from verification.report.files import refuse_if_unwritable
-    from verification.running.case_pool import run_cases
-    from verification.running.case_store import CaseStore
+    from verification.running.case_pool import CaseStore, run_cases
 
     tolerances = read_tolerances(level.lower())
     asked = [CaseToJudge(case.name, level) for case in cases]

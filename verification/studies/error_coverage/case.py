@@ -24,7 +24,7 @@ from contact_scene.solver_errors import SolverError
 from verification.problems.drawn.drawing import CELLS, STRESSES, KnownScene, Truth
 from verification.problems.drawn.families import drawn
 from verification.problems.drawn.references import stress_maxima
-from verification.running.row import CaseRecord, Row, parameters_of, value_of
+from verification.running.study import CaseRecord, Row, parameters_of, value_of
 
 WRONG, STATED, UNCERTAIN = "wrong", "stated", "uncertain"
 

@@ -16,20 +16,23 @@ from contact_errors.on_cells import CellSolver
 from contact_errors.on_elements import ElementSolver
 from contact_scene.accuracy import BOUND, LARGEST_TENSION, AccuracyRequest
 from contact_scene.solver_errors import SolverError
-from verification.exhibits.chart import Chart, Look, log_chart, point_curves
-from verification.exhibits.table import Table, table_of
+from verification.exhibits.chart import Chart, Look, Table, log_chart, point_curves, table_of
 from verification.judging.case import Level
 from verification.problems.drawn.drawing import CELLS, KINDS, KnownScene, Truth, logarithmic
 from verification.problems.drawn.families import CHOOSING, FAMILIES, JUDGING, TRIED
-from verification.running.row import CaseRecord, Row, found, parameters_of, value_of
 from verification.running.study import (
+    CaseRecord,
     Conclusion,
     Records,
+    Row,
     Settings,
     Statement,
     Study,
+    found,
     judged,
+    parameters_of,
     solved,
+    value_of,
 )
 from verification.studies.error_coverage.case import (
     BELIEVED,

@@ -28,8 +28,7 @@ from contact_scene.quantities.summary import OF_CYCLES
 from contact_scene.solver_errors import SolverError
 from fem_reference import Method
 from verification.quantities import largest_residual
-from verification.running.row import CaseRecord, Row, Value
-from verification.running.study import RESIDUAL
+from verification.running.study import RESIDUAL, CaseRecord, Row, Value
 
 # Solvers by their names on the command line, and the law of contact of the finite elements.
 CELLS = "semi-analytical"

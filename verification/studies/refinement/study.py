@@ -16,12 +16,31 @@ from verification.convergence.observed_order import (
     refined_value,
     triplets_agree,
 )
-from verification.exhibits.chart import Chart, Points, drawable, log_chart, point_curves, slope_line
-from verification.exhibits.table import Table, plain, table_of, value_text
+from verification.exhibits.chart import (
+    Chart,
+    Points,
+    Table,
+    drawable,
+    log_chart,
+    plain,
+    point_curves,
+    slope_line,
+    table_of,
+    value_text,
+)
 from verification.judging.case import Level
 from verification.judging.outcome import Status
-from verification.running.row import CaseRecord, Row, found
-from verification.running.study import RESIDUAL, Conclusion, Records, Settings, Statement, Study
+from verification.running.study import (
+    RESIDUAL,
+    CaseRecord,
+    Conclusion,
+    Records,
+    Row,
+    Settings,
+    Statement,
+    Study,
+    found,
+)
 from verification.studies.refinement.scene_level import (
     FLOOR,
     LARGEST,

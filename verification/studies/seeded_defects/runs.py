@@ -28,8 +28,8 @@ from verification.judging.outcome import (
 )
 from verification.judging.run import AnyRun
 from verification.judging.verdicts import expanded_uncertainty
-from verification.running.case_store import CaseStore
-from verification.running.row import CaseRecord, TypedRow, parameters_of
+from verification.running.case_pool import CaseStore
+from verification.running.study import CaseRecord, TypedRow, parameters_of
 
 HEALTHY = ""
 GATE = 1e-2

@@ -10,12 +10,11 @@ from verification.defects.defect import Defect
 from verification.defects.healthy_contacts import FAMILIES, THIN
 from verification.defects.outputs import PLANTED
 from verification.defects.registry import DEFECTS
-from verification.exhibits.chart import Chart, Look, Panel, curve, stacked
-from verification.exhibits.table import Table, plain, table_of
+from verification.exhibits.chart import Chart, Look, Panel, Table, curve, plain, stacked, table_of
 from verification.judging.case import Level
 from verification.judging.outcome import Status
-from verification.running.row import CaseRecord
 from verification.running.study import (
+    CaseRecord,
     Conclusion,
     Records,
     Settings,

@@ -9,7 +9,7 @@ from itertools import product
 from typing import Any
 
 from verification.judging.case import Level
-from verification.running.row import CaseRecord, TypedRow, parameters_of
+from verification.running.study import CaseRecord, TypedRow, parameters_of
 
 
 class Surface(StrEnum):

@@ -30,7 +30,7 @@ from semi_analytical import (
 from verification.judging.run import OTHER_NORMS
 from verification.observed.sections import section_laws
 from verification.observed.surfaces import surface_violation
-from verification.running.row import CaseRecord
+from verification.running.study import CaseRecord
 from verification.studies.stability.cell import CellRecord, Refusal, Solver, StabilityCell, Verdict
 from verification.studies.stability.pose import TOLERANCE, Posed, pose
 

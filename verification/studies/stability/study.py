@@ -8,12 +8,28 @@ from typing import Any
 
 import numpy as np
 
-from verification.exhibits.chart import Chart, Curve, Look, Panel, curve, stacked
-from verification.exhibits.table import Table, plain, table_of
+from verification.exhibits.chart import (
+    Chart,
+    Curve,
+    Look,
+    Panel,
+    Table,
+    curve,
+    plain,
+    stacked,
+    table_of,
+)
 from verification.judging.case import Level
 from verification.judging.run import OTHER_NORMS
-from verification.running.row import found
-from verification.running.study import Conclusion, Records, Settings, Statement, Study, judged
+from verification.running.study import (
+    Conclusion,
+    Records,
+    Settings,
+    Statement,
+    Study,
+    found,
+    judged,
+)
 from verification.studies.stability.cell import (
     CellRecord,
     Refusal,

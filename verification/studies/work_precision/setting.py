@@ -20,7 +20,7 @@ from verification import norms
 from verification.cases import coatings as coated
 from verification.judging import field_errors
 from verification.judging.case import Level
-from verification.judging.observable import (
+from verification.judging.declared_case import (
     APPROACH,
     ENERGY_PER_CYCLE,
     LARGEST_SHIFT_ERROR,
@@ -44,7 +44,7 @@ from verification.problems.paper_scene import FRICTION, NU_ZERO
 from verification.problems.problem import OVER_PEAK, Problem
 from verification.quantities import shear_of
 from verification.running.cold_cache import timed
-from verification.running.row import CaseRecord, parameters_of
+from verification.running.study import CaseRecord, parameters_of
 
 Field = NDArray[np.float64]
 Errors = Mapping[str, float]

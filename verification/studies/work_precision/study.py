@@ -6,17 +6,27 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from contact_scene.quantities.residuals import worst
-from verification.exhibits.chart import Chart, Look, Points, log_chart, point_curves
-from verification.exhibits.table import NONE, Table, plain
-from verification.running.row import CaseRecord, found, value_of
+from verification.exhibits.chart import (
+    NONE,
+    Chart,
+    Look,
+    Points,
+    Table,
+    log_chart,
+    plain,
+    point_curves,
+)
 from verification.running.study import (
+    CaseRecord,
     Conclusion,
     Records,
     Settings,
     Statement,
     Study,
+    found,
     judged,
     solved,
+    value_of,
 )
 from verification.studies.work_precision.setting import CONTACTS, Method, PrecisionCase, all_cases
 
