@@ -1,6 +1,6 @@
-"""What is solved: two bodies, an indenter's shape, friction and loading. No numerics.
+"""Description of a contact problem: two bodies, the indenter's shape, friction and loading.
 
-A scene is made in Python from the frozen values named here, or read from a TOML file by
+A scene is built in Python from the frozen models listed here, or read from a TOML file by
 `load_scene`. Quantities are numbers in SI units, or texts with a unit such as "18 mm".
 """
 

@@ -1,4 +1,4 @@
-"""How accurate the numbers of a run shall be: the table `[accuracy]`, or a text for an option."""
+"""Requested accuracy of a run: the table `[accuracy]`, or the text of an option."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -24,13 +24,13 @@ from contact_scene.reading.validator_error import (
     shown,
 )
 
-# What a share without a name binds.
+# Quantities that `overall` limits.
 OVERALL = (
     *("approach", "peak_pressure", "contact_radius"),
     *("tangential_shift", "twist", "energy_per_cycle"),
 )
 
-# Of the maxima that `slipstick stress` lists the first with this name.
+# The first maximum of this name that `slipstick stress` lists.
 LARGEST_TENSION = "max_principal"
 TENSION = Reported("Pa", "Largest principal stress anywhere in the body, tension positive.")
 
@@ -61,48 +61,46 @@ else:
 
 
 class AccuracyRequest(_Named):
-    """Largest errors of the numbers of a run, each relative to the largest value that its quantity
-    has in the history."""
+    """Largest allowed errors, each relative to the largest value of its quantity in the history."""
 
     overall: Share | None = None
-    """Of approach, peak pressure, contact radius, tangential shift, twist and the energy of closed
-    cycles: as far as the scene has them, does not prescribe them, and they are finite."""
+    """Largest error of approach, peak pressure, contact radius, tangential shift, twist and the
+    energy of closed cycles. Quantities that are absent, prescribed or infinite are left out."""
 
     @model_validator(mode="after")
-    def _asks_for_something(self) -> "AccuracyRequest":
+    def _limits_an_error(self) -> "AccuracyRequest":
         if not self.shares():
-            raise refusal("the table asks for nothing", 'overall = "1 %" or the name of a quantity')
+            raise refusal("the table is empty", 'overall = "1 %" or the name of a quantity')
         return self
 
     @property
     def named(self) -> tuple[str, ...]:
-        """Quantities that are bound by name, in the order of the results."""
+        """Quantities with a limit by name, in the order of the results."""
         return tuple(name for name in BOUND if getattr(self, name) is not None)
 
     def shares(self) -> Mapping[str, float]:
-        """Largest relative error of every quantity that is bound; a name counts more than
-        `overall`."""
+        """Return the largest relative error of every limited quantity; names override `overall`."""
         overall = {} if self.overall is None else dict.fromkeys(OVERALL, self.overall)
         return overall | {name: getattr(self, name) for name in self.named}
 
     @property
     def binds_stress(self) -> bool:
-        """Whether it binds a stress below the surface."""
+        """True if a stress below the surface has a limit."""
         return LARGEST_TENSION in self.named
 
 
 def accuracy_texts(text: str, option: str) -> dict[str, Any]:
-    """The table that a text such as "0.1%" or "peak_pressure 0.1%, approach 1%" stands for.
+    """Convert a text such as "0.1%" or "peak_pressure 0.1%, approach 1%" to a table.
 
-    option  how messages name where the text comes from
-    Raises `SceneError` for what is neither; names and shares are not checked.
+    option  name of the option, for messages
+    Raises `SceneError` for other texts. Names and limits are not checked.
     """
     table: dict[str, Any] = {}
     for item in text.split(","):
         found = fullmatch(r"\s*(?:(\w+)[\s=:]+)?([^\s%=:]+ ?%?)\s*", item)
         name = found and (found[1] or "overall")
         if found is None or name is None or name in table:
-            wrong = f"got {shown(item)}" if name is None else f"{name} is bound twice"
+            wrong = f"got {shown(item)}" if name is None else f"{name} is given twice"
             expected = '"0.1%" or names such as "peak_pressure 0.1%, approach 1%"'
             raise SceneError([Problem(("accuracy",), wrong, expected, file=option)])
         try:
@@ -113,5 +111,5 @@ def accuracy_texts(text: str, option: str) -> dict[str, Any]:
 
 
 def of_option(error: SceneError, option: str) -> SceneError:
-    """The same mistakes, as those of an option."""
+    """Return the error with the option as the source of all problems."""
     return SceneError([replace(problem, file=option) for problem in error.problems])

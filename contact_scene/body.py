@@ -1,4 +1,4 @@
-"""A body: a substrate under perfectly bonded layers."""
+"""Layered body: a substrate under perfectly bonded layers."""
 
 from itertools import takewhile
 from math import inf, log
@@ -9,44 +9,46 @@ from contact_scene.material import IsotropicMaterial, Material
 from contact_scene.reading.description import Description
 from contact_scene.reading.quantity import PositiveLength
 
-# Materials that differ by less are one, as far as a grid has to resolve them: of ln E, and of ν.
+# Differences of ln E and of ν below which a grid need not resolve two materials separately.
 ALIKE = 0.1, 0.01
 
 
 class Layer(Description):
-    """An elastic layer of constant thickness, perfectly bonded to what lies below it."""
+    """Elastic layer of constant thickness, perfectly bonded to the layer or substrate below it."""
 
     thickness: PositiveLength
     """Thickness of the layer [length]."""
 
     material: IsotropicMaterial
-    """What the layer is made of."""
+    """Material of the layer."""
 
 
 class Body(Description):
-    """A half-space: its substrate, and the layers on it."""
+    """Half-space with layers."""
 
     material: Material
-    """The substrate: an elastic material, or "rigid"."""
+    """Material of the substrate: an elastic material, or "rigid"."""
 
     layers: tuple[Layer, ...] = Field(default=(), max_length=100)
     """Layers on the substrate, outermost first."""
 
     @property
     def elastic_materials(self) -> tuple[IsotropicMaterial, ...]:
-        """What can deform, outermost first."""
+        """Materials of the layers and of the substrate that deform, outermost first."""
         substrate = (self.material,) if isinstance(self.material, IsotropicMaterial) else ()
         return *(layer.material for layer in self.layers), *substrate
 
     @property
     def deforms(self) -> bool:
-        """Whether any part of the body is elastic."""
+        """True if a layer or the substrate is elastic."""
         return bool(self.elastic_materials)
 
     @property
     def thinnest(self) -> float:
-        """The least depth over which the body is of one material, or of some that hardly differ
-        [length]; infinite if all of it is. Cutting a layer in two changes nothing."""
+        """Smallest thickness of nearly uniform material [length]; infinite for a uniform body.
+
+        Adjacent layers count as one if their materials differ by less than `ALIKE`.
+        """
         return min(map(self._depth_alike, range(len(self.layers))), default=inf)
 
     def _depth_alike(self, layer: int) -> float:

@@ -1,7 +1,7 @@
-"""Uniform strain of the lower body along its surface, as of a fretting-fatigue specimen.
+"""Uniform bulk strain of the lower body, as in a fretting-fatigue specimen.
 
-A strain E displaces the surface by E x about the origin, in addition to the displacement by the
-tractions, and layers as much as their base: each is then in plane stress of its own modulus.
+A strain ε displaces the surface at x by ε x, in addition to the displacement by the tractions.
+Layers have the strain of the substrate; each is in plane stress with its modulus.
 """
 
 from collections.abc import Sequence
@@ -16,15 +16,15 @@ from contact_scene.material import IsotropicMaterial, Material
 from contact_scene.solver_errors import UnsupportedScene
 
 Reported = TypeVar("Reported")
-# exx, eyy and exy of the tensor: half the change of the angle.
+# Tensor components exx, eyy, exy.
 Strain = tuple[float, float, float]
 UNSTRAINED: Strain = (0.0, 0.0, 0.0)
-# Of a strain that is the same all around, relative to it.
+# Deviation from an equibiaxial strain, relative to exx, that is due to round-off.
 ROUND_OFF = 1e-12
 
 
 def strain_under(stress: Sequence[float], material: Material) -> Strain:
-    """Strain under a stress [σxx, σyy, σxy] of a body that is free below and at its sides."""
+    """Compute the strain under a stress (σxx, σyy, σxy) [force/length^2] in plane stress."""
     assert isinstance(material, IsotropicMaterial)
     E, nu = material.young_modulus, material.poisson_ratio
     xx, yy, xy = stress
@@ -32,10 +32,12 @@ def strain_under(stress: Sequence[float], material: Material) -> Strain:
 
 
 def stress_by(strain: Sequence[float], body: Body, layer: int) -> Vector:
-    """Stress xx, yy, zz, yz, xz, xy of a layer, or of the base below all of them, by a strain
-    (6,) [force/length^2]."""
-    materials = (*(one.material for one in body.layers), body.material)
-    material = materials[layer]
+    """Compute the stress of a layer under the bulk strain, in plane stress.
+
+    layer    index from the surface; the number of layers for the substrate
+    returns  xx, yy, zz, yz, xz, xy [force/length^2], shape (6,)
+    """
+    material = (*(one.material for one in body.layers), body.material)[layer]
     if not isinstance(material, IsotropicMaterial):
         return np.zeros(6)
     nu, modulus = material.poisson_ratio, material.plane_strain_modulus
@@ -44,8 +46,8 @@ def stress_by(strain: Sequence[float], body: Body, layer: int) -> Vector:
     return np.array([*sides, 0.0, 0.0, 0.0, 2 * material.shear_modulus * xy])
 
 
-def reported(increment: Reported, strain: Strain | None) -> Reported:
-    """Return an increment with the strain at its end, where one is named."""
+def with_strain(increment: Reported, strain: Strain | None) -> Reported:
+    """Add the bulk strain at the end of an increment, if there is one."""
     if strain is None:
         return increment
     changes = {"bulk_strain": strain[:2], "bulk_shear": strain[2]}
@@ -53,22 +55,22 @@ def reported(increment: Reported, strain: Strain | None) -> Reported:
 
 
 def around_axis(strains: Sequence[Strain], pushed: bool) -> bool:
-    """Whether an axisymmetric solver has strains to take into account; raises UnsupportedScene for
-    those that are not the same all around.
+    """Determine if an axisymmetric solver has a bulk strain to apply.
 
-    pushed  whether there is a tangential load or a torsion
+    pushed  True with a tangential load or a torsion
+
+    Raises UnsupportedScene for a strain that is not equibiaxial or acts together with such a load.
     """
     strained = any(any(strain) for strain in strains)
     if strained and pushed:
         raise UnsupportedScene(
-            "steps name a bulk strain and a tangential load or a torsion, and this solver takes a "
-            "bulk strain alone; solve the scene with the semi-analytical solver"
+            "load steps prescribe a bulk strain and a tangential load or a torsion; this solver "
+            "supports a bulk strain alone. Use the semi-analytical solver"
         )
     for xx, yy, xy in strains:
         if max(abs(xx - yy), abs(xy)) > ROUND_OFF * abs(xx):
             raise UnsupportedScene(
-                f"the bulk strain ({xx:.4g}, {yy:.4g}, {xy:.4g}) is not the same all around, and "
-                "this solver takes equibiaxial strains; solve the scene with the semi-analytical "
-                "solver"
+                f"the bulk strain ({xx:.4g}, {yy:.4g}, {xy:.4g}) is not equibiaxial, which this "
+                "solver requires. Use the semi-analytical solver"
             )
     return strained

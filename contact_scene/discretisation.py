@@ -1,4 +1,4 @@
-"""How fine each solver shall be: the tables `[semi_analytical]`, `[fem_reference]`, `[radial]`."""
+"""Discretisation of each solver: the tables `[semi_analytical]`, `[fem_reference]`, `[radial]`."""
 
 from typing import Annotated, Literal
 
@@ -31,85 +31,87 @@ PathAccuracy = Annotated[
     float, Quantity(PURE_NUMBER, "a number from 1e-4 to 1", at_least=1e-4, at_most=1.0)
 ]
 
-# At the end of which increments edges are put inside the cells.
+# Increments at whose end the edge correction is applied.
 EdgeCorrection = Literal["off", "last", "all"]
 
 
 class SurfaceDiscretisation(Description):
-    """Cells and window of the surface, and the tolerance of the solver."""
+    """Grid of surface cells, increments and tolerance of the semi-analytical solver."""
 
     cells: tuple[Cells, Cells] | None = None
-    """Number of cells along x and y; absent: chosen. Whether they fit into memory is the solver's
-    to say."""
+    """Number of cells along x and y; absent: chosen. The solver refuses numbers that exceed the
+    available memory."""
 
     window: tuple[PositiveLength, PositiveLength] | None = None
-    """Lengths of the window along x and y, centred on the origin [length]; absent: chosen."""
+    """Side lengths of the window along x and y [length], centred on the origin; absent: chosen."""
 
     tolerance: Tolerance = 1e-8
-    """Bound of every dimensionless residual at the end of an increment."""
+    """Limit of every dimensionless residual at the end of an increment."""
 
     path_accuracy: PathAccuracy = PATH_ACCURACY
-    """Error of the shear that finite increments may leave at the end of a step, summed over the
-    surface and relative to the friction limit. It sets the increments of steps that name none."""
+    """Allowed increment error of the shear at the end of a step, summed over the surface and
+    relative to the sum of the friction limit. Sets the number of increments of steps without
+    one."""
 
     edge: EdgeCorrection = "last"
-    """Whether tractions are put right at the edges of contact and stick, where constant on cells
-    they are wrong by the order of a cell: at the end of each step ("last"), of each increment
-    ("all"), or not at all ("off"); never where it is not known how, or not safe."""
+    """Edge correction of tractions at the edges of contact and stick zone, where constant
+    tractions per cell have an error of first order in the cell size. Applied at the end of each
+    step ("last"), of each increment ("all"), or never ("off"). Omitted where no safe correction is
+    available."""
 
 
 class FiniteElementDiscretisation(Description):
-    """Elements and size of the axisymmetric section, and the tolerance of the solver."""
+    """Mesh of the axisymmetric section, penalty and tolerance of the finite-element solvers."""
 
     elements_per_radius: Elements = 32
     """Number of elements of equal side over the contact radius."""
 
     contact_radius: PositiveLength | None = None
-    """Largest contact radius of the history, which the other numbers refer to [length]; absent:
-    estimated. It lays out the mesh and does not decide the answer: a contact beyond it is refused,
-    and one below two thirds of it is solved again on a mesh of its own."""
+    """Largest contact radius of the history [length], which the other numbers refer to; absent:
+    estimated. Determines the mesh only: a larger contact is refused, a contact smaller than two
+    thirds of the radius is solved again on a mesh for its radius."""
 
     box: BoxSize | None = None
-    """Outer radius and depth of the section, in contact radii; absent: chosen, 100 and more where
-    the layers are thick or stiff."""
+    """Outer radius and depth of the section, in contact radii; absent: chosen, at least 100, more
+    for thick or stiff layers."""
 
     mesher: Literal["tensor", "gmsh"] = "tensor"
-    """What makes the mesh: a graded grid of rectangles, or gmsh."""
+    """Mesh generator: a graded grid of rectangles, or gmsh."""
 
     harmonics: Harmonics = 12
-    """Highest angular harmonic where a tangential load and the pressure act on one another."""
+    """Highest angular harmonic, for a tangential load that is coupled with the pressure."""
 
     penalty: PenaltyFactor = 10.0
-    """Stiffness of the penalty method against overlap and slip, in contact moduli per element."""
+    """Stiffness of the penalty method against overlap and slip, in units of the contact modulus
+    divided by the element size."""
 
     augmentations: Augmentations = 100
-    """How often the penalty method may correct its tractions in an increment; none leaves springs
-    alone."""
+    """Largest number of updates of the multipliers per increment (augmented Lagrangian); 0: pure
+    penalty method."""
 
     overlap: Overlap = 1e-3
-    """Overlap that the penalty method may leave, relative to what the bodies move: it corrects its
-    tractions until less is left, and is refused where more is left in the end."""
+    """Allowed overlap in the penalty method, relative to the displacement of the bodies. The
+    multipliers are updated until the overlap is smaller; a larger final overlap is an error."""
 
     tolerance: Tolerance = 1e-8
-    """Bound of every dimensionless residual at the end of an increment."""
+    """Limit of every dimensionless residual at the end of an increment."""
 
     def refined(self) -> "FiniteElementDiscretisation":
-        """The same with twice the elements; ValueError beyond the bounds."""
+        """Double the elements per radius; raises ValueError beyond their limit."""
         finer = {**self.model_dump(), "elements_per_radius": 2 * self.elements_per_radius}
         return FiniteElementDiscretisation.model_validate(finer)
 
 
 class RadialDiscretisation(Description):
-    """Where the radial solver shows its fields, and its tolerance; it needs no grid and chooses its
-    orders and points itself."""
+    """Output points and tolerance of the radial solver, which chooses its orders and points."""
 
     rings: Rings = 64
-    """Number of rings over the largest contact of the history, denser towards its edge, at which
-    pressure and gap are told."""
+    """Number of output radii of the fields over the largest contact of the history, denser towards
+    its edge."""
 
     extrapolated: bool = False
-    """Whether the history of a pushed contact is solved in twice the increments, too, and its
-    scalars are told in the limit of fine increments; it takes three times as long."""
+    """If true, a history with a tangential load is also solved with twice the increments, and its
+    scalars are extrapolated to the limit of fine increments. Takes three times as long."""
 
     tolerance: Tolerance = 1e-10
-    """Bound of every dimensionless residual at the end of an increment."""
+    """Limit of every dimensionless residual at the end of an increment."""

@@ -1,4 +1,4 @@
-"""Friction between the two bodies."""
+"""Friction law and friction map of the contact."""
 
 from functools import cached_property
 from types import EllipsisType
@@ -24,25 +24,25 @@ Field = NDArray[np.float64]
 Pair = tuple[float, float]
 Where = tuple[slice, slice] | EllipsisType
 
-# What rounding leaves between coefficients that are meant to be the same, relative to the largest.
+# Relative difference of coefficients that is due to round-off.
 ROUND_OFF = 1e-14
-# Above any pressure of a contact: where a limit still has its first slope, it is in proportion.
+# Above every pressure of a contact: a limit with the same slope here and at 0 is proportional to p.
 HIGHEST_PRESSURE = 1e30  # [force/length^2]
 
 
 class FrictionMap(Description):
-    """Coefficients of friction that vary over the surface."""
+    """Coefficient of friction that varies over the surface."""
 
     map: FileKey
-    """A `.npy` file with coefficients, index [i, j] = (x_i, y_j), or a `.csv` or `.txt` file as
-    seen from above; linear in between."""
+    """Name of a `.npy` file with coefficients, index [i, j] = (x_i, y_j), or of a `.csv` or `.txt`
+    file in the orientation of a top view; interpolated linearly."""
 
     spacing: PairOfSpacings
-    """Distance of neighbouring coefficients along x and y [length]; one number for both. A map of
-    128 coefficients over 1.28 mm has 0.01 mm."""
+    """Distance between adjacent coefficients along x and y [length]; one number applies to both. A
+    map of 128 coefficients over 1.28 mm has a spacing of 0.01 mm."""
 
     origin: tuple[Length, Length] = (0.0, 0.0)
-    """Where the middle of the map lies, along x and y from the origin of the contact [length]."""
+    """Position (x, y) of the centre of the map, relative to the origin of the contact [length]."""
 
     @model_validator(mode="after")
     def _is_never_negative(self) -> "FrictionMap":
@@ -60,7 +60,7 @@ class FrictionMap(Description):
 
     @property
     def extent(self) -> Pair:
-        """Lengths along x and y about the origin within which the coefficient is known [length]."""
+        """Side lengths of the largest rectangle about the origin that the map covers [length]."""
         L_x, L_y = (
             count * spacing - 2.0 * abs(middle)
             for count, spacing, middle in zip(
@@ -71,13 +71,13 @@ class FrictionMap(Description):
 
     @cached_property
     def constant(self) -> float | None:
-        """The coefficient where it is the same everywhere; None where it varies."""
+        """Coefficient of a uniform map; None if the coefficient varies."""
         values = self.map.values
         return float(values[0, 0]) if np.all(values == values[0, 0]) else None
 
     @property
     def is_even(self) -> bool:
-        """Whether the coefficient is the same at (±x, ±y), to rounding."""
+        """True if the coefficient is equal at (±x, ±y), to round-off."""
         values = self.map.values
         images = values[::-1], values[:, ::-1]
         nearly = ROUND_OFF * float(np.max(values))
@@ -86,10 +86,12 @@ class FrictionMap(Description):
         )
 
     def on(self, cells: tuple[int, int], spacing: Pair) -> "FrictionMap":
-        """The coefficients at the centres of other cells about the origin of the contact.
+        """Interpolate the map at the cell centres of a grid centred on the origin of the contact.
 
-        spacing  of the cells [length]
-        Bit for bit the same where the cells are those of the map; ValueError beyond its extent.
+        cells    number along x and y
+        spacing  side lengths of a cell [length]
+
+        Returns equal bits at the points of the map. Raises ValueError for cells beyond its extent.
         """
         x, y = (
             (np.arange(count) - (count - 1) / 2) * side - middle
@@ -110,18 +112,18 @@ Coefficient = Annotated[
 
 
 class CoulombFriction(Description):
-    """Coulomb's law: the shear never exceeds coefficient times pressure; slip opposes it.
+    """Coulomb's law: the shear does not exceed coefficient times pressure and opposes the slip.
 
-    `limit` and `slope` define the law: the limit, which vanishes without pressure and never falls
-    with the pressure, and its derivative. Everything else follows from these two.
+    `limit` and `slope` define the law. The limit is 0 at pressure 0 and does not decrease with the
+    pressure; the slope is its derivative. All other properties follow from these two.
     """
 
     coefficient: Coefficient
-    """Coefficient of friction mu >= 0, or a map of it."""
+    """Coefficient of friction mu >= 0, or a map of coefficients."""
 
     @property
     def uniform(self) -> float | None:
-        """The coefficient µ if the limit is µp with the same µ everywhere; None otherwise."""
+        """Coefficient µ if the limit is µp with the same µ everywhere; None otherwise."""
         lowest, highest = self.slope(0.0), self.slope(HIGHEST_PRESSURE)
         if self.varying is not None or not np.array_equal(lowest, highest):
             return None
@@ -129,21 +131,20 @@ class CoulombFriction(Description):
 
     @property
     def varying(self) -> FrictionMap | None:
-        """The map of the coefficient; None where it is the same everywhere."""
+        """Map of the coefficient; None if the coefficient is uniform."""
         mu = self.coefficient
         return mu if isinstance(mu, FrictionMap) and mu.constant is None else None
 
     @property
     def extent(self) -> Pair | None:
-        """Lengths along x and y about the origin within which the coefficient is known [length];
+        """Side lengths of the rectangle about the origin where the coefficient is defined [length];
         None without a map."""
         return self.coefficient.extent if isinstance(self.coefficient, FrictionMap) else None
 
     def on(self, cells: tuple[int, int], spacing: Pair) -> "CoulombFriction":
-        """The same law with one coefficient for every cell of a grid, where it is given as a map.
+        """Return the law with the map interpolated at the cell centres; itself without a map.
 
-        spacing  of the cells [length]
-        ValueError beyond the extent of the map.
+        Arguments and errors are those of `FrictionMap.on`.
         """
         if not isinstance(self.coefficient, FrictionMap):
             return self
@@ -151,39 +152,41 @@ class CoulombFriction(Description):
 
     @property
     def is_even(self) -> bool:
-        """Whether the coefficient is the same at (±x, ±y), to rounding."""
+        """True if the coefficient is equal at (±x, ±y), to round-off."""
         return self.varying is None or self.varying.is_even
 
     @property
     def largest(self) -> float:
-        """The largest ratio of shear to pressure anywhere, which is that of low pressures."""
+        """Largest slope of the limit at zero pressure over the surface [1]."""
         return float(np.max(self.slope(0.0)))
 
     def slope(self, pressure: Field | float, where: Where = ...) -> Field:
-        """Derivative of the limit with respect to the pressure, at a pressure [1].
+        """Compute the derivative of the limit with respect to the pressure [1].
 
-        where  the cells that the pressure is of; all of them if absent
+        where  index of the cells of `pressure` in the map; absent: all cells
         """
         mu = self._at(where)
         return np.broadcast_to(mu, np.broadcast_shapes(np.shape(mu), np.shape(pressure)))
 
     def limit(self, pressure: Field, where: Where = ...) -> Field:
-        """The largest shear under a pressure, of the same shape [force/length^2].
+        """Compute the friction limit under a pressure [force/length^2].
 
-        where  the cells that the pressure is of; all of them if absent
+        where  index of the cells of `pressure` in the map; absent: all cells
         """
         return np.asarray(self._at(where) * pressure)
 
     def _at(self, where: Where) -> float | Field:
-        """The coefficient in cells."""
+        """Return the coefficient of cells."""
         mu = self.coefficient
         if not isinstance(mu, FrictionMap):
             return mu
         return mu.map.values[where] if mu.constant is None else mu.constant
 
     def carried(self, normal_force: float) -> float | None:
-        """The largest tangential force under a normal force [force]; None where it depends on the
-        distribution of the pressure."""
+        """Compute the friction limit of the tangential force under a normal force [force].
+
+        None if the limit depends on the distribution of the pressure.
+        """
         mu = self.uniform
         return None if mu is None else mu * normal_force
 
@@ -192,20 +195,30 @@ FRICTIONLESS = CoulombFriction(coefficient=0.0)
 
 
 def sliding_friction(start: Field, end: Field, passed: Field, before: Field, after: Field) -> Field:
-    """Friction along the way that surfaces slip in an increment, as the shear (c, …)
-    [force/length^2]: along the shear at the end, as large as the mean of the limits at both ends.
+    """Compute the mean shear over an increment for the dissipation by its slip.
 
-    Exact where the pressure stays, and where tractions and slip grow in proportion. What parts in
-    the increment has no shear at its end: there friction is along the way, and half the shear at
-    the start, for it may have stuck until then.
+    The shear has the direction of the shear at the end and the mean of both friction limits as its
+    magnitude. This is exact for constant pressure, and for tractions and slip that grow in
+    proportion. Points that lose contact have no shear at the end: there the direction is that of
+    the slip and the magnitude half the shear at the start, since they may stick until they part.
 
-    start, end     shear, its components first (c, …)
-    passed         how far the indenter's particles moved past the body's (c, …) [length]
-    before, after  friction limits at start and end (…)
+    Parameters
+    ----------
+    start, end : ndarray, shape (c, …)
+        Shear at the ends of the increment, c components [force/length^2].
+    passed : ndarray, shape (c, …)
+        Slip of the indenter relative to the body in the increment [length].
+    before, after : ndarray, shape (…)
+        Friction limits at start and end [force/length^2].
+
+    Returns
+    -------
+    ndarray, shape (c, …)
+        Mean shear [force/length^2].
     """
-    parts = (before > 0) & (after == 0)
-    along = np.where(parts, passed, end)
+    separate = (before > 0) & (after == 0)
+    along = np.where(separate, passed, end)
     length = np.abs(np.hypot.reduce(along, axis=0))
     direction = np.divide(along, length, out=np.zeros_like(along), where=length > 0)
-    size = np.where(parts, np.abs(np.hypot.reduce(start, axis=0)), before + after)
+    size = np.where(separate, np.abs(np.hypot.reduce(start, axis=0)), before + after)
     return np.asarray(0.5 * size * direction)

@@ -1,4 +1,4 @@
-"""Indenters: bodies with a shape, and the undeformed gap below them."""
+"""Indenter shapes and the undeformed gap between indenter and plane."""
 
 import math
 from abc import abstractmethod
@@ -30,17 +30,17 @@ from contact_scene.reading.validator_error import refusal
 Gap = NDArray[np.float64]
 Pair = tuple[float, float]
 
-# Share of the points of a height map without a height: the corners around a round field of view
-# take 1 - π/4 = 0.21, and more on few points.
+# Largest fraction of points of a height map without a height. The corners around a circular field
+# of view are 1 - π/4 = 0.21 of a square, and more on few points.
 _MOST_UNMEASURED = 1 / 3
 
 
 class ShapedBody(Body):
-    """A body with a shape, first touching the plane z = 0 (at the origin where it has a tip).
+    """Body with a shape, in first contact with the plane z = 0 (at the origin if it has a tip).
 
-    All that a shape must have is its gap. What else it says of itself solvers may rely on, and what
-    it leaves out they do not assume: a class with a gap of its own inherits nothing that another
-    shape says.
+    A shape must define `initial_gap`. All other properties are optional; solvers rely on those
+    that are defined and assume none of the others. A subclass that redefines the gap of another
+    shape therefore does not inherit the properties of that shape.
     """
 
     @classmethod
@@ -53,49 +53,60 @@ class ShapedBody(Body):
 
     @abstractmethod
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
-        """Undeformed distance from the plane at first touch [length], shape of x + y.
+        """Compute the undeformed gap at first contact.
 
-        x, y  coordinates in the contact plane [length], broadcast together
-        Infinite where the body can never touch.
+        Parameters
+        ----------
+        x, y : array_like
+            Coordinates in the contact plane [length], broadcast together.
+
+        Returns
+        -------
+        ndarray, shape of x + y
+            Distance of the indenter from the plane [length]; infinite where there is no indenter.
         """
 
     @property
     def is_of_revolution(self) -> bool:
-        """Whether the gap is the same all around the origin."""
+        """True if the gap depends on the distance from the origin only."""
         return False
 
     @property
     def is_even(self) -> bool:
-        """Whether the gap is the same at (x, y), (-x, y) and (x, -y)."""
+        """True if the gap is equal at (x, y), (-x, y) and (x, -y)."""
         return self.is_of_revolution
 
     @property
     def rim(self) -> float | None:
-        """Radius of an edge that bounds the contact whatever the load [length]; None without."""
+        """Radius of an edge that bounds the contact at every load [length]; None without one."""
         return None
 
     @property
     def extent(self) -> Pair | None:
-        """Lengths along x and y about the origin within which the gap is known [length]; None
-        where it is known everywhere."""
+        """Side lengths along x and y of the region about the origin where the gap is defined
+        [length]; None if the gap is defined everywhere."""
         return None
 
     @property
     def gap_exponent(self) -> float | None:
-        """The gap rises with this power k of the distance from first touch: while the load grows,
-        the approach goes with a^k and the normal force with a^(k+1), a the contact radius. None
-        where the contact does not grow, or nobody knows how."""
+        """Exponent k of the gap as a power of the distance from first contact.
+
+        Under a growing load the approach is proportional to a^k and the normal force to a^(k+1),
+        with the contact radius a. None if the contact does not grow or follows no such law.
+        """
         return None
 
-    # Good to an order of magnitude, for layouts. As powers of the radius, so that the last digit of
-    # a root is not decided here.
+    # Estimates to an order of magnitude, for grids and meshes. Callers take the roots.
 
     def contact_at(self, approach: float) -> Pair | None:
-        """Reach of the contact along x and y at an approach, to the power k; None if not known."""
+        """Estimate a^k for an approach, with the extent a of the contact along x and along y.
+
+        None if there is no estimate.
+        """
         return None
 
     def contact_under(self, force: float, modulus: float) -> Pair | None:
-        """The same under a normal force, between half-spaces, to the power k + 1.
+        """Estimate a^(k+1) for a normal force between half-spaces, a as in `contact_at`.
 
         modulus  E* [force/length^2]
         """
@@ -114,31 +125,31 @@ _SAID = {
 
 
 class SmoothTip(ShapedBody):
-    """A shape with two radii of curvature where it touches first (Johnson 1985, section 4.2)."""
+    """Shape with two radii of curvature at the point of first contact (Johnson 1985, sec. 4.2)."""
 
     @property
     def gap_exponent(self) -> float:
-        """Of a parabola."""
+        """Exponent of a parabola."""
         return 2
 
     @property
     @abstractmethod
     def tip_radii(self) -> Pair:
-        """Along x and along y [length]."""
+        """Radii of curvature along x and y at the tip [length]."""
 
     def contact_at(self, approach: float) -> Pair:
-        """a^2 = R delta, which bounds it along either axis."""
+        """Estimate a^2 = R delta, an upper bound along either axis."""
         R_x, R_y = self.tip_radii
         return R_x * approach, R_y * approach
 
     def contact_under(self, force: float, modulus: float) -> Pair:
-        """a^3 = 3 W R / 4 E* with the larger radius."""
+        """Estimate a^3 = 3 W R / 4 E* with the larger radius R."""
         power = 3.0 * force * max(self.tip_radii) / (4.0 * modulus)
         return power, power
 
 
 class RoundTip(SmoothTip):
-    """The same curvature all around."""
+    """Shape of revolution with one radius of curvature at the tip."""
 
     shape: Literal["sphere", "paraboloid"]
     radius: PositiveLength
@@ -146,39 +157,39 @@ class RoundTip(SmoothTip):
 
     @property
     def is_of_revolution(self) -> bool:
-        """It is."""
+        """True for every radius."""
         return True
 
     @property
     def tip_radii(self) -> Pair:
-        """R along either."""
+        """Radius R along x and y [length]."""
         return self.radius, self.radius
 
 
 class Sphere(RoundTip):
-    """A sphere, as the exact arc: r^2 / (R + sqrt(R^2 - r^2)) up to its silhouette."""
+    """Sphere with the exact arc: gap r^2 / (R + sqrt(R^2 - r^2)) up to the equator."""
 
     shape: Literal["sphere"] = "sphere"
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
-        """The arc, continued beyond the silhouette by the height R of the equator."""
+        """Compute the height of the arc; beyond the equator, the gap is R."""
         R = self.radius
         r = np.minimum(np.hypot(x, y), R)
         return np.asarray(r * (r / (R + np.sqrt((R - r) * (R + r)))))
 
 
 class Paraboloid(RoundTip):
-    """A paraboloid of revolution, r^2 / 2R: the shape of Hertz's closed form."""
+    """Paraboloid of revolution with the gap r^2 / 2R, the shape of Hertz theory."""
 
     shape: Literal["paraboloid"] = "paraboloid"
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
-        """(x^2 + y^2) / 2R."""
+        """Compute (x^2 + y^2) / 2R."""
         return np.asarray((np.square(x) + np.square(y)) / (2.0 * self.radius))
 
 
 class Ellipsoid(SmoothTip):
-    """An elliptical paraboloid, x^2 / 2Rx + y^2 / 2Ry: any smooth convex tip, to second order."""
+    """Elliptical paraboloid with the gap x^2 / 2Rx + y^2 / 2Ry: a smooth tip to second order."""
 
     shape: Literal["ellipsoid"] = "ellipsoid"
     radii: tuple[PositiveLength, PositiveLength]
@@ -186,27 +197,27 @@ class Ellipsoid(SmoothTip):
 
     @property
     def is_of_revolution(self) -> bool:
-        """Where its radii are the same."""
+        """True if both radii are equal."""
         return self.radii[0] == self.radii[1]
 
     @property
     def is_even(self) -> bool:
-        """It is."""
+        """True for all radii."""
         return True
 
     @property
     def tip_radii(self) -> Pair:
-        """Rx and Ry."""
+        """Radii Rx and Ry [length]."""
         return self.radii
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
-        """x^2 / 2Rx + y^2 / 2Ry."""
+        """Compute x^2 / 2Rx + y^2 / 2Ry."""
         Rx, Ry = self.radii
         return np.asarray(np.square(x) / (2.0 * Rx) + np.square(y) / (2.0 * Ry))
 
 
 class Cone(ShapedBody):
-    """A cone, r tan(slope)."""
+    """Cone with the gap r tan(slope)."""
 
     shape: Literal["cone"] = "cone"
     slope_angle: SlopeAngle
@@ -214,21 +225,21 @@ class Cone(ShapedBody):
 
     @property
     def gap_exponent(self) -> float:
-        """Of a straight flank."""
+        """Exponent of a straight flank."""
         return 1
 
     @property
     def is_of_revolution(self) -> bool:
-        """It is."""
+        """True for every slope."""
         return True
 
     def contact_at(self, approach: float) -> Pair:
-        """a = 2 delta / pi tan(slope) (Johnson 1985, section 5.2)."""
+        """Estimate a = 2 delta / pi tan(slope) (Johnson 1985, section 5.2)."""
         reach = 2.0 * approach / (np.pi * self._slope)
         return reach, reach
 
     def contact_under(self, force: float, modulus: float) -> Pair:
-        """a^2 = 2 W / pi E* tan(slope)."""
+        """Estimate a^2 = 2 W / pi E* tan(slope)."""
         power = 2.0 * force / (np.pi * modulus * self._slope)
         return power, power
 
@@ -237,63 +248,65 @@ class Cone(ShapedBody):
         return math.tan(self.slope_angle)
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
-        """r tan(slope)."""
+        """Compute r tan(slope)."""
         return np.asarray(np.hypot(x, y) * np.tan(self.slope_angle))
 
 
 class FlatPunch(ShapedBody):
-    """A circular cylinder pressed on with its flat end."""
+    """Circular cylinder with a flat end face."""
 
     shape: Literal["flat_punch"] = "flat_punch"
     radius: PositiveLength
-    """Radius of the flat end [length]."""
+    """Radius of the end face [length]."""
 
     @property
     def is_of_revolution(self) -> bool:
-        """It is."""
+        """True for every radius."""
         return True
 
     @property
     def rim(self) -> float:
-        """The edge of its end."""
+        """Radius of the edge of the end face [length]."""
         return self.radius
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
-        """Zero below the end, its rim included; infinite outside."""
+        """Return 0 below the end face and on its edge, infinity outside."""
         return np.where(np.hypot(x, y) <= self.radius, 0.0, np.inf)
 
 
 class HeightMap(ShapedBody):
-    """A measured or made-up surface: heights above the plane, on a grid about the origin."""
+    """Measured or computed surface: heights above the plane on a grid centred on the origin."""
 
     shape: Literal["height_map"] = "height_map"
     file: FileKey
-    """A `.npy` file with heights, index [i, j] = (x_i, y_j), or a `.csv` or `.txt` file, printed as
-    seen from above with x to the right and y upwards; the lowest point of the interpolated surface
-    touches first. NaN, empty fields of a text file too, are points that were not measured."""
+    """Name of a `.npy` file with heights, index [i, j] = (x_i, y_j), or of a `.csv` or `.txt` file
+    in the orientation of a top view, with x to the right and y upwards. First contact is at the
+    lowest point of the interpolated surface. NaN, and empty fields of a text file, are points
+    without a measurement."""
 
     spacing: PairOfSpacings
-    """Distance of neighbouring heights along x and y [length]; one number for both."""
+    """Distance between adjacent heights along x and y [length]; one number applies to both."""
 
     height_unit: HeightUnit = 1.0
-    """Unit of the heights, such as "um"."""
+    """Unit of the heights, such as "um"; absent: metres."""
 
     flip: bool = False
-    """Whether the heights count towards the body, as of an indenter measured from outside."""
+    """True if heights are positive towards the body, as in a measurement of the indenter's
+    surface; absent: positive away from the body."""
 
     @property
     def gap_exponent(self) -> float:
-        """Of the bumps that it touches with."""
+        """Exponent of the first asperities in contact."""
         return 2
 
     @property
     def is_even(self) -> bool:
-        """Where its heights are, to the last bit."""
+        """True if the heights are even bit for bit."""
         return all(np.array_equal(self.heights, np.flip(self.heights, axis)) for axis in (0, 1))
 
     @property
     def extent(self) -> Pair:
-        """Lengths along x and y that the cells of the map cover [length]."""
+        """Side lengths along x and y of the area covered by the map [length]."""
         (nx, ny), (dx, dy) = self.file.shape, self.spacing
         return nx * dx, ny * dy
 
@@ -303,30 +316,30 @@ class HeightMap(ShapedBody):
             raise refusal(
                 f"the map {self.file} has no height at {self.unmeasured:.0%} of its points",
                 f"at most {_MOST_UNMEASURED:.0%}",
-                "cut the map to the part that was measured",
+                "cut the map to its measured area",
             )
         return self
 
     @property
     def unmeasured(self) -> float:
-        """Share of points without a height."""
+        """Fraction of points without a height."""
         return float(np.mean(np.isnan(self.file.values)))
 
     @property
     def heights(self) -> Gap:
-        """Above the body, smooth where they were not measured [length]."""
+        """Heights above the body [length], with interpolated values at points without one."""
         return _surface(self.file, self.height_unit, self.flip)[0]
 
     @property
     def lowest_on_rim(self) -> bool:
-        """Whether the lowest point, which touches first, is an outermost one."""
+        """True if the point of first contact lies on the boundary of the map."""
         *_, place = _surface(self.file, self.height_unit, self.flip)
         return any(at in (0.0, n - 1.0) for at, n in zip(place, self.file.shape, strict=True))
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
-        """Heights above the minimum of the surface between the outermost points.
+        """Interpolate the heights above the minimum of the surface between the outermost points.
 
-        ValueError if a point lies outside the map.
+        Raises ValueError if a point lies outside the map.
         """
         heights, lowest, dip, _ = _surface(self.file, self.height_unit, self.flip)
         return np.asarray(interpolate(heights - lowest, self.spacing, x, y) - dip)
@@ -334,8 +347,8 @@ class HeightMap(ShapedBody):
 
 @lru_cache(maxsize=2)
 def _surface(file: ArrayFile, unit: float, flip: bool) -> tuple[Gap, float, float, Pair]:
-    """Heights of a map, the lowest one, the minimum of the interpolated surface above it (not
-    positive), and the position of this minimum in indices of points."""
+    """Return the heights, the lowest height, and the minimum of the interpolated surface: its
+    value relative to the lowest height (not positive), and its position in indices of points."""
     factor = -unit if flip else unit
     heights = file.values if factor == 1.0 else factor * file.values
     heights = filled(heights)

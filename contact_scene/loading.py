@@ -1,4 +1,4 @@
-"""The load history as it is written: one step after the other."""
+"""Load steps of a scene, as the user writes them."""
 
 from typing import Annotated
 
@@ -21,8 +21,7 @@ from contact_scene.reading.validator_error import refusal
 MAX_STEPS = 20_000
 Increments = Annotated[int, WholeNumber(1, 100_000)]
 
-# Every coordinate of the indenter's rigid motion is led by its force or by itself, and the strain
-# of the lower body by its stress or by itself.
+# Pairs of controls, force and displacement. A load step prescribes at most one of each pair.
 CONTROLS = (
     ("normal_force", "approach"),
     ("tangential_force", "tangential_shift"),
@@ -33,25 +32,26 @@ CONTROLS = (
 
 
 class LoadStep(Description):
-    """One step: what it names ramps linearly to the value given, all else is held.
+    """Load step: a linear ramp of the prescribed forces and displacements to their given values.
 
-    Forces, moments and motions are of the indenter relative to the body, with components along x
-    and y; moments are about the origin. Rotations that no step has named yet are held at zero.
+    All other coordinates keep their last control, at a constant value. Until a step prescribes
+    them, shifts are free and rotations are fixed at zero. Forces, moments and displacements are
+    those of the indenter relative to the body; moments refer to the origin.
     """
 
     normal_force: PressingForce | None = None
     """Normal force at the end of the step [force]; 0 separates the bodies."""
 
     approach: PressingLength | None = None
-    """Approach at the end of the step, counted from first touch [length]; 0 separates the
-    bodies. With a normal spring in [rig]: that of the actuator."""
+    """Approach at the end of the step, measured from first contact [length]; 0 separates the
+    bodies. With a normal spring in [rig], the approach of the actuator."""
 
     tangential_force: tuple[Force, Force] | None = None
     """Tangential force (Tx, Ty) at the end of the step [force]."""
 
     tangential_shift: tuple[Length, Length] | None = None
-    """Tangential shift (x, y) at the end of the step [length]. With a tangential spring in [rig]:
-    that of the actuator."""
+    """Tangential shift (x, y) at the end of the step [length]. With a tangential spring in [rig],
+    the shift of the actuator."""
 
     torque: Moment | None = None
     """Torque about z at the end of the step [force length]."""
@@ -67,16 +67,16 @@ class LoadStep(Description):
     """Tilt (x, y) at the end of the step: slopes that close the gap at positive y and x."""
 
     bulk_strain: tuple[BulkStrain, BulkStrain, BulkStrain] | None = None
-    """Uniform strain (exx, eyy, exy) of the lower body along its surface at the end of the step,
-    about the origin; layers are strained as much. A specimen in plane strain, pulled along x by a
-    stress, has exx = stress (1 - nu^2)/E and eyy = 0. The indenter is not strained."""
+    """Uniform strain (exx, eyy, exy) of the lower body parallel to its surface at the end of the
+    step; the origin does not move. Layers have the same strain, the indenter has none. A specimen
+    in plane strain under a stress along x has exx = stress (1 - nu^2)/E and eyy = 0."""
 
     bulk_stress: tuple[Stress, Stress, Stress] | None = None
-    """The same by the stress (sxx, syy, sxy) of the substrate, free to contract [force/length^2].
-    """
+    """Bulk strain, given by the stress (sxx, syy, sxy) of the substrate in plane stress
+    [force/length^2]."""
 
     increments: Increments | None = None
-    """Number of the solver's increments within the step; absent: chosen by the solver."""
+    """Number of increments of the step; absent: chosen by the solver."""
 
     @model_validator(mode="after")
     def _names_one_control_each(self) -> "LoadStep":
@@ -93,5 +93,5 @@ class LoadStep(Description):
 
     @property
     def names_normal(self) -> bool:
-        """Whether the step changes the normal load."""
+        """True if the step prescribes a normal force or an approach."""
         return self._names("normal_force") or self._names("approach")

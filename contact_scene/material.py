@@ -1,4 +1,4 @@
-"""What a body is made of."""
+"""Materials of bodies and layers."""
 
 from enum import Enum
 from typing import Annotated, Any
@@ -13,7 +13,7 @@ from contact_scene.reading.quantity import (
 
 
 class IsotropicMaterial(Description):
-    """Homogeneous, isotropic, linear elastic."""
+    """Homogeneous, isotropic, linear elastic material."""
 
     young_modulus: PositivePressure
     """Young's modulus E, positive [force/length^2]."""
@@ -33,7 +33,7 @@ class IsotropicMaterial(Description):
 
 
 class Rigid(Enum):
-    """The material that does not deform."""
+    """Material of a body that does not deform."""
 
     RIGID = "rigid"
 

@@ -1,9 +1,9 @@
 """Series springs of a test rig, between the actuator and the indenter.
 
-The actuator moves by δ* = δ + T/k where the contact shifts by δ under the force T, and likewise
-along the normal. A rig is one more elastic body, with the same displacement below every traction:
-solvers add the constant 1/k to the compliance of the surfaces and obtain the motions of the
-actuator. Results have both motions; energies are those of the bodies.
+The displacement of the actuator is δ* = δ + T/k, with the shift δ of the contact under the force T;
+the normal direction is equal. A rig is an additional elastic body with a uniform displacement:
+solvers add the constant 1/k to the compliance of the surfaces and obtain the displacements of the
+actuator. Results contain the displacements of actuator and contact; energies exclude the springs.
 """
 
 from dataclasses import replace
@@ -19,7 +19,7 @@ from contact_scene.reading.validator_error import refusal
 Reported = TypeVar("Reported")
 Pair = tuple[float, float]
 
-# Names of the motions of the contact in a result, each with that of the actuator and the force.
+# Displacements of the contact in a result, each with that of the actuator and the force.
 MOTIONS = {
     "approach": ("actuator_approach", "normal_force"),
     "tangential_shift": ("actuator_shift", "tangential_force"),
@@ -27,16 +27,16 @@ MOTIONS = {
 
 
 class Rig(Description):
-    """Springs in series with the contact. A step prescribes forces, or displacements of the
+    """Springs in series with the contact. A load step prescribes forces, or displacements of the
     actuator, which act through the springs."""
 
     tangential_stiffness: PositiveStiffness | None = None
-    """Stiffness k of the spring along the surface, the same in all directions [force/length]:
-    tangential_shift of a step is δ* = δ + T/k; absent: rigid. Torque and twist bypass it."""
+    """Stiffness k of the spring along the surface, equal in all directions [force/length]; absent:
+    rigid. The tangential_shift of a step is δ* = δ + T/k. Torque and twist bypass the spring."""
 
     normal_stiffness: PositiveStiffness | None = None
-    """Stiffness of the spring along the normal [force/length]: approach of a step is that of the
-    contact plus W/k; absent: rigid."""
+    """Stiffness k of the spring along the normal [force/length]; absent: rigid. The approach of a
+    step is that of the contact plus W/k."""
 
     @model_validator(mode="after")
     def _has_a_spring(self) -> "Rig":
@@ -46,21 +46,21 @@ class Rig(Description):
 
 
 def compliances(rig: Rig | None) -> Pair:
-    """Return 1/k along the normal and along the surface, zero of a rigid rig [length/force]."""
+    """Return 1/k along the normal and along the surface [length/force], 0 for a rigid rig."""
     springs = (rig.normal_stiffness, rig.tangential_stiffness) if rig else (None, None)
     down, along = (1 / k if k else 0.0 for k in springs)
     return down, along
 
 
 def prescribed_motions(rig: Rig | None) -> tuple[str, str]:
-    """Return the names of approach and shift as a load step prescribes them."""
+    """Return the names in a result of the approach and shift that load steps prescribe."""
     names = zip(compliances(rig), MOTIONS.items(), strict=True)
     approach, shift = (actuator if c else name for c, (name, (actuator, _)) in names)
     return approach, shift
 
 
 def of_contact(increment: Reported, rig: Rig | None) -> Reported:
-    """Return an increment, reported with the motions of the actuator, with those of the contact."""
+    """Convert an increment of a solve with springs: add the displacements of the contact."""
     values: dict[str, Any] = {}
     for c, (name, (actuator, load)) in zip(compliances(rig), MOTIONS.items(), strict=True):
         moved = getattr(increment, name)

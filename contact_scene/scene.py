@@ -1,4 +1,4 @@
-"""The scene: two bodies, friction between them, and how they are loaded."""
+"""Scene: two bodies, the friction between them, and their load history."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -27,28 +27,28 @@ from contact_scene.stepping.load_path import (
 
 
 class Scene(Description):
-    """What is solved. Says nothing about how: grids, meshes and tolerances stand beside it.
+    """Contact problem, without discretisation and tolerances.
 
-    Raises `SceneError` if its parts, each valid alone, do not make a problem that can be solved.
+    Raises `SceneError` if its tables are valid individually but contradict each other.
     """
 
     title: str = Field(default="", max_length=MAX_TITLE)
-    """A name for people."""
+    """Title for reports."""
 
     indenter: Indenter
-    """The upper body, with its shape."""
+    """Upper body, with its shape."""
 
     body: Body
-    """The lower body, a half-space."""
+    """Lower body, a half-space."""
 
     friction: CoulombFriction | None = None
-    """Friction between the two; absent: frictionless."""
+    """Friction between the bodies; absent: frictionless."""
 
     rig: Rig | None = None
     """Springs between the actuator and the indenter; absent: none."""
 
     loading: tuple[LoadStep, ...] = Field(min_length=1, max_length=MAX_STEPS)
-    """Loading steps in order, each ramping linearly from the state before."""
+    """Load steps in order, each a linear ramp from the end of the preceding step."""
 
     @model_validator(mode="after")
     def _is_consistent(self) -> "Scene":
@@ -67,7 +67,7 @@ class Scene(Description):
 
     @property
     def array_files(self) -> dict[str, ArrayFile]:
-        """Arrays of the scene, by the keys that name their files."""
+        """Arrays of the scene, by the keys of their file names."""
         found = {"file": getattr(self.indenter, "file", None)}
         if self.friction is not None:
             found["map"] = getattr(self.friction.coefficient, "map", None)
@@ -76,23 +76,31 @@ class Scene(Description):
     def replace(self, *changes: str | Mapping[str, Any], **keys: Any) -> "Scene":
         """Return the scene with other values of some keys, checked like a scene file.
 
-        changes  keys and values: `{"indenter.radius": "12 mm", "loading[2].increments": 5}`, or a
-                 text as for `--set`: `"indenter.radius=12 mm"`
-        keys     the same of keys without dots: `friction=None`
+        Parameters
+        ----------
+        *changes : mapping or str
+            Dotted keys with their values: `{"indenter.radius": "12 mm", "loading[2].increments":
+            5}`, or a text as for `--set`: `"indenter.radius=12 mm"`. Array entries count from 1.
+        **keys
+            Values of keys without dots: `friction=None`. None removes an optional key.
 
-        Keys have dots; entries of arrays count from 1. None leaves an optional key out. Raises
-        `SceneError` with every mistake.
+        Raises
+        ------
+        SceneError
+            With every mistake in the changed scene.
+        TypeError
+            If a change is neither a text nor a mapping.
         """
         from contact_scene.reading.scene_file import changed_scene
 
         return changed_scene(self, changes, keys)
 
     def with_increments(self, increments: Sequence[int]) -> "Scene":
-        """Return the scene with these increments of its load steps."""
+        """Return the scene with these numbers of increments of its load steps."""
         steps = zip(self.loading, increments, strict=True)
         loading = tuple(step.model_copy(update={"increments": count}) for step, count in steps)
         return self.model_copy(update={"loading": loading})
 
     def load_path(self) -> tuple[LoadRamp, ...]:
-        """The loading with nothing left implicit, one ramp for every step."""
+        """Resolve the load steps: return one ramp per step, with all controls explicit."""
         return load_path(self.loading, self.body.material)

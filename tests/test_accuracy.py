@@ -151,7 +151,7 @@ def test_a_name_counts_more_than_the_share_of_all() -> None:
         ("approach 0", "above 0"),
         ("approach 1 mm", "such as"),
         ("", "or names such as"),
-        ("1%, 2%", "overall is bound twice"),
+        ("1%, 2%", "overall is given twice"),
     ],
 )
 def test_what_is_no_accuracy_is_told_as_one_mistake(text: str, told: str) -> None:

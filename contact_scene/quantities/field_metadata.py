@@ -1,5 +1,6 @@
-"""Marks that give a reported value its unit and its meaning, once: tables, files and schema read
-them off the class that declares it.
+"""Metadata of reported values: unit and meaning, declared by annotations of a class.
+
+Tables, files and JSON Schemas read the metadata from that class.
 """
 
 from collections.abc import Mapping
@@ -24,7 +25,7 @@ OF_THE_INDENTER = (
 
 
 class Kind(Enum):
-    """What a value is, which says how those of a step's increments are taken together."""
+    """Kind of a value, which determines the value of a load step from those of its increments."""
 
     SCALAR = "the value at the end of the step"
     VECTOR = "(x, y), the value at the end of the step"
@@ -35,11 +36,11 @@ class Kind(Enum):
 
 @dataclass(frozen=True)
 class Reported:
-    """Annotates a value that is reported.
+    """Annotation of a reported value.
 
-    unit      in SI; empty if dimensionless
-    key       whether it is among those that a person looks at first
-    physical  whether it belongs to the contact, and has an error; what the numerics did has none
+    unit      SI unit; empty if dimensionless
+    key       True for the main results
+    physical  True for properties of the contact, which have an error; False for numerical measures
     """
 
     unit: str
@@ -49,12 +50,12 @@ class Reported:
     physical: bool = True
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
-        """The mark as part of a JSON Schema."""
+        """Add unit and meaning to a JSON Schema."""
         return {**handler(schema), "description": self.meaning, "unit": self.unit or "1"}
 
 
 def reported(record: type) -> Mapping[str, Reported]:
-    """The marks of a class by name: of annotated attributes, then of annotated properties."""
+    """Return the annotations of a class by name: attributes first, then properties."""
     hints = get_type_hints(record, include_extras=True)
     for owner in reversed(record.__mro__):
         for name, member in vars(owner).items():

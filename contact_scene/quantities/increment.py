@@ -1,7 +1,7 @@
-"""The scalars of an increment: name, unit and meaning of each, once for all solvers.
+"""Scalars of an increment, with unit and meaning, for all solvers.
 
-What a solver does not have, or an effect that is off does not define, is None. A new one is
-declared here and given where an increment is made; no other place lists them.
+A scalar is None if the solver does not compute it or its effect is off. This module alone lists
+the scalars; solvers pass them where they create an increment.
 """
 
 from collections.abc import Mapping
@@ -30,12 +30,15 @@ Count: TypeAlias = Annotated[int, Field(ge=0)]
 
 @dataclass(frozen=True, kw_only=True)
 class State:
-    """What an increment has led to. Vectors are (x, y), of the indenter relative to the body:
-    positive force gives positive shift."""
+    """State at the end of an increment.
+
+    Vectors are (x, y), of the indenter relative to the body: a positive force causes a positive
+    shift.
+    """
 
     normal_force: Annotated[float, Reported("N", "Normal force.", key=True)]
     approach: Annotated[
-        float, Reported("m", "Approach of the bodies, counted from first touch.", key=True)
+        float, Reported("m", "Approach of the bodies, measured from first contact.", key=True)
     ]
     contact_area: Annotated[float, Reported("m^2", "Area in contact, with sub-cell accuracy.")]
     contact_radius: Annotated[
@@ -46,8 +49,8 @@ class State:
         float,
         Reported(
             "Pa",
-            "Largest pressure of any cell (finite elements: of any node; with edges inside the "
-            "cells: at any point).",
+            "Largest pressure of any cell (finite elements: of any node; with edge correction: at "
+            "any point).",
             key=True,
         ),
     ]
@@ -59,8 +62,8 @@ class State:
         Vector | None,
         Reported(
             "m",
-            "Tangential shift; null without friction, or undefined, at the friction limit under "
-            "force control.",
+            "Tangential shift; null without friction and where it is undefined, at the friction "
+            "limit under force control.",
             Kind.VECTOR,
             key=True,
         ),
@@ -74,25 +77,25 @@ class State:
         Reported(
             "m",
             "Tangential shift of the actuator, tangential_shift + force/stiffness; null without a "
-            "tangential spring and where tangential_shift is.",
+            "tangential spring and where tangential_shift is null.",
             Kind.VECTOR,
             key=True,
         ),
     ] = None
     torque: Annotated[
-        float | None, Reported("N m", "Torque about z; null where nothing twists.", key=True)
+        float | None, Reported("N m", "Torque about z; null without torsion.", key=True)
     ] = None
     twist: Annotated[
         float | None,
         Reported(
-            "rad", "Twist, the rotation about z; null where nothing twists, or undefined.", key=True
+            "rad", "Twist, the rotation about z; null without torsion or if undefined.", key=True
         ),
     ] = None
     moment: Annotated[
         Vector | None,
         Reported(
             "N m",
-            "Moments (Mx, My) of the pressure, the sums of p y and p x; null where nothing tilts.",
+            "Moments (Mx, My) of the pressure, the sums of p y and p x; null without tilt.",
             Kind.VECTOR,
             key=True,
         ),
@@ -101,7 +104,7 @@ class State:
         Vector | None,
         Reported(
             "rad",
-            "Tilt (x, y): slopes that close the gap at positive y and x; null where nothing tilts.",
+            "Tilt (x, y): slopes that close the gap at positive y and x; null without tilt.",
             Kind.VECTOR,
             key=True,
         ),
@@ -110,27 +113,27 @@ class State:
         Vector | None,
         Reported(
             "",
-            "Normal strains of the lower body along x and y; null where no step names a strain.",
+            "Normal strains of the lower body along x and y; null without bulk strain.",
             Kind.VECTOR,
         ),
     ] = None
     bulk_shear: Annotated[
         float | None,
-        Reported("", "Shear strain exy of the lower body; null where no step names a strain."),
+        Reported("", "Shear strain exy of the lower body; null without bulk strain."),
     ] = None
     stick_area: Annotated[
         float | None,
         Reported(
             "m^2",
-            "Area that sticks, with sub-cell accuracy; null without friction, or of a contact too "
-            "small for rings to tell it.",
+            "Area of the stick zone, with sub-cell accuracy; null without friction and where the "
+            "contact is too small for its rings to resolve it.",
         ),
     ] = None
     stick_radius: Annotated[
         float | None,
         Reported(
             "m",
-            "Radius of the circle of the stick area, sqrt(area / pi); null as the area is.",
+            "Radius of the circle of the stick area, sqrt(area / pi); null if the area is null.",
             key=True,
         ),
     ] = None
@@ -146,8 +149,8 @@ class State:
         float | None,
         Reported(
             "J",
-            "By how much finite increments leave the dissipated energy uncertain: the changes of "
-            "friction along all slip, in steps whose path matters; null where it is undefined.",
+            "Increment error of the dissipated energy: sum of the changes of friction along the "
+            "slip, in steps with an increment error; null where it is undefined.",
             physical=False,
         ),
     ] = None
@@ -155,8 +158,8 @@ class State:
         float | None,
         Reported(
             "J",
-            "Energy stored in both bodies, without springs of a rig; null for a solver that does "
-            "not keep the account.",
+            "Elastic energy of both bodies, without springs of a rig; null for solvers without an "
+            "energy balance.",
         ),
     ] = None
     input_work: Annotated[
@@ -164,8 +167,8 @@ class State:
         Reported(
             "J",
             "Work of forces and moments on the bodies since the start of the history: "
-            "elastic_energy + dissipated_energy (finite elements that state no elastic energy: "
-            "the trapezoidal sum); null where a motion is undefined, at the friction limit under "
+            "elastic_energy + dissipated_energy (finite elements without an elastic energy: the "
+            "trapezoidal sum); null where a displacement is undefined, at the friction limit under "
             "force control.",
         ),
     ] = None
@@ -173,8 +176,8 @@ class State:
         float | None,
         Reported(
             "J",
-            "Trapezoidal sum of forces over motions, increment by increment, minus input_work. It "
-            "vanishes with the length of the increments.",
+            "Trapezoidal sum of force times displacement over the increments, minus input_work. "
+            "Tends to 0 with the length of the increments.",
             physical=False,
         ),
     ] = None
@@ -182,9 +185,9 @@ class State:
         float | None,
         Reported(
             "",
-            "Part of the trapezoidal sum of forces over motions that is neither stored, dissipated "
-            "nor explained by the length of the increment, relative to the largest energy so far; "
-            "of a step the largest.",
+            "Part of the trapezoidal sum of force times displacement that is neither stored, "
+            "dissipated nor explained by the length of the increment, relative to the largest "
+            "energy so far; the largest value of a step.",
             Kind.LARGEST,
             physical=False,
         ),
@@ -205,13 +208,13 @@ class State:
     overlap: Annotated[
         float | None,
         Reported(
-            "m", "Largest overlap that a penalty leaves; null without a penalty.", physical=False
+            "m", "Largest overlap in the penalty method; null without a penalty.", physical=False
         ),
     ] = None
 
     @property
     def trapezoidal_work(self) -> float | None:
-        """Sum of ½(f₀ + f₁) Δω over forces, motions and increments [force length]."""
+        """Sum of ½(f₀ + f₁) Δω over forces f, displacements ω and increments [force length]."""
         return None if self.input_work is None else self.input_work + (self.unresolved_work or 0.0)
 
 
@@ -223,8 +226,8 @@ class Quality:
         float | None,
         Reported(
             "",
-            "Change of pressure or shear in the last round of the edge correction, relative to all "
-            "of it; null where tractions are constant on cells up to their edges.",
+            "Change of pressure or shear in the last iteration of the edge correction, relative to "
+            "its total; null without edge correction.",
             physical=False,
         ),
     ] = None
@@ -236,52 +239,52 @@ class Quality:
 
 @dataclass(frozen=True, kw_only=True)
 class Counters:
-    """Work of the solver for an increment; `timing.json` has their sums over each load step."""
+    """Counters of the solver for an increment; `timing.json` has their sums over each load step."""
 
     iterations: Annotated[Count, Reported("", "Iterations of the solver.", Kind.COUNTER)]
     convolutions: Annotated[
         Count | None,
         Reported(
-            "", "Convolutions (pairs of transforms); null for a solver that has none.", Kind.COUNTER
+            "", "Convolutions (pairs of transforms); null for a solver without them.", Kind.COUNTER
         ),
     ] = None
     factorizations: Annotated[
         Count | None,
-        Reported("", "Factorisations of a matrix; null for a solver that has none.", Kind.COUNTER),
+        Reported("", "Factorisations of a matrix; null for a solver without them.", Kind.COUNTER),
     ] = None
     rounds: Annotated[
         Count | None,
         Reported(
             "",
-            "Steps for pressure and shear together on cells: of Newton's method, and rounds of "
-            "alternation where that stalls; none where one pass does it.",
+            "Outer iterations of coupled pressure and shear on cells: Newton steps, and "
+            "alternating iterations where Newton's method stalls; 0 if one pass suffices.",
             Kind.COUNTER,
         ),
     ] = None
     sweeps: Annotated[
         Count | None,
-        Reported("", "Passes through pressure and shear of finite elements.", Kind.COUNTER),
+        Reported("", "Alternating iterations of pressure and shear on elements.", Kind.COUNTER),
     ] = None
     augmentations: Annotated[
         Count | None,
         Reported(
             "",
-            "Corrections of the tractions of a penalty; null without a penalty.",
+            "Updates of the multipliers of a penalty; null without a penalty.",
             Kind.COUNTER,
         ),
     ] = None
     halvings: Annotated[
-        Count, Reported("", "How often an increment was cut in two to converge.", Kind.COUNTER)
+        Count, Reported("", "Bisections of an increment that did not converge.", Kind.COUNTER)
     ] = 0
 
 
 @dataclass(frozen=True, kw_only=True)
 class ReportedIncrement(Counters, Quality, State, WithFields):
-    """The scalars of one increment, and its place in the history.
+    """Scalars of one increment, and its position in the history.
 
-    step, index         loading step and increment within it, both counted from 1
-    increments_in_step  how many increments the step has
-    residuals           how well it fulfils each equation
+    step, index         load step and increment within the step, counted from 1
+    increments_in_step  number of increments of the step
+    residuals           residual of each equation
     """
 
     step: int
@@ -302,30 +305,26 @@ COUNTERS: Mapping[str, Reported] = reported(Counters)
 
 
 def _unsigned_zero(value: Any) -> Any:
-    """The number or vector; a zero has no sign, which says nothing here and would be printed."""
+    """Replace -0.0 by 0.0 in a number or vector: its sign has no meaning and would be printed."""
     if isinstance(value, tuple):
         return tuple(map(_unsigned_zero, value))
     return value if value is None or isinstance(value, int) else value + 0.0
 
 
 def components(name: str) -> tuple[str, ...]:
-    """The numbers that a scalar of this name consists of: itself, or x and y of a vector."""
+    """Return the column names of a scalar: its name, or those of x and y of a vector."""
     if SCALARS[name].kind is Kind.VECTOR:
         return f"{name}_x", f"{name}_y"
     return (name,)
 
 
 def numbers(increment: State | Quality) -> dict[str, float | int | None]:
-    """All scalars of a record, vectors by component; None where it has none."""
+    """Return all scalars of a record, vectors by component; None where undefined."""
     found: dict[str, float | int | None] = {}
     for name in SCALARS:
         value = getattr(increment, name)
         parts = components(name)
         values = value if len(parts) > 1 and value is not None else (value,) * len(parts)
-        found |= dict(zip(parts, map(_number, values), strict=True))
+        plain = (v if v is None or isinstance(v, int) else float(v) for v in values)
+        found |= dict(zip(parts, plain, strict=True))
     return found
-
-
-def _number(value: float | None) -> float | int | None:
-    """A number of Python's own."""
-    return value if value is None or isinstance(value, int) else float(value)

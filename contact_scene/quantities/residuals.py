@@ -1,7 +1,7 @@
-"""When a state is accepted: how much it misses of each equation of contact, dimensionless.
+"""Dimensionless residuals of the contact equations, and the criterion of convergence.
 
-Either solver measures on its own fields (see its `residuals`); the names, and what is acceptable,
-are the same.
+Each solver evaluates the residuals from its fields (see its `residuals`); names and criterion are
+common.
 """
 
 from dataclasses import dataclass, replace
@@ -14,16 +14,13 @@ from contact_scene.solver_errors import NotConverged
 
 
 def worst(*measures: float | None) -> float:
-    """The largest of those that apply; a NaN is the worst of all.
-
-    Not by Python's `max`, which loses a NaN that does not come first.
-    """
+    """Return the largest residual that is not None; NaN if any is NaN, unlike Python's `max`."""
     return float(np.max([measure for measure in measures if measure is not None]))
 
 
 @dataclass(frozen=True)
 class ShearResiduals:
-    """What shear misses, by the names of `Residuals`; None where undefined."""
+    """Residuals of the tangential problem, with the names of `Residuals`; None where undefined."""
 
     friction_cone: float
     slip_direction: float | None
@@ -32,13 +29,13 @@ class ShearResiduals:
 
     @property
     def worst(self) -> float:
-        """The largest of those that apply; NaN wins."""
+        """Largest residual; NaN if any is NaN."""
         return worst(*vars(self).values())
 
 
 @dataclass(frozen=True)
 class Residuals:
-    """What an increment misses; None where the effect or the control is off.
+    """Residuals of an increment; None where the effect or the control is off.
 
     complementarity         ∫|gap| p dA / (approach W)
     penetration             largest overlap / approach
@@ -73,8 +70,8 @@ class Residuals:
         float | None,
         Reported(
             "",
-            "Work that slip would do along the shear instead of against it, relative to the "
-            "limit's.",
+            "Difference between the work of the friction limit along the slip and that of the "
+            "shear, relative to the former.",
         ),
     ] = None
     tangential_equilibrium: Annotated[
@@ -88,7 +85,7 @@ class Residuals:
         float | None,
         Reported(
             "",
-            "Difference of the moments of the pressure from the given ones, relative to the "
+            "Difference of the moments of the pressure from the prescribed ones, relative to the "
             "pressure times its distance from the origin; null where the tilt is prescribed.",
         ),
     ] = None
@@ -96,24 +93,26 @@ class Residuals:
         float | None,
         Reported(
             "",
-            "Difference of the torque of the shear from the given one, relative to the friction "
-            "limit times its distance from the origin; null where the twist is prescribed.",
+            "Difference of the torque of the shear from the prescribed one, relative to the "
+            "friction limit times its distance from the origin; null where the twist is "
+            "prescribed.",
         ),
     ] = None
 
     def with_shear(self, shear: ShearResiduals) -> "Residuals":
-        """These and what shear misses."""
+        """Return the residuals with those of the tangential problem."""
         return replace(self, **vars(shear))
 
     @property
     def worst(self) -> float:
-        """The largest of those that apply; NaN wins."""
+        """Largest residual; NaN if any is NaN."""
         return worst(*vars(self).values())
 
     def require(self, tolerance: float, problem: str, iterations: int) -> None:
-        """Raise NotConverged unless all that apply are at most the tolerance.
+        """Raise NotConverged if a residual exceeds the tolerance.
 
-        problem, iterations  what was solved, and how many iterations that took
+        problem     name of the problem, for the message
+        iterations  number of iterations, for the message
         """
         if not self.worst <= tolerance:
             raise NotConverged(problem, iterations, self.worst, tolerance)

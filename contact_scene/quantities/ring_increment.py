@@ -1,4 +1,4 @@
-"""An increment whose fields are functions of the radius, as bodies of revolution have them."""
+"""Increment of bodies of revolution, with fields on rings."""
 
 from dataclasses import dataclass, field
 from math import pi
@@ -22,23 +22,23 @@ F = Kind.FIELD
 
 @dataclass(frozen=True, kw_only=True)
 class RingIncrement(ReportedIncrement):
-    """The converged state at the end of one increment of the load history.
+    """Converged state at the end of one increment of the load history.
 
-    Fields are (rings,), or (rings, angles) where `angles` is given. Slip is since the start of the
-    history, of the lower body's particles relative to the indenter's while they were in contact.
+    Fields have the shape (rings,), or (rings, angles) with `angles`. Slip is cumulative since the
+    start of the history: the displacement of the lower body's particles relative to the indenter's
+    while they are in contact.
 
-    radii     of the rings [length]
-    angles    from the direction of the tangential load [radian], from 0 to π, or to less than 2π
-              where the halves of the circle are not alike; None where one function of the radius
-              says all
-    in_stick  rings in contact that did not slip in this increment
+    radii     radii of the rings [length]
+    angles    angles from the direction of the tangential load [radian]: from 0 to π for fields that
+              are symmetric about that direction, else below 2π; None for functions of the radius
+    in_stick  rings in contact that do not slip in this increment
     """
 
     radii: Field
     pressure: Annotated[Field, Reported("Pa", "Normal traction, positive in contact.", F)]
     gap: Annotated[
         Field,
-        Reported("m", "Distance of the deformed surfaces, inf where they never touch.", F),
+        Reported("m", "Distance of the deformed surfaces, inf outside of the indenter.", F),
     ]
     status: ContactStatus = ContactStatus.FRICTIONLESS
     contact_area: float = field(init=False)
@@ -47,26 +47,24 @@ class RingIncrement(ReportedIncrement):
     tangential_shift: Pair | None = None
     angles: Field | None = None
     shear_radial: Annotated[
-        Field | None, Reported("Pa", "Traction on the lower body, outward.", F)
+        Field | None, Reported("Pa", "Traction on the lower body, positive outward.", F)
     ] = None
     shear_circumferential: Annotated[
         Field | None,
-        Reported("Pa", "Traction on the lower body, anticlockwise seen along z.", F),
+        Reported("Pa", "Traction on the lower body, positive anticlockwise seen along z.", F),
     ] = None
     shear_along_load: Annotated[
         Field | None,
-        Reported("Pa", "Traction on the lower body along the load, on a whole ring.", F),
+        Reported("Pa", "Traction on the lower body along the load, uniform on a ring.", F),
     ] = None
-    slip_radial: Annotated[Field | None, Reported("m", "Slip, outward.", F)] = None
+    slip_radial: Annotated[Field | None, Reported("m", "Slip, positive outward.", F)] = None
     slip_circumferential: Annotated[
-        Field | None, Reported("m", "Slip, anticlockwise seen along z.", F)
+        Field | None, Reported("m", "Slip, positive anticlockwise seen along z.", F)
     ] = None
     slip_along_load: Annotated[
-        Field | None, Reported("m", "Slip along the load, on a whole ring.", F)
+        Field | None, Reported("m", "Slip along the load, uniform on a ring.", F)
     ] = None
-    in_stick: Annotated[
-        Mask | None, Reported("", "Whether the ring is in contact and sticks.", F)
-    ] = None
+    in_stick: Annotated[Mask | None, Reported("", "True for rings of the stick zone.", F)] = None
 
     def __post_init__(self) -> None:
         stuck = None if self.stick_radius is None else pi * self.stick_radius**2
@@ -76,5 +74,5 @@ class RingIncrement(ReportedIncrement):
 
     @property
     def in_contact(self) -> Mask:
-        """Rings that carry pressure."""
+        """Rings with a positive pressure."""
         return np.asarray(self.pressure > 0)

@@ -1,4 +1,4 @@
-"""How far a reported number may be from the exact answer of its scene."""
+"""Error estimates of reported numbers, and the reached accuracy."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -10,10 +10,10 @@ from pydantic import Field
 from contact_scene.reading.description import Description
 
 Size: TypeAlias = Annotated[float, Field(ge=0)]
-# One number, or one for x and one for y of a vector.
+# One number, or one for each component of a vector.
 Amount: TypeAlias = Size | tuple[Size, Size]
 
-# Where an error comes from.
+# Sources of an error.
 Part: TypeAlias = Literal[
     "cells",
     "increments",
@@ -28,11 +28,11 @@ Part: TypeAlias = Literal[
 
 
 class ErrorStatus(StrEnum):
-    """What a stated error is worth."""
+    """Reliability of a stated error."""
 
     ESTIMATED = "estimated"
-    # The levels contradict one another, or the contact is too small for what it is computed on:
-    # the error is an order of magnitude at best.
+    # Refinement levels contradict each other, or the contact is too small for its grid: the error
+    # is at best an order of magnitude.
     NOT_CONVERGED = "not converged"
     # The load prescribes the number.
     EXACT = "exact"
@@ -42,16 +42,16 @@ class StatedError(Description):
     """Error of one scalar at the end of a step, in the unit of the scalar."""
 
     error: Amount | None
-    """Bound that the true error keeps in at least 95 of 100 cases, the sum of its parts; two
-    numbers for a vector; null where nothing can be said."""
+    """Error bound, the sum of its parts: the true error is smaller in at least 95 of 100 cases. Two
+    numbers for a vector; null without an estimate."""
 
     parts: dict[Part, Amount]
-    """What cells, increments, tolerance; elements, section, penalty, harmonics; quadrature
-    contribute."""
+    """Contribution of each source: cells, increments, tolerance; elements, section, penalty,
+    harmonics; quadrature; neglected effects."""
 
     status: ErrorStatus
-    """Whether the error is estimated, the number has not converged, or it is exact because the
-    load prescribes it."""
+    """"estimated"; "not converged" for unreliable numbers; "exact" for numbers that the load
+    prescribes."""
 
 
 EXACT = StatedError(error=0.0, parts={}, status=ErrorStatus.EXACT)
@@ -97,7 +97,7 @@ class StatedErrors:
 
 
 class AccuracySettings(Description):
-    """How fine the run is that was kept."""
+    """Discretisation of a run."""
 
     cells: tuple[int, int] | None = None
     """Number of cells along x and y; null for finite elements."""
@@ -106,36 +106,36 @@ class AccuracySettings(Description):
     """Elements over the contact radius; null for cells."""
 
     ring_factor: float | None = None
-    """Multiple of the rings (orders, points) that the radial solver chooses; null for others."""
+    """Factor on the orders and points that the radial solver chooses; null for other solvers."""
 
     increments: tuple[int, ...]
-    """Increments of every step."""
+    """Number of increments of every step."""
 
     tolerance: float
-    """Bound of every residual."""
+    """Limit of every residual."""
 
 
 class AccuracyReached(Description):
-    """What was asked for, and what came of it. Errors are relative to the largest value that a
-    quantity has in the history."""
+    """Requested and reached accuracy. Errors are relative to the largest value of a quantity in the
+    history."""
 
     asked: dict[str, Size]
-    """Largest error of every quantity that is bound."""
+    """Largest allowed error of every limited quantity."""
 
     reached: dict[str, Size | None]
-    """Largest stated error of each; null where nothing can be said."""
+    """Largest stated error of every limited quantity; null without an estimate."""
 
     met: bool
-    """Whether all are met, with converged numbers."""
+    """True if all errors are within their limits and all numbers have converged."""
 
     settings: AccuracySettings
-    """How fine the run is."""
+    """Discretisation of the run."""
 
     rounds: Annotated[int, Field(ge=1)]
-    """How many runs were solved, ever finer ones."""
+    """Number of refinement levels that were solved."""
 
     left_out: dict[str, str]
-    """Quantities that are not bound, and why."""
+    """Quantities that `overall` does not limit, with the reason."""
 
     stopped: str | None
-    """Why it was not met; null where it was."""
+    """Reason why the accuracy was not met; null if it was met."""

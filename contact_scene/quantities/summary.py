@@ -1,4 +1,4 @@
-"""The summary of a run, `summary.json`: what both solvers report, by the same names."""
+"""Summary of a run, `summary.json`, with equal names for all solvers."""
 
 import json
 from dataclasses import dataclass
@@ -32,7 +32,7 @@ Metre: TypeAlias = Annotated[float, Field(json_schema_extra={"unit": "m"})]
 
 
 class ContactStatus(StrEnum):
-    """How the contact carries its tangential load at the end of a step."""
+    """State of stick and slip at the end of a step."""
 
     FRICTIONLESS = "frictionless"
     FULL_STICK = "full stick"
@@ -43,7 +43,7 @@ class ContactStatus(StrEnum):
 
 
 class Regime(StrEnum):
-    """How the surfaces slip over one computed cycle."""
+    """Slip regime of one cycle."""
 
     STICK = "stick"
     PARTIAL_SLIP = "partial slip"
@@ -59,21 +59,21 @@ STRICT = ConfigDict(
 
 @pydantic_dataclass(frozen=True, config=STRICT)
 class Residuals(residuals.Residuals):
-    """Dimensionless convergence measures, evaluated from the final fields; null where unused."""
+    """Dimensionless residuals of the fields at the end of a step; null where not applicable."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Closed:
-    """What the end of a step closes, and how well the state there fulfils its equations."""
+    """Load cycle that the end of a step closes, and the residuals of the state there."""
 
     cycle_start: Annotated[
         int | None,
         Field(ge=1),
         Reported(
             "",
-            "The earlier step, from 1, that ended with the same loads: from its end to the end of "
-            "this one is a cycle. Null, with what follows of a cycle, where no cycle closes or "
-            "nothing is sheared.",
+            "Number of the earlier step, from 1, that ended with equal loads. The cycle extends "
+            "from its end to the end of this step. Null, with the other values of a cycle, "
+            "without a closed cycle or without shear.",
         ),
     ] = None
     energy_per_cycle: Annotated[
@@ -81,13 +81,13 @@ class Closed:
     ] = None
     slip_amplitude: Annotated[
         float | None,
-        Reported("m", "Half the range of slip in the cycle, at the place where it is largest."),
+        Reported("m", "Half the range of slip in the cycle, at the point where it is largest."),
     ] = None
     ruiz_f1: Annotated[
         float | None,
         Reported(
             "Pa m",
-            "Ruiz's first parameter: largest shear times slip amplitude, at the place where that "
+            "First Ruiz parameter: largest shear times slip amplitude, at the point where the "
             "product is largest (Ruiz, Boddington and Chen 1984).",
         ),
     ] = None
@@ -95,9 +95,9 @@ class Closed:
         float | None,
         Reported(
             "Pa^2 m",
-            "Ruiz's second parameter: largest shear times slip amplitude times the largest tension "
-            "along the surface in the direction of the tangential force, at the place where that "
-            "product is largest; null for solvers that do not compute the stress at the surface.",
+            "Second Ruiz parameter: largest shear times slip amplitude times the largest tensile "
+            "stress along the surface in the direction of the tangential force, at the point where "
+            "the product is largest; null for solvers that do not compute the surface stress.",
         ),
     ] = None
     force_amplitude: Annotated[
@@ -105,7 +105,8 @@ class Closed:
         Reported("N", "Q*, half the range of the tangential force along its largest change."),
     ] = None
     shift_amplitude: Annotated[
-        float | None, Reported("m", "delta, half the range of the tangential shift, that way.")
+        float | None,
+        Reported("m", "delta, half the range of the tangential shift in that direction."),
     ] = None
     actuator_amplitude: Annotated[
         float | None,
@@ -113,26 +114,26 @@ class Closed:
     ] = None
     loop_opening: Annotated[
         float | None,
-        Reported("m", "delta_g, half the distance of the two shifts at the middle force."),
+        Reported("m", "delta_g, half the difference of the two shifts at the mean force."),
     ] = None
     energy_ratio: Annotated[
         float | None,
-        Reported("", "A = E_d/(4 Q* delta*), the energy over that of a rectangular loop."),
+        Reported("", "A = E_d/(4 Q* delta*), the energy relative to a rectangular loop."),
     ] = None
     energy_friction: Annotated[
         float | None,
-        Reported("", "mu_e = E_d/(4 W delta_g), the coefficient of friction by the energy."),
+        Reported("", "mu_e = E_d/(4 W delta_g), the energetic coefficient of friction."),
     ] = None
     limit_share: Annotated[
         float | None,
-        Reported("", "Q*/(mu W); null where the friction limit is not mu times the force."),
+        Reported("", "Q*/(mu W); null if the friction limit is not mu times the force."),
     ] = None
     gross_slip_share: Annotated[
         float | None,
         Reported(
             "",
-            "Distance to the transition: 5 E_d/(4 Q* delta), which Mindlin's loop (nu = 0) starts "
-            "at 0 and has at 1 where gross slip begins.",
+            "Distance to gross slip, 5 E_d/(4 Q* delta): 0 for small and 1 at the onset of gross "
+            "slip in Mindlin's loop (nu = 0).",
         ),
     ] = None
     stick_centre: Annotated[
@@ -141,11 +142,13 @@ class Closed:
     ] = None
     regime: Annotated[
         Regime | None,
-        Reported("", "Sticks all, slips in part, or slips all at some time of the cycle."),
+        Reported(
+            "", "Slip regime: full stick, partial slip, or gross slip at some time of the cycle."
+        ),
     ] = None
     from_virgin: Annotated[
         bool | None,
-        Reported("", "Whether the cycle is the first one, which starts from the virgin state."),
+        Reported("", "True for the first cycle, which starts from the virgin state."),
     ] = None
     residuals: Residuals
 
@@ -162,35 +165,36 @@ OF_CYCLES = {
 class StepSummary(Quality, Closed, State):
     """State at the end of one `[[loading]]` table.
 
-    Vectors are (x, y), of the indenter relative to the body: positive force gives positive shift.
+    Vectors are (x, y), of the indenter relative to the body: a positive force causes a positive
+    shift.
     """
 
     status: ContactStatus
-    """How the contact carries its tangential load."""
+    """State of stick and slip."""
 
     errors: dict[str, StatedError] | None = None
-    """How far each scalar may be from the exact answer, by its name; null where errors were left
-    out. Numbers that describe the numerics have none."""
+    """Error estimate of each scalar, by its name; null for a run without error estimates. Numerical
+    measures have none."""
 
 
 class EffectSummary(Description):
-    """One effect that a solver takes into account or not."""
+    """Physical effect that a solver includes or omits."""
 
     name: str
     """Name of the effect."""
 
     on: bool
-    """Whether it acts in this scene."""
+    """True if the effect acts in the scene."""
 
     why: str
     """Reason in one sentence."""
 
 
 class RunSummary(Description):
-    """Results of one run, in SI. The same input gives the same summary, byte for byte."""
+    """Results of one run in SI units. Equal inputs give equal summaries, byte for byte."""
 
     schema_version: Annotated[int, Field(ge=1)] = SUMMARY_VERSION
-    """Version of this record; it grows when a key is new or changes its name or meaning."""
+    """Version of this record, which increases if a key is added or changes its name or meaning."""
 
     convention: str = CONVENTION
     """Units, axes and signs."""
@@ -202,16 +206,16 @@ class RunSummary(Description):
     """Name of the solver."""
 
     tolerance: Ratio
-    """Bound of every residual at the end of every increment."""
+    """Limit of every residual at the end of every increment."""
 
     cells: tuple[int, int] | None = None
     """Number of cells along x and y; null for a solver without a surface grid."""
 
     window: tuple[Metre, Metre] | None = None
-    """Lengths of the surface grid along x and y; null for a solver without one."""
+    """Side lengths of the surface grid along x and y; null for a solver without one."""
 
     effects: tuple[EffectSummary, ...]
-    """The solver's plan: which effects act, and why."""
+    """Plan of the solver: its effects, with reasons."""
 
     steps: tuple[StepSummary, ...]
     """One entry for every `[[loading]]` table, in order."""
@@ -223,7 +227,7 @@ class RunSummary(Description):
     """Coarse solves of the error estimate; null if errors were left out."""
 
     accuracy: AccuracyReached | None = None
-    """Requested and reached accuracy; null if none was requested."""
+    """Requested and reached accuracy; null if no accuracy was requested."""
 
     fields_digest: str | None = None
     """SHA-256 of the file of fields, `result.h5`."""
@@ -233,7 +237,7 @@ class RunSummary(Description):
     def _refuse_other_versions(cls, version: int) -> int:
         if version > SUMMARY_VERSION:
             raise ValueError(
-                f"version {version} is of a newer slipstick; this one reads up to {SUMMARY_VERSION}"
+                f"version {version} is of a newer slipstick; this one reads {SUMMARY_VERSION}"
             )
         if version < SUMMARY_VERSION:
             raise ValueError(
@@ -244,23 +248,22 @@ class RunSummary(Description):
 
 
 def dump_summary(summary: RunSummary) -> str:
-    """The summary as JSON text; every key is there, null where it does not apply."""
+    """Convert the summary to JSON text with all keys, null where one does not apply."""
     record = summary.model_dump(mode="json")
     return json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def load_summary(text: str) -> RunSummary:
-    """The summary back from its JSON text; ValueError for anything else, with the first mistake."""
+    """Read a summary from its JSON text; raises ValueError with the first mistake."""
     try:
         return RunSummary.model_validate_json(text)
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
-        key = ".".join(map(str, first["loc"]))
-        told = key, first["msg"].removeprefix("Value error, ")
-        raise ValueError(": ".join(filter(None, told))) from None
+        key, message = ".".join(map(str, first["loc"])), first["msg"].removeprefix("Value error, ")
+        raise ValueError(": ".join(filter(None, (key, message)))) from None
 
 
 def summary_schema() -> dict[str, Any]:
-    """JSON Schema of `summary.json`, with meaning and unit of every key."""
+    """Create the JSON Schema of `summary.json`, with meaning and unit of every key."""
     schema = RunSummary.model_json_schema(mode="serialization", schema_generator=DescribedSchema)
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}

@@ -1,4 +1,4 @@
-"""The whole of a scene file, the scene and how fine or how accurate, and its JSON Schema."""
+"""Model of a scene file, the scene with discretisations and accuracy, and its JSON Schema."""
 
 from typing import Any
 
@@ -15,24 +15,24 @@ from contact_scene.scene import Scene
 
 
 class SceneFile(Scene):
-    """Contents of a scene file: the scene, and the discretisation of each solver or an accuracy."""
+    """Contents of a scene file: the scene, the discretisation of each solver, and an accuracy."""
 
     semi_analytical: SurfaceDiscretisation = SurfaceDiscretisation()
-    """How fine the semi-analytical solver shall be; absent: chosen for the accuracy."""
+    """Discretisation of the semi-analytical solver; absent: default values."""
 
     fem_reference: FiniteElementDiscretisation = FiniteElementDiscretisation()
-    """How fine the finite-element reference shall be; absent: chosen."""
+    """Discretisation of the finite-element reference; absent: default values."""
 
     radial: RadialDiscretisation = RadialDiscretisation()
-    """Where the radial solver shows its fields; absent: chosen."""
+    """Output points and tolerance of the radial solver; absent: default values."""
 
     accuracy: AccuracyRequest | None = None
-    """How accurate the numbers shall be; it then decides how fine. Absent: as fine as the solvers'
-    tables say."""
+    """Requested accuracy, which then determines the discretisation; absent: the discretisation is
+    that of the solver's table."""
 
     @property
     def scene(self) -> Scene:
-        """The scene alone."""
+        """Scene without discretisations and accuracy."""
         return Scene.model_construct(**{name: getattr(self, name) for name in Scene.model_fields})
 
     def _parts(self) -> Parts:
@@ -40,12 +40,12 @@ class SceneFile(Scene):
 
 
 def scene_schema() -> dict[str, Any]:
-    """JSON Schema of a scene file (TOML read as JSON).
+    """Create the JSON Schema of a scene file (TOML read as JSON).
 
-    It holds what a schema can say; what the parts must have in common is checked on reading.
+    The consistency of the tables with each other is not part of the schema.
     """
     schema = SceneFile.model_json_schema(mode="validation", schema_generator=DescribedSchema)
     schema["title"] = "slipstick scene"
-    for shape in SHAPES.values():  # in Python the class says it, in a file nothing else does
+    for shape in SHAPES.values():  # optional in Python, where the class defines the shape
         schema["$defs"][shape.__name__]["required"].insert(0, "shape")
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}

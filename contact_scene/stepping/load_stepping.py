@@ -7,7 +7,7 @@ from typing import Any, Generic, Protocol, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene.bulk_strain import reported
+from contact_scene.bulk_strain import with_strain
 from contact_scene.quantities.separation import (
     continued,
     position,
@@ -102,7 +102,7 @@ def resumable_increments(
     def empty(last: Told, ramp: LoadRamp, end: float, approach: float | None, place: Place) -> Told:
         """Return the empty contact at a fraction of a ramp."""
         gap = solver.undeformed_gap(last, position(last, ramp, end)["tilt"])
-        return reported(separated(last, ramp, end, gap, vars(place), approach), ramp.strain(end))
+        return with_strain(separated(last, ramp, end, gap, vars(place), approach), ramp.strain(end))
 
     mark: ResumePoint[S] | None = since.mark if since else None
     told: Sequence[Any] = since.increments if since else ()
@@ -137,7 +137,8 @@ def resumable_increments(
                 approach = ramp.normal.led(end, (0.0, 0.0))[1]
             if reached is not None:
                 state = reached.state
-                here = reported(solver.report(reached, here if apart else last), ramp.strain(end))
+                report = solver.report(reached, here if apart else last)
+                here = with_strain(report, ramp.strain(end))
                 for earlier, approach, at in untouched:
                     last = apart = empty(apart or virgin(here), ramp, earlier, approach, at)
                     yield apart, ResumePoint(done - index + at.index, None, start)
