@@ -230,7 +230,7 @@ def sides_of_an_interface() -> float:
     depth = COATED.body.layers[0].thickness
     for whole, side in (("layer 1", "above"), ("base", "below")):
         for (region, measure), extreme in found.items():
-            if region == f"interface 1 {side}":
+            if region == f"interface 1 {side}" and (whole, measure) in found:
                 largest = found[whole, measure].value
                 excess += [(extreme.value - largest) / abs(largest), abs(extreme.depth / depth - 1)]
     return worst(*(max(value, 0.0) if np.isfinite(value) else value for value in excess))
