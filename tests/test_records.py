@@ -59,6 +59,23 @@ def test_a_record_is_older_where_a_source_of_its_closure_changes(
     assert not is_current(made.model_copy(update={"modules": ()}))
 
 
+def test_texts_and_format_of_a_source_do_not_count(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sources, "ROOT", tmp_path)
+    texts = {
+        "a.py": '"""Old."""\nX = 1.5\n\n\ndef f():\n    """Old."""\n    return "x", X\n',
+        "c.py": '"""Old."""\nX = 1.6\n\n\ndef f():\n    """Old."""\n    return "x", X\n',
+        "d.py": '"""Old."""\nX = 1.5\n\n\ndef f():\n    """Old."""\n    return "y", X\n',
+    }
+    for name, text in texts.items():
+        (tmp_path / name).write_text(text)
+    assert sources._content("a.py") != sources._content("c.py")
+    assert sources._content("a.py") != sources._content("d.py")
+    (tmp_path / "e.py").write_text(texts["a.py"].replace("Old.", "New.").replace("5\n", "5  # w\n"))
+    assert sources._content("a.py") == sources._content("e.py")
+
+
 def test_every_study_names_the_module_that_makes_it() -> None:
     for name, known in STUDIES.items():
         assert len(closure([known.cases.__module__])) > 100, name

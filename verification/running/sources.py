@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import ast
 import hashlib
+import io
 import re
+import tokenize
 from collections.abc import Iterable, Iterator
 from functools import cache
 from pathlib import Path
@@ -22,6 +24,9 @@ PACKAGES = (
 EXPORTS = "verification/__init__.py"
 # A catalogue imports the modules of its package by name.
 BY_NAME = re.compile(r'import_module\(f"([\w.]+)\.\{')
+
+UNREAD = (tokenize.ENCODING, tokenize.COMMENT, tokenize.NL)
+STATEMENT_ENDS = (tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT)
 
 
 @cache
@@ -87,4 +92,18 @@ def _files(module: str, *, whole: bool = False) -> Iterator[str]:
 
 @cache
 def _content(path: str) -> str:
-    return hashlib.sha256((ROOT / path).read_bytes()).hexdigest()
+    """Return the digest of a file; of a module, that of its tokens without comments, docstrings and
+    spaces.
+
+    Repeated braces count as one, because Python 3.12 and later split an f-string into tokens."""
+    data = (ROOT / path).read_bytes()
+    if path.endswith(".py"):
+        kept, before = [], tokenize.NEWLINE
+        for token in tokenize.tokenize(io.BytesIO(data).readline):
+            if token.type in UNREAD:
+                continue
+            if token.type != tokenize.STRING or before not in STATEMENT_ENDS:
+                kept.append(token.string)
+            before = token.type
+        data = re.sub(r"([{}])\1+", r"\1", "".join("".join(kept).split())).encode()
+    return hashlib.sha256(data).hexdigest()
