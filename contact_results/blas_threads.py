@@ -1,4 +1,4 @@
-"""One thread for linear algebra, unless the environment says otherwise."""
+"""Number of BLAS threads: one, unless the environment sets another."""
 
 import os
 
@@ -7,14 +7,13 @@ VARIABLES = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
 def one_thread(*, always: bool = False) -> None:
-    """Give each process one thread; to be called before the numerical libraries are loaded.
+    """Set the environment variables for one thread per process.
 
-    The same bits from run to run: two threads add in another order. (On another kind of processor
-    they differ by rounding all the same, unless OPENBLAS_CORETYPE says whose instructions to use.)
-    And the dense systems of contact are small: threads that wait for a busy core by spinning make
-    them ten times slower.
+    Call this function before the numerical libraries are imported. One thread gives equal bits in
+    every run on one processor; OPENBLAS_CORETYPE fixes the instructions across processors. The
+    dense systems of contact are small, and waiting threads would make them ten times slower.
 
-    always  whatever the environment says
+    always  replace values that the environment already has
     """
     for name in VARIABLES:
         if always or name not in os.environ:
@@ -22,5 +21,5 @@ def one_thread(*, always: bool = False) -> None:
 
 
 def is_one_thread() -> bool:
-    """Whether the environment says so."""
+    """Return True if all variables are set to one thread."""
     return all(os.environ.get(name) == ONE for name in VARIABLES)

@@ -1,9 +1,9 @@
-"""What a load cycle does to the surface: slip amplitude, dissipated energy, and Ruiz's parameters.
+"""Slip amplitude, dissipated energy and Ruiz's parameters of load cycles.
 
-Ruiz, Boddington and Chen (1984, Exp. Mech. 24, 208-217) rank places of a fretting contact by the
-work of friction, F1 = τ δ, and by its product with the tension along the surface, F2 = σ_T τ δ.
-Here, at every place, δ is half the range of slip over one cycle, τ the largest shear and σ_T the
-largest tension within it. Authors who take the whole range for δ get twice these numbers.
+Ruiz, Boddington and Chen (1984, Exp. Mech. 24, 208-217) rank points of a fretting contact by
+F1 = τ δ and F2 = σ_T τ δ. At every point, δ is half the range of slip over one cycle, τ the largest
+shear and σ_T the largest tensile stress along the surface in the cycle. With the full range for δ,
+both parameters are twice as large.
 """
 
 from __future__ import annotations
@@ -39,8 +39,8 @@ if TYPE_CHECKING:
 Value = TypeVar("Value", float, Field)
 F = Kind.FIELD
 
-MAX_AT_ONCE = 1 << 20  # numbers
-NEAR_AT_HAND = 1 << 14  # that stay in the cache of a core
+MAX_AT_ONCE = 1 << 20  # numbers in memory at a time
+MAX_IN_CACHE = 1 << 14  # numbers that fit into the cache of a core
 
 
 @dataclass(frozen=True)
@@ -104,13 +104,13 @@ class FrettingCycle(WithFields):
 
 
 def fretting_cycles(result: Result) -> tuple[FrettingCycle, ...]:
-    """All cycles that the loading steps close, in the order in which they end.
+    """Compute all closed load cycles of a result, in the order of their ends.
 
-    A cycle in which the friction limit is reached under force control has no defined slip and is
-    left out; so are all where nothing is sheared.
+    Cycles without shear are left out. Cycles that reach the friction limit under force control are
+    left out as well, because their slip is undefined.
 
-    On cells the stress at the surface is computed, too, which σ_T and F2 need: of the lower body,
-    or of the indenter where that one is rigid. It adds 2 to 5 % to the time of the solve.
+    On cells, σ_T and F2 require the stress at the surface of the lower body, or of the indenter if
+    the lower body is rigid. It adds 2 to 5 % to the time of the solve.
     """
     surface = surface_of(result)
     closed = load_cycles(result.scene.load_path())
@@ -154,18 +154,20 @@ def _fretting_cycle(
 
 
 def _gain(start: Value | None, end: Value | None) -> Value | None:
-    """What is known at both ends, without the first."""
+    """Return end - start, or None if either is None."""
     return None if start is None or end is None else end - start
 
 
 def _along(surface: Surface, path: Sequence[Increment], name: str) -> Iterator[Field]:
-    """Components of shear or slip where the increments of a path have them, one after the other."""
+    """Yield the components of shear or slip of each increment that has them."""
     return (found for i in path if (found := surface.components(i, name)) is not None)
 
 
 def _slip_amplitude(slips: Callable[[], Iterable[Field]]) -> Field:
-    """Half the largest distance between any two of the slips, place by place; of so many places at
-    a time that their slips can be held."""
+    """Compute half the largest distance between any two slips, point by point.
+
+    The points are processed in blocks of at most MAX_AT_ONCE numbers.
+    """
     first, count = next(iter(slips())), sum(1 for _ in slips())
     moves = reduce(np.logical_or, (np.any(slip != first, axis=0) for slip in slips()))
     amplitude, places = np.zeros(moves.shape), np.flatnonzero(moves)
@@ -178,9 +180,9 @@ def _slip_amplitude(slips: Callable[[], Iterable[Field]]) -> Field:
 
 
 def _half_diameter(path: NDArray[np.float64]) -> Vector:
-    """Of sets of points (points, components, sets), half the largest distance in each set."""
+    """Compute half the largest distance in each set of points (points, components, sets)."""
     largest = np.zeros(path.shape[-1])
-    width = max(1, NEAR_AT_HAND // max(1, len(path) * path.shape[1]))
+    width = max(1, MAX_IN_CACHE // max(1, len(path) * path.shape[1]))
     for begin in range(0, path.shape[-1], width):
         some, most = path[..., begin : begin + width].copy(), largest[begin : begin + width]
         for n in range(1, len(path)):

@@ -22,9 +22,8 @@ from contact_scene.reading.engineering_units import EngineeringUnit, engineering
 if TYPE_CHECKING:
     from contact_results.cycles import FrettingCycle
 
-FIRST, LAST = 10, 10  # of a long history, the steps that are shown
-NEGLIGIBLE = 1e-9  # of the largest value of a vector: round-off, shown as nothing
-# What makes a number negligible, beside the size that the load gives it.
+FIRST, LAST = 10, 10  # steps shown of a long history
+# Round-off, shown as 0: relative to the largest component of a vector, or to `natural_size`.
 ROUND_OFF = 1e-9
 
 Errors = Mapping[str, StatedError]
@@ -43,7 +42,7 @@ class Loaded(Protocol):
 
 
 def natural_size(ends: Iterable[Loaded], unit: str) -> float:
-    """The size that a quantity of a unit has under these loads; 0 where they do not tell."""
+    """Return the typical size of a quantity with this unit under these loads; 0 if unknown."""
     ends = list(ends)
     force, radius, approach = (
         max((abs(getattr(end, name)) for end in ends), default=0.0)
@@ -58,7 +57,7 @@ class _Column(NamedTuple):
     """Values of one number in all steps, with their errors."""
 
     heading: str
-    like: str  # those alike share their unit
+    like: str  # columns of equal names share their unit
     unit: str
     entries: list[tuple[float | None, Uncertainty | None]]
 
@@ -66,12 +65,11 @@ class _Column(NamedTuple):
 def outcome_columns(
     ends: Sequence[State], errors: Sequence[Errors] | None = None
 ) -> dict[str, list[str]]:
-    """Headings and texts, one per loading step; effects that are off have no column.
+    """Return the columns of a table with one row per load step, by heading.
 
-    Of a long history the beginning and the end, with an ellipsis between them.
+    Effects that are off have no column. Of a long history, the first and last steps are shown.
 
-    errors  of the numbers of every step, to be shown beside them; a question mark where one has not
-            converged
+    errors  stated errors of every step; errors that have not converged get a question mark
     """
     stated: Sequence[Errors] = errors if errors is not None else [{}] * len(ends)
     numbered, gap = _shown(list(enumerate(zip(ends, stated, strict=True), 1)))
@@ -85,9 +83,9 @@ def outcome_columns(
 
 
 def key_numbers(history: Sequence[State], errors: Errors | None) -> Iterator[tuple[str, str]]:
-    """Names and texts of the key numbers at the end of a history.
+    """Yield names and texts of the key numbers at the end of a history.
 
-    errors  of the numbers; None where they were left out
+    errors  stated errors; None if they were left out
     """
     for heading, unit, (text,) in _texts([(history[-1], errors or {})], history):
         yield heading.replace("\n", " ").strip(), f"{text} {unit}"
@@ -96,7 +94,7 @@ def key_numbers(history: Sequence[State], errors: Errors | None) -> Iterator[tup
 def _texts(
     steps: Sequence[tuple[State, Errors]], history: Sequence[State]
 ) -> Iterator[tuple[str, str, list[str]]]:
-    """Heading, unit and texts of every column."""
+    """Yield heading, unit and texts of every column."""
     shown = list(_columns(steps, history))
     for column in shown:
         alike = [other.entries for other in shown if other.like == column.like]
@@ -107,15 +105,17 @@ def _texts(
 
 
 def _shown(steps: Sequence[Shown]) -> tuple[list[Shown], int | None]:
-    """The steps to show, and where some are left out."""
+    """Return the steps to show, and the position of the gap; None without a gap."""
     if len(steps) <= FIRST + LAST + 1:
         return list(steps), None
     return [*steps[:FIRST], *steps[-LAST:]], FIRST
 
 
 def _columns(steps: Sequence[tuple[State, Errors]], history: Sequence[State]) -> Iterator[_Column]:
-    """A column for every key quantity that the steps have, and for the y component of a vector
-    where there is one, without what is round-off in this history."""
+    """Yield a column for every key quantity of the steps, with round-off replaced by 0.
+
+    The y component of a vector has a column if it is not zero in all steps.
+    """
     rows = [numbers(step) for step, _ in steps]
     for name, mark in SCALARS.items():
         parts = components(name)
@@ -126,7 +126,7 @@ def _columns(steps: Sequence[tuple[State, Errors]], history: Sequence[State]) ->
         first, _, rest = name.partition("_")
         for axis, values in zip("xy", found, strict=False):
             vector = mark.kind is Kind.VECTOR
-            least = NEGLIGIBLE * max(known) if vector else 0.0
+            least = ROUND_OFF * max(known) if vector else 0.0
             least = max(least, ROUND_OFF * natural_size(history, mark.unit))
             cut = [_cut(value, least) for value in values]
             if axis == "x" or any(cut):

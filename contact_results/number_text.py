@@ -1,4 +1,4 @@
-"""A number as people read it: in a unit that suits it, with as many digits as its error leaves."""
+"""Texts of numbers: a suitable unit, and the digits that the stated error permits."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ MAX_DECIMALS = 12
 
 
 class Uncertainty(NamedTuple):
-    """A stated error of one number; no size where nothing can be said."""
+    """Stated error of one number; size None if the error is unknown."""
 
     size: float | None
     converged: bool
 
 
 def uncertainty(stated: StatedError | None, axis: str = "x") -> Uncertainty | None:
-    """Of the component of a number; None where it has none to show."""
+    """Return the stated error of a scalar or of a vector component; None if absent or exact."""
     if stated is None or stated.status is ErrorStatus.EXACT:
         return None
     size = stated.error
@@ -33,7 +33,7 @@ def uncertainty(stated: StatedError | None, axis: str = "x") -> Uncertainty | No
 
 
 def number_text(value: float | None, error: Uncertainty | None, unit: float) -> str:
-    """A number in a unit with what is known of its error."""
+    """Return the text of a number in a unit, with its error; `?` marks an unconverged error."""
     if value is None:
         return "–"
     if error is None:
@@ -42,7 +42,7 @@ def number_text(value: float | None, error: Uncertainty | None, unit: float) -> 
     if error.size is None:
         return f"{value / unit:.{DIGITS}g}{doubt}"
     number, size = value / unit, error.size / unit
-    # Two digits of the error, and the number as far (JCGM 100:2008, 7.2.6).
+    # Two digits of the error, and the number to the same decimals (JCGM 100:2008, 7.2.6).
     decimals = ERROR_DIGITS - 1 - floor(log10(size)) if size else DIGITS
     if round(number, decimals) == 0:
         return f"0 ± {size:.{ERROR_DIGITS}g}{doubt}"
@@ -53,6 +53,5 @@ def number_text(value: float | None, error: Uncertainty | None, unit: float) -> 
 
 
 def measured_like(name: str) -> str:
-    """What a quantity is put beside by a reader, in whose unit it is written: radii beside radii,
-    all else for itself."""
+    """Return the name of the group of quantities that share a unit in a table: all radii."""
     return "radius" if name.endswith("_radius") else name

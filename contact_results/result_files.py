@@ -25,13 +25,14 @@ def write_result(
     accuracy: AccuracyReached | None = None,
     all_fields: bool = False,
 ) -> dict[str, list[str]]:
-    """Write summary, fields, tables, figures and their page into a directory that has none of them.
+    """Write summary, fields, tables, figures and their page into an empty directory.
 
-    Returns the columns of `cycle_columns`, none without a cycle.
+    figures     "overview": one figure and the page; "all": all figures and the page; "none"
+    errors      stated errors; None if they were left out
+    accuracy    requested and reached accuracy; None if none was requested
+    all_fields  store the fields of all increments, not only of the last one of each load step
 
-    figures         one picture and the page, all pictures and the page, or neither
-    accuracy        that the result was refined to
-    all_fields store the fields of all increments, not of the last one of each load step
+    Returns the columns of `cycle_columns`; empty without load cycles.
     """
     cycles = fretting_cycles(result)
     stated = errors.steps if errors else None

@@ -1,5 +1,4 @@
-"""What to bear in mind of a result: numbers hardly meant, a theory at its end, heights that cells
-leave out."""
+"""Warnings about a result: implausible input, large strains, unresolved roughness."""
 
 from __future__ import annotations
 
@@ -26,7 +25,7 @@ if TYPE_CHECKING:
     from contact_results.surface import Result
 
 
-# Of the peak pressure, below which there is nothing to say of what cells leave out.
+# Unresolved pressure, relative to the peak pressure, below which no warning is given.
 NEGLIGIBLE = 1e-3
 NOT_CORRECTED = (
     "the edge of the contact is not corrected: {}; the tractions there are constant on cells"
@@ -38,7 +37,7 @@ NO_BORDER = (
 
 
 def warnings_of(result: Result) -> tuple[str, ...]:
-    """In sentences, for people."""
+    """Return all warnings about a result, one clause each."""
     found = (
         *unlikely(result.scene),
         *beyond_linear_theory(result.scene, result.steps),
@@ -52,7 +51,7 @@ def warnings_of(result: Result) -> tuple[str, ...]:
 
 
 def _near_gross_slip(result: Result) -> Iterator[str]:
-    """Steps pushed to nearly the friction limit, whose increments decide their shift and energy."""
+    """Warn of a load step near gross slip, whose shift and energy depend on the increments."""
     near = near_gross_slip(result.scene)
     if any(near):
         yield (
@@ -63,7 +62,7 @@ def _near_gross_slip(result: Result) -> Iterator[str]:
 
 
 def _first_cycle(result: Result) -> Iterator[str]:
-    """A first load cycle, which starts at the virgin state of the surfaces."""
+    """Warn of a first load cycle, which starts from the virgin state of the surfaces."""
     path = result.scene.load_path()
     cycles = load_cycles(path)
     if cycles and with_error(result.scene)[cycles[0].end - 1]:
@@ -80,9 +79,9 @@ def _left_out(result: semi_analytical.Result) -> Iterator[str]:
     if share > NEGLIGIBLE and isinstance(indenter, HeightMap):
         nx, ny = (int(np.ceil(n)) for n in np.divide(result.grid.window, indenter.spacing))
         yield (
-            f"the cells are wider than the spacing of the height map: to flatten what they leave "
-            f"out takes a pressure of {share:.2g} of the peak (root mean square); "
-            f"try --set semi_analytical.cells=[{nx},{ny}]"
+            "the cells are wider than the spacing of the height map: to flatten the heights "
+            f"between cells takes a pressure of {share:.2g} of the peak (root mean square); "
+            f"use --set semi_analytical.cells=[{nx},{ny}]"
         )
 
 
@@ -101,11 +100,11 @@ def _edges_left(result: semi_analytical.Result) -> Iterator[str]:
 
 
 def left_out(result: semi_analytical.Result) -> float:
-    """Root mean square over the largest contact of the pressure that would flatten the heights
-    between cells wider than the spacing of their map, over the peak pressure; 0 without such.
+    """Estimate the pressure that flattens the roughness between cells, over the peak pressure.
 
-    E* √(mean square slope) / 2 (Persson 2001; a wave of amplitude h and wavenumber k takes
-    E* k h / 2: Johnson 1985, eq. 13.7), which the peak misses where all of it is flattened.
+    It is E* √(mean square slope) / 2 (Persson 2001), the root mean square over the largest contact;
+    a wave of amplitude h and wavenumber k takes E* k h / 2 (Johnson 1985, eq. 13.7). Returns 0 if
+    the cells are no wider than the spacing of the height map.
     """
     indenter, grid = result.scene.indenter, result.grid
     if not isinstance(indenter, HeightMap):
@@ -122,13 +121,13 @@ def left_out(result: semi_analytical.Result) -> float:
         return 0.0
     seen = interpolate(indenter.initial_gap(*cells), grid.spacing, x[:, None], y)
     lost = indenter.initial_gap(x[:, None], y) - seen
-    # From point to point: over two of them the steepest waves have no slope.
+    # Differences of adjacent points: central differences miss the shortest waves.
     slopes = (np.diff(lost, axis=axis) / indenter.spacing[axis] for axis in (0, 1))
     steepness = float(np.sqrt(sum(np.mean(np.square(slope)) for slope in slopes)))
     return contact_modulus(result.scene) * steepness / 2 / end.peak_pressure
 
 
 def _points(count: int, spacing: float, within: Field) -> Field:
-    """Of a map along one axis, between the outermost of some places [length]."""
+    """Return the coordinates of map points along one axis within a range of places [length]."""
     points = (np.arange(count) - (count - 1) / 2) * spacing
     return np.asarray(points[(points >= np.min(within)) & (points <= np.max(within))])

@@ -1,4 +1,4 @@
-"""All files of the stress below a contact, in one call."""
+"""Writer of all files of the stress below a contact."""
 
 from __future__ import annotations
 
@@ -25,11 +25,12 @@ def write_stress(
     errors: Sequence[StatedError] | None = None,
     accuracy: AccuracyReached | None = None,
 ) -> None:
-    """Write tables, their meanings, meshes, figures and summary of the `body` or the `indenter`,
-    all or none.
+    """Write tables, their meanings, meshes, figures and summary atomically.
 
-    errors      of what was found; None where they were left out
-    accuracy    that was asked for and reached; None where none was asked for
+    which     "body" or "indenter"
+    found     largest stresses
+    errors    stated errors of `found`; None if they were left out
+    accuracy  requested and reached accuracy; None if none was requested
     """
     with files_at_once(directory, STRESS, (VOLUME,)) as staging:
         write_files(state, which, field, found, staging, errors, accuracy)

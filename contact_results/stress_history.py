@@ -31,7 +31,7 @@ COLUMNS = (
     Column("increment", None, "Increment within the step, from 1."),
     *(Column(f"sigma_{k}", "Pa", "Component of stress, tension positive.") for k in COMPONENTS),
     Column(
-        "error", "Pa", "Error of every component by cells or rings; that of increments is apart."
+        "error", "Pa", "Error of every component by cells or rings, without that of increments."
     ),
     *INVARIANTS,
 )
@@ -41,8 +41,8 @@ COLUMNS = (
 class StressIncrement:
     """Stress at points (n,) at the end of an increment.
 
-    index   within the step, from 1; None if the end of the step stands alone
-    errors  of the components (n,) [force/length^2]
+    index   increment within the step, from 1; None for the end of the step alone
+    errors  stated error of every component (n,) [force/length^2]
     """
 
     step: int
@@ -54,7 +54,7 @@ class StressIncrement:
 def write_history(
     history: Sequence[StressIncrement], body: Body, directory: Path, convention: str, title: str
 ) -> None:
-    """Write the stress of every point over the increments, all files or none."""
+    """Write the stress of every point over the increments; the files are written atomically."""
     layers, count = len(body.layers), len(history[0].errors)
     rows = (
         (

@@ -1,6 +1,6 @@
-"""Where the fields of a result live: on the cells of a grid, or on rings around the z axis.
+"""Surface grids of the fields of a result: cells, or rings around the z axis.
 
-Whoever writes, draws or sums fields asks here, and need not know which solver they came from.
+Files, figures and sums use the protocol `Surface` for the results of all solvers.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ class Line(NamedTuple):
     """The line through the axis on which profiles are shown.
 
     places      (n,) [length]
-    label       what the places are
-    components  names of what vectors have along and across it
+    label       axis label of the places
+    components  names of the vector components along and across the line
     """
 
     places: Field
@@ -37,43 +37,45 @@ class Line(NamedTuple):
 
 
 class Surface(Protocol):
-    """Places that carry the fields of a result. A scalar field has the shape of `weights`."""
+    """Points that carry the fields of a result. A scalar field has the shape of `weights`."""
 
     @property
     def axes(self) -> Mapping[str, Field]:
-        """What each index of a field counts, by name [length, angles radian]."""
+        """Coordinates of each index of a scalar field, by name [length; angles radian]."""
 
     @property
     def positions(self) -> Field:
-        """x and y of every place (2, …) [length]."""
+        """Coordinates x and y of the points, shape (2, …) [length]."""
 
     @property
     def weights(self) -> Field:
-        """Area that every place stands for, so that sums with them are integrals [length^2]."""
+        """Quadrature weights of the points [length^2]."""
 
     @property
     def line(self) -> Line:
-        """Where `along` takes its values."""
+        """The line on which `along` evaluates fields."""
 
     @property
     def direction(self) -> tuple[float, float]:
         """Unit vector along the line."""
 
     def scalar(self, increment: Increment, name: str) -> NDArray[Any] | None:
-        """A scalar field of an increment; None where it has none."""
+        """Return a scalar field of an increment, or None if the increment has no such field."""
 
     def components(self, increment: Increment, name: str) -> Field | None:
-        """Orthonormal components (n, …) of shear or slip, the solver's own and free of the
-        round-off of turning them; None where an increment has none."""
+        """Return the orthonormal components (n, …) of shear or slip that the solver computed.
+
+        They have no round-off of a rotation. None if the increment has no such vector.
+        """
 
     def vector(self, increment: Increment, name: str) -> Field | None:
-        """The x and y components (2, …) of shear or slip; None where an increment has none."""
+        """Return the x and y components (2, …) of shear or slip, or None if there are none."""
 
     def along(self, field: Field) -> Field:
-        """Values (n,) of a scalar field on the line."""
+        """Evaluate a scalar field on the line (n,)."""
 
     def vector_along(self, vector: Field) -> Field:
-        """Components (2, n) along and across the line."""
+        """Evaluate a vector field on the line: components (2, n) along and across it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,21 +112,21 @@ class Cells:
 
     @property
     def direction(self) -> tuple[float, float]:
-        """Along x."""
+        """Unit vector along x."""
         return 1.0, 0.0
 
     def scalar(self, increment: Increment, name: str) -> NDArray[Any] | None:
-        """As the increment has it."""
+        """Return the field of the increment without change."""
         field: NDArray[Any] | None = getattr(increment, name, None)
         return field
 
     components = vector = scalar
 
     def along(self, field: Field) -> Field:
-        """Values on y = 0 of a field (…, nx, ny).
+        """Evaluate a field (…, nx, ny) on y = 0.
 
-        With an even number of rows the line runs between two of them and their mean is taken,
-        which differs from the value at y = 0 by the curvature times h^2/8 only.
+        If ny is even, this is the mean of the two central rows. Its error is h^2/8 times the second
+        derivative along y, with the cell width h.
         """
         ny = field.shape[-1]
         return np.asarray((field[..., (ny - 1) // 2] + field[..., ny // 2]) / 2)
@@ -136,14 +138,15 @@ class Cells:
 class Rings:
     """Rings around the z axis, fields linear in between; index [ring] or [ring, angle].
 
-    Without angles places are on the ray along the load. Angles cover a half circle, both ends
-    included, whose points stand for their mirror images, too, or all of it from 0 on, evenly.
+    Without angles, the points lie on the ray along the load. With angles, the points cover either
+    a half circle including both ends, and represent their mirror images as well, or the full
+    circle at equal spacing from 0.
 
     radii      ascending (rings,) [length]
-    angles     from the direction of the tangential load (angles,) [radian]; None where one
-               function of the radius says all
-    direction  of the tangential load, unit vector
-    polar      whether all vectors are outward and around the axis, the same on a whole ring
+    angles     from the direction of the tangential load (angles,) [radian]; None if the fields
+               depend on the radius alone
+    direction  unit vector of the tangential load
+    polar      whether all vectors have constant radial and circumferential components on each ring
     """
 
     radii: Field
@@ -153,17 +156,17 @@ class Rings:
 
     @property
     def whole(self) -> bool:
-        """Whether the angles cover all of a circle."""
+        """Return True if the angles cover a full circle."""
         return self.angles is not None and bool(self.angles[-1] > 1.25 * np.pi)
 
     @property
     def axes(self) -> Mapping[str, Field]:
-        """Radii, and angles where there are any."""
+        """Radii, and the angles if there are any."""
         return {"radii": self.radii} | ({} if self.angles is None else {"angles": self.angles})
 
     @property
     def positions(self) -> Field:
-        """(2, rings) or (2, rings, angles) [length]."""
+        """Coordinates x and y, shape (2, rings) or (2, rings, angles) [length]."""
         if self.angles is None:
             return self._turned(np.stack([self.radii, np.zeros_like(self.radii)]))
         around = np.stack([np.cos(self.angles), np.sin(self.angles)])
@@ -171,8 +174,10 @@ class Rings:
 
     @property
     def weights(self) -> Field:
-        """2π∫ψ r dr with the hat function ψ of a ring, constant towards the axis, times the share
-        of the circle that a point stands for [length^2]."""
+        """Quadrature weights 2π∫ψ r dr times the angular share of each point [length^2].
+
+        The hat function ψ of the first ring is constant towards the axis.
+        """
         inner, outer = self.radii[:-1], self.radii[1:]
         area = np.zeros_like(self.radii)
         area[0] = self.radii[0] ** 2 / 2
@@ -187,7 +192,7 @@ class Rings:
 
     @property
     def line(self) -> Line:
-        """The radius, or where fields depend on the angle from edge to edge along the load."""
+        """The radius; for fields with angles, the diameter along the load."""
         along_x = self.direction == (1.0, 0.0)
         load = ("x", "y") if along_x else (r"\parallel", r"\perp")
         if self.angles is None:
@@ -197,11 +202,14 @@ class Rings:
         return Line(places, label, load)
 
     def scalar(self, increment: Increment, name: str) -> NDArray[Any] | None:
-        """The field, at every angle where there are angles."""
+        """Return the field, repeated at every angle if the surface has angles."""
         return self._everywhere(getattr(increment, name, None))
 
     def components(self, increment: Increment, name: str) -> Field | None:
-        """Outward, around the axis and along the load; the last excludes the first two."""
+        """Return the radial, circumferential and along-load components (3, …).
+
+        A result has either the first two or the last; missing components are zero.
+        """
         parts = [
             self._everywhere(getattr(increment, f"{name}_{component}"))
             for component in ("radial", "circumferential", "along_load")
@@ -212,7 +220,7 @@ class Rings:
         return np.stack([np.zeros_like(given[0]) if part is None else part for part in parts])
 
     def vector(self, increment: Increment, name: str) -> Field | None:
-        """From what the increment has outward, around the axis and along the load."""
+        """Return the x and y components, transformed from those of `components`."""
         components = self.components(increment, name)
         if components is None:
             return None
@@ -224,18 +232,18 @@ class Rings:
         )
 
     def on_both_sides(self) -> Rings:
-        """The same with angles, at least of the ray along the load and of that behind the axis."""
+        """Return the surface with angles; without angles, add those of the two rays of the line."""
         return self if self.angles is not None else replace(self, angles=np.array([0.0, np.pi]))
 
     def along(self, field: Field) -> Field:
-        """Values over the radius; with angles from behind the axis to ahead of it."""
+        """Evaluate a field on the line, from the ray at angle π to the ray at angle 0."""
         if self.angles is None:
             return field
         behind = len(self.angles) // 2 if self.whole else -1
         return np.concatenate([field[..., ::-1, behind], field[..., :, 0]], axis=-1)
 
     def vector_along(self, vector: Field) -> Field:
-        """Components along and across the load."""
+        """Evaluate a vector on the line: components along and across the load."""
         return self.along(self._turned(vector, -1))
 
     def _everywhere(self, field: NDArray[Any] | None) -> NDArray[Any] | None:
@@ -244,15 +252,17 @@ class Rings:
         return np.broadcast_to(field[:, None], (len(self.radii), len(self.angles)))
 
     def _turned(self, vector: Field, sense: int = 1) -> Field:
-        """From axes along and across the load to x and y, or with sense −1 back."""
+        """Rotate from axes along and across the load to x and y; with sense −1, rotate back."""
         (x, y), (along, across) = self.direction, vector
         y *= sense
         return np.stack([along * x - across * y, along * y + across * x])
 
 
 def surface_on(axes: Mapping[str, Field], direction: tuple[float, float]) -> Surface:
-    """What fields live on, from the axes of a surface and the direction where its angles start;
-    whether vectors are the same on a whole ring is left open."""
+    """Return the surface with the given axes.
+
+    direction  unit vector of angle 0; used for rings
+    """
     if "radii" in axes:
         return Rings(axes["radii"], axes.get("angles"), direction, polar=False)
     x, y = axes["x"], axes["y"]
@@ -260,7 +270,7 @@ def surface_on(axes: Mapping[str, Field], direction: tuple[float, float]) -> Sur
 
 
 def surface_of(result: Result) -> Surface:
-    """What a result's fields live on."""
+    """Return the surface of the fields of a result."""
     if hasattr(result, "grid"):
         return Cells(result.grid.x, result.grid.y, result.grid.cell_area)
     increments = result.increments

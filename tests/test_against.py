@@ -146,7 +146,7 @@ def test_a_scene_is_solved_first(place: Path) -> None:
     [
         ({"T [mm]": [1], "shift [um]": [1]}, "got the column 'T [mm]', expected a unit of N"),
         ({"T": [1], "shift [um]": [1]}, "got the column 'T', expected a unit of N"),
-        ({"T [N]": ["two"], "shift [um]": [1]}, "write numbers alone"),
+        ({"T [N]": ["two"], "shift [um]": [1]}, "write numbers only"),
         ({"T [N]": ["nan"], "shift [um]": [1]}, "values that are not finite"),
         ({"T [N]": [1], "time [s]": [1]}, "got the columns tangential_force, expected shift or"),
     ],

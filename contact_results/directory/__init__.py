@@ -1,1 +1,1 @@
-"""The directory of a run: one writer, atomic files, checkpoints, signals."""
+"""Directory of a run: lock, atomic files, checkpoints, stop signals."""

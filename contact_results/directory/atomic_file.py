@@ -1,4 +1,4 @@
-"""A file that appears whole or not at all, and the directories above it."""
+"""Atomic creation of a file, and of its parent directories."""
 
 import os
 import secrets
@@ -11,13 +11,15 @@ from contact_results.directory.refusal import OutputRefused
 
 @contextmanager
 def atomic_file(path: Path) -> Iterator[Path]:
-    """Give a path beside `path` to write to; it takes the name when the block ends without error.
+    """Yield a temporary path in the same directory; rename it to `path` if the block succeeds.
 
-    A file of that name is replaced. Raises OutputRefused if the directory cannot be made or the
-    name is a directory's, a device's, a queue's or a link's that leads nowhere; an
-    OSError of the block, as that of a full disk, names `path`.
+    An existing file `path` is replaced. An OSError of the block, such as that of a full disk, gets
+    the name `path`.
+
+    Raises OutputRefused if the parent directory cannot be created, or if `path` exists and is not a
+    regular file.
     """
-    refuse_what_is_in_the_way(path)
+    _refuse_occupied(path)
     created = create_parents(path)
     temporary = path.with_name(f".{secrets.token_hex(4)}.{path.name}")
     try:
@@ -34,8 +36,8 @@ def atomic_file(path: Path) -> Iterator[Path]:
         remove_empty(created)
 
 
-def refuse_what_is_in_the_way(path: Path) -> None:
-    """Raise OutputRefused where no file could go, or one would take the place of something else."""
+def _refuse_occupied(path: Path) -> None:
+    """Raise OutputRefused if the path is not accessible, or exists and is not a regular file."""
     try:
         os.lstat(path)
     except FileNotFoundError:
@@ -43,15 +45,15 @@ def refuse_what_is_in_the_way(path: Path) -> None:
     except OSError as error:
         raise OutputRefused(f"cannot write {path}: {error.strerror}") from error
     if path.is_dir():
-        raise OutputRefused(f"{path} is a directory where a file should go; move it")
+        raise OutputRefused(f"{path} is a directory, expected a file or nothing; move it")
     if not path.is_file():
-        raise OutputRefused(f"{path} is not a regular file, and one would take its place")
+        raise OutputRefused(f"{path} is not a regular file and will not be replaced; move it")
 
 
 def create_parents(target: Path) -> list[Path]:
-    """Create the directories missing above `target`; return them, innermost first.
+    """Create the missing parent directories of `target`; return them, innermost first.
 
-    Raises OutputRefused where they cannot be created.
+    Raises OutputRefused if a directory cannot be created.
     """
     missing = [parent for parent in target.parents if not parent.exists()]
     try:
@@ -62,7 +64,7 @@ def create_parents(target: Path) -> list[Path]:
 
 
 def remove_empty(directories: Sequence[Path]) -> None:
-    """Remove these directories, innermost first, as long as they are empty."""
+    """Remove directories in order, up to the first that is not empty."""
     for directory in directories:
         try:
             directory.rmdir()

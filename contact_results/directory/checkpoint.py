@@ -1,7 +1,7 @@
-"""Where an unfinished run stands, kept beside its results: a killed run goes on from there.
+"""Checkpoints of a run in a hidden directory next to its results, to resume a killed run.
 
-The parts of a checkpoint are written one after the other, each whole or not at all, and hold the
-increments since the part before. They are removed when the run has ended.
+A checkpoint is a sequence of atomic files. Each file contains the increments since the preceding
+file. The files are removed at the end of the run.
 """
 
 from __future__ import annotations
@@ -27,19 +27,19 @@ from contact_scene.quantities.stored_fields import (
 from contact_scene.solver_errors import SolverError
 from contact_scene.stepping.checkpoint import Checkpoint
 
-# A run of seconds leaves nothing, and one of hours spends a twentieth of them on checkpoints.
-SECONDS_BETWEEN = 5.0
-SHARE = 0.05
-MAX_BETWEEN = 3600.0  # a machine that slept while it wrote says that writing takes a night
-MAX_IN_PART = 16 << 20  # bytes of fields, so that few are in memory at once
+SECONDS_BETWEEN = 5.0  # shortest time between two files
+SHARE = 0.05  # largest part of the run time spent on writing
+MAX_BETWEEN = 3600.0  # longest time between two files [s]: a suspended machine measures hours
+MAX_IN_PART = 16 << 20  # bytes of fields in a file, which limits the memory of a read
 
 
 @dataclass(frozen=True)
 class _Part:
-    """Increments since the part before.
+    """Contents of one file: the increments since the preceding file.
 
-    standing  the solve after them, itself without increments; None if they continue in the next
-              part because they are too many for one
+    before    number of increments in the preceding files
+    standing  checkpoint after these increments, without increments of its own; None if the
+              increments of the checkpoint continue in the next file
     """
 
     before: int
@@ -48,9 +48,9 @@ class _Part:
 
 
 class CheckpointDirectory:
-    """Keeps one solve in a directory; see contact_scene.stepping.checkpoint.CheckpointStore.
+    """Checkpoint files of one solve; implements `CheckpointStore` of `contact_scene.stepping`.
 
-    seconds_between  two parts at least
+    seconds_between  shortest time between two files
     """
 
     def __init__(
@@ -75,7 +75,7 @@ class CheckpointDirectory:
         self._extent: Any = None
 
     def last(self) -> Checkpoint | None:
-        """What an earlier process has kept of the same solve; read once."""
+        """Return the checkpoint that an earlier process stored for this solve; it is read once."""
         if not self._read:
             self._read, self._written = True, time.monotonic()
             if self._directory.is_dir() and self._locked():
@@ -84,10 +84,10 @@ class CheckpointDirectory:
         return self._standing
 
     def keep(self, standing: Checkpoint) -> None:
-        """Write a part if the last one is long enough ago; a disk that is full costs only that."""
+        """Store a checkpoint if the last one is old enough; a failed write disables checkpoints."""
         self.last()
         began = time.monotonic()
-        # A clock that was set back tells nothing.
+        # A negative time follows from a clock that was set back.
         if not self._open or 0 <= began - self._written < self._pause:
             return
         try:
@@ -95,12 +95,14 @@ class CheckpointDirectory:
             if not self._locked():
                 return
             again = len(standing.increments) <= self._kept
-            if again or standing.extent != self._extent:  # a grid or mesh was outgrown
+            if (
+                again or standing.extent != self._extent
+            ):  # the solve restarted on a larger grid or mesh
                 self._drop_from(0)
                 self._kept = 0
             self._write(standing)
         except (OSError, OutputRefused) as error:
-            self._say(f"no checkpoint could be written into {self._directory}: {error}")
+            self._say(f"cannot write a checkpoint into {self._directory}: {error}")
             self._open = False
             return
         self._written = time.monotonic()
@@ -121,23 +123,23 @@ class CheckpointDirectory:
             self._kept += len(some)
 
     def remove(self) -> None:
-        """The run has ended, and nothing has to be kept."""
+        """Remove all files at the end of the run."""
         if self._directory.is_dir() and self._locked():
             shutil.rmtree(self._directory, ignore_errors=True)
 
     def how_to_go_on(self) -> str:
-        """What a process that is stopped now leaves to the next one; empty if nothing."""
+        """Return a message on stored increments for a stopped process; empty if there are none."""
         if not (self._kept and self._parts):
             return ""
         return f"the same command goes on after increment {self._kept}, kept in {self._directory}"
 
     def close(self) -> None:
-        """Let another process have it."""
+        """Release the lock."""
         release(self._lock)
         self._lock, self._open = None, False
 
     def _locked(self) -> bool:
-        """Whether no other process runs into the same directory of results."""
+        """Lock the directory; return False if that is not possible."""
         if self._lock is None and self._open:
             self._lock = acquire(self._directory, wait=False)
             self._open = self._lock is not None
@@ -153,9 +155,9 @@ class CheckpointDirectory:
             try:
                 part = unpacked(path, self._identity)
                 if not isinstance(part, _Part):
-                    raise Unusable(f"{path} holds something else")
+                    raise Unusable(f"{path} contains no checkpoint")
                 if part.before != len(increments):
-                    raise Unusable(f"{path} does not follow the part before it")
+                    raise Unusable(f"{path} does not continue the preceding file")
             except Unusable as error:
                 self._say(f"{error}; computed again")
                 break
@@ -167,7 +169,7 @@ class CheckpointDirectory:
         return standing
 
     def _settle(self) -> None:
-        """Clear away what cannot be used, and say what can."""
+        """Remove unusable files, and report the increment that the run resumes from."""
         self._drop_from(self._parts)
         if self._standing is None:
             return
@@ -191,15 +193,15 @@ class CheckpointDirectory:
 def checkpointed(
     target: Path, identity: str, say: Callable[[str], None], name: str = "checkpoint"
 ) -> Iterator[CheckpointDirectory]:
-    """A checkpoint beside the results of a run; gone when the block is done.
+    """Provide the checkpoint directory of a run; remove it at the end of the block.
+
+    The directory remains if the process is killed or the block fails. After a SolverError it is
+    removed, because a resumed solve would fail again.
 
     target    directory of the results
-    identity  digest of all that decides the solve
-    say       told what a person should know
-    name      tells the solves of one run apart
-
-    It stays where the process is killed, or where the results cannot be written. A solver that
-    gives up would give up again, so then it goes as well.
+    identity  digest of the input and the code of the solve
+    say       called with messages for the user
+    name      distinguishes the solves of one run
     """
     target = Path(os.path.realpath(target))
     directory = (target if target.is_dir() else target.parent) / f".{target.name}.{name}"

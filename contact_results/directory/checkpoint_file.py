@@ -1,8 +1,8 @@
-"""A file that holds values of the solvers, and says whose and whether they are whole.
+"""Pickle file of a checkpoint, with the identity of the solve and a check sum.
 
-A line that names the format, a line with the identity of the solve, a line with the SHA-256 of what
-follows: a pickle. Arrays are plain bytes with a data type from a list. Only frozen values of the
-solvers are looked up, so that a file from another source runs nothing and opens nothing.
+The file has a line with the format, a line with the identity of the solve, a line with the SHA-256
+of the rest, and a pickle. Arrays are stored as bytes with a data type from a list. The reader
+resolves frozen classes of the solvers only, so that a foreign file cannot execute code.
 """
 
 from __future__ import annotations
@@ -33,16 +33,16 @@ PACKAGES = (
 )
 DTYPES = frozenset(np.dtype(kind).str for kind in "?bBhHiIqQfdFD")
 FAR_FIELDS = (
-    "fem_reference.elasticity.far_field"  # its functions are values: pure, and part of a motion
+    "fem_reference.elasticity.far_field"  # its pure functions are attributes of stored values
 )
 
 
 class Unusable(Exception):
-    """The file is not what is looked for; the message names it and says why."""
+    """The file cannot be used; the message has its name and the reason."""
 
 
 def pack(value: Any, identity: str, path: Path) -> None:
-    """Write a file; one array at a time is copied. May raise OSError."""
+    """Write a value to a file, with one array in memory at a time. May raise OSError."""
     with open(path, "wb") as file:
         file.write(FORMAT + b"\n" + identity.encode() + b"\n")
         before, content = file.tell(), _Digested(file)
@@ -53,26 +53,26 @@ def pack(value: Any, identity: str, path: Path) -> None:
 
 
 class _Digested:
-    """Writes to a file, and digests what it writes."""
+    """Writer to a file that computes the SHA-256 of its content."""
 
     def __init__(self, file: BinaryIO) -> None:
         self.file, self.digest = file, hashlib.sha256()
 
     def write(self, content: bytes) -> int:
-        """All of it."""
+        """Write all bytes; return their number."""
         self.digest.update(content)
         return self.file.write(content)
 
 
 def unpacked(path: Path, identity: str) -> Any:
-    """The value in a file; raises Unusable for a file of another solve, or one not whole."""
+    """Read the value of a file; raise Unusable if it is damaged or of another solve."""
     try:
         with open_own(path) as file:
             name, whose, digest = (file.readline(LONGEST_LINE).rstrip(b"\n") for _ in range(3))
             if name != FORMAT:
-                raise Unusable(f"{path} is no checkpoint of this version")
+                raise Unusable(f"{path} is not a checkpoint of this version")
             if path.stat().st_size > available_bytes():
-                raise Unusable(f"{path} is larger than the memory that can be had")
+                raise Unusable(f"{path} is larger than the available memory")
             start = file.tell()
             if digest != hashlib.file_digest(file, "sha256").hexdigest().encode():
                 raise Unusable(f"{path} is damaged")
@@ -84,12 +84,12 @@ def unpacked(path: Path, identity: str) -> Any:
         raise
     except OSError as error:
         raise Unusable(f"{path} cannot be read: {error.strerror}") from error
-    except Exception as error:  # whatever a pickle may raise that somebody has made
+    except Exception as error:  # a damaged or foreign pickle may raise any exception
         raise Unusable(f"{path} is damaged: {error}") from error
 
 
 class _Writer(pickle.Pickler):
-    """Writes arrays as plain bytes."""
+    """Pickler that writes arrays as plain bytes."""
 
     def reducer_override(self, value: Any) -> tuple[Callable[..., Any], tuple[Any, ...]]:
         if isinstance(value, StoredArray):
@@ -106,7 +106,7 @@ class _Writer(pickle.Pickler):
 def array(dtype: str, content: bytes, shape: tuple[int, ...], by_columns: bool) -> NDArray[Any]:
     """Return an array from its bytes; raises ValueError for another data type or size."""
     if dtype not in DTYPES:
-        raise ValueError(f"an array of {dtype!r} does not belong into a checkpoint")
+        raise ValueError(f"a checkpoint may not contain an array of data type {dtype!r}")
     lines = np.frombuffer(content, dtype).reshape(shape).copy()
     return lines.T if by_columns else lines
 
@@ -117,7 +117,7 @@ def scalar(dtype: str, content: bytes) -> Any:
 
 
 class _Reader(pickle.Unpickler):
-    """Looks up nothing but values of the solvers."""
+    """Unpickler that resolves only frozen classes of the solvers."""
 
     def find_class(self, module: str, name: str) -> Any:
         if module == __name__ and name in ("array", "scalar"):
@@ -128,7 +128,7 @@ class _Reader(pickle.Unpickler):
             found = getattr(importlib.import_module(module), name, None)
             if getattr(found, "__module__", None) == module and _is_value(found):
                 return found
-        raise pickle.UnpicklingError(f"{module}.{name} does not belong into a checkpoint")
+        raise pickle.UnpicklingError(f"a checkpoint may not contain {module}.{name}")
 
 
 def _is_value(found: Any) -> bool:

@@ -1,4 +1,4 @@
-"""Which code computes a number: equal digests mean equal sources and equal numerical libraries."""
+"""Digest of the source code and of the numerical libraries, for cache keys and identities."""
 
 from __future__ import annotations
 
@@ -17,8 +17,10 @@ LIBRARIES = ("numpy", "scipy", "scikit-fem", "pydantic")
 
 @cache
 def code_digest(packages: tuple[str, ...] = PACKAGES) -> bytes:
-    """Of the sources of these packages as they are now, the references that cases are judged by,
-    and the libraries. Recorded baselines judge no case and do not count."""
+    """Compute the digest of the sources of packages, their references, and the libraries.
+
+    Baselines are excluded, because they do not change a verdict.
+    """
     digest = hashlib.sha256(platform.python_version().encode())
     for library in LIBRARIES:
         digest.update(f"{library} {version_of(library)}\n".encode())
@@ -35,5 +37,5 @@ def code_digest(packages: tuple[str, ...] = PACKAGES) -> bytes:
 
 
 def solve_identity(*asked: object) -> str:
-    """Digest of what a solver is asked for, by what it says of itself, and of the solvers."""
+    """Compute the digest of the input of a solve, by its `repr`, and of the solvers' sources."""
     return hashlib.sha256(repr(asked).encode() + code_digest(SOLVERS)).hexdigest()

@@ -1,4 +1,4 @@
-"""The files a run may leave in its directory; nothing else there is ever touched."""
+"""Names of the files of a run; other files in its directory are never changed."""
 
 SUMMARY = "summary.json"
 TIMING = "timing.json"
@@ -7,7 +7,7 @@ PROFILES = "profiles.csv"
 INCREMENTS = "increments.csv"
 CYCLES = "cycles.csv"
 COLUMNS = "columns.csv"
-STRESS = "stress.json"  # of `slipstick stress`, which has a directory of its own
+STRESS = "stress.json"  # summary of `slipstick stress`, in a directory of its own
 
 PAGE = "index.html"
 OVERVIEW_FIGURE = "overview.png"

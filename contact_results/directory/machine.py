@@ -1,4 +1,4 @@
-"""Which program, on which machine: facts that must not enter the summary."""
+"""Versions of the program and its libraries, and the machine, for `timing.json`."""
 
 import os
 import platform
@@ -8,17 +8,17 @@ LIBRARIES = ("numpy", "scipy", "scikit-fem", "gmsh", "meshio", "h5py", "matplotl
 
 
 def program_version() -> str:
-    """The installed version, or what says that there is none."""
+    """Return the installed version of slipstick, or "(not installed)"."""
     return version_of("slipstick") or "(not installed)"
 
 
 def library_versions() -> dict[str, str | None]:
-    """Versions of the libraries that numbers or files may depend on."""
+    """Return the versions of the libraries that affect numbers or files."""
     return {name: version_of(name) for name in LIBRARIES}
 
 
 def machine() -> dict[str, str | int | None]:
-    """The machine as far as it explains a time."""
+    """Return the properties of the machine that affect the run time."""
     return {
         "system": platform.platform(),
         "processor": _processor_name(),
@@ -30,8 +30,7 @@ def machine() -> dict[str, str | int | None]:
 
 
 def arithmetic() -> str:
-    """What decides last digits, whatever a processor is called: the core that linear algebra is
-    compiled for, and the vector instructions of elementary functions."""
+    """Return the BLAS kernels and the vector instructions in use, which affect round-off."""
     import numpy as np
     from threadpoolctl import threadpool_info
 
@@ -43,7 +42,7 @@ def arithmetic() -> str:
 
 
 def version_of(distribution: str) -> str | None:
-    """The installed version of a distribution; None where it is not installed."""
+    """Return the installed version of a distribution, or None."""
     try:
         return version(distribution)
     except PackageNotFoundError:

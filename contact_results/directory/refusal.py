@@ -1,9 +1,9 @@
-"""What a command will not read, write or replace."""
+"""Errors of files that a command refuses to read, write or replace."""
 
 
 class Refused(Exception):
-    """Files are not what the command may take or make; the message names them."""
+    """A file cannot be used by the command; the message has its name and the reason."""
 
 
 class OutputRefused(Refused):
-    """The directory cannot be written, is in use, or holds what is not ours to replace."""
+    """The directory cannot be written, is in use, or contains files of other programs."""

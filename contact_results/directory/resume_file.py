@@ -1,4 +1,4 @@
-"""A value that a run keeps beside its results while it lasts: a killed run takes it up again."""
+"""File with the state of an unfinished command, to resume it after it was killed."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ from contact_scene.solver_errors import SolverError
 
 @dataclass(frozen=True)
 class KeptValue:
-    """A file for one value.
+    """File for one value.
 
-    identity  digest of all that decides the value
-    say       told what a person should know
+    identity  digest of the input and the code that determine the value
+    say       called with messages for the user
     """
 
     path: Path
@@ -29,7 +29,7 @@ class KeptValue:
     say: Callable[[str], None]
 
     def last(self) -> Any:
-        """What an earlier process has kept of the same; None if nothing."""
+        """Return the value that an earlier process stored, or None."""
         if not self.path.exists():
             return None
         try:
@@ -39,15 +39,15 @@ class KeptValue:
             return None
 
     def keep(self, value: Any) -> None:
-        """In the place of what was kept before; a disk that is full costs only that."""
+        """Replace the stored value; report a failed write and continue."""
         try:
             with atomic_file(self.path) as temporary:
                 pack(value, self.identity, temporary)
         except (OSError, OutputRefused) as error:
-            self.say(f"{self.path} could not be written: {error}")
+            self.say(f"cannot write {self.path}: {error}")
 
     def how_to_go_on(self) -> str:
-        """What a process that is stopped now leaves to the next one; empty if nothing."""
+        """Return a message on the stored value for a stopped process; empty if there is none."""
         return f"the same command goes on from {self.path}" if self.path.exists() else ""
 
 
@@ -55,10 +55,10 @@ class KeptValue:
 def kept_value(
     target: Path, identity: str, say: Callable[[str], None], name: str
 ) -> Iterator[KeptValue]:
-    """A value beside the results in `target`; gone when the block is done.
+    """Provide a file for one value next to `target`; remove it at the end of the block.
 
-    It stays where the process is killed, or where the results cannot be written. A solver that
-    gives up would give up again, so then it goes as well.
+    The file remains if the process is killed or the block fails. After a SolverError it is removed,
+    because a resumed command would fail again.
     """
     target = Path(os.path.realpath(target))
     kept = KeptValue(target.parent / f".{target.name}.{name}", identity, say)

@@ -1,9 +1,9 @@
-"""A run's directory appears whole or not at all, whatever happens while it is being made.
+"""Atomic publication of the directory of a run.
 
-Everything is first written into a hidden directory on the same file system. A directory that does
-not exist yet then appears by one rename. In one that exists, the old `summary.json` goes first,
-the files are replaced one by one, and the new `summary.json` comes last: a directory that has a
-summary is complete. Only the names of `file_names.RUN_FILES` are ever replaced or removed.
+All files are first written into a hidden directory on the same file system. A new directory then
+appears by one rename. In an existing directory, the old `summary.json` is removed first, the files
+are replaced one by one, and the new `summary.json` comes last: a directory with a summary is
+complete. Only files with the names of `file_names.RUN_FILES` are replaced or removed.
 """
 
 import json
@@ -26,14 +26,15 @@ PAUSES = (0.1, 0.4, 1.6)  # seconds between attempts to replace a file
 
 @contextmanager
 def run_directory(target: Path, *, overwrite: bool = False) -> Iterator[Path]:
-    """Give an empty directory to write into; make it `target` when the block ends without error.
+    """Yield an empty directory; publish it as `target` if the block succeeds.
 
-    target     where the results shall be; missing parents are created
-    overwrite  also replace files of our names that no earlier run of ours has written
-    raises     OutputRefused before the block is entered, so that no work is lost
+    target     directory of the results; missing parents are created
+    overwrite  also replace files of the same names that no run of slipstick has written
+
+    Raises OutputRefused before the block is entered.
     """
     target = Path(os.path.realpath(target))
-    _refuse_what_is_in_the_way(target, overwrite)
+    _refuse_occupied(target, overwrite)
     created = create_parents(target)
 
     def remove_created() -> None:
@@ -54,12 +55,14 @@ def run_directory(target: Path, *, overwrite: bool = False) -> Iterator[Path]:
 
 @contextmanager
 def files_at_once(target: Path, summary: str, earlier: Sequence[str]) -> Iterator[Path]:
-    """Give an empty directory to write into; when the block ends without error its files go into
-    `target` over those of their names, which stay as they were if it does not.
+    """Yield an empty directory; move its files into `target` if the block succeeds.
 
-    summary  the first of the old ones to go, the last of the new ones to come
-    earlier  what goes even where nothing new has its name
-    raises   OutputRefused before the block is entered
+    Existing files of the same names are replaced. If the block fails, they remain.
+
+    summary  name of the file that is removed first and written last
+    earlier  names of further files to remove
+
+    Raises OutputRefused before the block is entered.
     """
     target = Path(os.path.realpath(target))
     refuse_files_above(target)
@@ -75,7 +78,7 @@ def files_at_once(target: Path, summary: str, earlier: Sequence[str]) -> Iterato
 
 @contextmanager
 def _staging(target: Path) -> Iterator[Path]:
-    """A hidden directory to write into, gone at the end."""
+    """Provide a hidden directory; remove it at the end of the block."""
     staging, lock = _create_staging(target)
 
     def clean() -> None:
@@ -93,7 +96,7 @@ def _staging(target: Path) -> Iterator[Path]:
 
 
 def _name_file(error: OSError, staging: Path, target: Path) -> None:
-    """Let the error of a write name the file: the system does not when a disk is full."""
+    """Add the name of the file to a write error; the system omits it if the disk is full."""
     if error.filename is None:
         written = [
             (path.stat().st_mtime_ns, path.stat().st_size, path) for path in staging.iterdir()
@@ -107,13 +110,13 @@ def _name_file(error: OSError, staging: Path, target: Path) -> None:
 
 
 def refuse_files_above(target: Path) -> None:
-    """Raise OutputRefused for what is no directory there, or above."""
+    """Raise OutputRefused if the target or a parent of it is not a directory."""
     for place in (target, *target.parents):
         if place.exists() and not place.is_dir():
             raise OutputRefused(f"{place} is a file; --output needs a directory")
 
 
-def _refuse_what_is_in_the_way(target: Path, overwrite: bool) -> None:
+def _refuse_occupied(target: Path, overwrite: bool) -> None:
     refuse_files_above(target)
     if not target.is_dir():
         return
@@ -121,7 +124,9 @@ def _refuse_what_is_in_the_way(target: Path, overwrite: bool) -> None:
     for name in RUN_FILES:
         path = target / name
         if path.is_dir():
-            raise OutputRefused(f"{path} is a directory where a result file should go; move it")
+            raise OutputRefused(
+                f"{path} is a directory, expected a result file or nothing; move it"
+            )
         if os.path.lexists(path) and not (ours or overwrite):
             raise OutputRefused(
                 f"{path} exists, but {target} is not the result of an earlier run; "
@@ -138,10 +143,10 @@ def _is_earlier_run(directory: Path) -> bool:
 
 
 def _create_staging(target: Path) -> tuple[Path, int | None]:
-    """Create and lock the hidden directory, and clear away those of runs that were killed.
+    """Create and lock a hidden directory; remove the unlocked ones of killed runs.
 
-    An existing target that is not empty hosts it: it may be a mount point of its own, or the only
-    place that may be written. The lock tells a killed run's leftovers from a run that goes on.
+    It is created inside a target that exists and is not empty, because the target may be a mount
+    point or the only writable directory; otherwise next to the target.
     """
     prefix = f".{target.name}.partial-"
     for place in (target.parent, target):
@@ -155,7 +160,7 @@ def _create_staging(target: Path) -> tuple[Path, int | None]:
         except OSError as error:
             raise OutputRefused(f"cannot write into {place}: {error.strerror}") from error
         lock = acquire(staging, wait=True)
-        if staging.exists():  # another run may have taken it for abandoned before it was locked
+        if staging.exists():  # another run may have removed it before it was locked
             return staging, lock
         release(lock)
 
@@ -182,14 +187,14 @@ def _publish(staging: Path, target: Path, summary: str, earlier: Sequence[str]) 
             _flush(target.parent)
             return
         except OSError:
-            # Another run into the same directory was faster, or it is a mount point, or Windows.
+            # Another run created the target, the target is a mount point, or the system is Windows.
             if not target.is_dir():
                 raise
     _replace_files(staging, target, summary, earlier)
 
 
 def _replace_files(staging: Path, target: Path, summary: str, earlier: Sequence[str]) -> None:
-    """Replace earlier files, with the new summary as the sign of completeness."""
+    """Replace earlier files; the summary is removed first and written last."""
     new = {path.name for path in staging.iterdir()}
     ours = summary != SUMMARY or _is_earlier_run(target)
     lock = acquire(target, wait=True)
@@ -206,8 +211,7 @@ def _replace_files(staging: Path, target: Path, summary: str, earlier: Sequence[
 
 
 def _replace(new: Path, old: Path) -> None:
-    """Put a file into the place of another. Windows lets nobody who has that one open lose it: a
-    scanner lets go soon, a spreadsheet does not."""
+    """Replace a file, with retries: Windows refuses while another program has the file open."""
     for pause in (*PAUSES, None):
         try:
             os.replace(new, old)
@@ -223,7 +227,7 @@ def _replace(new: Path, old: Path) -> None:
 
 def _flush(path: Path) -> None:
     if os.name == "nt" and path.is_dir():
-        return  # which cannot be opened there, nor a file be flushed that is open for reading alone
+        return  # Windows cannot open a directory
     descriptor = os.open(path, os.O_RDONLY if path.is_dir() else os.O_RDWR)
     try:
         os.fsync(descriptor)

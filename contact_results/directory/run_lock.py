@@ -1,7 +1,7 @@
-"""One process at a time makes the results of a directory; another one is told which it is.
+"""Lock of a directory of results for one process.
 
-A hidden file is locked and names the process. The system drops the lock when the process ends,
-however it ends: the file that a killed one leaves is taken over by the next.
+A hidden file is locked and contains the name of the process. The system releases the lock at the
+end of the process; the file of a killed process is reused by the next one.
 """
 
 import os
@@ -13,15 +13,18 @@ from pathlib import Path
 from contact_results.directory.refusal import OutputRefused
 from contact_results.directory.stop_signals import cleaned_up_when_stopped
 
-# Where a system has none of these, as Windows, it has no locks either.
+# Systems without these flags, such as Windows, have no locks.
 DIRECTORY, NO_LINK, NO_WAITING = (
     getattr(os, flag, 0) for flag in ("O_DIRECTORY", "O_NOFOLLOW", "O_NONBLOCK")
 )
 
 
 def lock(descriptor: int, *, wait: bool) -> None:
-    """Lock an open file; raises BlockingIOError if it shall not wait for another holder, and
-    OSError where the system or the file system knows no locks."""
+    """Lock an open file.
+
+    Raises BlockingIOError if another process has the lock and `wait` is False, and OSError if the
+    system or the file system has no locks.
+    """
     try:
         from fcntl import LOCK_EX, LOCK_NB, flock
     except ImportError as error:
@@ -30,11 +33,12 @@ def lock(descriptor: int, *, wait: bool) -> None:
 
 
 def acquire(directory: Path, *, wait: bool) -> int | None:
-    """Lock the directory and return the descriptor that holds the lock.
+    """Lock a directory and return the descriptor of the lock.
 
-    wait     wait for another holder; otherwise give up at once
-    returns  None if somebody else holds it, where there are no locks, or for a link: whoever may
-             write beside it could have put it there
+    Returns None if another process has the lock, if the system has no locks, or if the directory is
+    a symbolic link, which another user may have created.
+
+    wait  wait until another process releases the lock
     """
     try:
         descriptor = os.open(directory, os.O_RDONLY | DIRECTORY | NO_LINK)
@@ -49,7 +53,7 @@ def acquire(directory: Path, *, wait: bool) -> int | None:
 
 
 def release(descriptor: int | None) -> None:
-    """Drop the lock; None is no lock."""
+    """Release a lock; do nothing for None."""
     if descriptor is not None:
         os.close(descriptor)
 
@@ -59,23 +63,24 @@ LONGEST_NAME = 300
 
 @contextmanager
 def in_sole_use(target: Path) -> Iterator[None]:
-    """Keep others out of a directory of results.
+    """Lock a directory of results for the duration of the block.
 
-    target  may not be there yet; its parent is
+    The lock file is in `target`, or next to it while `target` does not exist. Without locks in the
+    system, other processes are not excluded.
 
-    The lock is in `target`, which may be a mount point of its own or the only place that may be
-    written, or beside it while it is not there. Raises OutputRefused if another process holds it.
-    Where nothing can be locked, nobody is kept out.
+    target  directory of the results; its parent exists
+
+    Raises OutputRefused if another process has the lock.
     """
     target = Path(os.path.realpath(target))
     places = [target.parent, target]
     home, other = reversed(places) if target.is_dir() else places
     name = f".{target.name}.in-use"
-    with ExitStack() as held:
-        held.enter_context(_locked(home / name, target))
-        # Only now: of two that begin at once, each at its own place, one at least sees the other.
+    with ExitStack() as locks:
+        locks.enter_context(_locked(home / name, target))
+        # The order matters: of two processes that start at once, at least one finds the other.
         if os.path.lexists(other / name):
-            held.enter_context(_locked(other / name, target))
+            locks.enter_context(_locked(other / name, target))
         yield
 
 
@@ -84,8 +89,8 @@ def _locked(path: Path, target: Path) -> Iterator[None]:
     descriptor = _lock(path, target)
 
     def remove() -> None:
-        if descriptor is not None:  # before it is unlocked: later it may be somebody else's
-            with suppress(OSError):  # without a lock the file keeps nobody out
+        if descriptor is not None:  # before the release: afterwards another process may own it
+            with suppress(OSError):  # an unlocked file excludes no process
                 path.unlink()
 
     try:
@@ -98,7 +103,7 @@ def _locked(path: Path, target: Path) -> Iterator[None]:
 
 
 def _lock(path: Path, target: Path) -> int | None:
-    """The descriptor that holds the lock; None where there can be none."""
+    """Lock a file and return its descriptor; None if the system has no locks."""
     while True:
         descriptor = _opened(path)
         if descriptor is None:
@@ -112,7 +117,7 @@ def _lock(path: Path, target: Path) -> int | None:
                 f"{target} is in use by {holder or 'another process'}; wait for its end, or choose "
                 "another directory with --output"
             ) from None
-        except OSError:  # there are no locks
+        except OSError:  # the system has no locks
             os.close(descriptor)
             with suppress(OSError):
                 path.unlink()
@@ -122,12 +127,11 @@ def _lock(path: Path, target: Path) -> int | None:
                 os.ftruncate(descriptor, 0)
                 os.pwrite(descriptor, _this_process().encode(), 0)
             return descriptor
-        os.close(descriptor)  # its holder has just removed it
+        os.close(descriptor)  # another process has just removed the file
 
 
 def _opened(path: Path) -> int | None:
-    """The file, made if need be; for reading alone where it is another user's. None without one:
-    of a directory that cannot be written others speak."""
+    """Open or create the file; read-only if it belongs to another user. None if that fails."""
     for access in (os.O_RDWR | os.O_CREAT, os.O_RDONLY | NO_WAITING):
         with suppress(OSError):
             return os.open(path, access | NO_LINK, 0o666)
@@ -139,7 +143,7 @@ def _this_process() -> str:
 
 
 def _is_at(descriptor: int, path: Path) -> bool:
-    """Whether the file is still the one of that name."""
+    """Return True if the path still refers to the open file."""
     try:
         there = os.stat(path)
     except FileNotFoundError:

@@ -1,4 +1,4 @@
-"""Signals that end a process: it cleans up first, and not while files are moved into place."""
+"""Handlers of signals that end a process: clean up first, and defer during file moves."""
 
 import os
 import signal
@@ -15,7 +15,7 @@ STOPS = tuple(
     getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)
 )
 STDERR = 2
-NOTHING_KEPT = "nothing is kept yet: the same command begins anew"
+NOTHING_KEPT = "nothing is stored yet: the same command starts from the beginning"
 SHOW_CURSOR = b"\x1b[?25h"  # a progress bar hides it
 
 _begun: list[tuple[Callable[[], None], Callable[[], str]]] = []  # blocks, outermost first
@@ -25,13 +25,13 @@ _begun: list[tuple[Callable[[], None], Callable[[], str]]] = []  # blocks, outer
 def cleaned_up_when_stopped(
     clean: Callable[[], None] = lambda: None, kept: Callable[[], str] = lambda: ""
 ) -> Iterator[None]:
-    """End the process with 128 + number on a signal, but clean up before and say how to go on.
+    """On a stop signal, clean up, print how to resume, and exit with 128 + signal number.
 
-    clean  called before the process ends; of blocks within each other the inner one's first
-    kept   what is kept of the work and how to go on, if the block knows; one line on stderr
+    The handler exits the process, because an exception raised in it could be suppressed by Python
+    or a library, for example in a callback of the garbage collector.
 
-    The handler leaves by itself: an exception raised from it would be lost wherever Python or a
-    library swallows exceptions, as in the callbacks of the garbage collector.
+    clean  called before the exit; inner blocks first
+    kept   returns one line on the stored work and how to resume, or an empty text
     """
     block = (clean, kept)
     _begun.append(block)
@@ -43,24 +43,24 @@ def cleaned_up_when_stopped(
 
 
 def _leave(number: int, frame: FrameType | None) -> None:
-    told = ""
+    hint = ""
     for clean, kept in reversed(_begun):
         with suppress(Exception):  # the process ends in any case
             clean()
         with suppress(Exception):
-            told = told or kept()
-    line = f"interrupted{'; ' if told else ''}{told}\n".encode()
-    with suppress(OSError):  # past sys.stderr, which a progress bar may have replaced
+            hint = hint or kept()
+    line = f"interrupted{'; ' if hint else ''}{hint}\n".encode()
+    with suppress(OSError):  # not sys.stderr, which a progress bar may have replaced
         os.write(STDERR, (SHOW_CURSOR + b"\n" if os.isatty(STDERR) else b"") + line)
     os._exit(128 + number)
 
 
 @contextmanager
 def stop_signals_held() -> Iterator[None]:
-    """Let signals take effect only when the block is done.
+    """Defer stop signals to the end of the block.
 
-    A handler that takes notes, not a signal mask: a mask holds for one thread, and the threads of
-    a numerical library would receive the signal instead.
+    A handler records the signals. A signal mask would apply to one thread only, and threads of a
+    numerical library would receive the signal instead.
     """
     received: list[int] = []
     try:
@@ -73,7 +73,7 @@ def stop_signals_held() -> Iterator[None]:
 
 @contextmanager
 def _handled_by(handler: Handler) -> Iterator[None]:
-    """Replace the handlers, except where the parent told us to ignore the signal (nohup, `&`)."""
+    """Replace the handlers, except those of ignored signals (nohup, `&`)."""
     before: dict[int, Any] = {}
     if threading.current_thread() is threading.main_thread():  # others must not change handlers
         before = {number: signal.getsignal(number) for number in STOPS}

@@ -38,7 +38,7 @@ class Stopwatch:
 def write_timing(
     stopwatch: Stopwatch, directory: Path, increments: Iterable[ReportedIncrement]
 ) -> None:
-    """Write what the stopwatch measured, where, and the counters of the solver by load step."""
+    """Write times, machine, versions, and the counters of the solver by load step."""
     record = {
         "program": "slipstick",
         "version": program_version(),
@@ -53,7 +53,7 @@ def write_timing(
 
 
 def _counters(increments: Iterable[ReportedIncrement]) -> list[dict[str, int | None]]:
-    """Sum the counters over the increments of each load step; null where a solver has none."""
+    """Sum the counters over the increments of each load step; None if the solver has none."""
     steps = []
     for number, of_step in groupby(increments, lambda increment: increment.step):
         within = list(of_step)

@@ -1,1 +1,1 @@
-"""What was written, in the formats of other programs: MATLAB, Excel, ParaView."""
+"""Export of runs to other programs: ParaView."""

@@ -1,4 +1,4 @@
-"""The surface at the end of every loading step for ParaView, and a `.pvd` that makes them one."""
+"""Export of the surface at the end of every load step to ParaView, with a `.pvd` collection."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ NAMES = (*SCALARS, *VECTORS, *(f"{stem}_{part}" for stem in VECTORS for part in 
 
 
 def write_paraview(run: StoredRun, directory: Path) -> None:
-    """Write `surface_step_1.vtu` and so on, and `surface.pvd` with the steps for times."""
+    """Write one file `surface_step_N.vtu` per load step, and `surface.pvd` with N as the time."""
     places = {name: values.array for name, values in run.coordinates.items()}
     surface, steps = surface_on(places, run.direction), run.increments["step"].array
     ends = ends_of_steps(steps)

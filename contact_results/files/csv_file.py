@@ -1,8 +1,7 @@
-"""Tables as CSV: one line of names with units, such as `peak_pressure [Pa]`, then numbers in SI.
+"""CSV tables: a header of names with units, such as `peak_pressure [Pa]`, then numbers in SI.
 
-No line says anything else: pandas, Excel, MATLAB and numpy take the first line for the names, and
-each stumbles in its own way over what comes before it, be it behind a #. Meanings and signs are in
-a second table beside, in which every column has a row.
+There are no comment lines, because pandas, Excel, MATLAB and numpy treat them differently. A second
+table has one row for every column, with its meaning and sign.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ from contact_scene.quantities.field_metadata import CONVENTION, Reported
 class Column:
     """A column of a table.
 
-    unit  in SI, empty if dimensionless; None for words and for numbers that count or name a row
+    unit  SI unit, empty if dimensionless; None for words and for row numbers
     """
 
     name: str
@@ -30,22 +29,21 @@ class Column:
 
     @property
     def header(self) -> str:
-        """The name as the table has it, with its unit."""
+        """Name and unit, as in the first line of the table."""
         return self.name if self.unit is None else f"{self.name} [{self.unit or '1'}]"
 
 
-WITH_UNIT = re.compile(r"(?P<name>.*) \[(?P<unit>[^\[\]]*)\]")  # `Column.header` read again
+WITH_UNIT = re.compile(r"(?P<name>.*) \[(?P<unit>[^\[\]]*)\]")  # inverse of `Column.header`
 STEP = Column("step", None, "Loading step, from 1.")
 
 
-def marked(name: str, mark: Reported, what: str = "") -> Column:
-    """The column of a value that is reported."""
-    return Column(name, mark.unit, what + mark.meaning)
+def marked(name: str, mark: Reported, prefix: str = "") -> Column:
+    """Return the column of a reported value."""
+    return Column(name, mark.unit, prefix + mark.meaning)
 
 
 def write_table(path: Path, columns: Sequence[Column], rows: Iterable[Sequence[object]]) -> None:
-    """Write a table whole or not at all; None is an empty cell. Numbers have as many digits as it
-    takes to read the same number again."""
+    """Write a table atomically. None is an empty cell; numbers are written without loss."""
     with atomic_file(path) as temporary, open(temporary, "w", newline="", encoding="utf-8") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(column.header for column in columns)
@@ -55,7 +53,7 @@ def write_table(path: Path, columns: Sequence[Column], rows: Iterable[Sequence[o
 def write_meanings(
     path: Path, files: Mapping[str, Sequence[Column]], convention: str = CONVENTION
 ) -> None:
-    """Write what the columns of files mean: the convention of all of them, then a row for each."""
+    """Write the table of meanings: the convention, then a row for each column of each file."""
     head = [Column(name, None, "") for name in ("file", "column", "unit", "meaning")]
     rows = [
         (file, column.name, "" if column.unit is None else column.unit or "1", column.meaning)

@@ -19,7 +19,7 @@ from contact_scene.reading.units import (
 
 SHIFT, ACTUATOR = "tangential_shift", "actuator_shift"
 LOAD, PLACE, PRESSURE, SHEAR = "tangential_force", "x", "pressure", "shear"
-# Names of a column in a head, in lower case; our own tables are among those that can be read.
+# Accepted names of a column, in lower case, including those of increments.csv and profiles.csv.
 NAMES: Mapping[str, tuple[Kind, frozenset[str]]] = {
     SHIFT: (
         units.LENGTH,
@@ -34,7 +34,10 @@ NAMES: Mapping[str, tuple[Kind, frozenset[str]]] = {
 
 
 def read_measured(path: Path) -> Mapping[str, NDArray[np.float64]]:
-    """Read the columns of known names in SI; others are ignored. Raises ValueError."""
+    """Read the columns with known names and convert them to SI; other columns are ignored.
+
+    Raises ValueError for an unknown unit, and for values that are not finite numbers.
+    """
     (heads, *rows), found = read_cells(path), {}
     for position, head in enumerate(heads):
         split = WITH_UNIT.fullmatch(head.strip())
@@ -52,7 +55,7 @@ def read_measured(path: Path) -> Mapping[str, NDArray[np.float64]]:
                 f"'{name} [{kind.si}]'"
             ) from None
         except ValueError as error:
-            raise ValueError(f"{path}: column {head!r}: {error}; write numbers alone") from None
+            raise ValueError(f"{path}: column {head!r}: {error}; write numbers only") from None
         if not np.all(np.isfinite(found[mine])):
             raise ValueError(f"{path}: column {head!r} has values that are not finite; remove them")
     return found

@@ -1,8 +1,8 @@
-"""Fields on a mesh as VTU files for ParaView; the one module that knows the format and meshio.
+"""VTU files of fields on a mesh, for ParaView, by meshio.
 
-An array has its unit in its name, `stress [Pa]`. Vectors have three components and tensors nine,
-the rows of the matrix xx, xy, xz, yx, ... one after the other: about the order of six, VTK and
-Voigt's notation disagree.
+The name of an array contains its unit, `stress [Pa]`. Vectors have three components. Tensors have
+nine, the rows of the matrix xx, xy, xz, yx, ..., because VTK and Voigt order six components
+differently.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ class Mesh:
     """Fields at points or on cells.
 
     points    x, y and z into the body (n, 3) [length]
-    cells     kind and corners (m, corners)
-    at_points arrays (n,) or (n, components) by name with unit
-    on_cells  the same of cells (m, ...)
+    cells     cell type of meshio, and point numbers of the corners (m, corners)
+    at_points point arrays (n,) or (n, components) by name with unit
+    on_cells  cell arrays (m,) or (m, components) by name with unit
     """
 
     points: Values
@@ -42,13 +42,15 @@ class Mesh:
 
 
 def tensor(voigt: Values) -> Values:
-    """(n, 9) of a symmetric tensor (6, n)."""
+    """Convert symmetric tensors (6, n) in Voigt order to rows of the full tensor (n, 9)."""
     return np.asarray(voigt[list(VOIGT)].T)
 
 
 def write_mesh(mesh: Mesh, path: Path, convention: str) -> None:
-    """Write a mesh with the convention of its axes and signs; what is infinite becomes NaN, which
-    ParaView leaves out of its scale."""
+    """Write a mesh with the convention of its axes and signs.
+
+    Infinite values become NaN, which ParaView excludes from its colour scale.
+    """
     whole = meshio.Mesh(
         mesh.points,
         [mesh.cells],
@@ -57,16 +59,16 @@ def write_mesh(mesh: Mesh, path: Path, convention: str) -> None:
     )
     with atomic_file(path) as temporary:
         whole.write(temporary, file_format="vtu", binary=True, compression="zlib")
-        told = HEAD + f"\n<!-- {convention} -->".encode("ascii")
-        temporary.write_bytes(temporary.read_bytes().replace(HEAD, told, 1))
+        comment = HEAD + f"\n<!-- {convention} -->".encode("ascii")
+        temporary.write_bytes(temporary.read_bytes().replace(HEAD, comment, 1))
 
 
 def read_mesh(path: Path) -> Mesh:
-    """The mesh of a file of ours; raises ValueError for any other."""
+    """Read a mesh written by `write_mesh`; raise ValueError for other files."""
     try:
         if path.exists() and not path.is_file():
-            raise OSError("it is not a regular file")
-        found = meshio.vtu.read(path)  # `meshio.read` would leave the process
+            raise OSError("not a regular file")
+        found = meshio.vtu.read(path)  # `meshio.read` would exit the process
         (block,) = found.cells
     except (meshio.ReadError, OSError, ValueError, KeyError, SyntaxError, AssertionError) as error:
         raise ValueError(f"{path} is not a mesh that slipstick has written: {error}") from None

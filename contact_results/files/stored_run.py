@@ -1,4 +1,4 @@
-"""A run read back from its directory: summary, scene, and arrays with their units and meaning."""
+"""Reader of the directory of a run: summary, scene, and arrays with units and meanings."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ from contact_scene.reading.scene_error import SceneError
 
 
 class StoredGroup(Mapping[str, StoredValues]):
-    """Arrays of a file by name; each is read when it is asked for."""
+    """Arrays of a group of an HDF5 file by name, read on access."""
 
     def __init__(self, path: Path, group: str) -> None:
         self._path, self._group = path, group
@@ -58,13 +58,13 @@ class StoredGroup(Mapping[str, StoredValues]):
             if not (isinstance(unit, str) and isinstance(meaning, str)):
                 raise ValueError(
                     f"{self._path}: {dataset.name} has unit {unit!r} and description {meaning!r}, "
-                    f"expected both in words as in the {FIELDS} of a run"
+                    f"expected two texts as in the {FIELDS} of a run"
                 )
             indices = tuple(dim.label for dim in dataset.dims)
             return StoredValues(values(dataset), unit, meaning, indices if all(indices) else ())
 
     def at(self, name: str, increment: int) -> NDArray[Any]:
-        """The array at one increment, counted from 0, alone; KeyError where it is not kept."""
+        """Read an array at one increment, from 0; raise KeyError if it was not stored."""
         with opened(self._path) as file:
             dataset = file[self._group][name]
             return values(dataset, row_of(dataset, increment))
@@ -78,16 +78,16 @@ class StoredGroup(Mapping[str, StoredValues]):
 
 @dataclass(frozen=True)
 class StoredRun:
-    """What `slipstick run` has written.
+    """Results of a run, as `slipstick run` wrote them.
 
     summary      state at the end of every load step, effects, warnings
-    scene        what was solved
-    coordinates  of the fields: x and y of cells, or radii and angles of rings
-    increments   every field and scalar by increment; fields of a run with an accuracy by step
+    scene        the solved scene
+    coordinates  axes of the fields: x and y of cells, or radii and angles of rings
+    increments   scalars by increment; fields by load step, or by increment with --all-fields
     last_cycle   fields of the last closed load cycle; empty if there is none
-    tables       profiles, increments and, where load cycles close, cycles
-    direction    unit vector from which angles count, that of the tangential load
-    discretisation  of finite elements; None of others
+    tables       profiles, increments and, if a load cycle closes, cycles
+    direction    unit vector of the tangential load, at angle 0
+    discretisation  settings of finite elements; None for other solvers
     """
 
     summary: RunSummary
@@ -106,17 +106,25 @@ class StoredRun:
 
 
 def load(directory: str | PathLike[str]) -> StoredRun:
-    """The run that `slipstick run` or `slipstick.save` has left in a directory.
+    """Read the results of `slipstick run` or `slipstick.save` from a directory.
 
-    Raises FileNotFoundError if there is none, ValueError for files that are no run's or of two
-    runs, and ResourceRefused for arrays that do not fit into memory.
+    Raises
+    ------
+    FileNotFoundError
+        The directory has no run.
+    ValueError
+        A file is damaged, of an earlier version, or of another run.
+    ResourceRefused
+        An array does not fit into memory; raised on access as well.
     """
     summary, fields = Path(directory) / SUMMARY, Path(directory) / FIELDS
     for path in (summary, fields):
         if not path.is_file():
             stress = (Path(directory) / STRESS).is_file()
-            instead = "; it is a stress, which load_stress reads" if stress else ""
-            raise FileNotFoundError(f"{directory} is no run: it has no {path.name}{instead}")
+            instead = "; it is the output of a stress, which load_stress reads" if stress else ""
+            raise FileNotFoundError(
+                f"{directory} is not the output of a run: it has no {path.name}{instead}"
+            )
     try:
         record = load_summary(summary.read_text(encoding="utf-8"))
     except ValueError as error:

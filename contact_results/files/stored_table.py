@@ -1,4 +1,4 @@
-"""Tables read back: arrays by the names of columns, with units and meanings."""
+"""Reader of CSV tables: arrays by column name, with units and meanings."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from contact_results.files.csv_file import WITH_UNIT
 
 @dataclass(frozen=True, eq=False)
 class StoredValues:
-    """An array as it is stored.
+    """Array of a file.
 
-    unit     in SI; empty if dimensionless, and of words
-    indices  what each index counts: increment, component, or a name of the coordinates; of a table
-             row. Empty where the file, of an earlier version, does not say
+    unit     SI unit; empty if dimensionless, and for words
+    indices  label of each index: increment, step, component, row, or the name of a coordinate;
+             empty if the file has no labels
     """
 
     array: NDArray[Any]
@@ -33,8 +33,7 @@ StoredTable = Mapping[str, StoredValues]
 
 
 class StoredTables(Mapping[str, StoredTable]):
-    """Those of the tables of a directory that are there, by the names of their files without
-    ending; each is read when it is asked for."""
+    """Existing tables of a directory by file name without suffix, read on access."""
 
     def __init__(self, directory: Path, names: Sequence[str], meanings: str) -> None:
         self._paths = {
@@ -56,9 +55,9 @@ class StoredTables(Mapping[str, StoredTable]):
 
 
 def read_table(path: Path, meanings: Mapping[str, str]) -> StoredTable:
-    """The columns of a table: whole numbers, numbers with NaN for what is empty, or words.
+    """Read the columns of a table: integers, numbers with NaN for empty cells, or words.
 
-    Raises ValueError for what is no table of ours, or one of a version that named no units.
+    Raises ValueError if the file is no table of slipstick or has a column without meaning.
     """
     header, *rows = read_cells(path)
     columns = list(zip(*rows, strict=True)) or [()] * len(header)
@@ -68,8 +67,8 @@ def read_table(path: Path, meanings: Mapping[str, str]) -> StoredTable:
         name, unit = (heading, "") if split is None else (split["name"], split["unit"])
         if name not in meanings:
             raise ValueError(
-                f"{path}: column {heading!r} is not among those that the table of columns beside "
-                "it explains; the files are of different or earlier versions, write them again"
+                f"{path}: column {heading!r} has no entry in the table of columns: the files are "
+                "of different or earlier versions; write them again"
             )
         try:
             array = _numbers(cells) if split else _labels(cells)
@@ -80,10 +79,10 @@ def read_table(path: Path, meanings: Mapping[str, str]) -> StoredTable:
 
 
 def read_meanings(path: Path, file: str) -> Mapping[str, str]:
-    """What the columns of one file mean, by name; raises ValueError where nothing says so."""
+    """Read the meanings of the columns of one file; raise ValueError if they are missing."""
     if not path.is_file():
         raise ValueError(
-            f"{path} is missing, which says what the columns of {file} are: the files are of an "
+            f"{path} with the meanings of the columns of {file} is missing: the files are of an "
             "earlier version; write them again"
         )
     _, *rows = read_cells(path)
@@ -91,14 +90,14 @@ def read_meanings(path: Path, file: str) -> Mapping[str, str]:
 
 
 def read_cells(path: Path) -> list[list[str]]:
-    """Read the texts of a table, the line of names first; raises ValueError for what is none."""
+    """Read the cells of a table as texts, header first; raise ValueError for other files."""
     try:
         with open(path, newline="", encoding="utf-8") as file:
             rows = list(csv.reader(file, strict=True))
     except (UnicodeDecodeError, csv.Error) as error:
-        raise ValueError(f"{path} is no table: {error}") from None
+        raise ValueError(f"{path} is not a table: {error}") from None
     if not rows:
-        raise ValueError(f"{path} is empty; a line of names is expected")
+        raise ValueError(f"{path} is empty; expected a line of column names")
     for number, row in enumerate(rows, 1):
         if len(row) != len(rows[0]):
             raise ValueError(

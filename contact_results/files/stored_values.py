@@ -1,8 +1,8 @@
-"""Values in an HDF5 file, read only if the file can really hold what it claims.
+"""Safe reader of values in an HDF5 file.
 
-A dataset of any size can be claimed in a few bytes: what was never written, or zeros that are
-packed, cost nothing on the disk and everything in memory. A file is refused as soon as its claims
-are known, or if it refers to another file: all values of a run are in its own.
+A file of a few bytes can declare a dataset of any size, as unwritten or compressed zeros take no
+space on disk. A dataset is refused before it is read if its declared size does not fit the size of
+the file. Links and references to other files are refused as well.
 """
 
 from __future__ import annotations
@@ -22,16 +22,16 @@ from numpy.typing import NDArray
 from contact_scene.machine.free_memory import available_bytes
 from contact_scene.solver_errors import ResourceRefused
 
-# Claimed bytes per byte of the file. Deflate packs at most 1032 to 1, and of two fields at an
-# increment, one of them with two components, the larger may have nothing to store.
+# Largest ratio of declared bytes to bytes of the file. Deflate compresses at most 1032:1; the
+# factor 4 admits fields that are partly empty.
 LARGEST_RATIO = 4096
-MAX_CHUNKS = 10_000  # in one reading; our fields have one per increment
-# What h5py raises where something else stands in the place of a value, or what follows from it.
+MAX_CHUNKS = 10_000  # of one read; fields have one chunk per increment
+# Exceptions of h5py, and of code that uses its values, for a file of other content.
 MISREAD = (OSError, KeyError, ValueError, TypeError, AttributeError, IndexError, RuntimeError)
-MAX_DEPTH = 4  # of groups within groups; a run has one
+MAX_DEPTH = 4  # of nested groups; a run has one level
 
 MAPS = "maps"  # group of the arrays that the scene reads from files
-# Name of the first index of fields at the ends of loading steps.
+# Label of the first index of fields at the ends of load steps.
 STEP = "step"
 
 
@@ -44,8 +44,10 @@ class FieldsAtEndsOnly(KeyError):
 
 @contextmanager
 def opened(path: Path) -> Iterator[h5py.File]:
-    """Open an HDF5 file for reading; raises ValueError where h5py cannot read it, for links and for
-    values in other files."""
+    """Open an HDF5 file for reading.
+
+    Raises ValueError if h5py cannot read the file, and for links and values in other files.
+    """
     try:
         with h5py.File(path) as file:
             _refuse_foreign(file, MAX_DEPTH)
@@ -59,7 +61,7 @@ def opened(path: Path) -> Iterator[h5py.File]:
 
 
 def _refuse_foreign(group: h5py.Group, depth: int) -> None:
-    """Raise ValueError for a link, or for values in another file, within a group."""
+    """Raise ValueError if a group contains a link or values in another file."""
     for name in group:
         place = f"{group.file.filename} has {name!r} in {group.name}, which"
         if not isinstance(group.get(name, getlink=True), h5py.HardLink):
@@ -80,7 +82,7 @@ def fields_digest(path: Path) -> str:
 
 
 def ends_of_steps(steps: NDArray[Any]) -> NDArray[np.intp]:
-    """The last increment of every step, from the step of every increment."""
+    """Return the index of the last increment of each load step, from the step numbers."""
     return np.flatnonzero(np.diff(steps, append=steps[-1] + 1))
 
 
@@ -101,10 +103,17 @@ def row_of(dataset: h5py.Dataset, increment: int) -> int:
 
 
 def values(dataset: h5py.Dataset, row: int | None = None) -> NDArray[Any]:
-    """All values of a dataset, or those at an index along its first axis.
+    """Read all values of a dataset, or those at one index along its first axis.
 
-    Raises ValueError for more than a file of its size can hold or in more pieces than we write,
-    ResourceRefused for more than the memory that can be had; nothing is read then.
+    Nothing is read if an error is raised.
+
+    Raises
+    ------
+    ValueError
+        The dataset is empty, declares more bytes than a file of this size can contain, or has too
+        many chunks.
+    ResourceRefused
+        The values do not fit into the available memory.
     """
     shape = dataset.shape if row is None else (1, *dataset.shape[1:])
     chunk = dataset.chunks or shape
@@ -115,21 +124,21 @@ def values(dataset: h5py.Dataset, row: int | None = None) -> NDArray[Any]:
         raise ValueError(f"{dataset.name} has {chunks} chunks, at most {MAX_CHUNKS} are read")
     size = dataset.dtype.itemsize * max(math.prod(shape), math.prod(chunk))
     file = Path(dataset.file.filename)
-    held = file.stat().st_size
-    if size > LARGEST_RATIO * held:
+    stored = file.stat().st_size
+    if size > LARGEST_RATIO * stored:
         raise ValueError(
-            f"{dataset.name} claims {size} bytes, more than a file of {held} bytes holds"
+            f"{dataset.name} declares {size} bytes, too many for a file of {stored} bytes"
         )
     if size > (available := available_bytes()):
         raise ResourceRefused(
             f"{dataset.name} of {file} needs {size / 1e9:.1f} GB, and {available / 1e9:.1f} GB "
-            "can be had"
+            "are available"
         )
     read: NDArray[Any] = dataset[()] if row is None else dataset[row]
     return read
 
 
 def text(dataset: h5py.Dataset) -> str:
-    """The text of a dataset; raises what `values` raises."""
+    """Read the text of a dataset; raises the errors of `values`."""
     content: Any = values(dataset)
     return content.decode() if isinstance(content, bytes) else str(content)

@@ -39,7 +39,7 @@ def write_summary(
     errors: StatedErrors | None = None,
     accuracy: AccuracyReached | None = None,
 ) -> None:
-    """Write the summary, with the digest of the fields; equal results give equal bytes."""
+    """Write the summary with the digest of the file of fields; equal results give equal bytes."""
     summary = summary_of(result, cycles, errors, accuracy)
     digest = fields_digest(directory / FIELDS)
     text = dump_summary(summary.model_copy(update={"fields_digest": digest}))
@@ -52,7 +52,7 @@ def summary_of(
     errors: StatedErrors | None = None,
     accuracy: AccuracyReached | None = None,
 ) -> RunSummary:
-    """The record that all solvers share. What a result does not have is null."""
+    """Return the summary of a result of any solver; quantities that it lacks are None."""
     stated = errors.steps if errors else repeat(None)
     closed = {cycle.cycle.end: cycle for cycle in cycles}
     grid = getattr(result, "grid", None)
@@ -81,10 +81,10 @@ def _step_summary(
     cycle: FrettingCycle | None,
     errors: Mapping[str, StatedError] | None,
 ) -> StepSummary:
-    """The increments of a step taken together.
+    """Return the summary of the increments of a load step.
 
-    cycle   the one that the step closes
-    errors  of its numbers
+    cycle   the load cycle that the step closes; None if it closes none
+    errors  stated errors at the end of the step
     """
     end = within[-1]
     residuals: dict[str, Any] = {
@@ -92,7 +92,7 @@ def _step_summary(
     }
     return StepSummary(
         **{
-            name: _together(mark.kind, [getattr(increment, name) for increment in within])
+            name: _aggregate(mark.kind, [getattr(increment, name) for increment in within])
             for name, mark in SCALARS.items()
         },
         **(cycle.numbers if cycle else {}),
@@ -102,7 +102,8 @@ def _step_summary(
     )
 
 
-def _together(kind: Kind, values: Sequence[Any]) -> Any:
+def _aggregate(kind: Kind, values: Sequence[Any]) -> Any:
+    """Return the largest of the values or the last one, depending on the kind."""
     known = [value for value in values if value is not None]
     if kind is Kind.LARGEST:
         return float(np.max(known)) if known else None

@@ -1,4 +1,4 @@
-"""Fields of the surface as VTU files for ParaView."""
+"""VTU files of the fields at the surface, for ParaView."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ SCALARS = {
     "in_stick": Column("in_stick", "", "1 in contact and sticking, else 0."),
     "dissipation": Column("dissipation", "J/m^2", "Energy per area lost to friction since then."),
 }
-AROUND = 48  # places on a ring whose fields are those of the radius
-# Of rings: what vectors are made of, the odd one over the angle last.
+AROUND = 48  # points on a ring if the fields depend on the radius alone
+# Components of vectors on rings; the last one is odd in the angle.
 POLAR = ("radial", "along_load", "circumferential")
 
 Fields = Mapping[str, NDArray[Any] | None]
@@ -36,11 +36,10 @@ Places = NDArray[np.float64]
 def write_surface(
     surface: Surface, fields: Fields, path: Path, convention: str, sense: float = 1.0
 ) -> None:
-    """Write the fields of one state as they are computed: constant on cells, or linear between
-    rings, which make a disc.
+    """Write the fields of one state: constant on cells, or linear between rings of a disc.
 
-    fields  by the names of an increment; those that are not there are left out
-    sense   −1 for tractions and slip of the indenter
+    fields  arrays by the names of an increment; missing ones are left out
+    sense   sign of tractions and slip: −1 for the indenter
     """
     if isinstance(surface, Rings):
         surface, fields = _all_around(surface, fields)
@@ -63,7 +62,7 @@ def write_surface(
 
 
 def columns(fields: Fields) -> tuple[Column, ...]:
-    """What the arrays of such a file are."""
+    """Return the columns of the arrays that `write_surface` writes."""
     there = {name for name, field in fields.items() if field is not None}
     stems = {stem for stem in VECTORS for name in there if name.startswith(stem)}
     return tuple(c for name, c in (VECTORS | SCALARS).items() if name in stems | there)
@@ -75,7 +74,7 @@ def _state(fields: Fields) -> SimpleNamespace:
 
 
 def _rectangles(cells: Surface) -> tuple[Places, tuple[str, NDArray[np.int64]]]:
-    """Corners around the centres, and which of them belong to a cell."""
+    """Return the corners of the cells, and the corner numbers of each cell."""
     x, y = (_between(centres) for centres in cells.axes.values())
     places = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
     index = np.arange(len(places)).reshape(len(x), len(y))
@@ -89,7 +88,7 @@ def _between(centres: Places) -> Places:
 
 
 def _disc(rings: Rings) -> tuple[Places, tuple[str, NDArray[np.int64]]]:
-    """Points on the rings, and what is between two of them."""
+    """Return the points of the rings, and the quadrilaterals between adjacent rings."""
     places = np.moveaxis(rings.positions, 0, -1)
     index = np.arange(places[..., 0].size).reshape(places.shape[:2])
     ahead = np.roll(index, -1, axis=1)
@@ -98,7 +97,7 @@ def _disc(rings: Rings) -> tuple[Places, tuple[str, NDArray[np.int64]]]:
 
 
 def _all_around(rings: Rings, fields: Fields) -> tuple[Rings, Fields]:
-    """The whole circle: the half with its mirror image, or what a function of the radius is."""
+    """Extend rings and fields to the full circle, by reflection or by repetition."""
     if rings.whole:
         return rings, fields
     if rings.angles is None:
@@ -116,5 +115,5 @@ def _mirrored(name: str, field: NDArray[Any] | None) -> NDArray[Any] | None:
 
 
 def _flat(places: Places) -> Places:
-    """At depth zero."""
+    """Append the depth coordinate 0 to the points."""
     return np.column_stack([places, np.zeros(len(places))]) + 0.0

@@ -55,8 +55,10 @@ PROFILE_COLUMNS = (
 
 
 def write_profiles(result: Result, directory: Path) -> None:
-    """Write one row per place, the same columns for every solver; what an increment does not have
-    is empty, and so is what is infinite."""
+    """Write one row per point of the line, with the same columns for every solver.
+
+    Missing and infinite values are empty cells.
+    """
     surface = surface_of(result)
     if isinstance(surface, Rings):
         surface = surface.on_both_sides()
@@ -74,7 +76,7 @@ def _profile_rows(surface: Surface, step: Increment) -> Iterator[tuple[object, .
         field = surface.scalar(step, name)
         parts.append(None if field is None else surface.along(field.astype(np.float64)))
     columns = [_shown(part, len(places)) for part in parts]
-    # Both sides of rings have the axis.
+    # Both rays of a line of rings contain the axis.
     twice = places.size // 2 - 1 if np.count_nonzero(places == 0) == 2 else None
     for number, row in enumerate(zip(*columns, strict=True)):
         if number != twice:
@@ -82,7 +84,7 @@ def _profile_rows(surface: Surface, step: Increment) -> Iterator[tuple[object, .
 
 
 def _shown(values: Any, size: int) -> list[float | None]:
-    """Python's numbers, zeros without a sign; nothing for what is not there or not finite."""
+    """Convert to floats without negative zeros; None for missing and non-finite values."""
     if values is None:
         return [None] * size
     return [v + 0.0 if np.isfinite(v) else None for v in values.tolist()]
@@ -96,7 +98,7 @@ INCREMENT_COLUMNS = (
 
 
 def write_increments(result: Result, directory: Path) -> None:
-    """Write one row per increment; what an increment does not have is empty."""
+    """Write one row per increment; missing values are empty cells."""
     rows = ((i.step, i.index, *numbers(i).values()) for i in result.increments)
     write_table(directory / INCREMENTS, INCREMENT_COLUMNS, rows)
 
@@ -107,7 +109,7 @@ OF_LOOPS = [
     for name in OF_CYCLES
     if name not in ("energy_per_cycle", "slip_amplitude", "ruiz_f1", "ruiz_f2")
 ]
-LARGEST = "Of the surface, where it is largest: "
+LARGEST = "Largest value on the surface: "
 
 
 def _cycle_columns() -> tuple[Column, ...]:
@@ -198,7 +200,7 @@ def _cycle_row(cycle: FrettingCycle, surface: Surface) -> list[int | float | Non
 
 
 def _largest(field: Field | None, surface: Surface) -> tuple[float | None, ...]:
-    """The largest value and its place; no place where the field is zero."""
+    """Return the largest value with x and y; no position if the field is zero."""
     if field is None:
         return None, None, None
     largest = np.unravel_index(int(np.argmax(field)), field.shape)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -155,8 +156,9 @@ def state_of_run(directory: Path, step: int | None) -> LoadedBodies:
     run = _run_of(directory)
     chosen = _existing(step, list(range(1, len(run.summary.steps) + 1)))
     end = _in_contact(run.summary.steps[chosen - 1])
-    last = int(ends_of_steps(run.increments["step"].array)[chosen - 1])
-    return _of_run(run, directory, last, end, end.errors, chosen)
+    with _reading(directory):
+        last = int(ends_of_steps(run.increments["step"].array)[chosen - 1])
+        return _of_run(run, last, end, end.errors, chosen)
 
 
 def states_of_run(directory: Path) -> Iterator[tuple[int, int, LoadedBodies | None]]:
@@ -165,15 +167,25 @@ def states_of_run(directory: Path) -> Iterator[tuple[int, int, LoadedBodies | No
     Raises what `state_of_run` does, and NoSuchState for a run that has no fields of its increments.
     """
     run = _run_of(directory)
-    scalars = {name: run.increments[name].array for name in SCALARS if name in run.increments}
-    places = zip(
-        *(run.increments[name].array.tolist() for name in ("step", "increment")), strict=True
-    )
-    for n, (step, index) in enumerate(places):
-        values = {name: array[n] for name, array in scalars.items()}
-        known = {name: None if np.any(np.isnan(value)) else value for name, value in values.items()}
-        end = SimpleNamespace(**(dict.fromkeys(SCALARS) | known))
-        yield step, index, _of_run(run, directory, n, end, None, step) if end.contact_area else None
+    with _reading(directory):
+        scalars = {name: run.increments[name].array for name in SCALARS if name in run.increments}
+        numbers = [run.increments[name].array.tolist() for name in ("step", "increment")]
+        for n, (step, index) in enumerate(zip(*numbers, strict=True)):
+            values = {name: array[n] for name, array in scalars.items()}
+            known = {k: None if np.any(np.isnan(value)) else value for k, value in values.items()}
+            end = SimpleNamespace(**(dict.fromkeys(SCALARS) | known))
+            yield step, index, _of_run(run, n, end, None, step) if end.contact_area else None
+
+
+@contextmanager
+def _reading(directory: Path) -> Iterator[None]:
+    """Raise NoSuchState for the errors of reading the fields of a run."""
+    try:
+        yield
+    except FieldsAtEndsOnly as error:
+        raise NoSuchState(f"{error}, or give the scene file") from None
+    except MISREAD as error:
+        raise NoSuchState(f"{directory / FIELDS} is not the {FIELDS} of a run: {error}") from None
 
 
 def _run_of(directory: Path) -> StoredRun:
@@ -185,27 +197,21 @@ def _run_of(directory: Path) -> StoredRun:
 
 def _of_run(
     run: StoredRun,
-    directory: Path,
     increment: int,
     end: Any,
     errors: Mapping[str, StatedError] | None,
     step: int,
 ) -> LoadedBodies:
     """Read the state of an increment, from 0, with its scalars."""
-    try:
-        # A file lists names by the alphabet; fields have the radii first.
-        order = sorted(run.coordinates, key=lambda name: name == "angles")
-        axes = {name: run.coordinates[name].array for name in order}
-        names = [name for name in TRACTIONS if name in run.increments]
-        tractions = {name: run.increments.at(name, increment) for name in names}
-        shape = tuple(n for places in axes.values() for n in places.shape)
-        for name, field in tractions.items():
-            if field.shape != (expected := (2, *shape) if name == "shear" else shape):
-                raise ValueError(f"{name} has shape {field.shape}, expected {expected}")
-    except FieldsAtEndsOnly as error:
-        raise NoSuchState(f"{error}, or give the scene file") from None
-    except MISREAD as error:
-        raise NoSuchState(f"{directory / FIELDS} is not the {FIELDS} of a run: {error}") from None
+    # A file lists names alphabetically; fields have the radii first.
+    order = sorted(run.coordinates, key=lambda name: name == "angles")
+    axes = {name: run.coordinates[name].array for name in order}
+    names = [name for name in TRACTIONS if name in run.increments]
+    tractions = {name: run.increments.at(name, increment) for name in names}
+    shape = tuple(n for places in axes.values() for n in places.shape)
+    for name, field in tractions.items():
+        if field.shape != (expected := (2, *shape) if name == "shear" else shape):
+            raise ValueError(f"{name} has shape {field.shape}, expected {expected}")
     return _state(
         run.scene,
         run.summary.solver,
