@@ -47,9 +47,9 @@ MAX_IN_CACHE = 1 << 14  # numbers that fit into the cache of a core
 class FrettingCycle(WithFields):
     """One closed cycle of loads; fields are scalars of the surface.
 
-    cycle            steps between which it lies
-    input_work       None where a motion is undefined
-    dissipation      None for a solver that does not keep it
+    cycle            load steps at its start and end
+    input_work       None if a motion is undefined
+    dissipation      None if the solver does not compute it
     loop             numbers of `loop_numbers`
     surface_tension  σ_T, at the ends of the steps in the cycle, tension positive. None on rings,
                      or if the tangential force is constant
@@ -95,7 +95,9 @@ class FrettingCycle(WithFields):
         self,
     ) -> Annotated[
         Field | None,
-        Reported("Pa^2 m", "F1 times the surface tension, zero under compression.", F),
+        Reported(
+            "Pa^2 m", "F1 times the tensile stress along the surface, zero under compression.", F
+        ),
     ]:
         """F2 = σ_T τ δ [force^2/length^3]; None without σ_T."""
         if self.surface_tension is None:

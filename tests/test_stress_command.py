@@ -170,7 +170,7 @@ def test_indenter_has_its_own_stress(place: Path) -> None:
     ("arguments", "complaint"),
     [
         (["{}/run", "--step", "3"], "no step 3"),
-        (["{}/out"], "is no run: it has no"),
+        (["{}/out"], "is not the output of a run: it has no"),
         (["{}/run", "--history"], "add --at X,Y,Z"),
         (["{}/run", "--at", "0,0"], "expected X,Y,Z"),
         (["{}/run", "--at", "0,0,-1"], "--at"),

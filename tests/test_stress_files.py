@@ -264,7 +264,7 @@ def test_surfaces_of_all_steps_carry_their_loads(place: Path, name: str) -> None
 
 def test_what_cannot_be_exported_is_refused_with_what_to_do(place: Path) -> None:
     for source, complaint in (
-        ("nowhere", "nowhere is no run: it has no summary.json"),
+        ("nowhere", "nowhere is not the output of a run: it has no summary.json"),
         ("stress", "open its stress_section.vtu"),
     ):
         ended = exported(place, source)

@@ -1,1 +1,1 @@
-"""Figures of a run; each file draws one of them as a matplotlib Figure and saves nothing."""
+"""Figures of a run and of a stress, drawn with matplotlib."""

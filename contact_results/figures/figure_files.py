@@ -1,4 +1,4 @@
-"""The figures of a result and their files."""
+"""Writer of the figures of a result."""
 
 from __future__ import annotations
 
@@ -38,18 +38,18 @@ def write_figures(
     *,
     everything: bool = False,
 ) -> None:
-    """Draw the overview, or all figures of the result and of the last cycle if there is one.
+    """Write the overview, or all figures of the result and of its last load cycle.
 
-    Equal results give equal bytes on equal libraries.
+    Equal results give equal bytes with equal libraries.
 
-    errors      of the last step, for the numbers of the overview
-    everything  draw all figures, not the overview alone
+    errors      stated errors of the last step, for the numbers of the overview
+    everything  write all figures, not only the overview
     """
     with figure_style():
         for name, figure in _figures_called_for(result, cycles, errors):
             dots = DOTS_PER_INCH if name != file_names.OVERVIEW_FIGURE else OF_OVERVIEW
             save(figure, directory / name, dots)
-            # The parts of a figure refer to one another and are not freed before it is cleared.
+            # Reference cycles between the artists keep a figure in memory until it is cleared.
             figure.clear()
             if not everything:
                 break
@@ -72,7 +72,7 @@ def _figures_called_for(
 
 
 def seen_from_above(result: Result) -> Above:
-    """Return the cells of a result, or cells on which its rings are sampled."""
+    """Return the cells of a result, or a sampling of its rings on cells."""
     surface = surface_of(result)
     if isinstance(surface, Cells):
         return surface

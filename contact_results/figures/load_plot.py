@@ -35,12 +35,12 @@ class Loop(NamedTuple):
 
     @property
     def work(self) -> float:
-        """Put in and taken out."""
+        """Work put in plus work taken out, by the trapezoidal rule."""
         return float(np.sum(np.abs((self.forces[1:] + self.forces[:-1]) * np.diff(self.motions))))
 
 
 def moved(increments: Sequence[Increment]) -> int:
-    """How many increments end with a tangential load and its defined motion."""
+    """Return the largest number of increments with a non-zero tangential load in a loop."""
     loops = _loops(increments)
     return max((int(np.count_nonzero(loop.forces)) for loop in loops), default=0)
 
@@ -101,7 +101,7 @@ def _actuator(path: Sequence[Increment], direction: Values) -> Values | None:
 
 
 def _direction(force: Values) -> Values:
-    """Unit vector along the largest force, turned so that its largest component is positive."""
+    """Return the unit vector along the largest force, with a positive largest component."""
     largest = force[np.argmax(np.hypot(force[:, 0], force[:, 1]))]
     largest = largest * np.sign(largest[np.argmax(np.abs(largest))])
     return np.asarray(largest / np.hypot(*largest))
@@ -114,12 +114,12 @@ def _along(direction: Values) -> str:
 
 
 def draw_loading(ax: Any, result: Result) -> None:
-    """Force and approach of every increment, from first touch."""
+    """Draw force over approach of every increment, from the first contact."""
     path = [(0.0, 0.0), *((i.approach, i.normal_force) for i in result.increments)]
     approach, force = np.array(path).T
     x, along = on_axis("approach", approach)
     y, upward = on_axis("normal_force", force, "W")
-    # A line between touch and one end would be no path that the contact took.
+    # With one or two increments, a line between the points would not show the load history.
     line = "-" if len(path) > 3 else ""
     ax.plot(x, y, color=style.LINE_COLOURS[0], linestyle=line, marker="o", markersize=3.5)
     ax.set_xlim(left=0.0)

@@ -1,4 +1,4 @@
-"""Panels with the surface seen from above, all with the same scales and cut to the contact."""
+"""Panels of maps of the surface, with equal scales and limits around the contact."""
 
 from __future__ import annotations
 
@@ -23,23 +23,23 @@ if TYPE_CHECKING:
 
 Above: TypeAlias = "Cells | RingsAbove"
 
-PANEL = 2.4  # longer side in inches
-NARROWEST = 1.0
-COLUMNS = {1: 1, 2: 2, 4: 2}  # by number of panels; three of any other number
-ARROWS = 13  # at most, along the longer side
-SHORTEST = 0.03  # of the longest arrow; what is shorter is left out
-MARGIN = 1.15  # of the contact's extent, so that its edge is seen against the outside
+PANEL = 2.4  # longer side of a panel [inch]
+NARROWEST = 1.0  # shorter side of a panel [inch]
+COLUMNS = {1: 1, 2: 2, 4: 2}  # columns by number of panels; three for other numbers
+ARROWS = 13  # largest number of arrows along the longer side
+SHORTEST = 0.03  # shortest arrow, relative to the longest
+MARGIN = 1.15  # half side of a map, relative to the extent of the contact
 
 
-RINGS_ACROSS = 121  # cells; odd, so that the axis is the centre of one
-RINGS_MARGIN = 1.3  # of the largest radius in contact
+RINGS_ACROSS = 121  # cells along a side; odd, so that the axis is a cell centre
+RINGS_MARGIN = 1.3  # half side of the cells, relative to the largest contact radius
 
 
 @dataclass(frozen=True, eq=False)
 class RingsAbove:
-    """Values of rings at the centres of cells, linear between rings and angles.
+    """Sampling of rings at the centres of cells, linear between rings and angles.
 
-    x, y  centres (n,) [length]
+    x, y  cell centres (n,) [length]
     """
 
     rings: Rings
@@ -48,14 +48,14 @@ class RingsAbove:
 
     @classmethod
     def around_contact(cls, result: Result, rings: Rings) -> RingsAbove:
-        """Cells over the largest contact of any step."""
+        """Return cells over the largest contact at the end of any step."""
         touched = [_any_angle(rings.scalar(step, "in_contact")) for step in result.steps]
         reach = RINGS_MARGIN * float(rings.radii[np.any(touched, axis=0)].max())
         centres = np.linspace(-reach, reach, RINGS_ACROSS)
         return cls(rings, centres, centres)
 
     def scalar(self, step: Increment, name: str) -> NDArray[Any] | None:
-        """A scalar field (nx, ny); None where the increment has none."""
+        """Return a scalar field (nx, ny), or None if the increment has no such field."""
         field = self.rings.scalar(step, name)
         if field is None:
             return None
@@ -63,7 +63,7 @@ class RingsAbove:
         return sampled > 0.5 if field.dtype == bool else sampled
 
     def vector(self, step: Increment, name: str) -> Field | None:
-        """The x and y components (2, nx, ny) of shear or slip; None where there is none."""
+        """Return the x and y components (2, nx, ny) of shear or slip, or None without them."""
         components = self.rings.components(step, name)
         if components is None:
             return None
@@ -89,7 +89,7 @@ class RingsAbove:
             angles = self.rings.angles
             assert angles is not None
             if self.rings.whole:
-                # The first ray closes the circle.
+                # Repeat the first ray at angle 2π.
                 field = np.concatenate([field, field[:, :1]], axis=1)
                 angle, angles = angle % (2 * np.pi), np.append(angles, 2 * np.pi)
             at.append(np.interp(np.abs(angle), angles, np.arange(len(angles))))
@@ -103,7 +103,10 @@ def _any_angle(field: NDArray[Any] | None) -> NDArray[np.bool_]:
 
 @dataclass(frozen=True)
 class MapFrame:
-    """What all panels of a figure share: the cells, the part that is shown, the unit of length."""
+    """Common properties of the panels of a figure: cells, limits, unit of length.
+
+    shown  half sides of the visible rectangle along x and y [length]
+    """
 
     cells: Above
     shown: tuple[float, float]
@@ -111,7 +114,7 @@ class MapFrame:
 
     @classmethod
     def around_contact(cls, result: Result, cells: Above) -> MapFrame:
-        """The frame that shows every cell that any step has in contact."""
+        """Return the frame around all cells in contact at the end of any step."""
         touching: list[Any] = [cells.scalar(step, "in_contact") for step in result.steps]
         touched = np.any(touching, axis=0)
         shown = (
@@ -121,7 +124,7 @@ class MapFrame:
         return cls(cells, shown, engineering_unit(max(shown), "m"))
 
     def show(self, ax: Any) -> None:
-        """Cut axes to the part that is shown, with equal scales."""
+        """Set the limits of axes, with equal scales."""
         x, y = (half / self.unit.size for half in self.shown)
         ax.set_aspect("equal")
         ax.set_xlim(-x, x)
@@ -133,19 +136,16 @@ class MapFrame:
         x, y = (_edge(centres) / self.unit.size for centres in (self.cells.x, self.cells.y))
         return -x, x, -y, y
 
-    def figure_size(self, panels: int, blocks: int = 1) -> tuple[float, float]:
-        """Sides in inches that give every panel its place, and a colour bar at the right.
-
-        blocks  how many times the panels are repeated, one below the other
-        """
+    def figure_size(self, panels: int) -> tuple[float, float]:
+        """Return width and height of a figure with these panels and a colour bar [inch]."""
         columns = COLUMNS.get(panels, 3)
-        rows = math.ceil(panels / columns) * blocks
+        rows = math.ceil(panels / columns)
         width, height = (max(PANEL * side / max(self.shown), NARROWEST) for side in self.shown)
         return columns * (width + 0.2) + 1.3, rows * (height + 0.55) + 0.2
 
 
 def _edge(centres: Field) -> float:
-    """Of the window, half a cell beyond the last centre."""
+    """Return the edge of the window: half a cell beyond the last centre."""
     return float(centres[-1] + (centres[1] - centres[0]) / 2)
 
 
@@ -156,7 +156,7 @@ def _half_extent(centres: Field, touched: NDArray[np.bool_]) -> float:
 
 
 def map_axes(figure: FigureBase, frame: MapFrame, count: int) -> list[Any]:
-    """`count` panels in rows, axes labelled at the left and at the bottom only."""
+    """Return `count` panels in rows, with labels at the left and at the bottom only."""
     columns = COLUMNS.get(count, 3)
     rows = math.ceil(count / columns)
     grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
@@ -174,14 +174,14 @@ def map_axes(figure: FigureBase, frame: MapFrame, count: int) -> list[Any]:
 
 
 def draw_cells(ax: Any, frame: MapFrame, values: NDArray[Any], **colours: Any) -> Any:
-    """One coloured square per cell: the field as it was computed, not smoothed."""
+    """Draw one coloured square per cell, without interpolation."""
     return ax.imshow(
         values.T, extent=frame.extent, origin="lower", interpolation="nearest", **colours
     )
 
 
 def outline(ax: Any, frame: MapFrame, inside: NDArray[np.bool_], colour: str) -> None:
-    """The border of a set of cells, if it has one."""
+    """Draw the border of a set of cells, if there is one."""
     if inside.any() and not inside.all():
         x, y = frame.cells.x / frame.unit.size, frame.cells.y / frame.unit.size
         ax.contour(x, y, inside.T.astype(float), levels=[0.5], colors=[colour], linewidths=0.8)

@@ -1,4 +1,4 @@
-"""Maps of the surface seen from above: pressure, shear, zones, slip, dissipation, load cycles."""
+"""Maps of the surface: pressure, shear, stick and slip zones, slip, dissipation, load cycles."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from contact_results.surface import Cells, Increment, Result
 
 
-# Label, unit and components of the fields that have a map.
+# Label, unit, and whether it is a vector, of each field with a map.
 FIELDS = {
     "pressure": ("pressure p", "Pa", False),
     "shear": ("shear |q|", "Pa", True),
@@ -51,9 +51,9 @@ ZONES = (
 class Panel:
     """One map.
 
-    values    colours of the cells (nx, ny), NaN for the background
-    arrows    vector field (2, nx, ny) and the cells that have arrows
-    outlined  cells with a line around them
+    values    values of the cells (nx, ny); NaN shows the background
+    arrows    vector field (2, nx, ny), and mask of the cells with arrows
+    outlined  mask of the cells with a line around them
     """
 
     title: str
@@ -75,8 +75,10 @@ def draw_panel(ax: Any, frame: MapFrame, panel: Panel, largest: float) -> Any:
 
 
 def field_map(result: Result, cells: Above, name: str) -> Figure | None:
-    """Draw a field of `FIELDS` at the end of the load steps, with the border of the stick zone; of
-    a vector the magnitude in colours and arrows along it. None where the field is zero."""
+    """Draw a field of `FIELDS` at the end of the load steps, with the border of the stick zone.
+
+    A vector is drawn by its magnitude in colours, and arrows. Returns None if the field is zero.
+    """
     frame = MapFrame.around_contact(result, cells)
     label, symbol, is_vector = FIELDS[name]
     read = cells.vector if is_vector else cells.scalar
@@ -110,7 +112,7 @@ def field_map(result: Result, cells: Above, name: str) -> Figure | None:
 
 
 def fretting_map(result: Result, cells: Cells, cycle: FrettingCycle) -> Figure:
-    """Draw slip, dissipation and Ruiz's parameters of one load cycle, each with its own scale."""
+    """Draw slip, dissipation and Ruiz's parameters of one load cycle, with separate scales."""
     frame = MapFrame.around_contact(result, cells)
     fields = list(_fields_of(cycle))
     width, height = frame.figure_size(len(fields))
@@ -130,7 +132,7 @@ def fretting_map(result: Result, cells: Cells, cycle: FrettingCycle) -> Figure:
 
 
 def _fields_of(cycle: FrettingCycle) -> Iterator[tuple[str, EngineeringUnit, Field]]:
-    """Title, unit and values of every map."""
+    """Yield title, unit and values of every map."""
     for title, symbol, values in (
         ("slip amplitude δ", "m", cycle.slip_amplitude),
         ("dissipated per area", "J/m²", cycle.dissipation),
@@ -140,7 +142,7 @@ def _fields_of(cycle: FrettingCycle) -> Iterator[tuple[str, EngineeringUnit, Fie
             yield title, engineering_unit(float(np.max(values)), symbol), values
     if cycle.ruiz_f2 is not None:
         largest = float(np.max(cycle.ruiz_f2))
-        # A power of ten: a prefix would be read as squared, too.
+        # A power of ten, because a prefix of Pa would be squared.
         exponent = 3 * floor(log10(largest) / 3) if largest > 0 else 0
         name = f"$10^{{{exponent}}}$ Pa² m" if exponent else "Pa² m"
         yield "Ruiz $F_2$ = $σ_T$ τ δ", EngineeringUnit(10.0**exponent, name), cycle.ruiz_f2
@@ -151,7 +153,7 @@ def stick_slip_map(result: Result, cells: Above) -> Figure:
     frame = MapFrame.around_contact(result, cells)
     steps = selected([step for step in result.steps if step.in_stick is not None])
     width, height = frame.figure_size(len(steps))
-    figure = style.new_figure(width - 0.6, height + 0.3)  # a legend below, no colour bar
+    figure = style.new_figure(width - 0.6, height + 0.3)  # a legend instead of a colour bar
     for ax, step in zip(map_axes(figure, frame, len(steps)), steps, strict=True):
         draw_zones(ax, frame, result, step)
         ax.set_title(step_title(step))
@@ -172,7 +174,7 @@ def draw_zones(ax: Any, frame: MapFrame, result: Result, step: Increment) -> Non
     assert touching is not None
     assert sticking is not None
     colours = ListedColormap([colour for _, colour in ZONES])
-    # The zone's number in ZONES: stick implies contact.
+    # Index of the zone in ZONES; stick implies contact.
     zone = touching.astype(int) + (touching & sticking).astype(int)
     draw_cells(ax, frame, zone, cmap=colours, vmin=0, vmax=len(ZONES) - 1)
     slip = latest_slip(result, frame.cells, step)

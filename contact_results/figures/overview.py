@@ -1,4 +1,4 @@
-"""Six panels that answer most questions about a run, at the end of its history."""
+"""Overview of a run at the end of its history, in six panels."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ if TYPE_CHECKING:
     from contact_results.stress.points import StressField
     from contact_results.surface import Result
 
-LEAST_MOVES = 3  # for a loop instead of the loading curve
-# Of the cells that carry the load to the stress, so that it takes less than a second.
+LEAST_MOVES = 3  # smallest number of increments with tangential load for a loop
+# Largest number of cells along a side for the stress, which then takes less than a second.
 MAX_CELLS = 64
-EVERY = 2  # of the depths that stand in the files
+EVERY = 2  # step through the default depths
 DOTS_PER_INCH = 90
-# Of a panel and its place, with room for labels, a legend and a colour bar [inch].
+# Sides of a panel, and of its place with labels, legend and colour bar [inch].
 PANEL, PLACE = (2.6, 2.55), (3.85, 3.45)
 MARGIN = 0.65
 BAR: dict[str, Any] = {"fraction": 0.05, "pad": 0.03}
@@ -47,12 +47,12 @@ def overview(
     above: Above,
     errors: Mapping[str, StatedError] | None = None,
 ) -> Figure:
-    """Draw profile, zones, history, stress on the section and along the surface, and the numbers.
+    """Draw profile, zones, history, stress on the section and along the surface, and key numbers.
 
-    A single increment has the stress down the axis instead of a history. Stress is left out where
-    it would take longer than the run. Call within `figure_style`.
+    A result with a single increment has the stress on the z axis instead of a history. The stress
+    is left out if `section_stress` is None. Call within `figure_style`.
 
-    errors  of the last step; None where they were left out
+    errors  stated errors of the last step; None if they were left out
     """
     field = section_stress(result)
     columns = 3 if field else 2
@@ -92,10 +92,14 @@ def overview(
 
 
 def section_stress(result: Result) -> StressField | None:
-    """Stress in the body under the final tractions, with the edge of the contact where it can be
-    fitted: on at most `MAX_CELLS` cells along a side, means of those of the run, or of the radial
-    solver; None of elements, whose mesh takes longer than the run, of a rigid body, without
-    contact, of a number of cells that has no such divisor, and of the radial solver's shear."""
+    """Compute the stress in the body under the final tractions, with a fitted contact edge.
+
+    On cells, the tractions are averaged to at most `MAX_CELLS` cells along a side. Returns None
+    - for finite elements, whose mesh would take longer than the run,
+    - for a rigid body and without contact,
+    - if the number of cells has no small common divisor,
+    - for shear of the radial solver.
+    """
     if not result.scene.body.deforms or not result.steps[-1].contact_area:
         return None
     state = state_of_result(result, None)
@@ -122,8 +126,10 @@ def section_stress(result: Result) -> StressField | None:
 
 
 def coarser(state: LoadedBodies, most: int) -> LoadedBodies:
-    """The same load on means of cells, until there are few enough along a side or the numbers have
-    no small divisor in common; forces and moments stay."""
+    """Average the tractions over blocks of cells, up to `most` cells along a side.
+
+    The averages keep forces. The loop ends early if the cell numbers have no common divisor 2 to 7.
+    """
     while max(shape := state.tractions["pressure"].shape) > most:
         by = next((p for p in (2, 3, 5, 7) if not any(n % p for n in shape)), None)
         if by is None:

@@ -1,4 +1,4 @@
-"""Pressure and shear on the line through the axis."""
+"""Profiles of pressure and shear on the line through the axis."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from contact_results.surface import Increment, Result, Surface
     from contact_scene.array_types import Field
 
-MARGIN = 1.15  # of the contact's extent, so that its edge is seen against the outside
+MARGIN = 1.15  # half length of the line, relative to the extent of the contact
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,8 +47,10 @@ class Component:
 
 
 def profile_plot(result: Result, surface: Surface) -> Figure:
-    """Draw pressure, and shear with ± µp at the end of the history if there is any shear, at the
-    end of the load steps."""
+    """Draw pressure and shear at the end of the load steps, one panel per component.
+
+    The panels of shear show ± µp at the end of the history. Components that are zero have no panel.
+    """
     steps: list[Increment] = selected([*result.steps])
     shears = _shears(surface, steps)
     figure = style.new_figure(6.0, 3.2 + 2.4 * len(shears))
@@ -66,8 +68,10 @@ def profile_plot(result: Result, surface: Surface) -> Figure:
 
 
 def draw_end(ax: Any, result: Result, surface: Surface) -> None:
-    """Draw the pressure at the end of the history, with shear over the coefficient of friction
-    where that is one number, so that the two meet where the surface slips."""
+    """Draw the pressure and q/µ at the end of the history; the curves coincide in the slip zone.
+
+    Shear is left out if the coefficient of friction varies.
+    """
     length, end = _line_axis(ax, result, surface), result.steps[-1]
     x, pressure = surface.line.places / length.size, _pressures(surface, [end])
     unit = pressure.unit
@@ -91,7 +95,7 @@ def _pressures(surface: Surface, steps: Sequence[Increment]) -> Component:
 
 
 def _shears(surface: Surface, steps: Sequence[Increment]) -> list[Component]:
-    """Return the shear along and across the line where it is more than round-off."""
+    """Return the components of shear along and across the line that exceed round-off."""
     found = ((step.step, surface.vector(step, "shear")) for step in steps)
     lines = {step: surface.vector_along(vector) for step, vector in found if vector is not None}
     sizes = [np.max(np.abs(vector), axis=1) for vector in lines.values()]
@@ -108,7 +112,7 @@ def _shears(surface: Surface, steps: Sequence[Increment]) -> list[Component]:
 
 
 def _line_axis(ax: Any, result: Result, surface: Surface) -> EngineeringUnit:
-    """Label the line and cut it to the contact; returns the unit of length."""
+    """Label the axis of the line and limit it to the contact; return the unit of length."""
     places = surface.line.places
     touched = [surface.along(_pressure(step, surface)) > 0 for step in result.steps]
     inside = np.flatnonzero(np.any(touched, axis=0))

@@ -1,4 +1,4 @@
-"""`index.html`: a run on one page that needs no other file, no network and no script."""
+"""`index.html`: self-contained page of a run, without scripts and external files."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ STYLE = (
     "padding:.15rem 1rem .15rem 0}td{font-variant-numeric:tabular-nums}"
     "pre{overflow-x:auto;background:#f2f2f2;padding:.5rem}.soft{color:#595959;max-width:46rem}"
     "@media(prefers-color-scheme:dark){body{color:#e8e8e8;background:#16181b}pre{background:#24272c}"
-    ".soft{color:#a9adb2}a{color:#7cc4ee}img{background:#fff;border-radius:.3rem}}"
+    ".soft{color:#a9adb2}a{color:#7cc4ee}img{background:#fff;padding:.5rem;box-sizing:border-box}}"
     ".figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,32rem),1fr));"
     "gap:0 2rem;align-items:start}#overview{grid-column:1/-1}section{min-width:0}"
     ".smaller{display:none}section:target{grid-column:1/-1;overflow-x:auto}section:target .smaller"
@@ -35,11 +35,11 @@ HEADINGS = {
     "stick_slip": "Stick and slip",
 }
 READ_ON = (
-    "± is how far off the number may be; its parts (cells or elements, increments, tolerance) are "
-    "under <code>errors</code> in summary.json, a question mark says not to rely on it. Beside "
-    "this page: increments.csv (every number at every increment), profiles.csv (along y = 0), "
-    "result.h5 (fields), columns.csv (unit and meaning of every name). z points into the lower "
-    "body, and tractions are those on it."
+    "The number after ± is the stated error. A question mark means that it has not converged. "
+    "summary.json lists the parts of each error (cells or elements, increments, tolerance) under "
+    "<code>errors</code>. Further files: increments.csv (scalars of every increment), profiles.csv "
+    "(along y = 0), result.h5 (fields), columns.csv (units and meanings). z points into the lower "
+    "body; tractions act on the lower body."
 )
 LOOPS = (
     "E_d: energy per cycle; Q*, δ, δ*: half ranges of force, of the shift of the contact and of a "
@@ -118,8 +118,7 @@ def _row(name: str, text: str) -> str:
 def _figure(path: Path) -> str:
     name = HEADINGS.get(path.stem, path.stem.replace("_", " ").capitalize())
     data = b64encode(path.read_bytes()).decode("ascii")
-    # Larger by a link to itself: a library of curves (uPlot, 51 kB) needs a policy that lets script
-    # run and the numbers a second time, in a page that is read without either.
+    # The link enlarges the figure by CSS, since the page has no scripts.
     return (
         f'<section id="{path.stem}"><h2>{name}</h2>'
         f'<a href="#{path.stem}" title="larger"><img alt="{name}, larger on a click" '

@@ -1,4 +1,4 @@
-"""A stress on the section y = 0 in levels at round numbers, with the interfaces at their depths."""
+"""Contour plot of a stress on the section y = 0, with the interfaces."""
 
 from __future__ import annotations
 
@@ -22,10 +22,13 @@ from contact_scene.reading.engineering_units import (
     engineering_unit,
 )
 
-# Quadrilaterals within a cell: of a nine-node element the quarters around its middle.
-PARTS = {"quad": ((0, 1, 2, 3),), "quad9": ((0, 4, 8, 7), (4, 1, 5, 8), (8, 5, 2, 6), (7, 8, 6, 3))}
+# Quadrilaterals of a cell by its type; a nine-node element has four.
+QUADRILATERALS = {
+    "quad": ((0, 1, 2, 3),),
+    "quad9": ((0, 4, 8, 7), (4, 1, 5, 8), (8, 5, 2, 6), (7, 8, 6, 3)),
+}
 MAX_LEVELS = 12
-# Layers thinner than the first part of the depth in view are drawn over the second.
+# Layers thinner than THIN times the visible depth are stretched to STRETCHED times the axis.
 THIN, STRETCHED = 0.125, 0.3
 HALO = [patheffects.withStroke(linewidth=2.2, foreground="white")]
 
@@ -42,9 +45,9 @@ def draw_section(
     *,
     bar: Mapping[str, Any] | None = None,
 ) -> EngineeringUnit:
-    """Draw values at the points of the section, z downward; returns the unit of length.
+    """Draw values at the points of the section, z downward; return the unit of length.
 
-    bar  how the colour bar differs from matplotlib's
+    bar  arguments of `Figure.colorbar`
     """
     points, (reach, depth) = field.section, field.shown
     length = engineering_unit(reach, "m")
@@ -73,13 +76,12 @@ def draw_section(
 
 
 def stretches(body: Body, deepest: float) -> bool:
-    """Whether an axis of depths stretches the layers, which are thin."""
+    """Return True if the depth axis stretches thin layers."""
     return 0 < sum(layer.thickness for layer in body.layers) < THIN * deepest
 
 
 def show_depths(ax: Any, body: Body, deepest: float, length: EngineeringUnit) -> bool:
-    """Draw a line at every interface and scale the axis of depths; return whether it stretches thin
-    layers to a part of the axis that shows them."""
+    """Draw a line at every interface and scale the depth axis; return `stretches`."""
     stretched = stretches(body, deepest)
     if stretched:
         films = sum(layer.thickness for layer in body.layers) / deepest
@@ -105,7 +107,7 @@ def show_depths(ax: Any, body: Body, deepest: float, length: EngineeringUnit) ->
 
 
 def even_levels(low: float, high: float) -> Values:
-    """Evenly spaced round numbers around all values, zero among them where they change sign."""
+    """Return evenly spaced round levels that enclose all values."""
     if low == high:
         low, high = min(low, 0.0), max(high, 0.0) or 1.0
     rounded = MaxNLocator(MAX_LEVELS, steps=[1, 2, 2.5, 5, 10])
@@ -115,22 +117,22 @@ def even_levels(low: float, high: float) -> Values:
 def _triangles(
     points: StressPoints, values: Values, length: EngineeringUnit, reach: float, depth: float
 ) -> tuple[Triangulation, Values]:
-    """Between each side of a quadrilateral in view and its middle, with the values there."""
-    quarters = _quarters(points, reach, depth)
+    """Divide each visible quadrilateral into four triangles; return them and the nodal values."""
+    quads = _quadrilaterals(points, reach, depth)
     x, z, drawn = (
-        np.concatenate([part.ravel(), part.ravel()[quarters].mean(axis=1)])
+        np.concatenate([part.ravel(), part.ravel()[quads].mean(axis=1)])
         for part in (points.x, points.depth, values)
     )
-    middles = np.arange(len(drawn) - len(quarters), len(drawn))
-    around = np.stack([quarters, np.roll(quarters, 1, axis=1)], axis=-1)
+    middles = np.arange(len(drawn) - len(quads), len(drawn))
+    around = np.stack([quads, np.roll(quads, 1, axis=1)], axis=-1)
     corners = np.concatenate([np.column_stack([around[:, k], middles]) for k in range(4)])
     return Triangulation(x / length.size, z / length.size, corners), drawn
 
 
-def _quarters(points: StressPoints, reach: float, depth: float) -> NDArray[np.int64]:
-    """(n, 4) corners of what is at least partly in view."""
+def _quadrilaterals(points: StressPoints, reach: float, depth: float) -> NDArray[np.int64]:
+    """Return the corners (n, 4) of the quadrilaterals of cells that are partly visible."""
     assert points.cells is not None
     kind, cells = points.cells
     across, down = np.abs(points.x.ravel()), points.depth.ravel()
     near = (across[cells].min(axis=1) <= reach) & (down[cells].min(axis=1) <= depth)
-    return cells[near][:, np.array(PARTS[kind])].reshape(-1, 4)
+    return cells[near][:, np.array(QUADRILATERALS[kind])].reshape(-1, 4)

@@ -1,4 +1,4 @@
-"""Load steps that a figure shows, and the texts of their loads and axes."""
+"""Selection of load steps for a figure, with texts of loads and axes."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from contact_scene.reading.engineering_units import (
 if TYPE_CHECKING:
     from contact_results.surface import Increment
 
-AT_MOST = 6
-SAME = 1e-6  # relative to the largest value: a difference that is invisible in a figure
+AT_MOST = 6  # load steps in a figure
+SAME = 1e-6  # invisible difference, relative to the largest value
 
 Step = TypeVar("Step")
 
 
 def selected(steps: Sequence[Step]) -> list[Step]:
-    """Return all steps if they are few, otherwise evenly spaced ones, the first and the last."""
+    """Return at most AT_MOST evenly spaced steps, including the first and the last."""
     if len(steps) <= AT_MOST:
         return list(steps)
     positions = np.linspace(0, len(steps) - 1, AT_MOST).round().astype(int)
@@ -32,7 +32,7 @@ def selected(steps: Sequence[Step]) -> list[Step]:
 
 
 def on_axis(name: str, values: Field, which: str = "") -> tuple[Field, str]:
-    """Return the values of a scalar in a readable unit, and the label of their axis."""
+    """Return the values of a scalar in a suitable unit, and the label of their axis."""
     unit = engineering_unit(float(np.max(np.abs(values))), SCALARS[name].unit)
     return values / unit.size, unit.labelled(f"{name.replace('_', ' ')} {which}".rstrip())
 

@@ -1,4 +1,4 @@
-"""Stress below a contact: sections, lines into the depth and along the surface."""
+"""Figures of the stress below a contact: section, depth profiles, surface profile."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ SECTION, AXIS, SURFACE = "stress_section.png", "stress_axis.png", "stress_surfac
 
 
 def write_stress_figures(field: StressField, body: Body, directory: Path, title: str) -> None:
-    """Write the figures of the section y = 0."""
+    """Write the three figures of a stress."""
     figures: dict[str, Callable[[StressField, Body, str], Figure]] = {
         SECTION: section_plot,
         AXIS: axis_plot,
@@ -39,13 +39,16 @@ def write_stress_figures(field: StressField, body: Body, directory: Path, title:
 
 
 def section_plot(field: StressField, body: Body, title: str) -> Figure:
-    """Four stresses on the section, z downward, interfaces dashed; call within `figure_style`."""
+    """Draw four stresses on the section, z downward, with dashed interfaces.
+
+    Call within `figure_style`.
+    """
     points = field.section
     panels = {
         "von Mises": points.von_mises,
         _named("xx"): points.components["xx"],
         _named("xz"): points.components["xz"],
-        "tension (largest principal)": np.maximum(points.principal[0], 0.0),
+        "tensile stress (largest principal)": np.maximum(points.principal[0], 0.0),
     }
     half = float(points.x.min()) >= 0
     width = 6.4 if half else 9.0
@@ -63,8 +66,11 @@ def section_plot(field: StressField, body: Body, title: str) -> Figure:
 
 
 def axis_plot(field: StressField, body: Body, title: str) -> Figure:
-    """Stresses down the axis and down the edge of the contact with the larger tension along the
-    surface, which is the trailing one; one line per material. Call within `figure_style`."""
+    """Draw stresses over depth, on the z axis and below the trailing contact edge.
+
+    The trailing edge has the larger σ_xx at the surface. There is one line per material. Call
+    within `figure_style`.
+    """
     depth = field.shown[1]
     lines = {"on the z axis": field.axis, **_below_edge(field)}
     length = engineering_unit(depth, "m")
@@ -80,7 +86,7 @@ def axis_plot(field: StressField, body: Body, title: str) -> Figure:
 
 
 def surface_plot(field: StressField, body: Body, title: str) -> Figure:
-    """Stresses along the surface; call within `figure_style`."""
+    """Draw stresses along the surface. Call within `figure_style`."""
     figure = _titled(6.4, 3.4, title)
     place = {"left": 0.12, "right": 0.97, "bottom": 0.15, "top": 0.8}
     draw_surface(figure.subplots(gridspec_kw=place), field)
@@ -88,7 +94,7 @@ def surface_plot(field: StressField, body: Body, title: str) -> Figure:
 
 
 def draw_surface(ax: Any, field: StressField) -> None:
-    """σ_xx and σ_yy at z = 0, on a fitted edge of the contact, too, and where the contact ends."""
+    """Draw σ_xx and σ_yy at z = 0, including a fitted contact edge, with lines at the edges."""
     reach = field.shown[0]
     length = engineering_unit(reach, "m")
     surface, ends = _at_surface(field), _ends(field)
@@ -113,8 +119,10 @@ def draw_surface(ax: Any, field: StressField) -> None:
 
 
 def _ends(field: StressField) -> StressPoints | None:
-    """Where the fitted edge crosses y = 0, along x: the points beside it, whose stresses are
-    the same by symmetry or nearly so; None without such an edge."""
+    """Return the points of the fitted edge nearest to y = 0, along x; None without a fit.
+
+    The stress at these points represents that at y = 0.
+    """
     if field.edge is None or not field.edge.determined:
         return None
     points = field.edge.points
@@ -127,7 +135,7 @@ def _ends(field: StressField) -> StressPoints | None:
 
 
 def _places_of_ends(field: StressField) -> Sequence[float]:
-    """x of where the contact ends along y = 0, else of ± its radius, smallest first."""
+    """Return the coordinates x of the contact edge at y = 0, or ± the radius without a fit."""
     ends = _ends(field)
     if ends is None:
         return (-_radius(field), _radius(field))
@@ -135,19 +143,19 @@ def _places_of_ends(field: StressField) -> Sequence[float]:
 
 
 def _radius(field: StressField) -> float:
-    """Of the contact, from its area on cells, from its edge on rings."""
+    """Return the contact radius on cells, or the loaded radius on rings."""
     return float(str(field.how.get("contact_radius", field.how.get("loaded_radius"))))
 
 
 def _at_surface(field: StressField) -> StressPoints:
-    """Points of the section at z = 0, along x; none where no depth is at the surface."""
+    """Return the points of the section at the smallest depth, along x."""
     points = field.section
     at = np.flatnonzero(points.depth == points.depth.min())
     return points.chosen(at[np.argsort(points.x.flat[at], kind="stable")])
 
 
 def _below_edge(field: StressField) -> dict[str, StressPoints]:
-    """The points below the place of the section next to the edge, downward, by what it is."""
+    """Return the points of the section below the trailing edge, downward, by a title."""
     surface, points = _at_surface(field), field.section
     ends = [int(np.argmin(np.abs(surface.x - x))) for x in _places_of_ends(field)]
     edge = float(surface.x[max(ends, key=lambda k: surface.components["xx"][k])])
@@ -164,7 +172,7 @@ def draw_depth(
     deepest: float,
     length: EngineeringUnit,
 ) -> None:
-    """Stresses at points below each other, z downward, one line per material."""
+    """Draw stresses over depth, z downward, one line per material."""
     line = points.chosen(points.depth <= deepest)
     lines = {_named(name): line.components[name] for name in ("xx", "yy", "zz", "xz")}
     lines["von Mises"] = line.von_mises

@@ -1,4 +1,4 @@
-"""How the figures look, and how they reach a file with the same bytes every time."""
+"""Style of the figures, and reproducible image files."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -21,7 +21,7 @@ MAGNITUDE_MAP = "cividis"
 SIGNED_MAP = "RdBu_r"
 
 STYLE: Any = {
-    "font.family": "DejaVu Sans",  # comes with matplotlib, so every machine draws the same
+    "font.family": "DejaVu Sans",  # part of matplotlib, for equal figures on every machine
     "font.size": 9.0,
     "axes.titlesize": 9.0,
     "axes.linewidth": 0.7,
@@ -36,14 +36,14 @@ STYLE: Any = {
     "path.simplify": True,
 }
 DOTS_PER_INCH = 150
-OF_SECTIONS = 120  # many small contours, which take twice the bytes of lines on white
+OF_SECTIONS = 120  # dots per inch of contour plots, which compress badly
 CAPTION_SIZE = 7.5
 COLOURS = 256
 
 
 @contextmanager
 def figure_style() -> Iterator[None]:
-    """Draw in our style whatever the user's matplotlibrc says."""
+    """Apply `STYLE` in the block, independent of the matplotlibrc of the user."""
     with matplotlib.rc_context():
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(STYLE)
@@ -58,12 +58,12 @@ def new_figure(width: float, height: float, *, arranged: bool = True) -> Figure:
 
 
 def line(number: int) -> dict[str, Any]:
-    """Colour and dashes of a line, which tell it from its neighbours in print, too."""
+    """Return colour and dashes of a line, distinct in colour and in grey print."""
     return {"color": LINE_COLOURS[number], "linestyle": LINE_STYLES[number]}
 
 
 def legend_above(ax: Any, **given: Any) -> None:
-    """Add a legend in one row above the axes, where it covers nothing."""
+    """Add a legend in one row above the axes."""
     ax.legend(
         loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=5, fontsize="small",
         handlelength=1.6, columnspacing=1.0, **given,
@@ -71,19 +71,21 @@ def legend_above(ax: Any, **given: Any) -> None:
 
 
 def legend_beside(ax: Any) -> None:
-    """A legend at the right of the axes."""
+    """Add a legend at the right of the axes."""
     ax.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), handlelength=2.6)
 
 
 def save(figure: Figure, path: Path, dots_per_inch: int = DOTS_PER_INCH) -> None:
-    """Write the figure without date and program version, which would change its bytes; a PNG with
-    the 256 colours nearest to its own, in a third of the bytes."""
+    """Write a figure to a file without date and version, so that its bytes are reproducible.
+
+    A PNG is reduced to 256 colours, which takes a third of the bytes.
+    """
     if path.suffix == ".svg":
         figure.savefig(path, metadata={"Date": None, "Creator": None})
         return
     figure.dpi = dots_per_inch
     canvas: Any = FigureCanvasAgg(figure)
-    canvas.draw()  # savefig would draw it twice and pack what is to be unpacked again
+    canvas.draw()  # savefig would draw the figure twice
     drawn = Image.frombuffer(
         "RGBA", canvas.get_width_height(), canvas.buffer_rgba(), "raw", "RGBA", 0, 1
     ).convert("RGB")

@@ -1,1 +1,1 @@
-"""What a contact does below the surface: stress at points of a body, its maxima, its files."""
+"""Stress below a contact: points, maxima, files."""

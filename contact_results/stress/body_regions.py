@@ -1,4 +1,4 @@
-"""Parts of a body below a contact and how deep it is looked at."""
+"""Regions of a body below a contact, and the depths of the stress points."""
 
 from __future__ import annotations
 
@@ -21,21 +21,21 @@ if TYPE_CHECKING:
     from semi_analytical.frf.depth import Level
 
 
-REACH = 5.0  # contact radii to the sides and in depth
-IN_LAYER = 8  # spaces of a layer at the least
-FIRST = 1e-3  # contact radii below the surface where the pressure is infinite
+REACH = 5.0  # extent of the points to the sides and in depth, in contact radii
+IN_LAYER = 8  # smallest number of depth intervals in a layer
+FIRST = 1e-3  # first depth below infinite pressure, relative to radius or outer layer
 
 
 @dataclass(frozen=True)
 class BodyRegions:
-    """One body below a contact.
+    """Regions and depths of one body below a contact.
 
-    radius   of the contact [length]
-    layers   how many
-    named    material, least and largest depth [length] of what of each part is looked at
-    deepest  place in the base; None where that is rigid [length]
-    first    least depth: that of the surface, unless the pressure is infinite there [length]
-    down     how many depths within REACH
+    radius   contact radius [length]
+    layers   number of layers
+    named    material, smallest and largest depth [length] of each region, by name
+    deepest  largest depth in the base [length]; None if the base is rigid
+    first    smallest depth [length]; positive below infinite pressure
+    down     number of depth intervals within `REACH` radii
     """
 
     radius: float
@@ -47,7 +47,10 @@ class BodyRegions:
 
     @classmethod
     def of(cls, body: Body, radius: float, down: int, *, infinite: bool = False) -> BodyRegions:
-        """Those of a body; `infinite` where the pressure is so somewhere."""
+        """Return the regions of a body.
+
+        infinite  whether the pressure is infinite at a point
+        """
         count = len(body.layers)
         tops = [0.0, *np.cumsum([layer.thickness for layer in body.layers]).tolist()]
         elastic = isinstance(body.material, IsotropicMaterial)
@@ -67,21 +70,27 @@ class BodyRegions:
 
     @property
     def depths(self) -> Field:
-        """Closer towards the surface [length]."""
+        """Depths, denser towards the surface [length]."""
         near = REACH * self.radius * (np.arange(self.down + 1) / self.down) ** 2
         if self.deepest is None:
             return np.asarray(near)
         return np.concatenate([near, np.linspace(near[-1], self.deepest, IN_LAYER + 1)[1:]])
 
     def levels(self, depths: Sequence[float] | None) -> Iterator[Level]:
-        """Downward: depths [length], None for what fits contact and layers, and both sides of every
-        interface; raises ValueError for a depth that is not in the body."""
+        """Yield the levels of the given depths and of both sides of every interface, downward.
+
+        depths  [length]; None chooses them from the contact and the layers
+
+        Raises ValueError for a depth outside the body.
+        """
         from semi_analytical.frf.depth import Level
 
         lowest = max(bottom for _, _, bottom in self.named.values())
         for depth in depths or ():
             if not (depth >= 0 and isfinite(depth) and (self.deepest or depth <= lowest)):
-                raise ValueError(f"{depth!r} m is not in the body, which begins at 0")
+                raise ValueError(
+                    f"got a depth of {depth!r} m, expected one in the body, which starts at 0"
+                )
         chosen = self.depths if depths is None else np.asarray(depths)
         chosen = np.maximum(chosen, self.first)
         for material, top, bottom in self.named.values():
@@ -98,6 +107,6 @@ class BodyRegions:
 
 
 def spacing(places: Field, at: float) -> float:
-    """Of the wider space beside a place [length]."""
+    """Return the larger of the two intervals next to a place [length]."""
     k = int(np.clip(np.searchsorted(places, at), 1, len(places) - 2))
     return float(np.max(np.diff(places[k - 1 : k + 2])))

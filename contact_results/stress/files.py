@@ -1,4 +1,4 @@
-"""The files of the stress below a contact: `stress.json`, tables, and meshes for ParaView."""
+"""Files of the stress below a contact: `stress.json`, tables, and meshes for ParaView."""
 
 from __future__ import annotations
 
@@ -48,15 +48,15 @@ MAXIMA, AXIS, INTERFACES = "stress_maxima.csv", "stress_axis.csv", "stress_inter
 MEANINGS = "stress_columns.csv"
 
 PLACE = (
-    Column("x", "m", "Place in the plane of contact."),
-    Column("y", "m", "Place in the plane of contact."),
+    Column("x", "m", "Coordinate in the plane of contact."),
+    Column("y", "m", "Coordinate in the plane of contact."),
     Column("depth", "m", "Distance below the surface, z."),
 )
 LARGEST_COLUMNS = (
-    Column("region", None, "Part of the body: all of it, a layer, the base, a side of interfaces."),
-    Column("measure", None, "; ".join(f"{name}: {said}" for name, said in MEASURES.items())),
+    Column("region", None, "Whole body, surface, a layer, the base, or a side of an interface."),
+    Column("measure", None, "; ".join(f"{name}: {meaning}" for name, meaning in MEASURES.items())),
     Column("value", "Pa", "Largest value of the measure at any point of the region."),
-    Column("error", "Pa", "How far it may be from the exact one; empty where that is unknown."),
+    Column("error", "Pa", "Stated error of the value; empty if unknown."),
     *PLACE,
 )
 POINT_COLUMNS = (
@@ -68,7 +68,7 @@ POINT_COLUMNS = (
 )
 SIDE_COLUMNS = (
     Column("interface", None, "Number of the interface, from 1 for the outermost."),
-    Column("side", None, "Of the interface: above is nearer to the surface of contact."),
+    Column("side", None, "Side of the interface; above is nearer to the contact surface."),
     *POINT_COLUMNS,
 )
 
@@ -107,9 +107,9 @@ def write_files(
 
 
 def write_points(points: StressPoints, path: Path, convention: str) -> None:
-    """Write points, their cells, and every field at the points.
+    """Write points, their cells, and the fields at the points.
 
-    At an interface there are two points at one place, so that the jump is not smeared.
+    An interface has two points at each place, because the stress jumps there.
     """
     assert points.cells is not None
     places = np.stack([points.x, points.y, points.depth], axis=-1).reshape(-1, 3)
@@ -127,7 +127,7 @@ def write_points(points: StressPoints, path: Path, convention: str) -> None:
 def write_maxima(
     found: Sequence[Extreme], errors: Sequence[StatedError] | None, directory: Path
 ) -> None:
-    """Write one row per region and measure; no error where none is known."""
+    """Write one row per region and measure; unknown errors are empty cells."""
     sizes = [e.error for e in errors] if errors else [None] * len(found)
     rows = (
         (e.region, e.measure, e.value, size, e.x, e.y, e.depth)
@@ -137,13 +137,13 @@ def write_maxima(
 
 
 def write_axis(field: StressField, body: Body, directory: Path) -> None:
-    """Write one row per point on the z axis; interfaces have two."""
+    """Write one row per point on the z axis, with two points at every interface."""
     rows = _rows(field.axis.turned(field.direction), body)
     write_table(directory / AXIS, POINT_COLUMNS, rows)
 
 
 def write_interfaces(field: StressField, body: Body, directory: Path) -> None:
-    """Write one row per point of the section on either side of an interface; none without."""
+    """Write one row per point of the section on each side of every interface."""
     rows = (
         (number, name, *row)
         for number, name, points in sides(field, body)
@@ -153,7 +153,7 @@ def write_interfaces(field: StressField, body: Body, directory: Path) -> None:
 
 
 def sides(field: StressField, body: Body) -> Iterator[tuple[int, str, StressPoints]]:
-    """Number and side of every interface with its points in the section, along x."""
+    """Yield number and side of every interface, with the points of the section along x."""
     for number, name, depth, material in interface_sides(body):
         points = field.section
         on_it = np.flatnonzero(points.on_side(depth, material))
@@ -170,7 +170,7 @@ def write_stress_summary(
     convention: str,
     directory: Path,
 ) -> None:
-    """Write what was computed and its extremes; the last file of a stress state."""
+    """Write `stress.json`: settings, and the largest stresses with their errors."""
     stated = [None] * len(found) if errors is None else [e.model_dump(mode="json") for e in errors]
     record = {
         "convention": convention,

@@ -6,29 +6,29 @@ import numpy as np
 
 from contact_scene.array_types import Field
 
-AT_ONCE = 1 << 14  # points whose intermediate numbers stay in the cache
+BLOCK = 1 << 14  # points whose intermediate numbers fit into the cache
 
 
 def von_mises(stress: Field) -> Field:
-    """Equivalent stress of von Mises (1913), shape (…) [force/length^2]."""
+    """Compute the equivalent stress of von Mises (1913), shape (…) [force/length^2]."""
     xx, yy, zz, yz, xz, xy = stress
     normal = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
     return np.asarray(np.sqrt(normal / 2 + 3 * (yz**2 + xz**2 + xy**2)))
 
 
 def principal_stresses(stress: Field) -> Field:
-    """Principal stresses, largest (most tensile) first (3, …) [force/length^2].
+    """Compute the principal stresses, most tensile first, shape (3, …) [force/length^2].
 
-    The roots of the characteristic cubic by its angle θ, cos 3θ = (27/4)^½ J3/J2^(3/2). The usual
-    arccosine loses half the digits where two roots are nearly equal, as they are on the axis of
-    every axisymmetric contact. The sine of 3θ is therefore taken from the discriminant
-    4 J2³ - 27 J3² as a sum of squares: the Gram determinant of 1, s and s² by the formula of
-    Cauchy and Binet (Parlett 2002), s the deviatoric stress.
+    They are the roots of the characteristic cubic by its angle θ, cos 3θ = (27/4)^½ J3/J2^(3/2).
+    The arccosine loses half the digits if two roots are nearly equal, as on the axis of every
+    axisymmetric contact. Therefore sin 3θ is computed from the discriminant 4 J2³ - 27 J3² as a sum
+    of squares: the Gram determinant of 1, s and s² by the formula of Cauchy and Binet (Parlett
+    2002), with the deviatoric stress s.
     """
     flat = stress.reshape(6, -1)
     found = np.empty((3, flat.shape[1]))
-    for first in range(0, flat.shape[1], AT_ONCE):
-        some = slice(first, first + AT_ONCE)
+    for first in range(0, flat.shape[1], BLOCK):
+        some = slice(first, first + BLOCK)
         found[:, some] = _roots(flat[:, some])
     return found.reshape(3, *stress.shape[1:])
 
@@ -51,5 +51,5 @@ def _roots(stress: Field) -> Field:
             discriminant += 2 * (rise * s_2 - rise_2 * s) ** 2
         discriminant += 12 * (shear[i] * shear_2[j] - shear[j] * shear_2[i]) ** 2
     angle = np.arctan2(np.sqrt(discriminant), np.sqrt(27) * third) / 3
-    turns = 2 * np.pi / 3 * np.array([[0], [-1], [1]])
-    return np.asarray(mean + 2 * np.sqrt(second / 3) * np.cos(angle + turns))
+    shifts = 2 * np.pi / 3 * np.array([[0], [-1], [1]])
+    return np.asarray(mean + 2 * np.sqrt(second / 3) * np.cos(angle + shifts))

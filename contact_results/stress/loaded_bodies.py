@@ -1,4 +1,4 @@
-"""What loads the two bodies at the end of a loading step, from a result or from its directory."""
+"""Tractions and bodies at the end of an increment, from a result or from its directory."""
 
 from __future__ import annotations
 
@@ -33,40 +33,37 @@ if TYPE_CHECKING:
 
 TRACTIONS = ("pressure", "shear_radial", "shear_circumferential", "shear_along_load", "shear")
 
-RADIAL = "radial"  # the solver whose pressure is known at every radius
+RADIAL = "radial"  # solver with an analytical pressure between the rings
 
-OF_HEIGHTS = "the indenter is no smooth shape"
+OF_HEIGHTS = "the indenter is not a smooth shape"
 OF_MAP = "the coefficient of friction varies"
 
 
 class NoSuchState(Exception):
-    """The directory holds no run, or the run has no such step."""
+    """The directory has no readable run, or the run has no such load step in contact."""
 
 
-ROUNDING = 1e-9  # of the approach: what shifts by symmetry are below
+ROUNDING = 1e-9  # relative to the approach: smaller shifts are round-off
 
 
 @dataclass(frozen=True)
 class LoadedBodies:
-    """The two bodies of a scene and what loads their surface.
+    """The two bodies of a scene, and the tractions between them.
 
-    step            loading step, from 1
-    axes            what the indices of the tractions count, as in `Surface`
-    tractions       pressure and shear on the lower body, those that there are, by name
-                    [force/length^2]
-    discretisation  of finite elements; None of others
-    no_root         why the pressure need not fall like a root of the distance from the edge of the
-                    contact, or the shear not like the pressure; None where it does
-    direction       unit vector along which the rings' angles start
-    pressed         indenter, contact radius and approach, where they determine the pressure at
-                    every radius; None where it is known on cells or rings alone [length]
+    step            load step, from 1
+    axes            coordinates of the tractions, as in `Surface`
+    tractions       pressure and shear on the lower body by name, if present [force/length^2]
+    discretisation  settings of finite elements; None for other solvers
+    no_root         reason why the tractions may not fall like the root of the distance from the
+                    contact edge; None if they do
+    direction       unit vector of angle 0 of rings
+    pressed         indenter, contact radius [length] and approach [length], if they determine the
+                    pressure at every radius; None if it is known on cells or rings only
     contact_radius, peak_pressure
-                    as the run has them, which knows more than its cells; None where nobody has told
-                    [length], [force/length^2]
-    edges           whether the tractions have their edges inside the cells, and are means of these
-    strain          of the lower body; None where there is none
-    by_increments   part of themselves by which increments may leave the tractions wrong; None where
-                    nobody has stated it
+                    scalars of the run [length], [force/length^2]; None if unknown
+    edges           whether the tractions are cell means with edges inside the cells
+    strain          bulk strain of the lower body; None if there is none
+    by_increments   increment error of the tractions relative to them; None if not stated
     """
 
     title: str
@@ -87,18 +84,20 @@ class LoadedBodies:
 
     @property
     def on_rings(self) -> bool:
-        """Whether the tractions are functions of the radius."""
+        """Whether the tractions are given on rings."""
         return "radii" in self.axes
 
     def bulk_stress(self, layer: int, indenter: bool) -> Field:
-        """Stress of a layer, or of the base below all of them, by the bulk strain of the lower body
-        (6,) [force/length^2]."""
+        """Return the stress of a layer or of the base from the bulk strain (6,) [force/length^2].
+
+        It is zero in the indenter and without bulk strain.
+        """
         if self.strain is None or indenter:
             return np.zeros(6)
         return stress_by(self.strain, self.body, layer)
 
     def strained(self, points: StressPoints, indenter: bool) -> StressPoints:
-        """Add the stress by the bulk strain at points of a body."""
+        """Add the stress from the bulk strain at points of a body."""
         if self.strain is None:
             return points
         layers = range(int(np.max(points.material)) + 1)
@@ -107,16 +106,19 @@ class LoadedBodies:
 
     @property
     def surface(self) -> Surface:
-        """Where the tractions live."""
+        """Surface grid of the tractions."""
         return surface_on(self.axes, self.direction)
 
 
 def state_of_result(
     result: Result, step: int | None, errors: StatedErrors | None = None
 ) -> LoadedBodies:
-    """Return the state at the end of a step of a result, None for the last. Raises NoSuchState.
+    """Return the state at the end of a load step of a result.
 
-    errors  of the result
+    step    from 1; None for the last
+    errors  stated errors of the result
+
+    Raises NoSuchState if there is no such step, or if the bodies are separated.
     """
     ends = {end.step: end for end in result.steps}
     end = _in_contact(ends[_existing(step, sorted(ends))])
@@ -124,7 +126,7 @@ def state_of_result(
 
 
 def states_of_result(result: Result) -> Iterator[tuple[int, int, LoadedBodies | None]]:
-    """Load step, increment and state of every increment of a result; None of separated bodies."""
+    """Yield load step, increment and state of every increment; None for separated bodies."""
     for increment in result.increments:
         state = _of_result(result, increment, None) if increment.contact_area else None
         yield increment.step, increment.index, state
@@ -149,9 +151,12 @@ def _of_result(
 
 
 def state_of_run(directory: Path, step: int | None) -> LoadedBodies:
-    """Return the state at the end of a step of a stored run, None for the last.
+    """Return the state at the end of a load step of a stored run.
 
-    Raises NoSuchState, also for a file that is no result, and ResourceRefused.
+    step  from 1; None for the last
+
+    Raises NoSuchState if there is no readable run, no such step, or no contact, and ResourceRefused
+    if the fields do not fit into memory.
     """
     run = _run_of(directory)
     chosen = _existing(step, list(range(1, len(run.summary.steps) + 1)))
@@ -162,9 +167,10 @@ def state_of_run(directory: Path, step: int | None) -> LoadedBodies:
 
 
 def states_of_run(directory: Path) -> Iterator[tuple[int, int, LoadedBodies | None]]:
-    """Load step, increment and state of every increment of a stored run; None of separated bodies.
+    """Yield load step, increment and state of every increment of a stored run.
 
-    Raises what `state_of_run` does, and NoSuchState for a run that has no fields of its increments.
+    The state of separated bodies is None. Raises NoSuchState if there is no readable run, or if it
+    has no fields of all increments, and ResourceRefused.
     """
     run = _run_of(directory)
     with _reading(directory):
@@ -232,7 +238,7 @@ def _state(
     errors: Mapping[str, StatedError] | None,
     **of_result: Any,
 ) -> LoadedBodies:
-    """Add to fields of a result what follows from its scene and from the end of a step."""
+    """Combine the fields of a result with the data of its scene and the scalars of an increment."""
     pressed = (scene.indenter, end.contact_radius, end.approach or 0.0)
     return LoadedBodies(
         title=scene.title,
@@ -250,9 +256,11 @@ def _state(
 
 
 def _by_increments(end: State, errors: Mapping[str, StatedError]) -> float | None:
-    """Stress is linear in the tractions, whose largest change by increments is that of the peak
-    pressure or, with the shear, of the shift; of the contact radius, where the peak has no error
-    because it is infinite. None where nobody tells."""
+    """Return the increment error of the tractions relative to them; None if it is unknown.
+
+    It is the largest relative increment error of peak pressure, approach and tangential shift. If
+    the peak pressure has no error because it is infinite, the contact radius replaces it.
+    """
     peak = errors.get("peak_pressure")
     of_pressure = "contact_radius" if peak is None or peak.error is None else "peak_pressure"
     parts = []
@@ -263,7 +271,7 @@ def _by_increments(end: State, errors: Mapping[str, StatedError]) -> float | Non
         if error.error is None:
             return None
         size = float(np.max(np.abs(value)))
-        if size > ROUNDING * abs(end.approach or 0.0):  # nothing is known by the digits of a zero
+        if size > ROUNDING * abs(end.approach or 0.0):  # a round-off value has no relative error
             parts.append(float(np.max(error.parts.get("increments", 0.0))) / size)
     return max(parts, default=0.0)
 
@@ -279,7 +287,7 @@ def _no_root(indenter: ShapedBody, friction: CoulombFriction | None) -> str | No
 
 
 def _in_contact(end: Any) -> Any:
-    """The end of a step; raises NoSuchState where the bodies are separated."""
+    """Return the end of a load step; raise NoSuchState if the bodies are separated."""
     if not end.contact_area:
         raise NoSuchState(
             "the bodies are separated at the end of this step, and the stress is zero everywhere; "

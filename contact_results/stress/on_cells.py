@@ -1,4 +1,4 @@
-"""Stress below tractions on the cells of a grid."""
+"""Stress below tractions on the cells of a surface grid."""
 
 from __future__ import annotations
 
@@ -26,21 +26,21 @@ if TYPE_CHECKING:
     from semi_analytical.stress import NearEdge, SubsurfaceField
 
 
-# Half a window in half extents of the contact: past the contact's rim, where tension is largest,
-# and past what bends a coating down there.
+# Half width of the window in half extents of the contact. It includes the contact edge, where the
+# tensile stress is largest, and the deflection of a coating outside the contact.
 MARGIN = 1.6
-# The same of levels with a largest stress at the edge of the window: behind a pushed contact the
-# stress at an interface is largest about two contact radii from the middle.
+# Half width for levels whose largest stress lies at the edge of the first window. Behind a contact
+# with tangential load the largest interface stress is about two radii from the centre.
 WIDE_MARGIN = 2.4
-NEIGHBOURS = 4  # cells beside a point, for the interpolation
+NEIGHBOURS = 4  # adjacent cells of a point that the interpolation uses
 LEVEL = ("depth", "layer")
-# Numbers per point of the volume: displacement and stress of each level and of all, cells; places,
-# tensors and invariants of the file.
+# Numbers per point of the volume: displacement and stress by level and joined, cells; coordinates,
+# tensors and invariants in the file.
 NUMBERS = (9 + 9 + 8) + (3 + 3 + 9 + 4)
 
 
 def estimated_bytes(grid: SurfaceGrid) -> int:
-    """Largest memory of the stress below a contact that fills the grid [byte]."""
+    """Estimate the largest memory of the stress below a contact that fills the grid [byte]."""
     from semi_analytical.stress.field import FIXED, required_bytes
 
     nx, ny = (round(MARGIN * cells) for cells in grid.cells)
@@ -51,7 +51,7 @@ def estimated_bytes(grid: SurfaceGrid) -> int:
 def stress_at_cells(
     state: LoadedBodies, x: Field, y: Field, levels: Sequence[Level], *, indenter: bool = False
 ) -> StressPoints:
-    """Stress at points (n,), by cubic interpolation between the cells of their levels."""
+    """Interpolate the stress at points (n,) cubically between the cells of their levels."""
     from semi_analytical.stress import subsurface
 
     body = state.indenter if indenter else state.body
@@ -59,7 +59,7 @@ def stress_at_cells(
     grid, pressure, shear = _with_margin(state, 0.0, reach)
     if indenter and shear is not None:
         shear = -shear
-    tractions = _as_seen_from_afar(state, pressure, shear)
+    tractions = _far_field_tractions(state, pressure, shear)
     fields = {level: subsurface(body, grid, *tractions, [level]) for level in set(levels)}
     found = [fields[level].below(*at) for *at, level in zip(x, y, levels, strict=True)]
     displacement, stress = (np.concatenate(parts).T for parts in zip(*found, strict=True))
@@ -78,17 +78,19 @@ def stress_on_cells(
     see_edge: bool = True,
     section_only: bool = False,
 ) -> StressField:
-    """Stress on levels, under the whole window, which reaches well beyond the contact.
+    """Compute the stress on levels below a window that extends beyond the contact.
 
-    Near the edge of a smooth contact it is that of tractions which fall like a root there, and the
-    field has points on the edge; `how` says whether it could be fitted, and if not why.
+    Near the edge of a smooth contact, the tractions fall like the root of the distance from the
+    edge, and the field has points on the fitted edge. `how` of the field states the cause if no
+    edge was fitted.
 
-    depths    both sides of every interface come on top [length]; None for what fits contact and
-            layers
-    volume    whether the field has the cells of the volume
-    see_edge  whether to look for the edge
-    section_only  whether the largest values are those of the section
-    Raises ValueError for a depth that is not in the body, ResourceRefused.
+    depths    [length], without both sides of every interface, which are always included; None
+              chooses them from the contact and the layers
+    volume    return the points and cells of the volume as well
+    see_edge  fit the contact edge
+    section_only  restrict the largest values to the section
+
+    Raises ValueError for a depth outside the body, and ResourceRefused.
     """
     below = partial(_below, state, indenter)
     field = below(depths, MARGIN, volume=volume, see_edge=see_edge, section_only=section_only)
@@ -98,7 +100,7 @@ def stress_on_cells(
     far = sorted({e.depth for e in found if e.at_window_edge and e.value > 0})
     if not far:
         return field
-    with suppress(ResourceRefused):  # the largest values stay marked as on the edge
+    with suppress(ResourceRefused):  # then the largest values keep the mark `at_window_edge`
         beyond = below(far, WIDE_MARGIN, see_edge=False)
         wide = below(depths, WIDE_MARGIN, see_edge=see_edge, section_only=True)
         points = StressPoints.joined([beyond.points, field.points])
@@ -116,14 +118,15 @@ def _below(
     see_edge: bool = True,
     section_only: bool = False,
 ) -> StressField:
-    """The stress on a window of at least `margin` half extents of the contact."""
+    """Compute the stress on a window of at least `margin` half extents of the contact."""
     from semi_analytical.stress import SubsurfaceField, refuse_beyond_memory
     from semi_analytical.stress.depths import line_weights
 
     body = state.indenter if indenter else state.body
     grid, pressure, shear = _with_margin(state, margin)
-    counted = float(np.sqrt(np.count_nonzero(pressure) * grid.cell_area / np.pi))
-    radius = counted if state.contact_radius is None else state.contact_radius
+    radius = state.contact_radius
+    if radius is None:
+        radius = float(np.sqrt(np.count_nonzero(pressure) * grid.cell_area / np.pi))
     levels = _levels(body, depths, radius)
     if volume:
         refuse_beyond_memory(grid.cells, len(levels), NUMBERS)
@@ -199,12 +202,12 @@ def _each_level(
     edge: NearEdge | None,
     rows: Indices | None,
 ) -> Iterator[SubsurfaceField]:
-    """Fields level by level, with the stress near an edge that is determined."""
+    """Yield the fields level by level, with the stress near a fitted edge."""
     from semi_analytical.stress import fields_by_level
 
-    far = _as_seen_from_afar(state, pressure, shear)
+    far = _far_field_tractions(state, pressure, shear)
     reached = [level for level in levels if edge is not None and edge.reaches(level)]
-    # Beside a corrected edge the field is that of the tractions themselves.
+    # Adjacent to a corrected edge, the tractions themselves give the field.
     exact = reached if state.edges else []
     near = fields_by_level(body, grid, pressure, shear, exact, rows)
     for field in fields_by_level(body, grid, *far, levels, rows):
@@ -218,11 +221,13 @@ def _each_level(
             yield edge.corrected(field)
 
 
-def _as_seen_from_afar(
+def _far_field_tractions(
     state: LoadedBodies, pressure: Field, shear: Field | None
 ) -> tuple[Field, Field | None]:
-    """Constants on cells that act far away like the tractions. Those of a solver on cells do;
-    means of cells that have their edges within smooth what they are the means of."""
+    """Return constant tractions on cells with the far field of the tractions.
+
+    Tractions of a solver on cells are returned unchanged; cell means are sharpened.
+    """
     if not state.edges:
         return pressure, shear
     loaded = pressure > 0
@@ -230,9 +235,11 @@ def _as_seen_from_afar(
 
 
 def _sharpened(means: Field, loaded: NDArray[np.bool_]) -> Field:
-    """Means less a twelfth of their second differences, by what flows between loaded cells: as
-    constants on cells means act like the tractions times sinc² of the wavenumber, 1 - k²h²/12 and
-    less; nothing is added in all."""
+    """Subtract 1/12 of the second differences from cell means, within the loaded cells.
+
+    Cell means as constants act like the tractions times sinc²(kh/2) = 1 - k²h²/12 + … per axis. The
+    correction is a flux between loaded cells, so that the sum is unchanged.
+    """
     found = means.copy()
     for axis in (-2, -1):
         f, both = np.moveaxis(found, axis, -1), np.moveaxis(loaded, axis, -1)
@@ -243,14 +250,14 @@ def _sharpened(means: Field, loaded: NDArray[np.bool_]) -> Field:
 
 
 def _how(edge: NearEdge | None, why: str) -> dict[str, object]:
-    """Whether the edge was fitted, for the record."""
+    """Return the record of the edge fit for `stress.json`."""
     if edge is None or why:
         return {"fitted": False, "because": why}
     return {"fitted": True, "points": len(edge.x), "fits_apart": edge.apart}
 
 
 def _on_edge(edge: NearEdge, stress: Field) -> StressPoints:
-    """Points (n,) at the surface; displacements are not taken there."""
+    """Return points (n,) on the edge at the surface, with displacements NaN."""
     nothing = np.zeros(len(edge.x))
     return StressPoints(
         edge.x,
@@ -266,10 +273,10 @@ def _on_edge(edge: NearEdge, stress: Field) -> StressPoints:
 def _with_margin(
     state: LoadedBodies, margin: float, reach: Sequence[float] = (0.0, 0.0)
 ) -> tuple[SurfaceGrid, Field, Field | None]:
-    """Grid, pressure and shear on a window that is no smaller than it was.
+    """Return grid, pressure and shear on a window that contains the given one.
 
-    margin  half a window in half extents of the contact
-    reach   half a window along x and y at least [length]
+    margin  smallest half width of the window in half extents of the contact
+    reach   smallest half widths of the window along x and y [length]
     """
     from semi_analytical import SurfaceGrid
 
@@ -285,7 +292,7 @@ def _with_margin(
 
 
 def _margin(pressure: Field, axis: int, margin: float) -> int:
-    """Cells to add on either side."""
+    """Return the number of cells to add on each side."""
     cells = pressure.shape[axis]
     loaded = np.flatnonzero(np.any(pressure > 0, axis=1 - axis))
     reach = np.abs(loaded - (cells - 1) / 2).max() + 0.5 if loaded.size else 0.0
@@ -293,7 +300,7 @@ def _margin(pressure: Field, axis: int, margin: float) -> int:
 
 
 def _levels(body: Body, depths: Sequence[float] | None, radius: float) -> tuple[Level, ...]:
-    """What was asked for and both sides of every interface, downward."""
+    """Return the levels of the given depths and of both sides of every interface, downward."""
     from semi_analytical.frf.stack import stack_of
     from semi_analytical.stress import default_depths, interfaces
     from semi_analytical.stress.depths import levels_of
@@ -306,7 +313,7 @@ def _levels(body: Body, depths: Sequence[float] | None, radius: float) -> tuple[
 
 
 def _points(field: SubsurfaceField, grid: SurfaceGrid) -> StressPoints:
-    """(levels, nx, ny); the edge is that of the window."""
+    """Return the points (levels, nx, ny); `at_edge` marks the edge of the window."""
     places = np.meshgrid(field.depths, field.x, field.y, indexing="ij", copy=False)
     depth, x, y = places
     layers = np.array([level.layer for level in field.levels])
@@ -322,7 +329,7 @@ def _points(field: SubsurfaceField, grid: SurfaceGrid) -> StressPoints:
 
 
 def _axis(section: SubsurfaceField) -> StressPoints:
-    """(levels,), interpolated between cells."""
+    """Interpolate the section on the z axis (levels,)."""
     displacement, stress = section.below()
     nothing = np.zeros(len(section.levels))
     return StressPoints(

@@ -18,17 +18,17 @@ from contact_scene.machine.blas_threads import one_thread
 if TYPE_CHECKING:
     from semi_analytical.frf.depth import Level
 
-SHOWN = 3.0  # contact radii to the sides and in depth
+SHOWN = 3.0  # extent of figures to the sides and in depth, in contact radii
 
 
 @one_thread()
 def stress_on_disc(
     state: LoadedBodies, *, indenter: bool = False, depths: Sequence[float] | None = None
 ) -> StressField:
-    """Compute the stress on levels in the plane of the load, and where it is largest.
+    """Compute the stress on levels in the plane of the load, and the points of its maxima.
 
-    depths  [length], to which both sides of every interface are added; None for those that suit
-            contact and layers, and the largest stresses
+    depths  [length], without both sides of every interface, which are always included; None chooses
+            them from contact and layers, and refines the maxima
 
     Raises ValueError for a depth outside the body, UnsupportedScene as `RadialBody.of` does.
     """
@@ -71,9 +71,11 @@ def stress_at_radii(
     indenter: bool = False,
     fineness: int = 1,
 ) -> StressPoints:
-    """Stress at points (n,) below the tractions of the radial solver; raises UnsupportedScene.
+    """Compute the stress at points (n,) below the tractions of the radial solver.
 
     fineness  multiplies the number of orders and points
+
+    Raises UnsupportedScene as `RadialBody.of` does.
     """
     body = RadialBody.of(state, indenter, fineness)
     c, s = body.direction
@@ -90,7 +92,7 @@ def stress_at_radii(
 
 
 def _both_sides(right: StressPoints) -> StressPoints:
-    """From behind the axis, where r and x, θ and y point away from each other, to ahead of it."""
+    """Extend points of x >= 0 to x < 0, where r = -x and θ = -y change the signs of components."""
     behind = replace(
         right,
         x=-right.x,

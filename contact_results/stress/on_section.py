@@ -1,4 +1,4 @@
-"""Stress below tractions on rings, in the plane of the load."""
+"""Stress below tractions on rings by finite elements, in the plane of the load."""
 
 from __future__ import annotations
 
@@ -18,14 +18,17 @@ RECOVERY = (
     "stress at the 2 x 2 Gauss points, extrapolated bilinearly to the nodes and averaged over the "
     "elements of one material"
 )
-NEAR = 5.0  # loaded radii that files reach, of the hundreds that stand for a half-space
-SHOWN = (2.0, 3.0)  # loaded radii to the sides and in depth
+NEAR = 5.0  # extent of the files in loaded radii; the mesh extends to hundreds
+SHOWN = (2.0, 3.0)  # extent of figures to the sides and in depth, in loaded radii
 
 
 @one_thread()
 def stress_on_section(state: LoadedBodies, *, indenter: bool = False) -> StressField:
-    """Stress at the nodes of a mesh of its own, as fine over the loaded circle as the contact was
-    computed. Raises what `fem_reference.stress.subsurface` raises."""
+    """Compute the stress at the nodes of a new mesh.
+
+    It has as many elements over the loaded radius as the contact solve has over the contact radius.
+    Raises the errors of `fem_reference.stress.subsurface`.
+    """
     from fem_reference.compliance.ring_edge import beyond_pressure
     from fem_reference.stress import SurfaceTractions, subsurface
 
@@ -37,7 +40,7 @@ def stress_on_section(state: LoadedBodies, *, indenter: bool = False) -> StressF
         rooted=state.no_root is None,
         edge=beyond_pressure(state.body, state.indenter),
     )
-    # Elements over the circle that is loaded now, not over the largest one.
+    # Fit the mesh to the radius that is loaded now, not to the largest one of the history.
     asked = state.discretisation.model_copy(update={"contact_radius": None})
     body = state.indenter if indenter else state.body
     field = subsurface(body, tractions, asked, upper=indenter)
@@ -69,8 +72,10 @@ def stress_on_section(state: LoadedBodies, *, indenter: bool = False) -> StressF
 
 
 def _section(field: SectionField) -> StressPoints:
-    """Both halves, the one behind the axis at negative x, where r and x, θ and y point away from
-    each other; nothing ends at the edge of the mesh, which stands for all beyond."""
+    """Return the points of both halves of the section, at θ = 0 and π.
+
+    No point is `at_edge`, because the far mesh represents the half-space.
+    """
     halves = (0.0, pi)
     count = field.points.shape[1]
     moved, stressed = [], []
@@ -94,7 +99,7 @@ def _section(field: SectionField) -> StressPoints:
 
 
 def _axis(section: StressPoints, reach: float) -> StressPoints:
-    """Points on the axis, downward, once each: both halves have them."""
+    """Return the points on the axis, downward, without the duplicates of the second half."""
     on_it = np.flatnonzero((section.x == 0.0) & (section.depth <= reach))
     places = np.stack([section.depth[on_it], section.material[on_it]])
     return section.chosen(on_it[np.unique(places, axis=1, return_index=True)[1]])

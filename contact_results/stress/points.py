@@ -1,4 +1,4 @@
-"""Displacement and stress at points of a body, whoever computed them."""
+"""Displacement and stress at points of a body, from any solver."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Indices = NDArray[np.int64]
 
 FIELDS = ("x", "y", "depth", "material", "displacement", "stress", "at_edge")
 COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
-# Names and meanings.
+# Measures of stress by name, with their meanings.
 MEASURES = {
     "von_mises": "equivalent stress of von Mises",
     "max_principal": "largest principal stress, tension positive",
@@ -30,15 +30,16 @@ ON_INTERFACES = frozenset({"interface_shear", "interface_tensile_stress"})
 
 @dataclass(frozen=True, eq=False)
 class StressPoints:
-    """Fields at points of any arrangement (…), z into the body; at an interface there is a point
-    on each side.
+    """Fields at points of any array shape (…), z into the body.
+
+    An interface has two points at each place, one on each side.
 
     x, y, depth   (…) [length]
     material      (…) 0 for the outermost layer
     displacement  u_x, u_y, u_z (3, …) [length]
     stress        tension positive (6, …) [force/length^2]: xx, yy, zz, yz, xz, xy
-    cells         kind and corners of the cells between the points; None where there are none
-    at_edge       whether a point is on the edge of what was computed (…)
+    cells         cell type and corners (m, corners) of the cells between the points; None without
+    at_edge       whether a point is at the edge of the computed region (…)
     """
 
     x: Field
@@ -62,7 +63,7 @@ class StressPoints:
 
     @property
     def measures(self) -> Mapping[str, Field]:
-        """What is looked for the largest of (…), by the names of `MEASURES`."""
+        """Values (…) of the stress measures, by the names of `MEASURES`."""
         first, _, last = self.principal
         of = self.components
         across = np.hypot(of["xz"], of["yz"])
@@ -75,7 +76,7 @@ class StressPoints:
         return dict(zip(COMPONENTS, self.stress, strict=True))
 
     def turned(self, direction: tuple[float, float]) -> StressPoints:
-        """The same seen from axes in which x points along a direction."""
+        """Transform from axes with x along `direction` to the axes of the scene."""
         if direction == (1.0, 0.0):
             return self
         c, s = direction
@@ -93,12 +94,12 @@ class StressPoints:
 
     @staticmethod
     def joined(parts: Sequence[StressPoints]) -> StressPoints:
-        """Join points along their last index, without cells."""
+        """Concatenate points along their last index, without cells."""
 
-        def together(name: str) -> Any:
+        def concatenated(name: str) -> Any:
             return np.concatenate([getattr(part, name) for part in parts], axis=-1)
 
-        return StressPoints(**{name: together(name) for name in FIELDS})
+        return StressPoints(**{name: concatenated(name) for name in FIELDS})
 
     def columns(self, which: slice) -> StressPoints:
         """Select along the last index, without cells."""
@@ -122,11 +123,11 @@ class StressPoints:
         return replace(self, cells=(kind, np.stack(corners, axis=-1).reshape(-1, len(corners))))
 
     def with_largest(self) -> StressPoints:
-        """The points (n,) that have the largest values of the measures, without cells."""
+        """Return the points (n,) with the largest value of each measure, without cells."""
         return self.chosen(np.array([np.argmax(values) for values in self.measures.values()]))
 
     def near(self, reach: float) -> StressPoints:
-        """The cells that have a corner within a distance to the sides and in depth."""
+        """Return the cells with a corner within a distance to the sides and in depth."""
         assert self.cells is not None
         kind, cells = self.cells
         inside = np.maximum(np.abs(self.x), self.depth) <= reach
@@ -134,7 +135,7 @@ class StressPoints:
         return replace(self.chosen(kept), cells=(kind, corners.reshape(-1, cells.shape[1])))
 
     def chosen(self, points: NDArray[np.bool_] | Indices) -> StressPoints:
-        """Some of the points (n,), without cells; counted in a row, whatever the arrangement."""
+        """Select points by flat index or mask; returns a flat array (n,) without cells."""
         which = points.ravel()
         return StressPoints(
             self.x.ravel()[which],
@@ -148,23 +149,23 @@ class StressPoints:
 
     @property
     def in_a_row(self) -> StressPoints:
-        """All points (n,), without cells."""
+        """All points as a flat array (n,), without cells."""
         return self.chosen(np.arange(self.x.size))
 
     def on_side(self, depth: float, material: int) -> NDArray[np.bool_]:
-        """Which points lie on one side of an interface (…)."""
+        """Return a mask (…) of the points on one side of an interface."""
         near = np.abs(self.depth - depth) <= 1e-9 * depth
         return np.asarray(near & (self.material == material))
 
 
 @dataclass(frozen=True, eq=False)
 class FittedEdge:
-    """The edge of the contact at the surface, as it was fitted between the cells.
+    """Contact edge at the surface, fitted between the cells.
 
-    points  on it (n,)
-    apart   difference of the largest principal stress there by another fit [force/length²]
+    points  on the edge (n,)
+    apart   difference of the largest principal stress between two fits [force/length²]
     determined
-            whether the stress there is determined; if not, it is a candidate for the largest
+            whether the fit determines the stress; the points are candidates for maxima in any case
     """
 
     points: StressPoints
@@ -176,15 +177,15 @@ class FittedEdge:
 class StressField:
     """Stress in a body below a contact.
 
-    points   that may have the largest values: on cells those of each level, else all
-    edge     of the contact, where it could be fitted
-    section  the plane y = 0 near the contact, with cells
-    axis     down the z axis
-    volume   all points with their cells; None where not asked for
-    label    what x is in the section
-    shown    how far a figure reaches to the sides and in depth [length]
-    how      how it was computed, for the record
-    direction  unit vector, in the scene, of x in the section
+    points   candidates for the largest values: on cells those of each level, else all
+    edge     fitted contact edge; None if there is none
+    section  points and cells in the plane y = 0 near the contact
+    axis     points on the z axis
+    volume   all points with their cells; None if not requested
+    label    axis label of x in the section
+    shown    extent of figures to the sides and in depth [length]
+    how      settings of the computation, for `stress.json`
+    direction  unit vector, in the scene, of the x axis of the section
     """
 
     points: StressPoints

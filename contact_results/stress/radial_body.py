@@ -1,4 +1,4 @@
-"""A body below the tractions of the radial solver: its regions, points and largest stresses."""
+"""Body below the tractions of the radial solver: regions, points and largest stresses."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ Fields = Callable[[Sequence["Level"], Field, Field], Field]
 class Sampling(NamedTuple):
     """Numbers of points.
 
-    inside, beside, down  of a section: over the radius, outside it and in depth
-    about, rounds         of the search for a maximum: points to either side, by which their spacing
-                          is divided in every round
+    inside, beside, down  points of a section inside and outside the radius, and in depth
+    about, rounds         search for a maximum: points on each side, and number of refinements; each
+                          refinement divides the spacing by `about`
     """
 
     inside: int
@@ -42,8 +42,8 @@ class Sampling(NamedTuple):
 
 
 PRESSED, SHEARED = Sampling(32, 32, 48, 3, 6), Sampling(20, 16, 28, 2, 5)
-# Points outside the plane of the section, where the tensile stress at the base of a layer is
-# largest: radii of the contact, angles, and every n-th level.
+# Points outside the plane of the section, where the tensile stress at the bottom of a layer may be
+# largest: distances in contact radii, number of angles, and every n-th level.
 RADII, ANGLES, EVERY = np.array([0.3, 0.6, 0.8, 0.95, 1.0, 1.15, 1.5]), 7, 2
 
 
@@ -51,12 +51,12 @@ RADII, ANGLES, EVERY = np.array([0.3, 0.6, 0.8, 0.95, 1.0, 1.15, 1.5]), 7, 2
 class RadialBody:
     """One body below a circular contact, in axes in which x points along the load.
 
-    fields     displacement and stress (levels, 9, n) on levels at x and y (n,)
+    fields     function of levels, x and y (n,): displacement and stress (levels, 9, n)
     parts      regions of the body, and the depths
-    strained   adds the stress by a bulk strain
+    strained   function that adds the stress from a bulk strain
     direction  unit vector of the load in the scene
-    centre     of the contact, along x [length]
-    is_round   whether all fields are functions of the radius, known at x >= 0 and y = 0
+    centre     coordinate x of the contact centre [length]
+    is_round   whether the fields depend on the radius alone and are computed at x >= 0, y = 0
     """
 
     fields: Fields
@@ -73,8 +73,8 @@ class RadialBody:
 
         fineness  multiplies the number of orders and points; above 1 the edge has another fit
 
-        Raises UnsupportedScene for too few rings, and for shear below infinite pressure or of a
-        load that turns.
+        Raises UnsupportedScene for too few rings, for shear with infinite pressure, and for a load
+        with changing direction.
         """
         from semi_analytical.frf.stack import stack_of
 
@@ -146,20 +146,20 @@ class RadialBody:
 
     @property
     def radii(self) -> Field:
-        """Distances of the section's points from the centre, denser towards the edge [length]."""
+        """Distances of the points of the section from the centre, denser at the edge [length]."""
         inside = np.sin(0.5 * np.pi * np.arange(self.sampling.inside) / self.sampling.inside)
         beside = np.arange(self.sampling.beside + 1) / self.sampling.beside
         return self.parts.radius * np.concatenate([inside, 1 + (REACH - 1) * beside**2])
 
     @property
     def section(self) -> Field:
-        """Points of the section along x (n,); of a round contact from the axis on [length]."""
+        """Coordinates x (n,) of the section; x >= 0 if all fields depend on the radius [length]."""
         if self.is_round:
             return self.radii
         return np.unique(np.concatenate([self.centre - self.radii, [0], self.centre + self.radii]))
 
     def points(self, levels: Sequence[Level], x: Field, y: Field) -> StressPoints:
-        """Compute displacement and stress at places (n,) of every level (levels, n)."""
+        """Compute displacement and stress at x and y (n,) on every level; shape (levels, n)."""
         found = np.moveaxis(self.fields(levels, x, y), 1, 0)
         depth = np.array([[level.depth] for level in levels])
         layer = np.array([[level.layer] for level in levels])
@@ -178,7 +178,7 @@ class RadialBody:
         return self.strained(points)
 
     def beside(self, levels: Sequence[Level]) -> StressPoints:
-        """Compute the points outside the plane of the section."""
+        """Compute the stress at points outside the plane of the section."""
         angles = np.pi * np.arange(1, ANGLES + 1) / (ANGLES + 1)
         r = self.parts.radius * RADII[:, None]
         x, y = self.centre + r * np.cos(angles), r * np.sin(angles)
@@ -191,8 +191,10 @@ class RadialBody:
         return self.points([levels[n] for n in sides], x.ravel(), y.ravel())
 
     def largest(self, extreme: Extreme) -> StressPoints:
-        """Find the point of a region where a measure is largest, from the largest of the points
-        that were computed; returns it with its neighbours (n,)."""
+        """Refine the maximum of a measure in a region by search around a computed maximum.
+
+        Returns the points (n,) of the last refinement.
+        """
         from semi_analytical.frf.depth import Level
 
         material, top, bottom = self.parts.named[extreme.region]
@@ -202,12 +204,12 @@ class RadialBody:
         r, theta = np.hypot(x - self.centre, y), np.arctan2(y, x - self.centre)
         across, down = spacing(self.radii, r), spacing(self.parts.depths, z)
         down = min(down, (bottom - top) / IN_LAYER)
-        # In the plane it stays there, by symmetry.
+        # A maximum in the plane of the section stays in it, by symmetry.
         around = np.pi / (ANGLES + 1) if abs(y) > 1e-9 * radius else 0.0
         steps = np.arange(-about, about + 1) / about
         for _ in range(self.sampling.rounds + 1):
             radii = np.clip(r + across * steps, 0, REACH * radius)
-            if radii[0] < radius < radii[-1]:  # where there may be a peak
+            if radii[0] < radius < radii[-1]:  # a peak may lie at the contact edge
                 radii = np.append(radii, radius)
             depths = np.unique(np.clip(z + down * steps, top, bottom))
             angles = np.unique(np.clip(theta + around * steps, -np.pi, np.pi))
@@ -227,24 +229,24 @@ def is_sheared(state: LoadedBodies) -> bool:
 
 
 def refuse_infinite(indenter: ShapedBody, radius: float) -> None:
-    """Raise UnsupportedScene for shear where the pressure is infinite.
+    """Raise UnsupportedScene for shear with infinite pressure.
 
-    radius  about that of the contact [length]: a ball has no gap of its own beyond its equator
+    radius  approximate contact radius [length]
     """
     from radial.normal.profile import profile
 
     if indenter.rim is not None or profile(indenter, radius).apex:
         where = "a tip" if indenter.rim is None else "a rim"
         raise UnsupportedScene(
-            f"there is shear, and the pressure is infinite at {where}: this solver has the stress "
-            "below shear where tractions are finite; solve the scene with another solver"
+            f"there is shear, and the pressure is infinite at {where}: the radial solver computes "
+            "the stress below shear only for finite pressure; use another solver"
         )
 
 
 def refuse_turned() -> None:
-    """Raise UnsupportedScene for shear that is not its own mirror image."""
+    """Raise UnsupportedScene for shear without mirror symmetry."""
     raise UnsupportedScene(
-        "the tangential load turns, or there is torsion beside it: this solver has the stress "
-        "below loads along one line, or torsion alone; solve the scene with the semi-analytical "
+        "the tangential load changes direction or acts together with torsion: the radial solver "
+        "computes the stress below loads along one line or torsion alone; use the semi-analytical "
         "solver"
     )

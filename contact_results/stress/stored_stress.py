@@ -1,4 +1,4 @@
-"""A stress read back from its directory: tables and meshes, arrays with units and meaning."""
+"""Reader of the directory of a stress: tables and meshes with units and meanings."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ class StoredMesh:
     """A mesh with its fields.
 
     points  x, y and z into the body (n, 3) [m]
-    cells   corners (m, corners), numbers of points
-    fields  by name, the first index a point, or a cell where tractions are constant on cells
+    cells   point numbers of the corners (m, corners)
+    fields  arrays by name; the first index is the point, or the cell of cell-wise tractions
     """
 
     points: StoredValues
@@ -40,13 +40,13 @@ class StoredMesh:
 
 @dataclass(frozen=True)
 class StoredStress:
-    """What `slipstick stress` has written.
+    """Results of a stress, as `slipstick stress` wrote them.
 
-    record    what was computed, and how; its largest values
+    record    content of `stress.json`: settings and largest values
     tables    stress_maxima, stress_axis and stress_interfaces
     section   stress and displacement in the plane of the load
-    surface   the tractions
-    volume    the same as the section everywhere; None where it was not asked for
+    surface   tractions
+    volume    stress and displacement in the volume; None without --volume
     """
 
     record: Mapping[str, Any]
@@ -62,23 +62,31 @@ class StoredStress:
 
 
 def load_stress(directory: str | PathLike[str]) -> StoredStress:
-    """The stress that `slipstick stress` has left in a directory.
+    """Read the results of `slipstick stress` from a directory.
 
-    Raises FileNotFoundError if there is none, and ValueError for files that are no stress's or of
-    an earlier version.
+    Raises
+    ------
+    FileNotFoundError
+        The directory has no stress.
+    ValueError
+        A file is damaged or of an earlier version.
     """
     place = Path(directory)
     if not (place / STRESS).is_file():
-        instead = "; it is a run, which load reads" if (place / SUMMARY).is_file() else ""
-        raise FileNotFoundError(f"{directory} is no stress: it has no {STRESS}{instead}")
+        instead = (
+            "; it is the output of a run, which load reads" if (place / SUMMARY).is_file() else ""
+        )
+        raise FileNotFoundError(
+            f"{directory} is not the output of a stress: it has no {STRESS}{instead}"
+        )
     try:
         record = json.loads((place / STRESS).read_text(encoding="utf-8"))
     except (ValueError, RecursionError) as error:
         raise ValueError(f"{place / STRESS} is not the {STRESS} of a stress: {error}") from None
     if not isinstance(record, dict) or "convention" not in record:
         raise ValueError(
-            f"{place / STRESS} has no convention: it is of an earlier version, or no stress; ask "
-            "for the stress again"
+            f"{place / STRESS} has no convention: it is of an earlier version or not the output of "
+            "a stress; run 'slipstick stress' again"
         )
     return StoredStress(
         record,
@@ -99,7 +107,7 @@ def _mesh(directory: Path, name: str) -> StoredMesh:
             stem, unit = (heading, "") if split is None else (split["name"], split["unit"])
             indices = (place, "component")[: array.ndim]
             if stem not in meanings:
-                raise ValueError(f"{directory / name}: nothing says what {heading!r} is")
+                raise ValueError(f"{directory / name}: {heading!r} has no entry in {MEANINGS}")
             unit = "" if unit == "1" else unit
             fields[stem] = StoredValues(array, unit, meanings[stem], indices)
     kind, corners = mesh.cells

@@ -1,4 +1,4 @@
-"""The largest stresses of a body: in all of it, in each material and on each side of interfaces."""
+"""Largest stresses of a body, of its materials, and on each side of its interfaces."""
 
 from __future__ import annotations
 
@@ -11,16 +11,17 @@ from numpy.typing import NDArray
 from contact_results.stress.points import ON_INTERFACES, StressField, StressPoints
 from contact_scene import Body, IsotropicMaterial
 
-# Its largest principal stress is that at the trailing edge, if the body is pushed.
+# Region of all surface points. A shear load has its largest principal stress at the trailing edge.
 SURFACE = "surface"
 
 
 @dataclass(frozen=True)
 class Extreme:
-    """Where in a region a measure is largest: a point itself, nothing interpolated.
+    """Largest value of a measure in a region, at a computed point.
 
-    at_window_edge  whether it is on the edge of what was computed, and there may be more beyond
-    on_edge         whether it is on the fitted edge of the contact
+    at_window_edge  whether the point is at the edge of the computed region, so that the true
+                    maximum may lie outside
+    on_edge         whether the point is on the fitted edge of the contact
     """
 
     region: str
@@ -34,7 +35,7 @@ class Extreme:
 
 
 def extremes(field: StressField, body: Body) -> tuple[Extreme, ...]:
-    """Of every measure in every region."""
+    """Find the largest value of every measure in every region."""
     found = {(e.region, e.measure): e for e in _extremes(field.points, field.direction, body)}
     if field.edge is not None:
         for extreme in _extremes(field.edge.points, field.direction, body):
@@ -52,7 +53,7 @@ def _extremes(
         if not np.any(inside):
             continue
         for measure, values in points.measures.items():
-            # Both are continuous across an interface, and of no other plane.
+            # These measures are continuous across an interface: one side suffices.
             if measure in ON_INTERFACES and not region.endswith("above"):
                 continue
             k = int(np.argmax(np.where(inside, values, -np.inf)))
@@ -65,12 +66,12 @@ def _extremes(
 
 
 def layer_name(layer: int, layers: int) -> str:
-    """`layer 1` for the outermost, `base` below the last."""
+    """Return `layer 1` for the outermost layer, and `base` below the last one."""
     return f"layer {layer + 1}" if layer < layers else "base"
 
 
 def interface_sides(body: Body) -> list[tuple[int, str, float, int]]:
-    """Number, side, depth and material of both sides of every interface; of a rigid base one."""
+    """Return number, side, depth and material of each elastic side of every interface."""
     depths = np.cumsum([layer.thickness for layer in body.layers])
     sides = []
     for k, depth in enumerate(depths.tolist()):
@@ -81,7 +82,7 @@ def interface_sides(body: Body) -> list[tuple[int, str, float, int]]:
 
 
 def _regions(points: StressPoints, body: Body) -> Iterator[tuple[str, NDArray[np.bool_]]]:
-    """Names of the regions, and which points belong to them."""
+    """Yield the regions by name, each with the mask of its points."""
     yield "body", np.ones(points.x.shape, dtype=bool)
     if not body.layers:
         return

@@ -29,7 +29,7 @@ def export(
     if not (source / SUMMARY).is_file():
         if (source / STRESS).is_file():
             raise typer.BadParameter("a stress is VTU already: open its stress_section.vtu")
-        raise typer.BadParameter(f"{source} is no run: it has no {SUMMARY}")
+        raise typer.BadParameter(f"{source} is not the output of a run: it has no {SUMMARY}")
     try:
         write_paraview(load(source), output)
     except (ValueError, KeyError, FileNotFoundError) as error:
