@@ -1,1 +1,1 @@
-"""Increments of coupled bodies: pressure and shear act on each other."""
+"""Load increments whose normal and tangential problems are coupled."""

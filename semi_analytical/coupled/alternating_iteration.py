@@ -1,10 +1,9 @@
-"""Pressure and shear that depend on each other: alternate between the two problems.
+"""Alternating (block Gauss-Seidel) iteration of the coupled normal and tangential problems.
 
-Each round solves the shear at the present pressure and the pressure at the new shear
-(Panagiotopoulos 1975). The rounds contract by about max(beta^2, µ|beta|): fast for most engineering
-contacts, not at all for strong coupling. So the pressures are extrapolated by Anderson's method
-(Anderson 1965), which solves the linear part of the round trip within a few rounds and converges
-far beyond µ|beta| = 1.
+Each outer iteration solves the tangential problem at the present pressure, then the normal problem
+at the new shear (Panagiotopoulos 1975). The error contracts by about max(β², µ|β|) per iteration,
+β Dundurs' parameter. Strong coupling does not converge. Anderson mixing of the pressures
+(Anderson 1965) accelerates the iteration and extends its convergence far beyond µ|β| = 1.
 """
 
 import numpy as np
@@ -27,22 +26,22 @@ from semi_analytical.tangential.tangential_problem import (
     solve_tangential,
 )
 
-MAX_ROUNDS = 200
-# Of all its inner solves together. The dearest of the stability map's cells that converges takes
-# 10 300, below a film a thousand times as stiff as its base; nine in ten take less than a hundred.
+MAX_OUTER_ITERATIONS = 200
+# Sum over all inner solves. In the stability map the most expensive converging case takes 10 300
+# (a film 1000 times stiffer than its base); 90 % of the cases take less than 100.
 MAX_ITERATIONS = 12_000
-# A residual above this after so many rounds comes down sooner from the start again, in rounds that
-# go only a part of the way: the contact may have fallen apart, and from there nothing leads back.
-LATE, HOPELESS = 50, 3e-2
-CAUTIOUS = 0.2
-# Part of its residual that each inner solve leaves: as much as a round of weak coupling does.
+# A residual above RESTART_RESIDUAL after RESTART_AFTER outer iterations indicates a contact that
+# has fallen apart. The iteration then restarts from the initial guess with the factor DAMPED.
+RESTART_AFTER, RESTART_RESIDUAL = 50, 3e-2
+DAMPED = 0.2
+# Reduction of the residual by each inner solve; weak coupling reduces it about equally.
 INNER_REDUCTION = 0.1
-# Below a film like a plate a gap hardly feels the pressure's ripples (the condition number is 1e7),
-# and where a solve stops decides on them: extrapolation finds nothing to go by. A solve of more
-# iterations than WORKED gives that away; from then on the solves leave only this part.
-WORKED, THOROUGH = 50, 1e-3
-REMEMBERED = 30
-# Squared part of a difference below which the others explain it.
+# Under a film that acts like a plate the gap hardly depends on short pressure waves (condition
+# number 1e7). An inner solve that stops early leaves them undetermined, and mixing fails. A normal
+# solve of more than STIFF_ITERATIONS indicates this case; the reduction is then FINE_REDUCTION.
+STIFF_ITERATIONS, FINE_REDUCTION = 50, 1e-3
+MAX_HISTORY = 30
+# Relative eigenvalue of the Gram matrix of differences below which a direction is dropped.
 DEPENDENT = 1e-13
 
 
@@ -55,73 +54,75 @@ def solve_coupled(
     *,
     most_iterations: float = np.inf,
 ) -> CoupledSolution:
-    """Alternate from a first pressure, shear and motion until all residuals meet the tolerance.
+    """Iterate from an initial pressure, shear and motion until all residuals meet the tolerance.
 
-    An inner solve reduces the residual that it finds by a given factor, and stops early only once
-    that meets the tolerance. So a pressure at which the shear was solved, and which is then found
-    to be in equilibrium with that shear, solves the coupled problem.
+    An inner solve reduces its initial residual by a factor, and stops earlier only if the residual
+    meets the tolerance. The iteration has converged when the shear solved at a pressure and the
+    normal problem at this pressure and shear both meet the tolerance.
+
+    most_iterations  limit of the sum of inner iterations, at most MAX_ITERATIONS
     raises  NotConverged
     """
     p, first, first_motion = pressure, Point(shear, problem.shear(shear)), motion
     point = first
-    iterations, enough = 0, INNER_REDUCTION
-    history = _Anderson(problem.normal_load)
-    for rounds in range(1, MAX_ROUNDS + 1):
+    iterations, reduction = 0, INNER_REDUCTION
+    mixing = _AndersonMixing(problem.normal_load)
+    for outer in range(1, MAX_OUTER_ITERATIONS + 1):
         bound = problem.friction_limit(p)
         at_limit = problem.tangential_load.exhausts(bound)
         if at_limit:
-            sheared = _full_slip(problem, bound, motion)
+            tangential = _full_slip(problem, bound, motion)
         else:
-            sheared = _sheared(problem, p, point, motion, tolerance, enough)
-        point, motion = sheared.point, sheared.motion
-        pressed = _pressed(problem, p, point.shear, tolerance, enough)
-        iterations += sheared.iterations + pressed.iterations
-        residual = worst(sheared.residual, pressed.first_residual)
+            tangential = _solve_shear(problem, p, point, motion, tolerance, reduction)
+        point, motion = tangential.point, tangential.motion
+        normal = _solve_pressure(problem, p, point.shear, tolerance, reduction)
+        iterations += tangential.iterations + normal.iterations
+        residual = worst(tangential.residual, normal.first_residual)
         if residual <= tolerance:
-            closing = pressed.motion
+            closing, in_slip = normal.motion, tangential.in_slip
             return CoupledSolution(
-                p, point.shear, closing, motion, sheared.in_slip, at_limit, iterations, rounds
+                p, point.shear, closing, motion, in_slip, at_limit, iterations, outer
             )
         if iterations > min(most_iterations, MAX_ITERATIONS):
             break
-        if rounds == LATE and residual > HOPELESS:
+        if outer == RESTART_AFTER and residual > RESTART_RESIDUAL:
             p, point, motion = pressure, first, first_motion
-            history = _Anderson(problem.normal_load, CAUTIOUS)
+            mixing = _AndersonMixing(problem.normal_load, DAMPED)
             continue
-        # Where the pressure already fits, only the shear goes on.
-        if pressed.first_residual > tolerance:
-            p = history.next(p, pressed.pressure)
-        if enough != THOROUGH and rounds > 1 and pressed.iterations > WORKED:
-            p, enough = pressed.pressure, THOROUGH
-            history = _Anderson(problem.normal_load, history.part)
+        # A pressure that meets the tolerance stays; only the shear is solved again.
+        if normal.first_residual > tolerance:
+            p = mixing.next(p, normal.pressure)
+        if reduction != FINE_REDUCTION and outer > 1 and normal.iterations > STIFF_ITERATIONS:
+            p, reduction = normal.pressure, FINE_REDUCTION
+            mixing = _AndersonMixing(problem.normal_load, mixing.factor)
     raise NotConverged("the coupled increment", iterations, residual, tolerance)
 
 
-def one_round(
+def one_iteration(
     problem: CoupledProblem, pressure: Field, motion: Vector, tolerance: float
 ) -> tuple[Field, VectorField, Vector, int]:
-    """Pressure, shear and motion after the first round from a pressure without shear, and its
-    iterations.
+    """Compute pressure, shear and motion of one outer iteration from a pressure and zero shear.
 
+    The last value returned is the number of inner iterations.
     raises  NotConverged
     """
-    nothing = np.zeros_like(problem.target)
-    start = Point(nothing, nothing)
-    sheared = _sheared(problem, pressure, start, motion, tolerance, INNER_REDUCTION)
-    pressed = _pressed(problem, pressure, sheared.shear, tolerance, INNER_REDUCTION)
-    iterations = sheared.iterations + pressed.iterations
-    return pressed.pressure, sheared.shear, sheared.motion, iterations
+    zero = np.zeros_like(problem.target)
+    start = Point(zero, zero)
+    tangential = _solve_shear(problem, pressure, start, motion, tolerance, INNER_REDUCTION)
+    shear = tangential.shear
+    normal = _solve_pressure(problem, pressure, shear, tolerance, INNER_REDUCTION)
+    return normal.pressure, shear, tangential.motion, tangential.iterations + normal.iterations
 
 
-def _sheared(
+def _solve_shear(
     problem: CoupledProblem,
     p: Field,
     start: Point,
     motion: Vector,
     tolerance: float,
-    enough: float,
+    reduction: float,
 ) -> TangentialSolution:
-    """The shear at a pressure."""
+    """Solve the tangential problem at a pressure."""
     return solve_tangential(
         problem.shear,
         problem.invert_shear,
@@ -132,14 +133,14 @@ def _sheared(
         motion,
         problem.self_compliance,
         tolerance,
-        enough,
+        reduction,
     )
 
 
-def _pressed(
-    problem: CoupledProblem, p: Field, q: VectorField, tolerance: float, enough: float
+def _solve_pressure(
+    problem: CoupledProblem, p: Field, q: VectorField, tolerance: float, reduction: float
 ) -> NormalSolution:
-    """The pressure at a shear, from one near it."""
+    """Solve the normal problem at a shear q from an initial pressure p."""
     return solve_normal(
         problem.normal,
         problem.precondition_normal,
@@ -147,43 +148,44 @@ def _pressed(
         problem.normal_load,
         p,
         tolerance,
-        enough,
+        reduction,
     )
 
 
 def _full_slip(problem: CoupledProblem, bound: Field, motion: Vector) -> TangentialSolution:
-    """All cells slip, as the load has it."""
+    """Compute the shear of gross slip along the load."""
     q, motion = problem.tangential_load.full_slip(bound, motion)
     return TangentialSolution(q, problem.shear(q), motion, bound > 0, 0.0, 0)
 
 
-class _Anderson:
-    """The next point of a fixed-point iteration x -> x + part r, as if r were linear in x."""
+class _AndersonMixing:
+    """Anderson mixing for a fixed-point iteration x -> x + factor r(x)."""
 
-    def __init__(self, load: NormalLoad, part: float = 1.0) -> None:
-        self.part = part
+    def __init__(self, load: NormalLoad, factor: float = 1.0) -> None:
+        self.factor = factor
         self._load = load
         self._points: list[Field] = []
-        self._changes: list[Field] = []
+        self._residuals: list[Field] = []
 
     def next(self, p: Field, answer: Field) -> Field:
-        """An admissible pressure where r would vanish, after one at which the answer was p + r."""
+        """Compute the next admissible pressure from p and the fixed-point map of p, p + r."""
         r = answer - p
-        self._points = [*self._points, p][-REMEMBERED:]
-        self._changes = [*self._changes, r][-REMEMBERED:]
-        guess = plain = answer if self.part == 1 else p + self.part * r
+        self._points = [*self._points, p][-MAX_HISTORY:]
+        self._residuals = [*self._residuals, r][-MAX_HISTORY:]
+        guess = plain = answer if self.factor == 1 else p + self.factor * r
         if len(self._points) > 1:
-            guess = plain - self._extrapolation(r)
+            guess = plain - self._correction(r)
         guess = np.where(plain > 0, np.maximum(guess, 0.0), 0.0)
         return self._load.admissible(guess)
 
-    def _extrapolation(self, r: Field) -> Field:
-        """Σ share (Δx + part Δr) over the differences of known points, Σ share Δr nearest to r."""
-        d_x = np.diff(self._points, axis=0).reshape(len(self._points) - 1, -1)
-        d_r = np.diff(self._changes, axis=0).reshape(len(self._points) - 1, -1)
+    def _correction(self, r: Field) -> Field:
+        """Compute Σ c_k (Δx_k + factor Δr_k); the c_k minimise |r - Σ c_k Δr_k|."""
+        d_x, d_r = (
+            np.diff(x, axis=0).reshape(len(x) - 1, -1) for x in (self._points, self._residuals)
+        )
         size = np.sqrt(np.sum(d_r * d_r, axis=1))[:, None]
         unit_x, unit_r = d_x / size, d_r / size
-        # Not by matrix products, whose rounding depends on the number of threads.
+        # The rounding of matrix products depends on the number of threads; that of einsum does not.
         products = np.einsum("ik,jk->ij", unit_r, unit_r)
-        share = np.linalg.lstsq(products, np.einsum("ik,k->i", unit_r, r.ravel()), DEPENDENT)[0]
-        return np.asarray(np.einsum("i,ik->k", share, unit_x + self.part * unit_r)).reshape(r.shape)
+        c = np.linalg.lstsq(products, np.einsum("ik,k->i", unit_r, r.ravel()), DEPENDENT)[0]
+        return np.asarray(np.einsum("i,ik->k", c, unit_x + self.factor * unit_r)).reshape(r.shape)

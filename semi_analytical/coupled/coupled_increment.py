@@ -57,8 +57,8 @@ from semi_analytical.operator.domain import ReducedDomain
 from semi_analytical.residuals import complementarity, penetration
 
 MAX_ATTEMPTS = 4
-# Of the width of a contact: beyond it the push of a whole step does not move its edge.
-ROOM = 1 / 32
+# Margin of the box over the width of the contact; a tangential load step moves the edge by less.
+RELATIVE_MARGIN = 1 / 32
 
 
 def solve_coupled_increment(
@@ -68,9 +68,10 @@ def solve_coupled_increment(
     tangential: TangentialTarget | None,
     tolerance: float,
 ) -> State:
-    """The state at the end of an increment in which pressure and shear act on each other.
+    """Solve one increment of the coupled normal and tangential problems.
 
-    Solved in the box around the contact and checked on the whole window with fresh convolutions.
+    The increment is solved in a box around the contact. The residuals are then computed on the
+    whole domain with new convolutions.
     raises  NotConverged, GrossSliding, ContactAtWindowEdge, ContactNotResolved
     """
     assert tangential is not None
@@ -83,8 +84,8 @@ def solve_coupled_increment(
         carried = model.friction.carried(normal.force)
         if carried is not None:
             force_reaches_limit(tangential.force, carried)
-    start, shear, iterations = _start(model, before, last, normal, tangential)
-    box = _roomy((start > 0) | (last.shear[0] != 0), model.domain)
+    start, shear, iterations = _initial_guess(model, before, last, normal, tangential)
+    box = _box_with_margin((start > 0) | (last.shear[0] != 0), model.domain)
     aim, residual = tolerance, np.inf
     motion = first_motion(last, tangential)
     for _ in range(MAX_ATTEMPTS):
@@ -106,29 +107,31 @@ def solve_coupled_increment(
         start, shear = state.sheared.pressure, state.sheared.shear
         overlap_outside = (g < 0) & ~box.mask(model.grid.cells)
         if np.any(overlap_outside):
-            box = _roomy((start > 0) | overlap_outside, model.domain)
+            box = _box_with_margin((start > 0) | overlap_outside, model.domain)
         else:
             aim *= 0.1
     raise NotConverged("the coupled increment", iterations, residual, tolerance)
 
 
-def _roomy(cells: Mask, domain: ReducedDomain) -> Box:
-    """The box around marked cells, with room for the contact to move."""
+def _box_with_margin(cells: Mask, domain: ReducedDomain) -> Box:
+    """Return the box around marked cells with a margin for a growing contact."""
     nx, ny = (int(np.count_nonzero(np.any(cells, axis=axis))) for axis in (1, 0))
     widest = max(domain.window((nx, ny)))
-    return box_around(cells, max(MARGIN, round(ROOM * widest)), domain)
+    return box_around(cells, max(MARGIN, round(RELATIVE_MARGIN * widest)), domain)
 
 
-def _start(
+def _initial_guess(
     model: ContactModel,
     before: State | None,
     last: TangentialState,
     normal: NormalTarget,
     tangential: TangentialTarget,
 ) -> tuple[Field, VectorField, int]:
-    """First pressure and shear: as the path predicts them; where it does not, the pressure of a
-    frictionless contact, roughly, which knows how far the contact reaches, and the shear
-    of the state before. With the iterations that took."""
+    """Return the initial guess of pressure and shear, and the number of iterations spent.
+
+    The predictor supplies the guess. Without a prediction, the guess is an approximate frictionless
+    pressure and the shear of the previous increment.
+    """
     guess = None if before is None else predicted(model, before, normal, tangential)
     if guess is not None:
         return *guess, 0
@@ -143,7 +146,7 @@ def _problem(
     normal: NormalTarget,
     tangential: TangentialTarget,
 ) -> CoupledProblem:
-    """The increment in a box of cells."""
+    """Restrict the increment to a box of cells."""
     operator = model.operator(box.shape)
     target = surface_target(model, last, tangential)
     rotation = None if tangential.torsion is None else model.rotation[(..., *box.slices)]
@@ -151,7 +154,7 @@ def _problem(
         normal=operator.normal,
         precondition_normal=operator.precondition,
         shear=operator.tangential,
-        invert_shear=lambda v: operator.shear_inverse(v),  # built where it is needed
+        invert_shear=lambda v: operator.shear_inverse(v),  # built on first use
         normal_by_shear=operator.normal_by_shear,
         shear_by_pressure=operator.tangential_by_pressure,
         together=operator.together,
@@ -171,7 +174,7 @@ def _problem(
 
 @dataclass(frozen=True)
 class _Trial:
-    """A solution in a box, to be judged on the whole domain."""
+    """A solution in a box whose residuals are evaluated on the whole domain."""
 
     model: ContactModel
     last: TangentialState
@@ -182,7 +185,7 @@ class _Trial:
     iterations: int
 
     def state(self) -> tuple[State, Field]:
-        """The state that the solution would make, and its gap."""
+        """Return the state of the solution on the whole domain, and its gap (nx, ny)."""
         model, solution, cells = self.model, self.solution, self.model.grid.cells
         p, q = self.box.embed(solution.pressure, cells), self.box.embed(solution.shear, cells)
         u = model.operator(cells).together(np.concatenate([q, p[None]]))
@@ -204,18 +207,18 @@ class _Trial:
         )
         normal_force = float(np.sum(p)) * model.grid.cell_area
         moment = reached_moment(model, self.normal, pressing.pressure)
-        sheared = self._sheared(p, q, u_t)
-        rounds = self.solution.rounds
+        sheared = self._tangential_state(p, q, u_t)
+        rounds = self.solution.outer_iterations
         return State(self.normal, normal_force, pressing, sheared, moment, rounds=rounds), g
 
-    def _sheared(self, p: Field, q: VectorField, u_t: VectorField) -> TangentialState:
+    def _tangential_state(self, p: Field, q: VectorField, u_t: VectorField) -> TangentialState:
         model, solution, cells = self.model, self.solution, self.model.grid.cells
         bound = model.friction_limit(p)
         if solution.at_limit:
-            return self._slid(p, bound, u_t)
-        # Where all sticks and none is pushed, pressure and shear move the surface in opposite ways
-        # to nothing, and only one of them tells what little slip is; where one cell touches, what
-        # its pressure does around it.
+            return self._gross_slip(p, bound, u_t)
+        # In full stick without tangential load the displacements by pressure and shear cancel, and
+        # u_t is no scale for slip. The scale is then the displacement by the shear alone, or the
+        # maximum of |u_t| (contact in a single cell).
         moved = u_t
         if not np.any(solution.in_slip):
             moved = np.maximum(np.abs(model.operator(cells).tangential(q)), np.max(np.abs(u_t)))
@@ -232,8 +235,8 @@ class _Trial:
         after = advanced(model, p, bound, self.last, self.tangential, shearing, passed, residuals)
         return replace(after, displacement=u_t)
 
-    def _slid(self, p: Field, bound: Field, u_t: VectorField) -> TangentialState:
-        """All slips: at the friction limit, or because there is no friction here."""
+    def _gross_slip(self, p: Field, bound: Field, u_t: VectorField) -> TangentialState:
+        """Return the state of gross slip at the friction limit, or without friction."""
         model, last, load = self.model, self.last, self.tangential
         if load.torsion is not None and load.torsion.torque is not None:
             refuse_excessive_torque(model, bound, load)

@@ -1,4 +1,4 @@
-"""An increment of coupled bodies as its solvers see it, in a box of cells."""
+"""Data of the coupled problem of one increment in a box of cells."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -15,36 +15,37 @@ from semi_analytical.normal.normal_load import (
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
 from semi_analytical.tangential.admissible_shear import TangentialLoad
 
-# Along the shorter side of a box. With more Newton's method stalls, with fewer it takes more steps.
+# Patches along the shorter side of a box: more make Newton's method stall, fewer cost iterations.
 PATCHES = 40
 
 
 class Preconditioner(Protocol):
-    """Roughly the tractions that cause displacements; see `ApproximateInverse`."""
+    """Approximate inverse of the displacement operator; see `ApproximateInverse`."""
 
     def __call__(self, displacements: NDArray[Any], /) -> NDArray[Any]: ...
 
     def yielding(self, compliance: float) -> "Preconditioner":
-        """The same for cells that yield to their own tractions by as much more."""
+        """Return the approximate inverse for a self-compliance increased by `compliance`."""
 
 
 @dataclass(frozen=True)
 class CoupledProblem:
-    """One increment in a box of cells; operators and preconditioners as in the two solvers.
+    """Operators, loads and friction of one increment in a box of cells.
 
     normal, shear            u_z by pressure, u_t by shear
     normal_by_shear          u_z by shear
     shear_by_pressure        u_t by pressure
-    invert_shear             see `tangential_problem.solve_tangential`
-    together                 (u_x, u_y, u_z) by (q_x, q_y, p): all four of them at once
-    precondition_together    roughly the inverse without the coupling, and behind that the shears of
-                             one component that are held back (see `ApproximateInverse`)
-    gap                      undeformed gap (nx, ny), infinite where the bodies can never touch
+    precondition_normal      approximate inverse of `normal`
+    invert_shear             approximate inverse of `shear`, see `tangential_problem`
+    together                 (u_x, u_y, u_z) by (q_x, q_y, p)
+    precondition_together    approximate inverse of `together` without coupling, followed by those
+                             of the bins of slip compliance (see `ApproximateInverse`)
+    gap                      undeformed gap (nx, ny), infinite outside the indenter
     friction_limit           pressure (nx, ny) -> largest shear (nx, ny)
     friction_slope           pressure (nx, ny) -> derivative of the largest shear (nx, ny)
-    target                   u_t - motion of the state before (2, nx, ny)
-    self_compliance          tangential displacement of a cell by its own unit shear
-    domain                   that all fields are on
+    target                   c = u_t - rigid motion of the previous state (2, nx, ny) [length]
+    self_compliance          tangential displacement of a cell by its own shear [length^3/force]
+    domain                   domain of all fields
     """
 
     normal: Callable[[Field], Field]
@@ -66,18 +67,21 @@ class CoupledProblem:
 
     @property
     def gamma(self) -> float:
-        """γ of the natural map [force/length^3]: what a patch of cells resists, a cell on few.
+        """Scale γ of the natural map [force/length^3]: stiffness of a patch of cells.
 
-        Any γ > 0 has the same solutions. What an unfinished linear solve leaves of the gap is
-        smooth and as wide as the contact; against the compliance of one cell of very many it looks
-        so large that cells which carry pressure would part in masses.
+        The solution does not depend on γ > 0. An inexact linear solve leaves a smooth gap error of
+        the width of the contact. With the stiffness of a single small cell, γ times this error
+        would open many loaded cells.
         """
         shortest = min(self.domain.window(self.gap.shape))
         return 1 / (self.self_compliance * max(1.0, shortest / PATCHES))
 
     def yielding(self, compliance: float, tractions: Field) -> "CoupledProblem":
-        """The same where every cell is on springs of a compliance more, which are at rest at
-        tractions (3, nx, ny): for Newton's method, by `together` alone."""
+        """Return the regularised problem of the proximal-point method.
+
+        Its displacements are u + compliance * (t - tractions). Newton's method uses it, which
+        reads `together` only.
+        """
         q, p = tractions[:2], tractions[2]
         return replace(
             self,
@@ -91,11 +95,11 @@ class CoupledProblem:
 
 @dataclass(frozen=True)
 class CoupledSolution:
-    """Pressure (nx, ny), shear (2, nx, ny), the motions of both loads, slip zone, iterations,
-    rounds.
+    """Pressure (nx, ny) and shear (2, nx, ny) of an increment, rigid motions and slip zone.
 
-    at_limit  the force is as large as friction can carry or larger: everything slips along it, and
-              the motion is not defined
+    at_limit          the load reaches the friction limit: gross slip, the motion is undefined
+    iterations        sum over all linear solves
+    outer_iterations  of the alternating iteration or of Newton's method
     """
 
     pressure: Field
@@ -105,7 +109,7 @@ class CoupledSolution:
     in_slip: NDArray[np.bool_]
     at_limit: bool
     iterations: int
-    rounds: int
+    outer_iterations: int
 
     @property
     def approach(self) -> float:

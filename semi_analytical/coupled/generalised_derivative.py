@@ -1,21 +1,21 @@
-"""Contact and friction as one equation, and its generalised derivative.
+"""Natural map of contact and Coulomb friction, and its generalised derivative.
 
-With γ the inverse compliance of a patch of cells, the increment is solved where
+With γ the stiffness of a patch of cells, the increment is the root of (Alart and Curnier 1991)
 
     p = max(0, p - γ g)        q = P_b(z),  z = q + γ (ω + c - u_t),  b = b(p)
 
-with P_b the projection on the disc of radius b (Alart and Curnier 1991). Both maps have kinks; at a
-point beside them they have a derivative, that of the zones of contact, stick and slip in which the
-point lies (semismooth Newton: Christensen, Klarbring, Pang and Strömberg 1998). It leaves free
+P_b is the projection on the disc of radius b. The map is piecewise smooth. Its generalised
+derivative is that of the zones of contact, stick and slip at a point (semismooth Newton method:
+Christensen, Klarbring, Pang and Strömberg 1998). The free unknowns are
 
-    p where there is contact, q where it sticks, s where it slips: q = b n + s t
+    p in contact,  q in the stick zone,  s in the slip zone: q = b n + s t
 
-n along z and t across it, and asks for as many displacements:
+with n along z and t normal to z. The equations are
 
     u_z - δ = -h        u_t - ω = c        t·(u_t - ω - c) + d s = 0,  d = (|z| - b) / (γ b)
 
-b n, which changes with the pressure by µ n with µ = db/dp, is what makes the derivative
-unsymmetric, by about µ|β|.
+The term b n changes with the pressure by µ n, µ = db/dp. This makes the derivative unsymmetric, by
+about µ|β|.
 """
 
 from dataclasses import dataclass
@@ -34,14 +34,17 @@ from semi_analytical.tangential.admissible_shear import (
 
 Tractions = NDArray[np.float64]
 
-# Of the self-compliance: a cell that is held back more does not turn.
-STIFFEST = 1e6
+# Largest slip compliance d over the self-compliance.
+MAX_SLIP_COMPLIANCE = 1e6
 
 
 @dataclass(frozen=True)
 class Point:
-    """Tractions t and displacements u (3, nx, ny), by how much the indenter closes the gap, and a
-    guess of its motion along the surface."""
+    """Tractions and displacements (3, nx, ny) of an iterate, and the motion of the indenter.
+
+    closure  reduction of the gap by the rigid motion [length]
+    motion   initial guess of the motion in the plane
+    """
 
     tractions: Tractions
     displacements: Field
@@ -51,17 +54,18 @@ class Point:
 
 @dataclass(frozen=True)
 class Natural:
-    """The natural map at a point.
+    """The natural map at a point; fields (nx, ny), vectors (2, nx, ny).
 
-    pressure p (nx, ny)
-    gap      g (nx, ny)
-    bound    friction limit (nx, ny) of the pressure, cut off at zero
-    z        q + γ (ω + c - u_t), shape (2, nx, ny), and its length (nx, ny)
-    motion   ω, by the exact projection on the shears that carry the load
-    contact  where p > γ g
-    slip     where |z| exceeds the bound, in contact
-    slipped  ω + c - u_t (2, nx, ny): slip, of the indenter relative to the body
-    pressed, sheared  how far p and q are from what the map makes of them, in parts of Σp and Σb
+    pressure        p
+    gap             g
+    bound           friction limit b of max(0, p)
+    z, length       q + γ (ω + c - u_t) and its magnitude
+    motion          ω, by the exact projection on the shears that carry the load
+    contact         cells with p > γ g
+    slip            cells in contact with |z| > b
+    slipped         ω + c - u_t: slip of the indenter relative to the body
+    pressure_error  Σ|p - max(0, p - γ g)| / Σ|p|
+    shear_error     error of q = P_b(z), see `NaturalShear`
     """
 
     pressure: Field
@@ -73,22 +77,22 @@ class Natural:
     contact: Mask
     slip: Mask
     slipped: VectorField
-    pressed: float
-    sheared: float
+    pressure_error: float
+    shear_error: float
 
     @classmethod
     def at(cls, point: Point, problem: CoupledProblem) -> "Natural":
-        """Evaluate the map; the load must not exhaust the friction."""
+        """Evaluate the map; the load must be below the friction limit."""
         gamma = problem.gamma
         q, p = point.tractions[:2], point.tractions[2]
         gap = problem.gap + point.displacements[2] - point.closure
-        pushed = p - gamma * gap
-        contact = pushed > 0
+        argument = p - gamma * gap
+        contact = argument > 0
         bound = problem.friction_limit(np.maximum(p, 0.0))
         apart = problem.target - point.displacements[:2]
         shear = natural_shear(problem.tangential_load, q, apart, bound, gamma, point.motion)
         length = magnitude(shear.z)
-        missing = np.sum(np.abs(p - np.where(contact, pushed, 0.0)))
+        error = np.sum(np.abs(p - np.where(contact, argument, 0.0)))
         return cls(
             pressure=p,
             gap=gap,
@@ -99,51 +103,53 @@ class Natural:
             contact=contact,
             slip=contact & (length > bound),
             slipped=shear.slipped,
-            pressed=float(missing / np.sum(np.abs(p))),
-            sheared=shear.error,
+            pressure_error=float(error / np.sum(np.abs(p))),
+            shear_error=shear.error,
         )
 
     @property
     def merit(self) -> float:
-        """Distance from a solution [1]."""
-        return self.pressed + self.sheared
+        """Merit of the line search: sum of the relative errors of the map [1]."""
+        return self.pressure_error + self.shear_error
 
 
 @dataclass(frozen=True)
 class Zones:
-    """Contact, stick and slip. Free unknowns, and what the derivative makes of them, are vectors:
-    q_x, then q_y where it sticks, s where it slips, p where there is contact.
+    """Zones of contact, stick and slip.
 
-    contact, stick  (nx, ny)
-    slip     where it slips, flat indices (cells,)
-    tangent  t there (2, cells)
-    pulled   µ n there (2, cells)
-    turning  d there (cells,) [length^3/force]
+    Free unknowns and the rows of the derivative are vectors: q_x, then q_y of the stick zone, s of
+    the slip zone, p of the contact.
+
+    contact, stick   (nx, ny)
+    slip             flat indices of slipping cells (cells,)
+    tangent          t there (2, cells)
+    friction_slope   µ n there (2, cells)
+    slip_compliance  d there (cells,) [length^3/force]
     """
 
     contact: Mask
     stick: Mask
     slip: Indices
     tangent: Field
-    pulled: Field
-    turning: Vector
+    friction_slope: Field
+    slip_compliance: Vector
 
     @classmethod
     def of(cls, natural: Natural, problem: CoupledProblem) -> "Zones":
-        """The zones in which a point lies."""
+        """Determine the zones at a point."""
         slip = np.flatnonzero(natural.slip)
         length, bound = natural.length.ravel()[slip], natural.bound.ravel()[slip]
         normal = natural.z.reshape(2, -1)[:, slip] / length
         excess = length - bound
         slope = problem.friction_slope(np.maximum(natural.pressure, 0.0))
-        stiffest = STIFFEST * problem.self_compliance
+        most = MAX_SLIP_COMPLIANCE * problem.self_compliance
         return cls(
             contact=natural.contact,
             stick=natural.contact & ~natural.slip,
             slip=slip,
             tangent=np.stack([-normal[1], normal[0]]),
-            pulled=slope.ravel()[slip] * normal,
-            turning=excess / np.maximum(problem.gamma * bound, excess / stiffest),
+            friction_slope=slope.ravel()[slip] * normal,
+            slip_compliance=excess / np.maximum(problem.gamma * bound, excess / most),
         )
 
     @cached_property
@@ -164,13 +170,13 @@ class Zones:
         return 2 * len(self._stuck) + len(self.slip) + len(self._pressed)
 
     def parts(self, vector: Vector) -> tuple[Vector, Vector, Vector]:
-        """Of a vector: (2, cells) where it sticks, (cells,) where it slips, (cells,) in contact."""
+        """Split a vector into views of stick (2, cells), slip (cells,) and contact (cells,)."""
         stuck, slip = 2 * len(self._stuck), len(self.slip)
         return vector[:stuck].reshape(2, -1), vector[stuck : stuck + slip], vector[stuck + slip :]
 
     def free(self, v: NDArray[Any]) -> Vector:
-        """The free part of a field (3, nx, ny)."""
-        # Component by component: indices behind a slice are many times slower.
+        """Restrict a field (3, nx, ny) to the free unknowns."""
+        # NumPy is many times slower with indices after a slice, so components are separate.
         x, y, z = v.reshape(3, -1)
         free = np.empty(self.size)
         (stuck_x, stuck_y), along, pressed = self.parts(free)
@@ -179,58 +185,58 @@ class Zones:
         return free
 
     def field(self, vector: Vector) -> Field:
-        """The field (3, nx, ny) that has this free part, and nothing else."""
+        """Extend free unknowns by zero to a field (3, nx, ny)."""
         v = np.zeros((3, self.contact.size))
         stuck, along, pressed = self.parts(vector)
-        for one, sticks, tangent in zip(v[:2], stuck, self.tangent, strict=True):
-            one[self._stuck], one[self.slip] = sticks, tangent * along
+        for one, at_stick, tangent in zip(v[:2], stuck, self.tangent, strict=True):
+            one[self._stuck], one[self.slip] = at_stick, tangent * along
         v[2][self._pressed] = pressed
         return v.reshape(3, *self.contact.shape)
 
-    def rest(self, v: Field) -> Vector:
-        """What is not free of a field (3, nx, ny): where it slips along n, and all without
-        contact."""
+    def fixed(self, v: Field) -> Vector:
+        """Restrict a field (3, nx, ny) to the fixed unknowns.
+
+        These are the components along n of slipping cells and all components outside the contact.
+        """
         v = v.reshape(3, -1)
         across = self.tangent[1] * v[0][self.slip] - self.tangent[0] * v[1][self.slip]
         return np.concatenate([across, *(one[self._apart] for one in v)])
 
-    def whole(self, free: Vector, rest: Vector) -> Field:
-        """The field (3, nx, ny) of these two parts."""
-        v = self.field(free).reshape(3, -1)
-        across, apart = rest[: len(self.slip)], rest[len(self.slip) :]
-        v[0][self.slip] += self.tangent[1] * across
-        v[1][self.slip] -= self.tangent[0] * across
-        for one, left in zip(v, apart.reshape(3, -1), strict=True):
-            one[self._apart] = left
+    def whole(self, free: Vector, fixed: Vector) -> Field:
+        """Combine free and fixed unknowns into a field (3, nx, ny)."""
+        v = self._with_normal(self.field(free), fixed[: len(self.slip)]).reshape(3, -1)
+        for one, apart in zip(v, fixed[len(self.slip) :].reshape(3, -1), strict=True):
+            one[self._apart] = apart
         return v.reshape(3, *self.contact.shape)
 
+    def _with_normal(self, v: Field, normal: Vector) -> Field:
+        """Add components along n (cells,) of slipping cells to a field (3, nx, ny), in place."""
+        x, y, _ = v.reshape(3, -1)
+        x[self.slip] += self.tangent[1] * normal
+        y[self.slip] -= self.tangent[0] * normal
+        return v
+
     def tractions(self, free: Vector) -> Tractions:
-        """The tractions of changes of free unknowns: where it slips, friction follows the
-        pressure."""
+        """Compute traction changes of changes of the free unknowns, with the change of b n."""
         t = self.field(free).reshape(3, -1)
         pressure = t[2][self.slip]
-        for one, pulled in zip(t[:2], self.pulled, strict=True):
-            one[self.slip] += pulled * pressure
+        for one, slope in zip(t[:2], self.friction_slope, strict=True):
+            one[self.slip] += slope * pressure
         return t.reshape(3, *self.contact.shape)
 
     def nearest(self, tractions: Tractions, bound: Field) -> Tractions:
-        """The tractions of these zones near given ones: where it slips, the shear along n is the
-        friction limit."""
-        t = self.field(self.free(tractions)).reshape(3, -1)
-        most = bound.ravel()[self.slip]
-        t[0][self.slip] += self.tangent[1] * most
-        t[1][self.slip] -= self.tangent[0] * most
-        return t.reshape(3, *self.contact.shape)
+        """Project tractions on the zones: the shear along n of slipping cells is the limit b."""
+        return self._with_normal(self.field(self.free(tractions)), bound.ravel()[self.slip])
 
-    def held(self, free: Vector) -> Vector:
-        """d s where it slips, nothing elsewhere: what the derivative adds to displacements."""
+    def slip_terms(self, free: Vector) -> Vector:
+        """Compute the terms d s of the slip zone; the other rows are zero."""
         rows = np.zeros_like(free)
-        self.parts(rows)[1][:] = self.turning * self.parts(free)[1]
+        self.parts(rows)[1][:] = self.slip_compliance * self.parts(free)[1]
         return rows
 
     def changes(self, other: "Zones | None") -> int:
-        """Cells that are in another zone than before; all if there is no before."""
+        """Return the number of cells whose zone differs from `other`; all cells without it."""
         if other is None:
             return self.contact.size
-        stays = (self.contact == other.contact) & (self.stick == other.stick)
-        return int(stays.size - np.count_nonzero(stays))
+        same = (self.contact == other.contact) & (self.stick == other.stick)
+        return int(same.size - np.count_nonzero(same))

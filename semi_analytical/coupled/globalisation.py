@@ -1,6 +1,6 @@
-"""A coupled increment by Newton's method, and by ways to it from farther away."""
+"""Globalisation of Newton's method for a coupled increment: a sequence of methods."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -9,7 +9,7 @@ import numpy as np
 from contact_scene.array_types import Field, Vector, VectorField
 from contact_scene.solver_errors import NotConverged
 from semi_analytical.coupled.alternating_iteration import (
-    one_round,
+    one_iteration,
     solve_coupled,
 )
 from semi_analytical.coupled.coupled_problem import (
@@ -19,64 +19,80 @@ from semi_analytical.coupled.coupled_problem import (
 from semi_analytical.coupled.newton_increment import solve_by_newton
 from semi_analytical.coupled.proximal_point import solve_on_springs
 
-Way = Callable[[CoupledProblem, Field, VectorField, Vector, float], CoupledSolution]
+Method = Callable[[CoupledProblem, Field, VectorField, Vector, float], CoupledSolution]
 
-# Residual to which the alternation comes nearer, and iterations in which it does so, or ends: where
-# it takes more, as under strong friction or below films much stiffer than their base, springs lead
-# there sooner or at all.
-NEARER, FEW = 1e-3, 250
-# Without shear first tractions that miss by more than all of them are nothing for Newton's method
-# to start from: strong friction holds what pressure would drag along. From nearer ones a round of
-# the alternation saves it less than the round takes.
+# Residual at which the alternating iteration hands over to Newton's method, and its iteration
+# limit. Beyond it (strong friction, films much stiffer than their base) the proximal-point method
+# is faster or is the only one that converges.
+NEAR, FEW_ITERATIONS = 1e-3, 250
+# Merit above which Newton's method does not start from zero shear: strong friction would suppress
+# the displacement by the pressure. Below it one alternating iteration costs more than it saves.
 FAR = 1.0
 
 
 def solve_together(
     problem: CoupledProblem, pressure: Field, shear: VectorField, motion: Vector, tolerance: float
 ) -> CoupledSolution:
-    """Pressure and shear of an increment from first ones and a first motion.
+    """Solve a coupled increment from an initial pressure, shear and motion.
 
-    Newton's method converges fast once the zones are nearly right, and may stall before. The
-    alternation also finds the state in which all slips, at the limit of friction.
+    Newton's method converges fast from nearly correct zones and may stall otherwise. On failure the
+    next method of the sequence starts from the same initial guess. Only the alternating iteration
+    can return gross slip at the friction limit.
     raises  NotConverged
     """
-    start, iterations = (pressure, shear, motion), 0
-    ways: tuple[Way, ...] = (_by_newton, _from_nearer, solve_on_springs)
-    if _all_slips(problem, pressure):
-        ways = (_from_nearer,)
+    methods: tuple[Method, ...] = (_newton, _alternating_then_newton, solve_on_springs)
+    if _gross_slip(problem, pressure):
+        methods = (_alternating_then_newton,)
     elif not np.any(shear):
-        ways = (partial(_by_newton, furthest=FAR), _after_a_round, *ways[1:])
-    for way in ways:
+        methods = (partial(_newton, furthest=FAR), _one_iteration_then_newton, *methods[1:])
+    return _first_converged((*methods, solve_coupled), problem, pressure, shear, motion, tolerance)
+
+
+def _first_converged(
+    methods: Sequence[Method],
+    problem: CoupledProblem,
+    pressure: Field,
+    shear: VectorField,
+    motion: Vector,
+    tolerance: float,
+    spent: tuple[int, int] = (0, 0),
+) -> CoupledSolution:
+    """Return the solution of the first method that converges; raise the error of the last.
+
+    spent  iterations and outer iterations of the initial guess, included in the counts
+    """
+    (iterations, outer), residual = spent, np.inf
+    for method in methods:
         try:
-            found = way(problem, *start, tolerance)
+            found = method(problem, pressure, shear, motion, tolerance)
         except NotConverged as stalled:
             iterations += stalled.iterations
+            residual = stalled.residual
         else:
-            return replace(found, iterations=iterations + found.iterations)
-    found = solve_coupled(problem, *start, tolerance)
-    return replace(found, iterations=iterations + found.iterations)
+            return replace(
+                found,
+                iterations=iterations + found.iterations,
+                outer_iterations=outer + found.outer_iterations,
+            )
+    raise NotConverged("the coupled increment", iterations, residual, tolerance)
 
 
-def _all_slips(problem: CoupledProblem, pressure: Field) -> bool:
-    """Whether the load exhausts the friction under a pressure: Newton's method has no use then."""
+def _gross_slip(problem: CoupledProblem, pressure: Field) -> bool:
+    """Return True if the load reaches the friction limit of a pressure."""
     return problem.tangential_load.exhausts(problem.friction_limit(pressure))
 
 
-def _after_a_round(
+def _one_iteration_then_newton(
     problem: CoupledProblem, pressure: Field, shear: VectorField, motion: Vector, tolerance: float
 ) -> CoupledSolution:
-    """By Newton's method from the first shear that comes with a pressure."""
-    pressure, shear, motion, iterations = one_round(problem, pressure, motion, tolerance)
-    try:
-        found = _by_newton(problem, pressure, shear, motion, tolerance)
-    except NotConverged as stalled:
-        raise NotConverged(
-            "the coupled increment", iterations + stalled.iterations, np.inf, tolerance
-        ) from stalled
-    return replace(found, rounds=found.rounds + 1, iterations=iterations + found.iterations)
+    """Solve by Newton's method from the first alternating iteration at a pressure."""
+    pressure, shear, motion, spent = one_iteration(problem, pressure, motion, tolerance)
+    return _first_converged(
+        (_newton,), problem, pressure, shear, motion, tolerance, spent=(spent, 1)
+    )
 
 
-def _by_newton(
+def _newton(
     problem: CoupledProblem,
     pressure: Field,
     shear: VectorField,
@@ -84,26 +100,23 @@ def _by_newton(
     tolerance: float,
     furthest: float = np.inf,
 ) -> CoupledSolution:
-    """Newton's method from there; `furthest` see `solve_by_newton`."""
+    """Solve by Newton's method; for `furthest` see `solve_by_newton`."""
     tractions = np.concatenate([shear, pressure[None]])
     return solve_by_newton(problem, tractions, motion, tolerance, furthest)
 
 
-def _from_nearer(
+def _alternating_then_newton(
     problem: CoupledProblem, pressure: Field, shear: VectorField, motion: Vector, tolerance: float
 ) -> CoupledSolution:
-    """From where a little of the alternation leads, by Newton's method or by a little more of it;
-    by all of it where all slips."""
-    shortly = partial(solve_coupled, most_iterations=FEW)
-    near = shortly(problem, pressure, shear, motion, max(NEARER, tolerance))
-    iterations = near.iterations
-    ways: tuple[Way, ...] = (_by_newton, shortly)
-    for way in (solve_coupled,) if _all_slips(problem, near.pressure) else ways:
-        try:
-            found = way(problem, near.pressure, near.shear, near.motion, tolerance)
-        except NotConverged as stalled:
-            iterations += stalled.iterations
-        else:
-            rounds = near.rounds + found.rounds
-            return replace(found, rounds=rounds, iterations=iterations + found.iterations)
-    raise NotConverged("the coupled increment", iterations, np.inf, tolerance)
+    """Solve from a few alternating iterations by Newton's method, else by a few more of them.
+
+    At gross slip the alternating iteration continues without limit.
+    """
+    few = partial(solve_coupled, most_iterations=FEW_ITERATIONS)
+    near = few(problem, pressure, shear, motion, max(NEAR, tolerance))
+    methods = (solve_coupled,) if _gross_slip(problem, near.pressure) else (_newton, few)
+    start, spent = (
+        (near.pressure, near.shear, near.motion),
+        (near.iterations, near.outer_iterations),
+    )
+    return _first_converged(methods, problem, *start, tolerance, spent=spent)

@@ -1,4 +1,4 @@
-"""GMRES: the Krylov vectors' combination that leaves the least residual (Saad and Schultz 1986)."""
+"""GMRES: minimisation of the residual over a Krylov space (Saad and Schultz 1986)."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -7,26 +7,26 @@ import numpy as np
 
 from contact_scene.array_types import Matrix, Vector
 
-# A vector that has lost so much to those before it is made orthogonal to them once more.
-LOST = 0.1
-# What rounding leaves of a vector that those before it explain.
+# Norm ratio below which a vector is orthogonalised a second time.
+REORTHOGONALISE = 0.1
+# Relative norm of a linearly dependent vector after orthogonalisation.
 ROUND_OFF = 1e-14
 
 
 @dataclass(frozen=True)
 class LeastResidual:
-    """What `least_residual` finds.
+    """Solution of `least_residual`.
 
     solution    v
     image       A v
-    along       what came along, of v, added up from single precision
+    extra       B v, summed from single-precision values
     motion      m
     iterations  products with A
     """
 
     solution: Vector
     image: Vector
-    along: Vector
+    extra: Vector
     motion: Vector
     iterations: int
 
@@ -39,24 +39,24 @@ def least_residual(
     depth: float,
     most: int,
 ) -> LeastResidual:
-    """Solve A v + E m = r for v and for as many m as E has columns, until the norm of the residual
-    is the part `depth` of what it is with v = 0.
+    """Solve A v + E m = r for v and m by GMRES.
 
-    apply  v -> A v, and whatever linear in v comes along, of the size `extra`
-    right  r
-    free   the columns of E (k, size of r); they may depend on each other
+    The solve ends when the residual is `depth` times the minimum over m at v = 0, or after `most`
+    iterations. The rounding does not depend on the number of threads (no matrix products).
 
-    Not by matrix products, whose rounding depends on the number of threads.
+    apply  v -> A v and B v, another linear map of v to vectors of the size `extra`
+    right  r (n,)
+    free   columns of E (k, n); they may be linearly dependent
     """
-    rows, turn = orthonormal(free)
+    rows, combination = orthonormal(free)
     k = len(rows)
     basis = np.empty((k + most + 1, right.size))
-    along = np.empty((most, extra), dtype=np.float32)
+    extras = np.empty((most, extra), dtype=np.float32)
     basis[:k] = rows
-    del free, rows  # as large as many vectors
+    del free, rows  # release the memory of many vectors
     first, r = _orthogonal(right, basis[:k])
     size = float(np.sqrt(np.sum(r * r)))
-    hessenberg, shares = np.zeros((k + most + 1, most)), np.zeros(0)
+    hessenberg, weights = np.zeros((k + most + 1, most)), np.zeros(0)
     goal = np.zeros(most + 1)
     goal[0] = size
     for number in range(most if size > 0 else 0):
@@ -64,42 +64,46 @@ def least_residual(
         np.multiply(
             r, 1 / hessenberg[end - 1, number - 1] if number else 1 / size, out=basis[end - 1]
         )
-        image, kept = apply(basis[end - 1])
-        along[number] = kept
+        image, extras[number] = apply(basis[end - 1])
         hessenberg[:end, number], r = _orthogonal(image, basis[:end])
         hessenberg[end, number] = np.sqrt(np.sum(r * r))
         within = hessenberg[k : end + 1, : number + 1]
-        shares = np.asarray(np.linalg.lstsq(within, goal[: number + 2])[0])
-        left = np.linalg.norm(within @ shares - goal[: number + 2])
-        broken = hessenberg[end, number] <= ROUND_OFF * np.linalg.norm(hessenberg[:, number])
-        if left <= depth * size or broken:
+        weights = np.asarray(np.linalg.lstsq(within, goal[: number + 2])[0])
+        residual = np.linalg.norm(within @ weights - goal[: number + 2])
+        breakdown = hessenberg[end, number] <= ROUND_OFF * np.linalg.norm(hessenberg[:, number])
+        if residual <= depth * size or breakdown:
             break
-    count = len(shares)
-    explained = hessenberg[: k + count, :count] @ shares
-    image = np.einsum("i,ik->k", explained, basis[: k + count])
+    count = len(weights)
+    components = hessenberg[: k + count, :count] @ weights
+    image = np.einsum("i,ik->k", components, basis[: k + count])
     return LeastResidual(
-        np.einsum("i,ik->k", shares, basis[k : k + count]),
-        image + shares[-1] * r if count else image,
-        np.einsum("i,ik->k", shares, along[:count]),
-        turn @ (first - explained[:k]),
+        np.einsum("i,ik->k", weights, basis[k : k + count]),
+        image + weights[-1] * r if count else image,
+        np.einsum("i,ik->k", weights, extras[:count]),
+        combination @ (first - components[:k]),
         count,
     )
 
 
 def _orthogonal(v: Vector, basis: Matrix) -> tuple[Vector, Vector]:
-    """Components of a vector along an orthonormal basis, and what is left of it."""
-    shares = np.einsum("ik,k->i", basis, v)
-    left = v - np.einsum("i,ik->k", shares, basis)
-    if np.sum(left * left) < LOST**2 * np.sum(v * v):
-        more = np.einsum("ik,k->i", basis, left)
-        shares, left = shares + more, left - np.einsum("i,ik->k", more, basis)
-    return shares, left
+    """Return the components of a vector along an orthonormal basis, and its orthogonal remainder.
+
+    Gram-Schmidt, repeated once if the remainder is small.
+    """
+    components = np.einsum("ik,k->i", basis, v)
+    remainder = v - np.einsum("i,ik->k", components, basis)
+    if np.sum(remainder * remainder) < REORTHOGONALISE**2 * np.sum(v * v):
+        more = np.einsum("ik,k->i", basis, remainder)
+        components, remainder = components + more, remainder - np.einsum("i,ik->k", more, basis)
+    return components, remainder
 
 
 def orthonormal(given: Matrix) -> tuple[Matrix, Matrix]:
-    """Orthonormal rows (j, n) that span the same as k given ones, j <= k, and of which
-    combinations of those they are (k, j)."""
-    sizes, turns = np.linalg.eigh(np.einsum("ik,jk->ij", given, given))
-    kept = sizes > ROUND_OFF * np.max(sizes, initial=0.0)
-    turn = turns[:, kept] / np.sqrt(sizes[kept])
-    return np.einsum("ij,ik->jk", turn, given), turn
+    """Compute orthonormal rows (j, n) with the span of the given rows (k, n), j <= k.
+
+    The second result is the matrix (k, j) of their coefficients in terms of the given rows.
+    """
+    sizes, vectors = np.linalg.eigh(np.einsum("ik,jk->ij", given, given))
+    independent = sizes > ROUND_OFF * np.max(sizes, initial=0.0)
+    combination = vectors[:, independent] / np.sqrt(sizes[independent])
+    return np.einsum("ij,ik->jk", combination, given), combination

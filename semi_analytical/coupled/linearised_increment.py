@@ -1,4 +1,4 @@
-"""A coupled increment linearised in its zones of contact, stick and slip, and its solution."""
+"""Linear system of a semismooth Newton step in fixed zones, and its solution by GMRES."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -19,13 +19,13 @@ from semi_analytical.coupled.krylov import least_residual
 from semi_analytical.operator.slip_compliance_bins import shares
 
 MAX_ITERATIONS = 40
-# Of the sums of tractions: what a zone that slips one way does not determine.
+# Relative cutoff of the pseudo-inverse: slip in one direction leaves a force undetermined.
 UNDETERMINED = 1e-12
 
 
 @dataclass(frozen=True)
 class Step:
-    """Change of tractions and displacements (3, nx, ny) and of the closure, and its iterations."""
+    """Changes of tractions and displacements (3, nx, ny) and of the closure; GMRES iterations."""
 
     tractions: Tractions
     displacements: Field
@@ -34,13 +34,16 @@ class Step:
 
 
 class LinearisedIncrement:
-    """The derivative in given zones under the loads: rigid motions whose forces are given are
-    unknowns beside the tractions, and the tractions keep these forces."""
+    """The generalised derivative in given zones with the load constraints.
+
+    Unknowns are the free tractions and the rigid motions with a prescribed force. Steps do not
+    change the prescribed forces.
+    """
 
     def __init__(
         self, problem: CoupledProblem, zones: Zones, carriers: Matrix | None = None
     ) -> None:
-        """carriers  of the loads, from nearly these zones: see `carriers_in`"""
+        """Assemble the system; `carriers` of similar zones (see `carriers_in`) save their solve."""
         self._problem, self._zones = problem, zones
         self._precondition = GradedPreconditioner(zones, problem)
         shape = problem.gap.shape
@@ -56,12 +59,12 @@ class LinearisedIncrement:
         self._inverse = np.linalg.pinv(responses.reshape(count, count).T, rcond=UNDETERMINED)
 
     def carriers_in(self, zones: Zones) -> Matrix:
-        """What carries its loads, in other zones, where they may do so, too (k, unknowns)."""
-        own = (zones.free(self._zones.field(carrier)) for carrier in self._carriers)
-        return np.array([*own]).reshape(-1, zones.size)
+        """Transfer the traction patterns that carry the loads to other zones (k, unknowns)."""
+        transferred = (zones.free(self._zones.field(carrier)) for carrier in self._carriers)
+        return np.array([*transferred]).reshape(-1, zones.size)
 
     def _free_units(self) -> Matrix:
-        """The free parts of unit motions whose forces are given (k, unknowns)."""
+        """Restrict unit motions with a prescribed force to the free unknowns (k, unknowns)."""
         zones, free = self._zones, []
         for parts, motions in ((slice(2), self._shifts), (slice(2, 3), self._closures)):
             for motion in motions:
@@ -71,9 +74,9 @@ class LinearisedIncrement:
         return np.array(free).reshape(len(free), zones.size)
 
     def admissible(self, tractions: Tractions) -> Tractions:
-        """Tractions in the zones that friction allows and that carry the loads, near given ones.
+        """Return admissible tractions near given ones: in the zones, within friction, under load.
 
-        raises  NotConverged where the zones cannot carry the loads
+        raises  NotConverged if the load reaches the friction limit
         """
         problem, zones, load = self._problem, self._zones, self._problem.tangential_load
         p = problem.normal_load.admissible(np.maximum(tractions[2], 0.0) * zones.contact)
@@ -84,72 +87,70 @@ class LinearisedIncrement:
         carriers = self._carriers[: len(self._shifts)]
         forces = np.array([load.forces(zones.field(carrier)[:2]) for carrier in carriers])
         forces = forces.reshape(len(carriers), len(carriers))
-        missing = load.given - load.forces(t[:2])
-        shares = np.linalg.pinv(forces.T, rcond=UNDETERMINED) @ missing
-        t[:2] += zones.field(np.einsum("i,ik->k", shares, carriers))[:2]
+        weights = np.linalg.pinv(forces.T, rcond=UNDETERMINED) @ (load.given - load.forces(t[:2]))
+        t[:2] += zones.field(np.einsum("i,ik->k", weights, carriers))[:2]
         t[:2] = load.admissible(t[:2], bound)
         return t
 
-    def unsolved(self, base: Point, natural: Natural) -> Vector:
-        """What the linearised increment does not fulfil at a point."""
+    def residual(self, base: Point, natural: Natural) -> Vector:
+        """Compute the residual of the linear equations at a point."""
         zones = self._zones
-        missing = zones.free(np.concatenate([natural.slipped, -natural.gap[None]]))
-        missing -= zones.held(zones.free(base.tractions))
-        return missing
+        rows = zones.free(np.concatenate([natural.slipped, -natural.gap[None]]))
+        rows -= zones.slip_terms(zones.free(base.tractions))
+        return rows
 
-    def solved(self, unsolved: Vector, depth: float) -> Step:
-        """The step from a point to where the linearised increment is solved, but for the part
-        `depth` of what it does not fulfil now."""
+    def solve(self, residual: Vector, depth: float) -> Step:
+        """Compute the step that reduces a residual by the factor `depth`."""
         zones, problem = self._zones, self._problem
 
         def apply(v: Vector) -> tuple[Vector, Vector]:
             free = self._unknowns(v)
             u = problem.together(zones.tractions(free))
-            return zones.free(u) + zones.held(free), zones.rest(u)
+            return zones.free(u) + zones.slip_terms(free), zones.fixed(u)
 
         extra = 3 * zones.contact.size - zones.size
-        found = least_residual(apply, unsolved, self._free_units(), extra, depth, MAX_ITERATIONS)
+        found = least_residual(apply, residual, self._free_units(), extra, depth, MAX_ITERATIONS)
         free = self._unknowns(found.solution)
         closing = zip(found.motion[len(self._shifts) :], self._closures, strict=True)
         return Step(
             zones.tractions(free),
-            zones.whole(found.image - zones.held(free), found.along),
+            zones.whole(found.image - zones.slip_terms(free), found.extra),
             sum((-m * closure for m, closure in closing), 0.0),
             found.iterations,
         )
 
     def _unknowns(self, rows: Vector) -> Vector:
-        """Free unknowns, roughly, that the derivative makes rows of; they change no given force."""
+        """Apply the preconditioner to rows; the result does not change a prescribed force."""
         free = self._precondition(rows)
-        for share, carrier in zip(self._inverse @ self._forces(free), self._carriers, strict=True):
-            free -= share * carrier
+        for weight, carrier in zip(self._inverse @ self._forces(free), self._carriers, strict=True):
+            free -= weight * carrier
         return free
 
     def _forces(self, free: Vector) -> Vector:
-        """The given forces, of the tractions of free unknowns."""
+        """Compute the prescribed force components of changes of free unknowns."""
         t = self._zones.tractions(free)
-        pressed = [np.sum(closure * t[2]) for closure in self._closures]
-        return np.array([*self._problem.tangential_load.forces(t[:2]), *pressed])
+        normal = [np.sum(closure * t[2]) for closure in self._closures]
+        return np.array([*self._problem.tangential_load.forces(t[:2]), *normal])
 
 
 class GradedPreconditioner:
-    """Approximate inverse of the generalised derivative, graded by the stiffness of slip.
+    """Approximate inverse of the generalised derivative, with bins of the slip compliance.
 
-    On stick the derivative is the tangential operator; where a cell slips, its stiffness d is added
-    (see `slip_compliance_bins`). The inverse of neither part approximates that of their sum:
+    In the stick zone the derivative is the tangential operator. A slipping cell adds its slip
+    compliance d (see `slip_compliance_bins`). The approximate inverse is
 
         M = Π F⁻¹ Π + Σ_j χ_j t (f + d_j)⁻¹ t χ_j,    Π = stick + χ_0 t t
 
-    F is the tangential spectrum with the unpadded period, f its scalar mean. Rows and free unknowns
+    F is the tangential operator with the unpadded period, f its scalar mean. Rows and free unknowns
     are vectors of the zones.
     """
 
     def __init__(self, zones: Zones, problem: CoupledProblem) -> None:
         self._zones, self._inverse = zones, problem.precondition_together
-        self._shares = shares(zones.turning / problem.self_compliance)
+        self._shares = shares(zones.slip_compliance / problem.self_compliance)
 
     def __call__(self, rows: Vector) -> Vector:
-        """M rows."""
+        """Return M applied to rows."""
         zones, slip, shares = self._zones, self._zones.slip, self._shares
         shape = zones.contact.shape
         v: NDArray[Any] = np.zeros((2 + len(shares), zones.contact.size), dtype=np.float32)
@@ -163,7 +164,7 @@ class GradedPreconditioner:
         for one in u[:2]:
             one[slip] *= shares[0]
         free = zones.free(u[:3])
-        turned = zones.parts(free)[1]
+        along = zones.parts(free)[1]
         for one, share in zip(u[3:], shares[1:], strict=True):
-            turned += share * one[slip]
+            along += share * one[slip]
         return free

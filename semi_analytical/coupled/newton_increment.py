@@ -1,4 +1,4 @@
-"""Pressure and shear of a coupled increment at once, by a semismooth Newton method."""
+"""Semismooth Newton method for the natural map of a coupled increment."""
 
 import numpy as np
 
@@ -14,11 +14,11 @@ from semi_analytical.coupled.newton_iterate import NewtonIterate
 from semi_analytical.residuals import complementarity, penetration, slip_direction
 
 MAX_STEPS = 40
-# Steps without the residual falling by a tenth.
+# Successive steps that may reduce the residual by less than 10 %.
 MAX_IDLE = 3
-# Part of the rows that a solve leaves: at most, and while the zones still change.
-ROUGHLY = 0.05
-# Part of the tolerance that a solve need not go below, and part at which it stops short of a step.
+# Largest reduction factor of a linear solve; used while the zones change.
+ROUGH_REDUCTION = 0.05
+# Smallest residual of a linear solve over the tolerance.
 FINE = 0.1
 
 
@@ -29,11 +29,13 @@ def solve_by_newton(
     tolerance: float,
     furthest: float = np.inf,
 ) -> CoupledSolution:
-    """From first tractions (3, nx, ny) and a first motion until all residuals meet the tolerance.
+    """Iterate from tractions (3, nx, ny) and a motion until all residuals meet the tolerance.
 
-    furthest  part of all tractions by which the first may miss the natural map
-    raises    NotConverged where it stalls, where the load exhausts the friction on the way, or
-              where the first tractions miss by more
+    The initial tractions are overwritten.
+
+    furthest  largest merit of the first linearised tractions
+    raises    NotConverged if the iteration stalls, the load reaches the friction limit, or the
+              first merit exceeds `furthest`
     """
     at = NewtonIterate(problem, start, motion)
     best, idle = np.inf, 0
@@ -52,24 +54,25 @@ def solve_by_newton(
         best = min(best, residual)
         if idle >= MAX_IDLE:
             break
-        depth = min(ROUGHLY, at.natural.merit) if at.settled else ROUGHLY
-        at.step(min(ROUGHLY, max(depth, FINE * tolerance / residual)))
+        depth = min(ROUGH_REDUCTION, at.natural.merit) if at.settled else ROUGH_REDUCTION
+        at.step(min(ROUGH_REDUCTION, max(depth, FINE * tolerance / residual)))
     raise NotConverged("the coupled increment", at.iterations, best, tolerance)
 
 
 def _residual(problem: CoupledProblem, at: NewtonIterate) -> float:
-    """The worst of all dimensionless residuals at admissible tractions."""
+    """Return the largest dimensionless residual at admissible tractions."""
     point, natural = at.point, at.natural
     q, p = point.tractions[:2], point.tractions[2]
     allowed = np.isfinite(problem.gap)
     overlap = problem.normal_load.overlap(at.closing, problem.gap, allowed)
-    # Where all sticks the surface may not move at all: of the shear, its own cells tell a scale.
+    # In full stick the surface may not move; the displacement by the shear of a cell is then the
+    # scale of slip. In a single cell only the surface around the cell moves: take the maximum.
     moved = np.maximum(np.abs(point.displacements[:2]), problem.self_compliance * np.abs(q))
-    if not np.any(natural.slip & (natural.bound > 0)):  # a single cell: only the surface around it
+    if not np.any(natural.slip & (natural.bound > 0)):
         moved = np.full_like(moved, np.max(moved))
     return worst(
         complementarity(p, natural.gap, overlap),
         penetration(natural.gap, overlap),
-        natural.sheared,
+        natural.shear_error,
         slip_direction(q, natural.bound, natural.slipped, moved),
     )

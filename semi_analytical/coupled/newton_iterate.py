@@ -1,12 +1,9 @@
-"""Where Newton's method for a coupled increment stands, and its steps.
+"""Iterates of the semismooth Newton method for a coupled increment.
 
-Each step reads the zones of contact, stick and slip off the natural map, solves the increment
-linearised in them by GMRES, and goes to the answer or part of the way. The motion of the indenter
-that decides on stick and slip is never that of the linearised increment, which may empty the stick
-zone, but that of the exact projection.
+A step determines the zones of contact, stick and slip from the natural map, solves the linear
+system in these zones by GMRES, and applies a line search. The motion of the indenter comes from
+the exact projection, not from the linear system, whose motion may empty the stick zone.
 """
-
-from collections.abc import Iterator
 
 import numpy as np
 
@@ -25,27 +22,29 @@ from semi_analytical.coupled.linearised_increment import (
 )
 from semi_analytical.normal.normal_load import Motion
 
-# Of the root of the number of cells in contact: at most so many change once the zones settle.
+# Zones have settled if at most this part of the root of the number of contact cells changes zone.
 SETTLED = 0.1
-HALVES = 0.5 ** np.arange(5)
+STEP_FACTORS = 0.5 ** np.arange(5)
 
 
 class NewtonIterate:
-    """A point, and its natural map; `admissible` after `linearise`, not after `step`.
+    """The current point of Newton's method; its tractions are admissible after `linearise` only.
 
-    point       tractions with their displacements
-    natural     the natural map there
-    closing     motion that closes the gap there
-    settled     whether hardly a zone has changed with the last step
-    iterations  of GMRES so far
+    point       tractions and displacements
+    natural     natural map at the point
+    closing     normal motion that closes the gap of the point
+    settled     the last step changed the zone of few cells
+    iterations  sum of GMRES iterations
     """
 
     natural: Natural
     closing: Motion
 
     def __init__(self, problem: CoupledProblem, start: Tractions, motion: Vector) -> None:
-        """At first tractions (3, nx, ny), of which the pressure is made to carry the load, and a
-        first motion; raises NotConverged as all that follows, where there is no natural map."""
+        """Start at tractions (3, nx, ny), whose pressure is scaled to the load in place.
+
+        This and the other methods raise NotConverged if there is no natural map.
+        """
         start[2] = problem.normal_load.admissible(np.where(np.isfinite(problem.gap), start[2], 0.0))
         self._problem = problem
         self.point, _ = reached(problem, start, motion)
@@ -55,7 +54,7 @@ class NewtonIterate:
         self._increment: LinearisedIncrement | None = None
 
     def linearise(self) -> None:
-        """In the zones of the point; and go to tractions nearby that friction allows there."""
+        """Linearise in the zones of the point, and move to admissible tractions of these zones."""
         problem, motion = self._problem, self.natural.motion
         zones = Zones.of(self.natural, problem)
         images = problem.domain.images
@@ -64,26 +63,25 @@ class NewtonIterate:
         increment = self._increment
         carriers = increment.carriers_in(zones) if increment and self.settled else None
         self._zones, self._increment = zones, None
-        del increment  # both increments at once would be more
+        del increment  # limit the memory to one increment
         increment = self._increment = LinearisedIncrement(problem, zones, carriers)
         tractions = increment.admissible(self.point.tractions)
         self.point, self.closing = reached(problem, tractions, motion)
         self.natural = natural_map(problem, self.point)
 
     def step(self, depth: float) -> None:
-        """Go where the linearised increment leads, solved but for the part `depth`, or part of the
-        way."""
+        """Take a step with line search; the linear solve reduces its residual by `depth`."""
         assert self._increment is not None
         merit = self.natural.merit
-        unsolved = self._increment.unsolved(self.point, self.natural)
-        del self.natural  # as large as a few of the vectors that follow
-        step = self._increment.solved(unsolved, depth)
+        residual = self._increment.residual(self.point, self.natural)
+        del self.natural  # release its memory before the solve
+        step = self._increment.solve(residual, depth)
         self.iterations += step.iterations
-        self.point, self.natural = _toward(self._problem, self.point, step, merit)
+        self.point, self.natural = _line_search(self._problem, self.point, step, merit)
 
 
 def reached(problem: CoupledProblem, tractions: Tractions, motion: Vector) -> tuple[Point, Motion]:
-    """The point at tractions, and the motion that closes its gap."""
+    """Return the point at tractions, and the normal motion that closes its gap."""
     u, load = problem.together(tractions), problem.normal_load
     gap = np.where(np.isfinite(problem.gap), problem.gap, 0.0)
     closing = load.motion(tractions[2], gap + u[2])
@@ -91,7 +89,10 @@ def reached(problem: CoupledProblem, tractions: Tractions, motion: Vector) -> tu
 
 
 def natural_map(problem: CoupledProblem, point: Point) -> Natural:
-    """The natural map at a point; raises NotConverged where it has none, or nothing touches."""
+    """Evaluate the natural map at a point.
+
+    raises  NotConverged at the friction limit, for non-finite tractions or without contact
+    """
     bound = problem.friction_limit(np.maximum(point.tractions[2], 0.0))
     if problem.tangential_load.exhausts(bound) or not np.all(np.isfinite(point.tractions)):
         raise NotConverged("the coupled increment", 0, np.inf, 0.0)
@@ -101,34 +102,30 @@ def natural_map(problem: CoupledProblem, point: Point) -> Natural:
     return natural
 
 
-def _toward(
+def _line_search(
     problem: CoupledProblem, base: Point, step: Step, merit: float
 ) -> tuple[Point, Natural]:
-    """As far along a step as lowers the merit enough, else as far as lowers it most. Displacements
-    are linear in tractions: no part of the way takes a product."""
+    """Return the first point of a backtracking line search with sufficient decrease.
+
+    Without sufficient decrease return the point of lowest merit. Displacements are linear in
+    tractions, so the search needs no convolutions.
+    """
     lowest: tuple[Point, Natural] | None = None
-    for part, (point, natural) in _on_the_way(problem, base, step):
-        if natural.merit <= (1 - 0.1 * part) * merit:
+    for factor in STEP_FACTORS:
+        point = Point(
+            base.tractions + factor * step.tractions,
+            base.displacements + factor * step.displacements,
+            base.closure + factor * step.closure,
+            base.motion,
+        )
+        try:
+            natural = natural_map(problem, point)
+        except NotConverged:
+            continue
+        if natural.merit <= (1 - 0.1 * factor) * merit:
             return point, natural
         if lowest is None or natural.merit < lowest[1].merit:
             lowest = point, natural
     if lowest is None:
         raise NotConverged("the coupled increment", step.iterations, merit, 0.0)
     return lowest
-
-
-def _on_the_way(
-    problem: CoupledProblem, base: Point, step: Step
-) -> Iterator[tuple[float, tuple[Point, Natural]]]:
-    """Points ever nearer to the base that have a natural map."""
-    for part in HALVES:
-        point = Point(
-            base.tractions + part * step.tractions,
-            base.displacements + part * step.displacements,
-            base.closure + part * step.closure,
-            base.motion,
-        )
-        try:
-            yield part, (point, natural_map(problem, point))
-        except NotConverged:
-            continue

@@ -1,9 +1,9 @@
-"""First tractions of a coupled increment, from the path so far: they take no convolutions.
+"""Predictor of the tractions of a coupled increment from previous increments, without convolutions.
 
-While the normal load changes on a gap like r^k, a state is nearly the one before, dilated about its
-centre of pressure; what the one before it missed of this state, the next one will miss too. The
-pressure is dilated squared: towards the edge it falls like a root. While the normal load rests, the
-path goes straight on.
+While the normal load changes, the state on a gap r^k is nearly self-similar: it is the previous
+state, dilated about its centre of pressure. The predictor adds the error of the preceding dilation.
+The square of the pressure is dilated, because the pressure falls like a root towards the edge. At
+constant normal load the predictor extrapolates the tractions linearly.
 """
 
 from __future__ import annotations
@@ -28,16 +28,16 @@ Start = tuple[Field, VectorField]
 
 
 @dataclass(frozen=True)
-class Lens:
-    """Dilates fields of a domain by a factor about a centre, given in cells."""
+class Dilation:
+    """Dilation of fields of a domain by a factor about a centre, given in cells."""
 
     centre: tuple[float, float]
     factor: float
     domain: ReducedDomain = WINDOW
 
     @classmethod
-    def over(cls, pressure: Field, factor: float, domain: ReducedDomain = WINDOW) -> Lens:
-        """About the centre of a pressure, which lies on mirror planes."""
+    def about(cls, pressure: Field, factor: float, domain: ReducedDomain = WINDOW) -> Dilation:
+        """Dilate about the centre of a pressure; it lies on the mirror planes of the domain."""
         lines = (np.sum(pressure, axis=1), np.sum(pressure, axis=0))
         x, y = (
             -0.5 if mirrored else float(np.sum(np.arange(len(line)) * line) / np.sum(line))
@@ -46,8 +46,10 @@ class Lens:
         return cls((x, y), factor, domain)
 
     def __call__(self, values: Field) -> Field:
-        """What a scalar (nx, ny) or vector field (2, nx, ny) is at a place nearer to the centre by
-        the factor: linear in between, and at the border as at its nearest cell."""
+        """Dilate a scalar (nx, ny) or vector field (2, nx, ny) by bilinear interpolation.
+
+        The field is constant beyond the outermost cell centres.
+        """
         if values.ndim == 2:
             return self._dilated(values, self.domain.scalar)
         components = zip(values, self.domain.vector, strict=True)
@@ -60,44 +62,45 @@ class Lens:
             beyond = at[0]
             at = np.clip(at, 0, count - 1)
             left = np.minimum(at.astype(int), count - 2)
-            part = np.expand_dims(at - left, 1 - axis)
+            weight = np.expand_dims(at - left, 1 - axis)
             one, other = (np.take(values, left + k, axis) for k in (0, 1))
-            values = (1 - part) * one + part * other
-            if sign < 0 and beyond < 0:  # between a cell and its image
+            values = (1 - weight) * one + weight * other
+            if sign < 0 and beyond < 0:  # between a cell and its odd image
                 values[(0,) if axis == 0 else (slice(None), 0)] *= 1 + 2 * beyond
         return values
 
     def grown(self, p: Field, q: VectorField, load: float) -> Start:
-        """Tractions p and q of a contact dilated under a normal force `load` times as large; the
-        shear keeps its share of the pressure."""
-        pressure, below = np.sqrt(self(p * p)), self(p)
-        share = self(q) / np.where(below > 0, below, 1.0)
+        """Dilate tractions p and q and multiply the normal force by `load`.
+
+        The ratio q/p at a material point of the dilation is constant.
+        """
+        pressure, linear = np.sqrt(self(p * p)), self(p)
+        ratio = self(q) / np.where(linear > 0, linear, 1.0)
         pressure *= load / self.factor**2
-        return pressure, share * pressure
+        return pressure, ratio * pressure
 
 
 def predicted(
     model: ContactModel, before: State, normal: NormalTarget, tangential: TangentialTarget
 ) -> Start | None:
-    """Pressure and shear at the end of an increment, roughly; None where the path says nothing."""
-    seen = before.seen()
-    if seen is None:
+    """Predict pressure and shear at the end of an increment; None without a prediction."""
+    now = before.seen()
+    if now is None:
         return None
-    behind = before.behind
     if before.target == normal:
-        return _straight_on(seen, behind, tangential)
-    return _dilated(model, seen, behind, normal)
+        return _extrapolated(now, before.behind, tangential)
+    return _dilated(model, now, before.behind, normal)
 
 
-def _straight_on(
+def _extrapolated(
     now: PreviousIncrement, behind: PreviousIncrement | None, tangential: TangentialTarget
 ) -> Start:
-    """As much further as the tangential load goes straight on; else as before."""
-    part = further(now, behind, tangential)
-    if behind is None or part == 0:
+    """Extrapolate linearly along a straight tangential load path; else return the last state."""
+    ratio = further(now, behind, tangential)
+    if behind is None or ratio == 0:
         return now.pressure, now.shear
-    p = now.pressure + part * (now.pressure - behind.pressure)
-    return np.maximum(p, 0.0), now.shear + part * (now.shear - behind.shear)
+    p = now.pressure + ratio * (now.pressure - behind.pressure)
+    return np.maximum(p, 0.0), now.shear + ratio * (now.shear - behind.shear)
 
 
 def _dilated(
@@ -106,35 +109,38 @@ def _dilated(
     behind: PreviousIncrement | None,
     normal: NormalTarget,
 ) -> Start | None:
-    """As the gap has it at first, then as the contact has grown with its load so far."""
+    """Dilate the last state: by the exponent of the gap, later by the growth of the last increment.
+
+    Without a preceding increment, or after a much smaller one, radius and force follow the gap r^k.
+    """
     exponent = model.scene.indenter.gap_exponent
-    held = normal.tilting is None or (
+    fixed_tilt = normal.tilting is None or (
         normal.tilting.moment is None and normal.tilting == now.target.tilting
     )
-    if exponent is None or not held:
+    if exponent is None or not fixed_tilt:
         return None
     if normal.force is not None:
-        load, loads = normal.force, [seen.normal_force for seen in (now, behind) if seen]
-        wider, rise = 1 / (exponent + 1), 1.0
+        load, loads = normal.force, [state.normal_force for state in (now, behind) if state]
+        of_radius, of_force = 1 / (exponent + 1), 1.0
     else:
         assert normal.approach is not None
-        load, loads = normal.approach, [seen.approach for seen in (now, behind) if seen]
-        wider, rise = 1 / exponent, 1 + 1 / exponent
+        load, loads = normal.approach, [state.approach for state in (now, behind) if state]
+        of_radius, of_force = 1 / exponent, 1 + 1 / exponent
     if min(load, *loads) <= 0:
         return None
-    on, pressure = model.domain, now.pressure
-    way = np.log(load / loads[0])
-    last_way = np.log(loads[0] / loads[-1])
-    if behind is None or abs(way) > FURTHEST * abs(last_way) or behind.normal_force <= 0:
-        lens = Lens.over(pressure, np.exp(wider * way), on)
-        return lens.grown(pressure, now.shear, np.exp(rise * way))
-    part = way / last_way
-    grown = 0.5 * np.log(now.covered_cells / behind.covered_cells)
-    risen = np.log(now.normal_force / behind.normal_force)
-    lens = Lens.over(pressure, np.exp(part * grown), on)
-    p, q = lens.grown(pressure, now.shear, np.exp(part * risen))
-    last = Lens.over(behind.pressure, np.exp(grown), on)
-    p_missed, q_missed = last.grown(behind.pressure, behind.shear, np.exp(risen))
-    p += part * lens(pressure - p_missed)
-    q += part * lens(now.shear - q_missed)
+    domain, pressure = model.domain, now.pressure
+    change = np.log(load / loads[0])
+    last_change = np.log(loads[0] / loads[-1])
+    if behind is None or abs(change) > FURTHEST * abs(last_change) or behind.normal_force <= 0:
+        dilation = Dilation.about(pressure, np.exp(of_radius * change), domain)
+        return dilation.grown(pressure, now.shear, np.exp(of_force * change))
+    ratio = change / last_change
+    radius = 0.5 * np.log(now.covered_cells / behind.covered_cells)
+    force = np.log(now.normal_force / behind.normal_force)
+    dilation = Dilation.about(pressure, np.exp(ratio * radius), domain)
+    p, q = dilation.grown(pressure, now.shear, np.exp(ratio * force))
+    last = Dilation.about(behind.pressure, np.exp(radius), domain)
+    last_p, last_q = last.grown(behind.pressure, behind.shear, np.exp(force))
+    p += ratio * dilation(pressure - last_p)
+    q += ratio * dilation(now.shear - last_q)
     return np.maximum(p, 0.0), q
