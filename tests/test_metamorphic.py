@@ -159,7 +159,7 @@ def test_contact_between_the_cell_centres_is_refused(cells):
     tiny = {"approach": 1e-7 * APPROACH}
     on = grid(cells)
     asked = SurfaceDiscretisation(cells=on.cells, window=on.window)
-    touched = r"1 of them carry" if cells % 2 else r"no cell .* touches"  # a centre is at the tip
+    touched = r"1 of them carry" if cells % 2 else r"no cell .* contact"  # a centre is at the tip
     with pytest.raises(ContactNotResolved, match=touched):
         solve_discretised(scene(tiny, friction=None), asked)
 

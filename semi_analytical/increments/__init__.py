@@ -1,1 +1,1 @@
-"""One increment of the load history: pressure, then shear, and their energies."""
+"""One increment of the load history: normal problem, tangential problem and energy balance."""

@@ -1,4 +1,4 @@
-"""The account of energy, carried on from one solved state to the next."""
+"""Energy balance along the load history."""
 
 from dataclasses import replace
 
@@ -22,11 +22,11 @@ from semi_analytical.tangential.admissible_shear import everywhere
 def balanced(
     model: ContactModel, before: State | None, after: State, *, path_matters: bool = True
 ) -> State:
-    """The state `after` an increment with its energies; `before` is None at the start.
+    """Return the state `after` an increment with its energies; `before` is None at the start.
 
-    Needs no convolution: states know their displacements.
+    No convolution is needed: states include their displacements.
 
-    path_matters  whether `after` depends on how finely its step is cut
+    path_matters  whether `after` depends on the number of increments of its load step
     """
     end = configuration(model, after)
     if before is None:
@@ -41,8 +41,11 @@ def balanced(
 
 
 def configuration(model: ContactModel, state: State) -> Configuration:
-    """Collect tractions, displacements and loads of a state for the energy balance; without shear
-    its tangential fields are empty. The springs of a rig are no part of the bodies."""
+    """Collect tractions, displacements and loads of a state for the energy balance.
+
+    Without shear the tangential fields are empty. The springs of a rig store no energy of the
+    bodies: their extension is subtracted from motions and displacements.
+    """
     pressing, sheared = state.pressing, state.sheared
     pressure, (down, along) = pressing.pressure, model.springs
     gap = model.gap + pressing.displacement - pressing.closure(model)
@@ -70,7 +73,7 @@ def configuration(model: ContactModel, state: State) -> Configuration:
     moments = [*(state.moment or ()), *_some(sheared.torque)]
     rotations = [*(pressing.tilt or ()), *_some(sheared.twist)]
     if sheared.strain is not None:
-        # The strain moves the lower body, against which its shear works.
+        # The strain moves the lower body, so its work has the opposite sign.
         moments += [*strain_moments(model, sheared.shear)]
         rotations += [-part for part in sheared.strain]
     if shift is not None:

@@ -1,4 +1,4 @@
-"""Where all of a contact slips: the limit of friction, and contacts without friction."""
+"""Full slip: force control at the friction limit, and contacts without friction."""
 
 from dataclasses import replace
 
@@ -22,7 +22,7 @@ from semi_analytical.tangential.admissible_shear import AT_LIMIT
 
 
 def force_reaches_limit(force: Vector, limit: float) -> bool:
-    """Whether a force is at the friction limit; GrossSliding if it is beyond."""
+    """Return whether a force is at the friction limit; raise GrossSliding if it is larger."""
     magnitude = float(np.hypot(*force))
     if magnitude > limit * (1 + AT_LIMIT):
         raise GrossSliding(
@@ -33,7 +33,8 @@ def force_reaches_limit(force: Vector, limit: float) -> bool:
 
 
 def refuse_excessive_torque(model: ContactModel, bound: Field, load: TangentialTarget) -> None:
-    """Raise GrossSliding if friction cannot carry a given torque beside the other loads."""
+    """Raise GrossSliding if friction cannot carry a prescribed torque together with the other
+    loads."""
     assert load.torsion is not None
     assert load.torsion.torque is not None
     torque, force = abs(load.torsion.torque), load.force
@@ -61,7 +62,7 @@ def refuse_excessive_torque(model: ContactModel, bound: Field, load: TangentialT
 def at_limit(
     model: ContactModel, pressure: Field, last: TangentialState, load: TangentialTarget
 ) -> TangentialState:
-    """Force control at the friction limit: the traction is known, the shift is not."""
+    """Return the state of force control at the friction limit: known traction, undefined shift."""
     bound, force = model.friction_limit(pressure), load.force
     assert force is not None
     q = bound * (force / np.hypot(*force))[:, None, None]
@@ -97,10 +98,10 @@ def unresisted(
     load: TangentialTarget,
     motion: Vector,
 ) -> TangentialState:
-    """Friction vanishes all over the contact: all of it slips, for nothing.
+    """Return the state of a contact in full slip without friction: no shear.
 
-    displacement  u_t (2, nx, ny) without shear, by the pressure alone
-    motion        of the load
+    displacement  u_t (2, nx, ny) by the pressure alone
+    motion        rigid motion of the indenter
     """
     nothing = np.zeros_like(last.shear)
     touching = touching_share(last.pressure, pressure, model.gap)

@@ -1,4 +1,4 @@
-"""One load increment: the pressure problem, then the shear problem at that pressure."""
+"""One load increment of uncoupled bodies: the normal problem, then the tangential problem."""
 
 from dataclasses import dataclass, replace
 
@@ -38,19 +38,19 @@ from semi_analytical.tangential.admissible_shear import magnitude
 
 @dataclass(frozen=True)
 class State:
-    """Everything that the next increment needs of this one.
+    """Converged state of an increment, from which the next one starts.
 
-    target        the normal load that was reached
+    target        prescribed normal load
     normal_force  Σp times the cell area [force]
-    pressing      pressure, normal displacement and approach
-    sheared       the tangential part; None where no shear arises
-    moment        (Σp y, Σp x) times the cell area [force length]; None where nothing tilts
-    energy        since the start of the history; the march over the increments keeps the account
-    rounds        steps for pressure and shear together that it took; 0 without
-    corrected     the same with its edges inside the cells, which no later state knows of; None
-                  where that was not asked for, or is not safe
+    pressing      solution of the normal problem
+    sheared       solution of the tangential problem; None without shear
+    moment        (Σp y, Σp x) times the cell area [force length]; None without tilt
+    energy        energies since the start of the history, added by the load stepping
+    rounds        iterations of the coupled problem; 0 without coupling
+    corrected     edge-corrected state, which later increments do not use; None where the correction
+                  was not requested or not possible
     edge_report   outcome of the edge correction; None where it was not attempted
-    behind        the state before, where the next one is predicted
+    behind        data of the previous increment for the predictor
     """
 
     target: NormalTarget
@@ -65,7 +65,8 @@ class State:
     behind: PreviousIncrement | None = None
 
     def seen(self) -> PreviousIncrement | None:
-        """This state as seen from ahead; None without shear, or where the shift is undefined."""
+        """Return the data of this state for later predictors; None without shear or with undefined
+        shift."""
         pressing, sheared = self.pressing, self.sheared
         if sheared is None or sheared.shift is None:
             return None
@@ -83,25 +84,25 @@ class State:
 
     @property
     def iterations(self) -> int:
-        """Of the pressure and shear solvers, in the increment."""
+        """Number of iterations of the normal and tangential solvers in the increment."""
         return self.pressing.iterations + (self.sheared.iterations if self.sheared else 0)
 
 
 def moment_of(model: ContactModel, pressure: Field) -> Pair:
-    """(Σp y, Σp x) times the cell area [force length]."""
+    """Compute the moment (Σp y, Σp x) times the cell area [force length]."""
     M_x, M_y = np.sum(pressure * model.arms, axis=(1, 2)) * model.grid.cell_area
     return float(M_x), float(M_y)
 
 
 def reached_moment(model: ContactModel, target: NormalTarget, pressure: Field) -> Pair | None:
-    """The moment as it is given, or as the pressure has it; None where nothing tilts."""
+    """Return the prescribed moment, else that of the pressure; None without tilt."""
     if target.tilting is None:
         return None
     return target.tilting.moment or moment_of(model, pressure)
 
 
 def residuals_of(model: ContactModel, state: State) -> Residuals:
-    """How well a state fulfils its equations and carries its load."""
+    """Collect the residuals of a state: contact conditions, friction and equilibrium."""
     pressing, force = state.pressing, state.target.force
     pressed = Residuals(
         pressing.complementarity,
@@ -113,7 +114,7 @@ def residuals_of(model: ContactModel, state: State) -> Residuals:
 
 
 def _moment_equilibrium(model: ContactModel, state: State) -> float | None:
-    """|Σp (y, x) - M| / Σp r where a moment is given."""
+    """Compute |Σp (y, x) - M| / Σp r; None where no moment is prescribed."""
     tilting, p = state.target.tilting, state.pressing.pressure
     if tilting is None or tilting.moment is None:
         return None
@@ -128,9 +129,10 @@ def solve_increment(
     tangential: TangentialTarget | None,
     tolerance: float,
 ) -> State:
-    """The state at the end of an increment; `tangential_problem` is None where no shear arises.
+    """Solve an increment. The normal problem is not solved again if its load is unchanged.
 
-    raises  NotConverged, GrossSliding, ContactAtWindowEdge
+    tangential  tangential load; None without shear
+    raises      NotConverged, GrossSliding, ContactAtWindowEdge, ContactNotResolved
     """
     if before is not None and before.target == normal:
         pressing = replace(before.pressing, iterations=0)
@@ -159,7 +161,7 @@ def solve_increment(
 def normal_target(
     ramp: LoadRamp, start: State | None, fraction: float, tilts: bool
 ) -> NormalTarget:
-    """Normal force or approach, and the tilt where the plan says so.
+    """Return the normal load at a fraction of a ramp, with the tilt if `tilts`.
 
     start  the state at the start of the step; None before first touch
     """
@@ -171,7 +173,7 @@ def normal_target(
 def tangential_target(
     ramp: LoadRamp, start: State | None, fraction: float, twists: bool
 ) -> TangentialTarget:
-    """Tangential force or shift, and the torsion where the plan says so."""
+    """Return the tangential load at a fraction of a ramp, with the torsion if `twists`."""
     sheared = start.sheared if start is not None else None
     reached: tuple[Pair, Pair | None] = ((0.0, 0.0), (0.0, 0.0))
     if sheared is not None:

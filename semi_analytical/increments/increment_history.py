@@ -1,4 +1,4 @@
-"""The path so far, as the next increment may go on."""
+"""Linear extrapolation of the load history, as an initial guess for the next increment."""
 
 from dataclasses import dataclass
 
@@ -9,17 +9,16 @@ from semi_analytical.increments.normal_solve import NormalTarget
 from semi_analytical.increments.tangential_solve import TangentialTarget
 from semi_analytical.tangential.linearised_shear import Point
 
-# Relative: a load that turns more is not the way to go on.
+# Largest sine of a change of direction of the tangential load, for extrapolation.
 STRAIGHT = 1e-6
-# Of the last increment, of the tangential load or of the logarithm of the normal one: beyond, that
-# tells nothing of the next one.
+# Largest ratio of the new increment to the last one, of the tangential load or of the logarithm of
+# the normal load, for extrapolation.
 FURTHEST = 2.0
 
 
 @dataclass(frozen=True)
 class PreviousIncrement:
-    """What the next increment but one needs of a state, to go on as the path went: of `State`,
-    `NormalState` and `Sheared`."""
+    """Data of an earlier state for the predictor; see `State` and its solutions."""
 
     target: NormalTarget
     pressure: Field
@@ -35,8 +34,10 @@ class PreviousIncrement:
 def further(
     now: PreviousIncrement, behind: PreviousIncrement | None, tangential: TangentialTarget
 ) -> float:
-    """How far the tangential load goes on, in parts of its last increment; zero where it does not
-    go straight on, or the normal load has not rested."""
+    """Compute the ratio of the next tangential increment to the last one.
+
+    Zero where no extrapolation applies: the direction or the normal load changes, or torsion acts.
+    """
     if behind is None or behind.target != now.target or tangential.torsion is not None:
         return 0.0
     if tangential.force is not None:
@@ -54,8 +55,7 @@ def further(
 def further_shear(
     now: PreviousIncrement, behind: PreviousIncrement | None, tangential: TangentialTarget
 ) -> Point:
-    """The shear with its displacement, as much further as the load goes straight on; else as
-    before."""
+    """Extrapolate shear and displacement linearly in the tangential load; see `further`."""
     part = further(now, behind, tangential)
     if behind is None or part == 0:
         return Point(now.shear, now.displacement)

@@ -1,4 +1,4 @@
-"""The pressure of a model under a load: nested grids, then the box around the contact."""
+"""Solution of the normal problem of a model: nested grids, then a box around the contact."""
 
 from dataclasses import dataclass
 
@@ -30,7 +30,7 @@ from semi_analytical.residuals import complementarity, penetration
 
 Pair = tuple[float, float]
 
-# A coarse solution is only a first guess: the next grid changes it by more.
+# Tolerance of solves that yield an initial guess: the discretisation error of their grid is larger.
 COARSE_TOLERANCE = 1e-3
 MARGIN = 4
 MAX_ATTEMPTS = 4
@@ -38,10 +38,10 @@ MAX_ATTEMPTS = 4
 
 @dataclass(frozen=True)
 class NormalState:
-    """Pressure and its normal displacement on the domain, approach, residuals, cost.
+    """Solution of the normal problem on the domain, with its residuals and iterations.
 
     covered_cells  contact area in cells, with sub-cell accuracy
-    tilt           of the indenter (x, y); None where nothing tilts
+    tilt           of the indenter (x, y); None without tilt
     """
 
     pressure: Field
@@ -54,7 +54,7 @@ class NormalState:
     tilt: Pair | None = None
 
     def closure(self, model: ContactModel) -> float | Field:
-        """By how much the indenter closes the gap [length]."""
+        """Return the closure of the gap by approach and tilt [length]."""
         if self.tilt is None:
             return self.approach
         return np.asarray(self.approach + plane(model, self.tilt))
@@ -62,7 +62,7 @@ class NormalState:
 
 @dataclass(frozen=True)
 class Tilting:
-    """Exactly one of the two controls: moment (M_x, M_y) [force length] or tilt (x, y)."""
+    """Prescribed moment (M_x, M_y) [force length] or tilt (x, y): exactly one."""
 
     moment: Pair | None = None
     tilt: Pair | None = None
@@ -70,28 +70,29 @@ class Tilting:
 
 @dataclass(frozen=True)
 class NormalTarget:
-    """Exactly one of the two controls: force W [force] or approach [length]; and the tilt, None
-    where nothing tilts."""
+    """Prescribed force W [force] or approach [length]: exactly one; and the tilt, None without
+    tilt."""
 
     force: float | None = None
     approach: float | None = None
     tilting: Tilting | None = None
 
     def gap(self, model: ContactModel) -> Field:
-        """The undeformed gap; where the tilt is given, that of the tilted indenter at first
+        """Return the undeformed gap; for a prescribed tilt that of the tilted indenter at first
         touch."""
         if self.tilting is None or self.tilting.tilt is None:
             return model.gap
         return model.gap - plane(model, self.tilting.tilt) - self._first_touch(model)
 
     def _first_touch(self, model: ContactModel) -> float:
-        """Approach at which a cell of the tilted indenter first touches [length]."""
+        """Return the approach at which the indenter of prescribed tilt first touches a cell
+        [length]."""
         if self.tilting is None or self.tilting.tilt is None:
             return 0.0
         return float(np.min(model.gap - plane(model, self.tilting.tilt)))
 
     def on(self, model: ContactModel, box: Box) -> NormalLoad:
-        """The load on that gap, as the solver sees it in a box of cells."""
+        """Return the load for the solver on a box of cells, relative to `gap`."""
         total = None if self.force is None else self.force / model.grid.cell_area
         if self.tilting is not None and self.tilting.moment is not None:
             from semi_analytical.normal.tilting import PressureMoments
@@ -106,7 +107,7 @@ class NormalTarget:
         return FixedApproach(self.approach - self._first_touch(model))
 
     def reached(self, model: ContactModel, motion: Motion) -> tuple[float, Pair | None]:
-        """Approach and tilt that a motion of the load stands for."""
+        """Convert the motion of the load to approach and tilt."""
         if self.tilting is None:
             return float(motion), None
         if self.tilting.tilt is not None:
@@ -116,16 +117,15 @@ class NormalTarget:
 
 
 def plane(model: ContactModel, tilt: Pair) -> Field:
-    """By how much a tilt closes the gap (nx, ny) [length]."""
+    """Compute the closure of the gap by a tilt (nx, ny) [length]."""
     return np.asarray(tilt[0] * model.arms[0] + tilt[1] * model.arms[1])
 
 
 def press(model: ContactModel, target: NormalTarget, tolerance: float) -> NormalState:
-    """Solve the pressure problem.
+    """Solve the normal problem.
 
-    The answer is checked with a fresh convolution over the domain: if bodies overlap outside the
-    box that was solved, the box grows to the domain; if round-off has crept in, the solve is
-    repeated more tightly.
+    A convolution over the whole domain checks the solution. If bodies overlap outside the box, the
+    box becomes the domain; otherwise the solve is repeated with a tighter tolerance.
     raises  ContactAtWindowEdge, ContactNotResolved, NotConverged
     """
     refuse_unresolved_contact(model, target)
@@ -165,8 +165,11 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Normal
 
 
 def nested_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
-    """Initial guess of the pressure: the frictionless solution of the coarser model, found the same
-    way, or by Hertz's law where there is none; and all the iterations that took."""
+    """Return an initial guess of the pressure, and the iterations spent on it.
+
+    The guess is the solution on the coarser model, found in the same manner; without a coarser
+    model it follows from Hertz theory (`initial_pressure`).
+    """
     coarse = model.coarse
     if coarse is None or not _touches(coarse, target):
         gap = target.gap(model)
@@ -177,12 +180,13 @@ def nested_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]
 
 
 def rough_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
-    """The same, but where there is no coarser model the pressure roughly solved on this one."""
+    """Return an initial guess of coarse tolerance, on this model if there is no coarser one."""
     return _rough(model, target) if model.coarse is None else nested_start(model, target)
 
 
 def _rough(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
-    """The pressure to the accuracy of an initial guess."""
+    """Solve the normal problem to the tolerance of an initial guess; return pressure and
+    iterations."""
     start, iterations = nested_start(model, target)
     gap = target.gap(model)
     operator = model.operator(gap.shape)
@@ -198,14 +202,17 @@ def _rough(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
 
 
 def _on_half_cells(pressure: Field) -> Field:
-    """A pressure (nx, ny) on cells half as long (2 nx, 2 ny), from parabolas through its square:
-    that falls to zero at the edge with a slope, the pressure like a root. Zero where it was."""
+    """Interpolate a pressure (nx, ny) to cells of half the side (2 nx, 2 ny).
+
+    Parabolas pass through its square, which has a finite slope at the contact edge. The contact
+    area does not change.
+    """
     squared = _halves(_halves(pressure**2).T).T
     return np.where(doubled(pressure) > 0, np.sqrt(np.maximum(squared, 0.0)), 0.0)
 
 
 def _halves(values: Field) -> Field:
-    """Values (n, …) at the middles of both halves of the cells along the first axis, (2 n, …)."""
+    """Interpolate values (n, …) to the centres of half cells along the first axis (2 n, …)."""
     continued = np.concatenate([values[:1], values, values[-1:]])
     before, after = continued[:-2], continued[2:]
     bend, slope = (before + after - 2 * values) / 32, (after - before) / 8
@@ -215,61 +222,63 @@ def _halves(values: Field) -> Field:
 
 
 def _touches(model: ContactModel, target: NormalTarget) -> bool:
-    """Whether the cells can carry the load: a force brings the nearest ones into contact, an
-    approach only those whose gap is smaller."""
+    """Return whether the load brings a cell into contact: see `NormalLoad.touches`."""
     gap = target.gap(model)
     load = target.on(model, Box.whole(gap.shape))
     return load.touches(gap)
 
 
 def refuse_unresolved_contact(model: ContactModel, target: NormalTarget) -> None:
-    """Raise ContactNotResolved if no cell of the window touches, or none where it would have to;
-    ContactAtWindowEdge if that is for want of window, or if the border of the window touches first.
+    """Raise an error if the grid cannot represent the contact.
+
+    ContactNotResolved (NothingTouches under a prescribed approach) if no cell of the window comes
+    into contact; ContactAtWindowEdge if the window is too small, or its border comes into contact
+    first.
     """
     if _touches(model, target):
         undeformed = target.gap(model)
         tilts = target.tilting is not None and target.tilting.moment is not None
         if not tilts and np.min(model.domain.rim(undeformed)) <= np.min(undeformed):
             raise ContactAtWindowEdge(
-                "the lowest point of the indenter lies at the border of the window, where the "
-                f"contact begins; {_lower(model)}"
+                "the lowest point of the indenter lies at the border of the window, so that the "
+                f"contact begins there. {_lower(model)}"
             )
         return
     if target.tilting is None or target.tilting.moment is None:
         gap = float(np.min(model.gap))
-        least = f"the gap is at least {gap:.4g} m" if gap < np.inf else "nothing of the indenter is"
+        least = f"the gap is at least {gap:.4g} m at" if gap < np.inf else "the indenter covers no"
         kind = ContactNotResolved if target.approach is None else NothingTouches
         raise kind(
-            f"no cell of the window touches: {least} at the cell centres; take more cells or a "
+            f"no cell of the window comes into contact: {least} cell centre. Use more cells or a "
             f"smaller window"
         )
     if np.isfinite(model.domain.rim(model.gap)).any():
         raise ContactAtWindowEdge(
-            f"under its moment the normal force acts outside the window; {_wider(model)}"
+            f"the moment places the normal force outside the window. {_wider(model)}"
         )
     raise ContactNotResolved(
-        "under its moment the normal force acts beyond the outermost cells of the indenter: it "
-        "tips over; take a smaller moment, or prescribe tilt instead"
+        "the moment places the normal force beyond the outermost cells of the indenter, which tips "
+        "over. Use a smaller moment, or prescribe tilt instead"
     )
 
 
 def _lower(model: ContactModel) -> str:
-    """What helps where the border of the window touches first."""
+    """Return the remedy for a contact that begins at the border of the window."""
     if model.scene.indenter.extent is None:
         return _wider(model)
     return (
-        "heights count away from the body, with flip = true towards it: change indenter.flip if "
-        "the map is inverted, and remove the slope of a measured map"
+        "Change indenter.flip if the map is inverted (heights are positive away from the body, "
+        "with flip = true towards it), and remove the slope of a measured map"
     )
 
 
 def _wider(model: ContactModel) -> str:
-    """What helps where the window is too small."""
+    """Return the remedy for a window that is too small."""
     if model.scene.indenter.extent is not None:
-        return "the height map and the window must reach beyond the contact"
+        return "Use a height map and a window that are larger than the contact"
     if model.scene.friction is not None and model.scene.friction.extent is not None:
-        return "the friction map and the window must reach beyond the contact"
-    return "give a larger window, or leave it out to have it chosen"
+        return "Use a friction map and a window that are larger than the contact"
+    return "Use a larger window, or omit the window to have it chosen"
 
 
 def refuse_contact_at_edge(p: Field, model: ContactModel) -> None:
@@ -277,6 +286,6 @@ def refuse_contact_at_edge(p: Field, model: ContactModel) -> None:
     if np.any(model.domain.rim(p) > 0):
         w = model.window.window
         raise ContactAtWindowEdge(
-            f"the contact reaches the edge of the window of {w[0]:.4g} m by {w[1]:.4g} m; "
+            f"the contact reaches the edge of the window of {w[0]:.4g} m by {w[1]:.4g} m. "
             f"{_wider(model)}"
         )

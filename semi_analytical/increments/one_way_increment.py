@@ -1,7 +1,8 @@
-"""One load increment in which pressure moves the surfaces sideways, and shear opens no gap.
+"""One load increment under Goodman's approximation (1962): one-way coupling.
 
-The approximation of Goodman (1962): the pressure is that without friction, so one pass does it,
-pressure first. It is good where Dundurs' beta is small, and it has a closed form for indentation.
+The pressure is that without friction. It displaces the surfaces tangentially, but shear does not
+change the gap. The approximation is good for a small Dundurs constant β, and has a closed form for
+indentation.
 """
 
 from dataclasses import replace
@@ -24,8 +25,7 @@ def solve_one_way_increment(
     tangential: TangentialTarget | None,
     tolerance: float,
 ) -> State:
-    """The state at the end of an increment: its pressure, then the shear on surfaces that this
-    pressure has moved.
+    """Solve the normal problem, then the tangential problem with the displacement by that pressure.
 
     raises  NotConverged, GrossSliding, ContactAtWindowEdge, ContactNotResolved
     """
@@ -35,8 +35,8 @@ def solve_one_way_increment(
     last = last or untouched(model.grid.cells)
     p = pressed.pressing.pressure
     u_by_p = model.operator(p.shape).tangential_by_pressure(p)
-    # The shear problem knows displacement by shear alone: what pressure adds now, the state
-    # before has less of.
+    # The tangential problem includes the displacement by shear alone: that by the new pressure is
+    # subtracted from the displacement of the previous state.
     moved = replace(last, displacement=last.displacement - u_by_p)
     sheared = slip_and_stick(model, p, moved, tangential, tolerance)
     return replace(pressed, sheared=replace(sheared, displacement=sheared.displacement + u_by_p))

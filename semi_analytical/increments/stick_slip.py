@@ -1,4 +1,4 @@
-"""The tangential half of an increment: stick, slip, and what the surfaces remember."""
+"""Tangential problem of one increment: stick, slip and their history."""
 
 from dataclasses import replace
 
@@ -37,8 +37,8 @@ from semi_analytical.tangential.linearised_shear import Point
 
 MAX_ATTEMPTS = 3
 SLIDING = 1e-6
-# Slip is what the motion and the displacement differ by, so known no better than to their last
-# digits: without any displacement, as below a single cell, this part of the motion is its scale.
+# Slip is the difference of motion and displacement, and has their rounding errors. This fraction of
+# the motion is the least scale of slip, for contacts of a single cell without displacement.
 OF_MOTION = 1e-4
 
 
@@ -50,10 +50,10 @@ def slip_and_stick(
     tolerance: float,
     ahead: Point | None = None,
 ) -> TangentialState:
-    """Shear the contact from the state `last` to a force or shift, at a given pressure.
+    """Solve the tangential problem of an increment at given pressure, from the state `last`.
 
-    ahead   a first guess of the shear with its displacement; that of the last state if absent
-    raises  NotConverged; GrossSliding if a force exceeds what friction can carry
+    ahead   initial guess of the shear with its displacement; None for that of the last state
+    raises  NotConverged; GrossSliding if a force exceeds the friction limit
     """
     bound = model.friction_limit(pressure)
     if last.shift is None:
@@ -67,7 +67,7 @@ def slip_and_stick(
     for _ in range(MAX_ATTEMPTS):
         solution = shear(model, bound, target, load, start, motion, 0.5 * aim)
         iterations += solution.iterations
-        # How far the indenter's particles moved past the body's in this increment.
+        # Slip of the indenter relative to the body in this increment.
         passed = rigid(model, solution.motion) + target - solution.displacement
         residuals = shear_residuals(model, solution, bound, passed, load, last)
         if residuals.worst <= tolerance:
@@ -84,7 +84,7 @@ def _without_solving(
     last: TangentialState,
     load: TangentialTarget,
 ) -> TangentialState | None:
-    """The state where nothing has moved yet, or all slips; None where there is more to it."""
+    """Return the state in cases without equations: no motion yet, or full slip; None otherwise."""
     nothing = np.zeros_like(last.shear)
     if load.torsion is not None and load.torsion.torque is not None:
         refuse_excessive_torque(model, bound, load)
@@ -117,10 +117,10 @@ def shear_residuals(
     load: TangentialTarget,
     last: TangentialState,
 ) -> ShearResiduals:
-    """How well a solution obeys friction and carries its load.
+    """Compute the residuals of Coulomb friction and of tangential equilibrium.
 
-    passed  how far the indenter's particles moved past the body's (2, nx, ny)
-    last    the state before; where the load returns to nothing only that one shows a scale
+    passed  slip of the indenter relative to the body (2, nx, ny) [length]
+    last    previous state: it sets the scale of displacement where the load returns to zero
     """
     q = solution.shear
     equilibrium = None
@@ -152,9 +152,9 @@ def advanced(
     passed: VectorField,
     residuals: ShearResiduals,
 ) -> TangentialState:
-    """The accepted state: slip and dissipation are added to those of the state before."""
+    """Build the accepted state: add slip and dissipation of the increment to those of `last`."""
     q = solution.shear
-    # A residual of the solver may point against the shear; friction lets nothing slip that way.
+    # Within the tolerance of the solver slip may oppose the shear: such cells count as sticking.
     backward = q[0] * passed[0] + q[1] * passed[1] < 0
     in_stick = (bound > 0) & (~solution.in_slip | backward)
     touching = touching_share(last.pressure, pressure, model.gap)

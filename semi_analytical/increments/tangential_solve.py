@@ -1,4 +1,4 @@
-"""The shear of a model at a given pressure, solved in the box around the contact."""
+"""Solution of the tangential problem at given pressure, in a box around the contact."""
 
 from dataclasses import dataclass
 
@@ -21,7 +21,7 @@ from semi_analytical.tangential.tangential_problem import solve_tangential
 
 @dataclass(frozen=True)
 class Shearing:
-    """Shear and its displacement, the motion of the load, slip zone, and iterations."""
+    """Shear and its displacement (2, nx, ny), motion of the load, slip zone, and iterations."""
 
     shear: VectorField
     displacement: VectorField
@@ -32,7 +32,7 @@ class Shearing:
 
 @dataclass(frozen=True)
 class Torsion:
-    """Exactly one of the two controls: torque M_z [force length] or twist."""
+    """Prescribed torque M_z [force length] or twist: exactly one."""
 
     torque: float | None = None
     twist: float | None = None
@@ -40,8 +40,11 @@ class Torsion:
 
 @dataclass(frozen=True)
 class TangentialTarget:
-    """Exactly one of the two controls: force T [force] or shift [length], each (2,); the torsion,
-    None where nothing twists; and the bulk strain since first touch, None where there is none."""
+    """Prescribed force T [force] or shift [length], each (2,): exactly one.
+
+    torsion  None without torsion
+    strain   bulk strain since first touch; None without strain
+    """
 
     force: Vector | None = None
     shift: Vector | None = None
@@ -55,11 +58,11 @@ class TangentialTarget:
         domain: ReducedDomain = WINDOW,
         spring: float = 0.0,
     ) -> TangentialLoad:
-        """The load as the solver sees it on cells of this area.
+        """Return the load for the solver on cells of this area.
 
-        rotation  (-y, x) of the cells (2, nx, ny) [length]; None where nothing twists
-        domain    that the cells are of
-        spring    displacement by a rig's spring per sum of the shear [length^3/force]
+        rotation  (-y, x) of the cells (2, nx, ny) [length]; None without torsion
+        domain    domain of the cells
+        spring    displacement of a rig's spring per sum of the shear [length^3/force]
         """
         total = None if self.force is None else self.force / cell_area
         if self.torsion is not None and self.torsion.torque is not None:
@@ -87,11 +90,11 @@ def shear(
     motion: Vector,
     tolerance: float,
 ) -> Shearing:
-    """Solve the shear problem of one increment.
+    """Solve the tangential problem of one increment.
 
     bound          friction limit µp, not zero everywhere
-    target         c, from the state before (see tangential.solve_tangential)
-    start, motion  first guesses
+    target         c by the previous state (see `tangential_problem.solve_tangential`)
+    start, motion  initial guesses
     raises         NotConverged
     """
     cells = bound.shape

@@ -1,4 +1,4 @@
-"""The tangential part of a state, and what it means for the increment that starts from it."""
+"""Tangential part of a state, and the displacement that stick requires in the next increment."""
 
 from dataclasses import dataclass
 
@@ -13,25 +13,24 @@ from semi_analytical.increments.tangential_solve import TangentialTarget
 from semi_analytical.model import ContactModel
 from semi_analytical.tangential.admissible_shear import everywhere
 
-# So many cells at most are equally far from one, up to eight cells away.
+# Largest number of cells at equal distance from a cell, for distances up to eight cells.
 EQUALLY_FAR = 12
 
 
 @dataclass(frozen=True)
 class TangentialState:
-    """The tangential part of a state, all fields on the domain.
+    """Tangential part of a state; all fields are on the domain.
 
-    pressure           p that the shear is below (nx, ny) [force/length^2]
-    touching           part of the increment for which cells are in contact (nx, ny), of those that
-                       are at either end
-    displacement       u_t by the shear; less the motion it remembers where particles met
+    pressure           p at which the tangential problem was solved (nx, ny) [force/length^2]
+    touching           contact fraction of the increment for cells in contact at its start or end
+    displacement       u_t by the tractions (2, nx, ny) [length]
     shift              of the indenter; None at the friction limit under force control
-    twist, torque      of the indenter; None where nothing twists
-    strain             of the lower body since first touch; None where there is none
+    twist, torque      of the indenter; None without torsion
+    strain             of the lower body since first touch; None without strain
     slip               u_t + strain - motion accumulated while in contact (paper, eq. (4))
-    slip_distance      way slipped since the start (nx, ny), |slip increments| added up
+    slip_distance      path length of slip since the start (nx, ny), sum of |increments| [length]
     dissipation        energy dissipated per area since the start (nx, ny) [force/length]
-    dissipated_energy  since the start; None where the shift is
+    dissipated_energy  since the start; None where the shift is undefined
     """
 
     shear: VectorField
@@ -54,13 +53,13 @@ class TangentialState:
 
     @property
     def motion(self) -> Vector:
-        """Shift, and twist where there is one."""
+        """Shift, followed by the twist under torsion."""
         assert self.shift is not None
         return self.shift if self.twist is None else np.array([*self.shift, self.twist])
 
 
 def untouched(cells: tuple[int, int]) -> TangentialState:
-    """Before first touch: no shear, no shift, no slip."""
+    """Return the state before first touch: no shear, no shift, no slip."""
     nothing = np.zeros((2, *cells))
     return TangentialState(
         shear=nothing,
@@ -81,7 +80,7 @@ def untouched(cells: tuple[int, int]) -> TangentialState:
 
 
 def rigid(model: ContactModel, motion: Vector) -> VectorField:
-    """Displacement of the indenter's particles by a shift, or by a shift and a twist."""
+    """Compute the displacement of the indenter by a shift (2,), or by a shift and a twist (3,)."""
     shift = everywhere(motion[:2])
     return shift if len(motion) == 2 else shift + motion[2] * model.rotation
 
@@ -89,8 +88,11 @@ def rigid(model: ContactModel, motion: Vector) -> VectorField:
 def surface_target(
     model: ContactModel, last: TangentialState, load: TangentialTarget
 ) -> VectorField:
-    """By what the surfaces have to be moved, beside the motion of the load, to stick (2, nx, ny):
-    what they remember, and what a given twist and the strain of the lower body add."""
+    """Compute the relative surface displacement that full stick requires (2, nx, ny) [length].
+
+    It consists of the displacement locked in by the previous increment, the strain of the lower
+    body in this increment, and the prescribed twist. The motion of the load is not included.
+    """
     target = last.displacement - rigid(model, last.motion)
     target = target - stretched(model, load.strain, last.strain)
     if load.torsion is None or load.torsion.twist is None:
@@ -101,7 +103,7 @@ def surface_target(
 def stretched(
     model: ContactModel, strain: Strain | None, last: Strain | None = None
 ) -> VectorField | float:
-    """Displacement of the surface by a bulk strain, less that of another one [length]."""
+    """Compute the surface displacement by a bulk strain relative to that of `last` [length]."""
     if strain is None:
         return 0.0
     (xx, yy, xy), (y, x) = np.subtract(strain, last or UNSTRAINED), model.arms
@@ -109,14 +111,15 @@ def stretched(
 
 
 def strain_moments(model: ContactModel, q: VectorField) -> Vector:
-    """Σ(q_x x, q_y y, q_x y + q_y x) Δ: what a shear resists a strain with (3,) [force length]."""
+    """Compute the forces conjugate to a strain, Σ(q_x x, q_y y, q_x y + q_y x) Δ (3,) [force
+    length]."""
     y, x = model.arms
     products = (q[0] * x, q[1] * y, q[0] * y + q[1] * x)
     return np.array([float(np.sum(one)) for one in products]) * model.grid.cell_area
 
 
 def first_motion(last: TangentialState, load: TangentialTarget) -> Vector:
-    """The motion of the state before, as the load counts it."""
+    """Return the motion of the previous state as an initial guess, with the twist if it is free."""
     assert last.shift is not None
     if load.torsion is None or load.torsion.torque is None:
         return last.shift
@@ -124,14 +127,14 @@ def first_motion(last: TangentialState, load: TangentialTarget) -> Vector:
 
 
 def torque_of(model: ContactModel, q: VectorField) -> float:
-    """Σ(q_y x - q_x y) Δ [force length]."""
+    """Compute the torque Σ(q_y x - q_x y) Δ [force length]."""
     return float(np.sum(q * model.rotation)) * model.grid.cell_area
 
 
 def torsion_reached(
     model: ContactModel, load: TangentialTarget, motion: Vector, q: VectorField
 ) -> tuple[float | None, float | None]:
-    """Twist and torque; None where nothing twists."""
+    """Return twist and torque, each prescribed or solved; None without torsion."""
     if load.torsion is None:
         return None, None
     if load.torsion.torque is not None:
@@ -140,15 +143,15 @@ def torsion_reached(
 
 
 def touching_share(before: Field, after: Field, gap: Field) -> Field:
-    """Part of an increment for which each cell is in contact, of those that are at either end.
+    """Compute the contact fraction: the part of an increment during which each cell is in contact.
 
-    Particles slip past each other from their touch on and until they part. Behind an edge that
-    moves on, p² grows as the way of the edge since, at all places alike (below a paraboloid
-    p² ~ a² - r²). What a cell has of the growth of p² at the nearest cell that touches at both ends
-    (the mean of those equally near, for mirrored contacts to have mirrored slip) is therefore its
-    part of the motion: to first order in the increment, in which the motion follows the edge.
-    Before first touch the nearest is the place of the largest pressure; there all that has no gap
-    meets at once. Parting is meeting backwards.
+    Particles slip relative to each other only while in contact. Behind an advancing contact edge,
+    p² grows in proportion to the advance since first contact (below a paraboloid p² ~ a² - r²). The
+    contact fraction of a new cell is therefore the ratio of its p² to the growth of p² at the
+    nearest cell that was in contact before. The mean of equally near cells is used, so that
+    mirrored contacts have mirrored slip. The result is correct to first order in the increment. In
+    first contact the largest p² takes the place of the growth, and cells without gap have the
+    fraction 1. Separation is treated as contact in reverse.
 
     before, after  pressure at start and end (nx, ny)
     gap            undeformed (nx, ny)
@@ -164,7 +167,8 @@ def touching_share(before: Field, after: Field, gap: Field) -> Field:
 
 
 def _own_part(less: Field, more: Field, changes: Mask) -> Field:
-    """Of cells that touch at one end only, with the pressure `more`: their p² over its growth."""
+    """Compute p² over its growth at the nearest lasting contact, for cells in contact at one end
+    only."""
     touched, largest = less > 0, np.max(more)
     p, grown = more / largest, (more / largest) ** 2 - (less / largest) ** 2
     if np.any(touched):
@@ -176,12 +180,12 @@ def _own_part(less: Field, more: Field, changes: Mask) -> Field:
 
 
 def _at_nearest(values: Field, known: Mask, wanted: Mask) -> Field:
-    """The mean of the values at the known cells that are nearest to each wanted one (wanted,)."""
+    """Interpolate values at `known` cells to `wanted` cells: mean of the nearest ones (wanted,)."""
     from scipy.spatial import KDTree  # as long to import as a small contact takes
 
     tree = KDTree(np.argwhere(known))
     distance, which = tree.query(np.argwhere(wanted), k=EQUALLY_FAR)
     nearest = distance < distance[:, :1] * (1 + 1e-9)
-    # Where fewer are known than asked for, the tree names one behind the last, infinitely far.
+    # If fewer than k cells are known, the tree returns an index past the end at infinite distance.
     found = np.where(nearest, np.append(values[known], 0.0)[which], 0.0)
     return np.asarray(np.sum(found, axis=1) / np.count_nonzero(nearest, axis=1))

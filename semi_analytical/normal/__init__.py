@@ -1,1 +1,1 @@
-"""The normal problem: pressure for given shear, from arrays and operators alone."""
+"""Normal problem: pressure for given shear, in terms of arrays and operators."""

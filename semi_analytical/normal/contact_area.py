@@ -1,10 +1,11 @@
-"""Areas of contact and stick with sub-cell accuracy.
+"""Areas of contact and stick zone with sub-cell accuracy.
 
 Towards the edge of a smooth contact the pressure falls like the square root of the distance, so
-p^2 passes through zero with a finite slope. A quadratic fitted to p^2 in cells well inside is
-extended over the edge cells, and each counts with the part of it where the fit is positive. The
-same holds at the edge of the stick zone for the shear that is missing from full slip: it is the
-pressure of a smaller contact (Cattaneo 1938; Mindlin and Deresiewicz 1953 after a reversal).
+that p^2 passes through zero with a finite slope. A quadratic is fitted to p^2 in interior cells and
+extrapolated over the edge cells. The covered fraction of an edge cell is the part where the fit is
+positive. At the edge of the stick zone the difference between friction limit and shear behaves
+equally: it is the pressure of a smaller contact (Cattaneo 1938; after a load reversal Mindlin and
+Deresiewicz 1953).
 """
 
 import numpy as np
@@ -14,35 +15,35 @@ from contact_scene.array_types import Field, Indices, Mask
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
 
 REACH = 4
-FRAME = REACH + 1  # trusted are cells whose neighbours are inside
+FRAME = REACH + 1  # a cell is used for fits if its neighbours are inside
 LENGTH = 1.7
 LEAST_CELLS = 12
-AT_ONCE = 4096  # fits, of four kilobytes each: a long contact has tens of thousands
-# Of the cells around one: how far off along x and y, their weights, the terms of a quadratic
-# (cells, 6), and the products of all pairs of terms (cells, 36).
+AT_ONCE = 4096  # fits per batch, of four kilobytes each: a long contact has tens of thousands
+# Stencil of a fit: offsets along x and y, weights, the terms of a quadratic (cells, 6), and the
+# products of all pairs of terms (cells, 36).
 DI, DJ = (shift.ravel() for shift in np.mgrid[-REACH : REACH + 1, -REACH : REACH + 1])
 NEARNESS = np.exp(-(DI**2 + DJ**2) / (2 * LENGTH**2))
 BASIS = np.stack([np.ones_like(DI), DI, DJ, DI * DI, DI * DJ, DJ * DJ], axis=-1).astype(float)
 PRODUCTS = (BASIS[:, :, None] * BASIS[:, None, :]).reshape(-1, 36)
-# What is added to the diagonal of a fit, relative to its trace.
+# Regularisation of the normal equations, relative to their trace.
 RIDGE = 1e-9 * np.eye(6)
-# The fit at an edge cell must lie below this part of what it was fitted to.
+# Largest ratio of the fit at an edge cell to the mean of its data.
 LEAST_FALL = 0.9
-# Of a unit cell, and the signs with which they count in the area below a plane.
+# Corners of a unit cell, and their signs in the formula of the area where a plane is positive.
 CORNERS = np.array([(0.5, 0.5), (0.5, -0.5), (-0.5, 0.5), (-0.5, -0.5)])
 CORNER_SIGNS = np.array([1.0, -1.0, -1.0, 1.0])
-# Smallest slope that is told from none, per cell and relative to the largest value.
+# Least slope per cell, relative to the largest value; smaller ones are rounding errors.
 FLAT = 1e-12
 
 
 def covered_cells(values: Field, inside: Mask, domain: ReducedDomain = WINDOW) -> float:
-    """Area of a region in cells, its edge cells counted by the part that is covered.
+    """Compute the area of a region in cells, with the covered fractions of its edge cells.
 
     values  (nx, ny), positive inside, falling like a square root towards the edge
     inside  cells whose centre is in the region
-    domain  that both are on; the area, in cells of the domain, does not count their images
-    Edge cells are counted whole or not at all where the region is too thin for a fit and where
-    the values do not fall towards the edge (below a flat punch they rise).
+    domain  domain of both; the area excludes the mirror images
+    An edge cell counts as 1 or 0 by its centre where the region is too thin for a fit, or where the
+    values do not fall towards the edge (flat punch).
     """
     framed = domain.framed(inside, FRAME)
     trusted = np.zeros_like(framed)
@@ -66,13 +67,13 @@ def covered_cells(values: Field, inside: Mask, domain: ReducedDomain = WINDOW) -
 
 
 def stuck_cells(shear: Field, bound: Field, in_stick: Mask) -> float:
-    """Area of the stick zone in cells.
+    """Compute the area of the stick zone in cells.
 
     shear     q (2, nx, ny)
     bound     friction limit µp (nx, ny), zero outside the contact
     in_stick  cells that stick
-    What is missing from full slip is taken along the slip of the nearest slipping cell: after a
-    reversal the shear just inside the stick zone still points the old way.
+    The difference to full slip is formed with the slip direction of the nearest slipping cell:
+    after a load reversal the shear just inside the stick zone has the former direction.
     """
     inside = _box_with_edge(bound > 0)
     shear, bound, in_stick = shear[(slice(None), *inside)], bound[inside], in_stick[inside]
@@ -87,22 +88,23 @@ def stuck_cells(shear: Field, bound: Field, in_stick: Mask) -> float:
 
 
 def _box_with_edge(marked: Mask) -> tuple[slice, ...]:
-    """The rectangle of cells that are marked or touch one that is."""
+    """Return the smallest rectangle that contains the marked cells and their neighbours."""
     at = (np.flatnonzero(np.any(marked, axis=axis)) for axis in (1, 0))
     return tuple(slice(max(0, i[0] - 1), i[-1] + 2) if len(i) else slice(0) for i in at)
 
 
 def _near(marked: Mask) -> Mask:
-    """Cells (nx - 2, ny - 2), all but the outermost, that are marked or touch one that is."""
+    """Return the cells that are marked or adjacent to a marked cell, without the border (nx - 2, ny
+    - 2)."""
     along = marked[:-2] | marked[1:-1] | marked[2:]
     return np.asarray(along[:, :-2] | along[:, 1:-1] | along[:, 2:])
 
 
 def _fit(phi: Field, trusted: Mask, i: Indices, j: Indices) -> Field:
-    """Value and gradient (x, y) per cell of weighted quadratic fits about the cells (i, j), the
-    mean of what was fitted, and the number of cells that each fit could use: (5, cells).
+    """Fit weighted quadratics about the cells (i, j).
 
-    phi, trusted  framed
+    Returns value and gradient (x, y) per cell, mean of the data, and number of data (5, cells). phi
+    and trusted include the frame.
     """
     rows = phi.shape[1]
     at = ((i + FRAME) * rows + j + FRAME)[:, None] + (DI * rows + DJ)
@@ -111,14 +113,14 @@ def _fit(phi: Field, trusted: Mask, i: Indices, j: Indices) -> Field:
     normal = (weight @ PRODUCTS).reshape(-1, 6, 6)
     right = (weight * np.take(phi, at)) @ BASIS
     mean = right[:, 0] / np.maximum(normal[:, 0, 0], 1e-30)
-    # The ridge decides only what the cells at hand do not.
+    # The regularisation determines coefficients that the data leave undetermined.
     normal += RIDGE * (np.trace(normal, axis1=1, axis2=2)[:, None, None] + 1e-30)
     f, f_x, f_y = np.linalg.solve(normal, right[..., None])[:, :3, 0].T
     return np.stack([f, f_x, f_y, mean, use.sum(axis=1)])
 
 
 def _coverage(f: Field, f_x: Field, f_y: Field) -> Field:
-    """Part of a unit cell where f + f_x x + f_y y > 0."""
+    """Compute the fraction of a unit cell where f + f_x x + f_y y > 0."""
     steep = np.abs([f_x, f_y])
     b, c = np.maximum(steep.max(axis=0), FLAT), steep.min(axis=0)
     along = np.maximum(f + np.multiply.outer([0.5, -0.5], b), 0.0)

@@ -1,11 +1,11 @@
-"""A first pressure where nothing is known yet: Hertz's, on the cells that lie deepest.
+"""Initial guess of the pressure from Hertz theory applied to the bearing area of the gap.
 
-A paraboloid x²/2R touches where its gap is below c = a²/2R, on the area A = πa². By these two,
-Hertz's pressure and load (Johnson 1985, section 4.2) are
+A paraboloid x²/2R touches where its gap is below c = a²/2R, on the area A = πa². In terms of c and
+A, Hertz's pressure and load (Johnson 1985, section 4.2) are
 
-    p = 4 E* √(c (c - h) / (π A)),   W = 8/3 E* c √(A/π),
+    p = 4 E* √(c (c - h) / (π A)),   W = 8/3 E* c √(A/π).
 
-which can be asked of any gap h: A is the area on which it is below c, its bearing area.
+These formulas apply to any gap h: A is its bearing area, the area where h is below c.
 """
 
 from math import asinh, pi
@@ -17,15 +17,16 @@ from semi_analytical.normal.normal_load import NormalLoad
 
 
 def bearing_pressure(gap: Field, load: NormalLoad, modulus: float, area: float) -> Field:
-    """Pressure (nx, ny) below an undeformed gap (nx, ny); the same everywhere where the cells that
-    bear by Hertz cannot carry the load, or no half-space yields like the bodies.
+    """Compute an initial pressure (nx, ny) below an undeformed gap (nx, ny).
 
-    modulus  E* [force/length^2]; not positive where the middle of an even pressure rises, as an
-             incompressible film on a rigid base does
-    area     of a cell, with its images beyond mirror planes [length^2]
+    modulus  E* [force/length^2]; not positive where a uniform pressure raises its centre, as on an
+             incompressible film with rigid base
+    area     of a cell with its mirror images [length^2]
+    The pressure is uniform if the modulus is not positive, or the cells below the bearing depth
+    cannot carry the load.
     """
     touchable = np.isfinite(gap)
-    # Mirror images have equal gaps: they bear together, so that all domains have the same start.
+    # Cells of equal gap bear together: the initial guess does not depend on the domain.
     gaps, counts = np.unique(gap[touchable], return_counts=True)
     radii = np.sqrt(area / pi * np.cumsum(counts))
     depth = load.bearing_depth(gaps, 8 / 3 * modulus / area * radii)
@@ -37,12 +38,13 @@ def bearing_pressure(gap: Field, load: NormalLoad, modulus: float, area: float) 
 
 
 def modulus_of(compliance: Field, spacing: tuple[float, float]) -> float:
-    """E* of the half-space that yields as much at the middle of an evenly pressed rectangle
-    [force/length^2].
+    """Compute the modulus E* of the half-space with the same central displacement [force/length^2].
 
-    compliance  normal displacement of a cell by unit pressure on another, at offsets (i dx, j dy)
-                that end at the middle of the rectangle's sides (nx, ny) [length^3/force]
-    spacing     dx, dy: cell sides [length]
+    Both bodies carry a uniform pressure on the same rectangle (Johnson 1985, eq. 3.25).
+
+    compliance  normal displacement of a cell by unit pressure on another (nx, ny), at offsets
+                (i dx, j dy) from the centre to half the sides of the rectangle [length^3/force]
+    spacing     cell sides dx, dy [length]
     """
     at_middle = 4 * np.sum(compliance) - 2 * np.sum(compliance[0]) - 2 * np.sum(compliance[:, 0])
     a, b = ((2 * n - 1) * side for n, side in zip(compliance.shape, spacing, strict=True))

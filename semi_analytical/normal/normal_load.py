@@ -1,7 +1,7 @@
-"""What leads the indenter towards the body: a given force or a given approach.
+"""Load of the normal problem: prescribed force or prescribed approach.
 
-A load says which motion closes a gap, which pressures carry it, and what the conjugate gradients of
-`semi_analytical.normal.normal_problem` must leave as it is.
+A load defines the closure of the gap by its rigid motion, the set of admissible pressures, and the
+projection used by the conjugate gradients of `semi_analytical.normal.normal_problem`.
 """
 
 from __future__ import annotations
@@ -17,82 +17,86 @@ from contact_scene.array_types import Field, Mask, Vector
 Map = Callable[[Field], Field]
 
 Motion = float | Vector
-# Takes a field and returns what of it is in contact, without its part along rigid motions whose
-# force is given: orthogonal, so that the preconditioner between two of it stays symmetric.
+# Restricts a field to the contact and removes its components along rigid motions of prescribed
+# force. The projection is orthogonal, so that the projected preconditioner is symmetric.
 Projection = Callable[[Field], Field]
 
 
 class NormalLoad(Protocol):
-    """What leads the indenter towards the body. Its motion is the approach, or a vector of that
-    and what else it can do."""
+    """Load of the normal problem. Its motion is the approach, or a vector (approach, tilt x, tilt
+    y)."""
 
     def touches(self, gap: Field) -> bool:
-        """Whether some pressure below an undeformed gap can carry the load."""
+        """Return whether an admissible pressure on cells of finite closure can carry the load."""
 
     def bearing_depth(self, gaps: Vector, stiffness: Vector) -> float:
-        """Below what gap the cells bear the load, by Hertz's law (see `initial_pressure`) [length].
+        """Return the depth below which cells bear the load in Hertz theory (`initial_pressure`)
+        [length].
 
         gaps       undeformed, of all cells, in ascending order [length]
-        stiffness  Σp over the depth, where so many cells bear [force/length^3]
+        stiffness  Σp over the depth, as a function of the number of bearing cells [force/length^3]
         """
 
     def motion(self, p: Field, s: Field) -> Motion:
-        """The motion that closes a gap s best, as the pressure weighs it."""
+        """Compute the motion that closes a gap s in the least-squares sense, weighted by the
+        pressure."""
 
     def closure(self, motion: Motion) -> float | Field:
-        """By how much a motion closes the gap [length]."""
+        """Return the closure of the gap by a motion [length]."""
 
     def overlap(self, motion: Motion, gap: Field, allowed: Mask) -> float:
-        """How far undeformed bodies would overlap: the measure of residual gaps [length]."""
+        """Return the overlap of the undeformed bodies, the scale of residual gaps [length]."""
 
     def admissible(self, p: Field) -> Field:
-        """A pressure without tension that carries the load, near the one given."""
+        """Return a non-negative pressure near the given one that carries the load."""
 
     def projection(self, inside: Field) -> Projection:
-        """To changes of the pressure that keep given forces; `inside` is 1 in contact, else 0."""
+        """Return the projection on pressure changes that preserve prescribed forces.
+
+        inside  1 in contact, 0 elsewhere
+        """
 
     def less(self, carried: Field) -> NormalLoad:
-        """The load without pressures (nx, ny) that cells beside its own carry."""
+        """Subtract the resultants of pressures (nx, ny) carried by other cells."""
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
-        """Closures by unit motions whose forces are given, fields of this shape (nx, ny)."""
+        """Return the closures (nx, ny) by unit motions whose forces are prescribed."""
 
 
 @dataclass(frozen=True)
 class PressureSum:
-    """Force control: the sum Σp of all cell pressures, W / cell area [force/length^2]."""
+    """Force control: sum Σp of all cell pressures, W / cell area [force/length^2]."""
 
     total: float
 
     def touches(self, gap: Field) -> bool:
-        """Whether there is a body to press on."""
+        """Return whether the gap is finite anywhere."""
         return bool(np.isfinite(np.min(gap)))
 
     def bearing_depth(self, gaps: Vector, stiffness: Vector) -> float:
-        """As the area grows with the depth, so that both carry the sum."""
+        """Determine the depth whose bearing cells carry the sum."""
         bearing = int(np.searchsorted(stiffness * gaps, self.total))
         return float(self.total / stiffness[max(bearing - 1, 0)])
 
     def motion(self, p: Field, s: Field) -> Motion:
-        """The approach: the multiplier of the sum."""
+        """Return the approach, the multiplier of the sum."""
         return float(np.vdot(p, s) / p.sum())
 
     def closure(self, motion: Motion) -> float | Field:
-        """The approach, everywhere the same."""
+        """Return the approach."""
         return motion
 
     def overlap(self, motion: Motion, gap: Field, allowed: Mask) -> float:
-        """The approach."""
+        """Return the magnitude of the approach."""
         return abs(float(motion))
 
     def admissible(self, p: Field) -> Field:
-        """Cut off at zero and scaled to the sum."""
+        """Cut the pressure off at zero and scale it to the sum."""
         p = np.maximum(p, 0.0)
         return np.asarray(p * (self.total / p.sum()))
 
     def projection(self, inside: Field) -> Projection:
-        """What is left without the mean: the approach is a rigid shift, and the sum of the
-        pressure stays."""
+        """Return the projection on the contact that removes the mean and thus preserves the sum."""
         count = inside.sum()
 
         def projected(field: Field) -> Field:
@@ -103,11 +107,11 @@ class PressureSum:
         return projected
 
     def less(self, carried: Field) -> NormalLoad:
-        """What is left of the sum."""
+        """Subtract the sum carried by other cells."""
         return PressureSum(self.total - float(np.sum(carried)))
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
-        """The approach."""
+        """Return the unit approach."""
         return (np.ones(shape),)
 
 
@@ -118,37 +122,37 @@ class FixedApproach:
     approach: float
 
     def touches(self, gap: Field) -> bool:
-        """Whether the approach closes the gap somewhere."""
+        """Return whether the approach closes the gap at a cell."""
         return float(np.min(gap)) < self.approach
 
     def bearing_depth(self, gaps: Vector, stiffness: Vector) -> float:
-        """Half of the approach."""
+        """Return half of the approach."""
         return 0.5 * self.approach
 
     def motion(self, p: Field, s: Field) -> Motion:
-        """The approach."""
+        """Return the approach."""
         return self.approach
 
     def closure(self, motion: Motion) -> float | Field:
-        """The approach, everywhere the same."""
+        """Return the approach."""
         return motion
 
     def overlap(self, motion: Motion, gap: Field, allowed: Mask) -> float:
-        """The approach."""
+        """Return the magnitude of the approach."""
         return abs(float(motion))
 
     def admissible(self, p: Field) -> Field:
-        """Cut off at zero."""
+        """Return the pressure cut off at zero."""
         return np.maximum(p, 0.0)
 
     def projection(self, inside: Field) -> Projection:
-        """All of it: no force is given."""
+        """Return the restriction to the contact: no force is prescribed."""
         return lambda field: field * inside
 
     def less(self, carried: Field) -> NormalLoad:
-        """The same: no force is given."""
+        """Return the load unchanged: no force is prescribed."""
         return self
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
-        """None."""
+        """Return no motion: no force is prescribed."""
         return ()

@@ -1,10 +1,10 @@
-"""The pressure problem: p >= 0, gap >= 0, p gap = 0, under a given load or approach.
+"""Active-set Newton method for the normal problem: p >= 0, gap >= 0, p gap = 0 under a load.
 
-Among all admissible pressures the contact pressure has the least energy ½ p·A p + h·p (Kalker
-1990, chapter 4). Each step guesses the contact set from the state (p > 0, or the bodies overlap),
-solves the linear problem on it by preconditioned conjugate gradients and makes the answer
-admissible: an active-set Newton step. It is taken, or part of it, when the energy goes down enough;
-otherwise cells let go one after the other, so that the guesses cannot cycle.
+Among all admissible pressures the contact pressure minimises the energy ½ p·A p + h·p (Kalker 1990,
+chapter 4). Each step estimates the contact set (p > 0 or overlap), solves the linear problem on it
+by preconditioned conjugate gradients and makes the solution admissible. A line search accepts steps
+that reduce the energy sufficiently. If it fails, cells in tension leave the contact set
+successively (Lawson and Hanson 1974), so that the contact sets cannot cycle.
 """
 
 from dataclasses import dataclass
@@ -22,21 +22,20 @@ from semi_analytical.normal.normal_load import (
 
 MAX_STEPS = 200
 MAX_ITERATIONS_PER_STEP = 200
-# In one solve; the pressures of plate-like films on 48 x 48 cells were found within 8 000.
+# Limit for one solve; plate-like films on 48 x 48 cells take up to 8 000.
 MAX_ITERATIONS = 20_000
 MAX_HALVINGS = 5
-# Part of the residual that solves leave while cells still come and go, and while they still let go:
-# those answers are not kept.
+# Reduction of the residual norm by a linear solve: while the contact set changes, and while cells
+# leave it. The solutions are intermediate.
 MOVING = 0.3
 ROUGHLY = 0.5
-# Part of what the slope promises by which the energy must fall.
+# Least decrease of the energy relative to that by its slope (Armijo's condition).
 LEAST_FALL = 0.1
 
 
 @dataclass(frozen=True)
 class NormalSolution:
-    """Pressure (nx, ny), its displacement u_z (nx, ny), the motion of the load, the iterations
-    spent, and the residual of the start."""
+    """Pressure, its displacement u_z (nx, ny), motion of the load, iterations, initial residual."""
 
     pressure: Field
     displacement: Field
@@ -59,7 +58,7 @@ class _Problem:
     load: NormalLoad
 
     def residual(self, p: Field, g: Field, overlap: float) -> float:
-        """The larger of complementarity and penetration, relative to the overlap."""
+        """Return the larger of complementarity and penetration, relative to the overlap."""
         total = p.sum()  # zero where a step under a fixed approach has overshot
         complementarity = np.vdot(np.abs(g), p) / total if total > 0 else 0.0
         penetration = -np.where(self.allowed, g, 0.0).min()
@@ -76,16 +75,16 @@ def solve_normal(
     tolerance: float,
     enough: float = 0.0,
 ) -> NormalSolution:
-    """Pressure and motion of the load for an undeformed gap.
+    """Compute pressure and motion of the load for an undeformed gap.
 
     displace      pressure (nx, ny) -> normal displacement (nx, ny); symmetric, positive definite
-    precondition  roughly the inverse of `displace`; symmetric, positive definite
-    gap           undeformed gap (nx, ny) [length]; infinite where the bodies can never touch
-    load          what leads the indenter: Σp or the approach
-    start         a first pressure (nx, ny), not zero everywhere
+    precondition  approximate inverse of `displace`; symmetric, positive definite
+    gap           undeformed gap (nx, ny) [length]; infinite where contact is impossible
+    load          prescribed force or approach
+    start         initial pressure (nx, ny), not zero everywhere
     tolerance     on complementarity Σ|g|p / (δ Σp) and penetration max(-g) / δ, dimensionless;
                   δ is the overlap of the undeformed bodies
-    enough        part of the residual of the start at which to stop before the tolerance
+    enough        reduction of the initial residual that suffices, if above the tolerance
     raises        NotConverged
     """
     allowed = np.isfinite(gap)
@@ -106,7 +105,7 @@ def solve_normal(
         if iterations > MAX_ITERATIONS:
             break
         contact = allowed & ((p > 0) | (g < 0))
-        # Deep enough to reach the tolerance once the contact set is right, shallow while it moves.
+        # The reduction reaches the tolerance once the contact set is final; it is weak before.
         settled = last is not None and bool((contact == last).all())
         depth = max(0.0 if settled else MOVING, 0.3 * aim / residual)
         last = contact
@@ -120,10 +119,10 @@ def solve_normal(
 def _solve_on(
     contact: Mask, problem: _Problem, p: Field, u: Field, g: Field, depth: float
 ) -> tuple[Field, Field, int]:
-    """Close the gap g on a contact set that holds all pressed cells; returns pressure,
-    displacement, iterations.
+    """Close the gap g on a contact set that contains all cells under pressure.
 
-    Conjugate gradients until the residual norm has fallen by the factor `depth`.
+    Conjugate gradients stop when the residual norm has fallen by the factor `depth`. Returns
+    pressure, displacement and iterations.
     """
     projected = problem.load.projection(contact.astype(np.float64))
     return close_gap(problem.displace, problem.precondition, projected, p, u, g, depth)
@@ -138,7 +137,7 @@ def close_gap(
     g: Field,
     depth: float,
 ) -> tuple[Field, Field, int]:
-    """The same in the cells, and under the load, of a projection."""
+    """Solve the linear problem of `_solve_on` for the projection of a contact set and load."""
     p, u, r = p.copy(), u.copy(), projected(-g)
     t = z = projected(precondition(r))
     rz = first = np.vdot(r, z)
@@ -164,10 +163,11 @@ def _step_toward(
     u: Field,
     g: Field,
 ) -> tuple[Field, Field, int]:
-    """To the Newton point, cut off at zero, or half as far until the energy falls enough.
+    """Move to the Newton point, cut off at zero, with bisection of the step (line search).
 
-    Under a stiff coating pressed cells lift others; cutting off their tension all at once may
-    raise the energy again and again. Returns pressure, displacement, iterations.
+    Under a stiff coating pressure lifts adjacent cells: cutting off all tension at once may raise
+    the energy repeatedly; then cells leave successively. Returns pressure, displacement,
+    iterations.
     """
     step = 1.0
     for _ in range(MAX_HALVINGS):
@@ -193,19 +193,19 @@ def _let_go(
     u: Field,
     g: Field,
 ) -> tuple[Field, Field, int]:
-    """Towards the Newton point until the first cells let go, then without these towards the next
-    one, until none is in tension (Lawson and Hanson 1974, chapter 23).
+    """Remove cells in tension from the contact set until none is left (Lawson and Hanson 1974, ch.
+    23).
 
-    Up to half of the cells in tension let go at once, cut off at zero, as long as the energy falls
-    enough: where many must go, one after the other would take a solve each. It falls in any case
-    up to the first, so every part rids the contact of a cell.
+    Each pass moves towards the Newton point until `many` cells reach zero pressure, at most half of
+    those in tension, provided that the energy decreases sufficiently; else `many` is halved. With
+    `many` = 1 the energy always decreases, so that every pass removes at least one cell.
     """
     contact = (p > 0) | (newton != 0)
     iterations, many = 0, newton.size
     while np.any(newton < 0):
         if iterations > MAX_ITERATIONS:
             return p, u, iterations
-        # How far each cell in tension still is pressed; not at all if it was not before.
+        # Fraction of the step at which each cell in tension reaches zero pressure.
         part_of_way = np.where(newton < 0, p / np.where(newton < 0, p - newton, 1.0), np.inf)
         parts = np.sort(part_of_way[newton < 0])
         many = max(1, min(2 * many, len(parts) // 2))
@@ -228,13 +228,13 @@ def _let_go(
 
 
 def _falls(d: Field, d_u: Field, g: Field) -> bool:
-    """Whether a change of the pressure lowers the energy as much as its slope promises."""
+    """Return whether a change of the pressure satisfies Armijo's condition on the energy."""
     slope = np.vdot(d, g)
     return bool(slope + 0.5 * np.vdot(d, d_u) <= LEAST_FALL * slope)
 
 
 def _gradient_step(problem: _Problem, p: Field, u: Field, g: Field) -> tuple[Field, Field]:
-    """Down the projected gradient to the lowest energy on the way: never fails, never fast."""
+    """Apply an exact line search along the projected gradient, with a step of at most 1."""
     unit = np.sum(p) / np.sum(np.abs(u))
     d = problem.load.admissible(np.where(problem.allowed, p - unit * g, 0.0)) - p
     d_u = problem.displace(d)

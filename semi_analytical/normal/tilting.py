@@ -1,7 +1,8 @@
-"""Tilt of the indenter, led by its moments or by itself. Not imported where nothing tilts.
+"""Tilt of the indenter under prescribed moments. Not imported without tilt.
 
-A given tilt only changes the gap. A given moment Σ p (y, x) Δ is a force like the normal force: the
-tilt is its multiplier, as the approach is that of Σp (CONVENTIONS, "generalised coordinates").
+A prescribed tilt only changes the gap. A prescribed moment Σ p (y, x) Δ is a constraint as the
+normal force is: the tilt is its multiplier, as the approach is that of Σp (CONVENTIONS,
+"generalised coordinates").
 """
 
 from dataclasses import dataclass, replace
@@ -20,19 +21,19 @@ from semi_analytical.normal.normal_load import (
     Projection,
 )
 
-# What rounding leaves of a sum of pressures and its moments, relative to the sum.
+# Rounding error of a sum of pressures and of its moments, relative to the sum.
 ROUND_OFF = 1e-14
 
 
 @dataclass(frozen=True)
 class PressureMoments:
-    """Force control of the tilt: Σp y and Σp x, and of the approach or not.
+    """Prescribed moments Σp y and Σp x, with prescribed Σp or prescribed approach.
 
     arms      (y, x) of the cells (2, nx, ny) [length]
-    cells     those that can ever touch (nx, ny)
+    cells     those of finite gap (nx, ny)
     moments   (Σp y, Σp x) = (M_x, M_y) / cell area, shape (2,)
-    total     Σp = W / cell area; None where the approach is given
-    approach  of the bodies at the origin; None where Σp is given
+    total     Σp = W / cell area; None where the approach is prescribed
+    approach  of the bodies at the origin; None where Σp is prescribed
     The motion is (approach, tilt x, tilt y).
     """
 
@@ -44,34 +45,34 @@ class PressureMoments:
 
     @cached_property
     def reach(self) -> float:
-        """Largest arm: with it as unit a tilt compares with the approach [length]."""
+        """Largest arm, the unit in which a tilt is comparable with the approach [length]."""
         return float(np.max(np.abs(self.arms)))
 
     @cached_property
     def shapes(self) -> Field:
-        """Closures by unit motions of given force (k, nx, ny): 1 if Σp is given, y and x over the
+        """Closures by unit motions of prescribed force (k, nx, ny): 1 (if Σp is), y and x over the
         reach."""
         slopes = self.arms / self.reach
         return slopes if self.total is None else np.stack([np.ones_like(slopes[0]), *slopes])
 
     @cached_property
     def sums(self) -> Vector:
-        """What the shapes, weighed by the pressure, must add up to (k,)."""
+        """Prescribed sums of pressure times shape (k,)."""
         moments = self.moments / self.reach
         return moments if self.total is None else np.array([self.total, *moments])
 
     def touches(self, gap: Field) -> bool:
-        """Whether there are bodies to press on, on all sides of where the force acts."""
+        """Return whether cells of finite gap surround the point of action of the force."""
         return self._is_carried_on(self.cells & np.isfinite(gap))
 
     def bearing_depth(self, gaps: Vector, stiffness: Vector) -> float:
-        """As if the force acted at the origin."""
+        """Return the bearing depth of the force or approach without moment."""
         if self.total is None:
             return FixedApproach(self.approach or 0.0).bearing_depth(gaps, stiffness)
         return PressureSum(self.total).bearing_depth(gaps, stiffness)
 
     def motion(self, p: Field, s: Field) -> Motion:
-        """The least squares of the gap left, weighed by the pressure."""
+        """Fit a plane to the gap s by least squares, weighted by the pressure."""
         shapes = self.shapes
         metric = _products(p * shapes, shapes)
         right = np.array([np.sum(p * shape * (s - (self.approach or 0.0))) for shape in shapes])
@@ -80,18 +81,18 @@ class PressureMoments:
         return np.array([approach, *(fit[-2:] / self.reach)])
 
     def closure(self, motion: Motion) -> float | Field:
-        """A plane."""
+        """Return the plane of approach and tilt."""
         approach, tilt_x, tilt_y = np.ravel(motion)
         return np.asarray(approach + tilt_x * self.arms[0] + tilt_y * self.arms[1])
 
     def overlap(self, motion: Motion, gap: Field, allowed: Mask) -> float:
-        """Where it is deepest."""
+        """Return the largest overlap."""
         return float(np.max(self.closure(motion) - gap, where=allowed, initial=-np.inf))
 
     def admissible(self, p: Field) -> Field:
-        """Cut off at zero and scaled by a plane to the sums; where no plane does it, also moved to
-        cells that carried nothing.
+        """Cut the pressure off at zero and correct it, weighted by itself, by a plane to the sums.
 
+        Where that is impossible the correction has equal weight on all cells of finite gap.
         raises  NotConverged where no pressure has the sums
         """
         p = np.maximum(p, 0.0)
@@ -105,8 +106,11 @@ class PressureMoments:
         return carrying
 
     def _is_carried_on(self, cells: Mask) -> bool:
-        """Whether some pressure on these cells has the sums: whether they lie on all sides of the
-        point where Σp acts, or of the direction of the moments if Σp is open."""
+        """Return whether some pressure on these cells has the sums.
+
+        The cells must surround the point where Σp acts; if Σp is free, they must lie on both sides
+        of the direction of the moments.
+        """
         y, x = self.arms[:, cells]
         M_x, M_y = self.moments
         if self.total is not None:
@@ -121,7 +125,8 @@ class PressureMoments:
         return bool(left - right < np.pi)
 
     def _carrying(self, p: Field, weight: Field) -> Field | None:
-        """The pressure >= 0 nearest to p in the metric 1 / weight that has the sums, if any."""
+        """Project p on non-negative pressures with the sums, in the metric 1 / weight; None if
+        impossible."""
         if not self._is_carried_on(weight > 0):
             return None
         shapes, sums = self.shapes, self.sums
@@ -133,7 +138,7 @@ class PressureMoments:
         return shifted.p if shifted.settled(multiplier) else None
 
     def projection(self, inside: Field) -> Projection:
-        """What is left of a least-squares fit of the rigid motions."""
+        """Return the projection that removes the least-squares fit of the free rigid motions."""
         units = inside * self.shapes
         inverse = np.linalg.pinv(_products(units, units), rcond=1e-14, hermitian=True)
 
@@ -145,7 +150,7 @@ class PressureMoments:
         return projected
 
     def less(self, carried: Field) -> NormalLoad:
-        """What is left of the sums."""
+        """Subtract the sums carried by other cells, and exclude those cells."""
         return replace(
             self,
             cells=self.cells & (carried == 0),
@@ -154,19 +159,19 @@ class PressureMoments:
         )
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
-        """The shapes."""
+        """Return the shapes."""
         return tuple(self.shapes)
 
 
 def _products(a: Field, b: Field) -> Field:
-    """Sums of the products of fields (k, nx, ny) with fields (k, nx, ny), symmetric (k, k)."""
+    """Compute the sums of products of two sets of fields (k, nx, ny), symmetric (k, k)."""
     sums = np.array([[np.sum(one * other) for other in b] for one in a])
     return 0.5 * (sums + sums.T)
 
 
 @dataclass(frozen=True)
 class _Shifted:
-    """max(0, p + weight Σ λ shape): see multipliers.py."""
+    """Projected pressure max(0, p + weight Σ λ shape): see multipliers.py."""
 
     p: Field
     slack: Field
@@ -178,7 +183,7 @@ class _Shifted:
     def by(
         cls, multiplier: Vector, p: Field, weight: Field, shapes: Field, sums: Vector
     ) -> "_Shifted":
-        """Shift p by multipliers and cut off what pulls."""
+        """Add multipliers to p and restrict the sum to non-negative values."""
         plane = sum(m * shape for m, shape in zip(multiplier, shapes, strict=True))
         shifted = p + weight * plane
         pressed = (shifted > 0) & (weight > 0)
@@ -187,12 +192,11 @@ class _Shifted:
         return cls(q, np.where(pressed, weight, 0.0), shapes, sums, defect)
 
     def settled(self, multiplier: Vector) -> bool:
-        """Whether the defect is round-off."""
+        """Return whether the defect is round-off."""
         size = float(np.sum(self.p)) + float(np.max(np.abs(self.sums)))
         return bool(np.sum(np.abs(self.defect)) <= ROUND_OFF * size)
 
     def newton_step(self) -> Vector:
-        """Change of the multipliers that removes the defect to first order; of least length where
-        the cells that press do not determine it."""
+        """Compute the Newton step of the multipliers; of least length where they are not unique."""
         metric = _products(self.slack * self.shapes, self.shapes)
         return np.asarray(-np.linalg.pinv(metric, rcond=1e-14, hermitian=True) @ self.defect)
