@@ -6,10 +6,7 @@ from typing import Any
 from pydantic import Field, model_validator
 
 from contact_scene.body import Body
-from contact_scene.checks.consistency import (
-    Parts,
-    inconsistencies,
-)
+from contact_scene.checks.consistency import inconsistencies
 from contact_scene.friction import CoulombFriction
 from contact_scene.geometry import Indenter
 from contact_scene.loading import MAX_STEPS, LoadStep
@@ -52,18 +49,10 @@ class Scene(Description):
 
     @model_validator(mode="after")
     def _is_consistent(self) -> "Scene":
-        problems = inconsistencies(self._parts())
+        problems = inconsistencies(dict(self))
         if problems:
             raise SceneError(problems)
         return self
-
-    def _parts(self) -> Parts:
-        return {
-            "indenter": self.indenter,
-            "body": self.body,
-            "friction": self.friction,
-            "loading": self.loading,
-        }
 
     @property
     def array_files(self) -> dict[str, ArrayFile]:

@@ -29,7 +29,7 @@ from contact_scene import (
     scene_schema,
 )
 from contact_scene.reading.key_lines import (
-    DEEPEST,
+    MAX_DEPTH,
     NestedTooDeep,
     locate,
 )
@@ -259,7 +259,7 @@ def paths_in(value: Any, path: KeyPath = ()) -> set[KeyPath]:
 def test_nesting_beyond_all_use_is_refused_with_its_line(text: str) -> None:
     with pytest.raises(NestedTooDeep, match="line 3"):
         locate("\n\n" + text)
-    at_most = "a = " + "[" * (DEEPEST - 1) + "]" * (DEEPEST - 1)
+    at_most = "a = " + "[" * (MAX_DEPTH - 1) + "]" * (MAX_DEPTH - 1)
     assert locate(at_most)[("a",)] == 1
 
 

@@ -1,8 +1,9 @@
-"""Whether parts of a scene that are valid alone make sense together."""
+"""Consistency of tables of a scene that are valid individually."""
 
 import math
-from collections.abc import Iterator, Sequence
-from typing import TypedDict
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from inspect import signature
+from typing import Any
 
 from contact_scene.body import Body
 from contact_scene.discretisation import SurfaceDiscretisation
@@ -20,10 +21,10 @@ from contact_scene.stepping.load_path import (
     load_path,
 )
 
-# |T| = mu W within round-off of a product of two decimal numbers is the limit itself.
+# Relative round-off of mu W, within which |T| is at the friction limit.
 _ROUND_OFF = 1e-12
-# This close to the limit hardly anything sticks: the shift tends to the sliding limit, and
-# nothing can start from it.
+# Relative distance from the friction limit below which the shift is undefined: the stick zone
+# vanishes, and no further step can start.
 _AT_THE_LIMIT = 1e-6
 
 _SHEARING = {
@@ -34,34 +35,26 @@ _SHEARING = {
 }
 
 
-class Parts(TypedDict, total=False):
-    """Valid parts of a scene file; a part that is itself invalid is left out."""
+def inconsistencies(tables: Mapping[str, Any]) -> tuple[Problem, ...]:
+    """Determine the contradictions between the tables of a scene file.
 
-    indenter: Indenter
-    body: Body
-    friction: CoulombFriction | None
-    loading: Sequence[LoadStep]
-    semi_analytical: SurfaceDiscretisation
+    tables  valid tables by their keys
 
-
-def inconsistencies(parts: Parts) -> tuple[Problem, ...]:
-    """Every contradiction between the parts."""
-    return (
-        *_nothing_deforms(parts),
-        *_first_step_does_not_press(parts),
-        *_shear_without_friction(parts),
-        *_loads_without_contact(parts),
-        *_gross_sliding(parts),
-        *_moment_beyond_the_contact(parts),
-        *_window_beyond_a_map(parts),
-        *_rigid_base_strained(parts),
-    )
+    A check runs if all tables that its parameters name are valid. `ramps` are the resolved steps.
+    """
+    known, loading = dict(tables), tables.get("loading")
+    if loading and loading[0].names_normal:
+        known["ramps"] = load_path(loading)
+    found: list[Problem] = []
+    for check in _CHECKS:
+        needed = signature(check).parameters
+        if needed.keys() <= known.keys():
+            found += check(**{name: known[name] for name in needed})
+    return tuple(found)
 
 
-def _nothing_deforms(parts: Parts) -> Iterator[Problem]:
-    if "indenter" not in parts or "body" not in parts:
-        return
-    if not parts["indenter"].deforms and not parts["body"].deforms:
+def _both_rigid(indenter: Body, body: Body) -> Iterator[Problem]:
+    if not indenter.deforms and not body.deforms:
         yield Problem(
             ("body", "material"),
             "both bodies are rigid and carry no layer",
@@ -69,9 +62,8 @@ def _nothing_deforms(parts: Parts) -> Iterator[Problem]:
         )
 
 
-def _first_step_does_not_press(parts: Parts) -> Iterator[Problem]:
-    loading = parts.get("loading")
-    if loading and not (loading[0].normal_force or loading[0].approach):
+def _first_step_without_normal_load(loading: Sequence[LoadStep]) -> Iterator[Problem]:
+    if not (loading[0].normal_force or loading[0].approach):
         yield Problem(
             ("loading", 0),
             "the first step does not press the bodies together",
@@ -79,13 +71,9 @@ def _first_step_does_not_press(parts: Parts) -> Iterator[Problem]:
         )
 
 
-def _loads_without_contact(parts: Parts) -> Iterator[Problem]:
-    """Steps that end with a load other than 0 of separated bodies, or with an approach of 0 of
-    tilted ones, which may touch."""
-    loading = parts.get("loading")
-    if not loading or not loading[0].names_normal:
-        return
-    for index, ramp in enumerate(load_path(loading)):
+def _loads_without_contact(ramps: Sequence[LoadRamp]) -> Iterator[Problem]:
+    """Find loads on separated bodies, and tilted bodies at the approach 0, which may touch."""
+    for index, ramp in enumerate(ramps):
         if ramp.normal.end != 0:
             continue
         for key, control in (
@@ -108,106 +96,90 @@ def _loads_without_contact(parts: Parts) -> Iterator[Problem]:
             )
 
 
-def _shear_without_friction(parts: Parts) -> Iterator[Problem]:
-    if "friction" not in parts or parts["friction"] is not None:
-        return
-    for index, step in enumerate(parts.get("loading", ())):
+def _shear_without_friction(
+    friction: CoulombFriction | None, loading: Sequence[LoadStep]
+) -> Iterator[Problem]:
+    for index, step in enumerate(loading if friction is None else ()):
         for key, load in _SHEARING.items():
             if getattr(step, key) not in (None, 0.0, (0.0, 0.0)):
                 yield Problem(
                     ("loading", index, key),
                     f"{load} on a frictionless contact",
-                    hint="add [friction] with a coefficient, or leave it out",
+                    hint="add [friction] with a coefficient, or remove the load",
                 )
 
 
-def _gross_sliding(parts: Parts) -> Iterator[Problem]:
-    """Steps under force control that exceed the limit mu W, or that leave from it.
+def _gross_sliding(
+    friction: CoulombFriction | None, loading: Sequence[LoadStep], ramps: Sequence[LoadRamp]
+) -> Iterator[Problem]:
+    """Find steps under force control that exceed the limit mu W, or continue from the limit.
 
-    |T| - mu W is convex along a ramp of both, so it suffices to look at the ends; the start of a
-    ramp is the end of the one before, or no load at all.
+    |T| - mu W is convex along a ramp, so the ends of the ramps suffice.
     """
-    friction, loading = parts.get("friction"), parts.get("loading")
-    if friction is None:
-        return
-    if not loading or not loading[0].names_normal:
-        return
-    left_from_limit = False
-    for index, ramp in enumerate(load_path(loading)):
-        if ControlKind.DISPLACEMENT in (ramp.normal.kind, ramp.tangential.kind):
+    for index, ramp in enumerate(ramps):
+        limit = friction.carried(ramp.normal.end) if friction and ramp.normal.end else None
+        if limit is None or ControlKind.DISPLACEMENT in (ramp.normal.kind, ramp.tangential.kind):
             continue
-        force, limit = math.hypot(*ramp.tangential.end), friction.carried(ramp.normal.end)
-        if limit is None:
-            return
-        if ramp.normal.end == 0:
-            continue
-        named = f"tangential force {force:.6g} N"
-        product = f"{friction.uniform:.6g} * {ramp.normal.end:.6g} N"
+        force = math.hypot(*ramp.tangential.end)
+        product = f"{limit / ramp.normal.end:.6g} * {ramp.normal.end:.6g} N"
         named_limit = f"the friction limit {limit:.6g} N (= {product})"
         if force > limit * (1.0 + _ROUND_OFF):
             yield Problem(
                 _key_of_shear(index, loading[index]),
-                f"{named} exceeds {named_limit}: gross sliding",
+                f"tangential force {force:.6g} N exceeds {named_limit}: gross sliding",
                 hint="prescribe tangential_shift instead",
             )
-        elif not left_from_limit and 0.0 < limit * (1.0 - _AT_THE_LIMIT) <= force:
-            left_from_limit = index + 1 < len(loading)
-            if left_from_limit:
-                yield Problem(
-                    _key_of_shear(index, loading[index]),
-                    f"{named} is at {named_limit}, where the shift is undefined, "
-                    "and a further step follows",
-                    hint="stay below the limit, or prescribe tangential_shift instead",
-                )
+        elif 0.0 < limit * (1.0 - _AT_THE_LIMIT) <= force and index + 1 < len(ramps):
+            yield Problem(
+                _key_of_shear(index, loading[index]),
+                f"tangential force {force:.6g} N is at {named_limit}, where the shift is "
+                "undefined, and a further step follows",
+                hint="stay below the limit, or prescribe tangential_shift instead",
+            )
+            return
 
 
-def _moment_beyond_the_contact(parts: Parts) -> Iterator[Problem]:
-    """Steps under force control whose normal force acts beyond the end of the indenter.
+def _key_of_shear(index: int, step: LoadStep) -> Path:
+    """Return the key to change: the tangential load, else the normal force of the limit."""
+    names = ("tangential_force", "tangential_shift", "normal_force")
+    named = [name for name in names if getattr(step, name) is not None]
+    return ("loading", index, *named[:1])
 
-    |M| - W reach is convex along a ramp of both, so it suffices to look at the ends.
+
+def _moment_beyond_the_contact(
+    indenter: Indenter, loading: Sequence[LoadStep], ramps: Sequence[LoadRamp]
+) -> Iterator[Problem]:
+    """Find steps under force control with a normal force that acts outside of the indenter.
+
+    |M| - W reach is convex along a ramp, so the ends of the ramps suffice.
     """
-    indenter, loading = parts.get("indenter"), parts.get("loading")
-    if indenter is None or not loading or not loading[0].names_normal:
-        return
-    for index, ramp in enumerate(load_path(loading)):
+    half_x, half_y = (side / 2 for side in indenter.extent or (math.inf, math.inf))
+    for index, ramp in enumerate(ramps):
         if ControlKind.DISPLACEMENT in (ramp.normal.kind, ramp.tilting.kind) or not ramp.normal.end:
             continue
-        for distance, reach in _arms(indenter, ramp):
-            if distance >= reach:
-                moved = "normal_force" if loading[index].moment is None else "moment"
-                yield Problem(
-                    ("loading", index, moved),
-                    f"the moment moves the normal force {distance:.6g} m from the origin, and the "
-                    f"indenter ends at {reach:.6g} m: it tips over",
-                    hint="take a smaller moment, or prescribe tilt instead",
-                )
-                break
+        y, x = (abs(moment) / ramp.normal.end for moment in ramp.tilting.end)
+        arms = ((math.hypot(x, y), indenter.rim or math.inf), (x, half_x), (y, half_y))
+        distance, reach = max(arms, key=lambda arm: arm[0] / arm[1])
+        if distance >= reach:
+            moved = "normal_force" if loading[index].moment is None else "moment"
+            yield Problem(
+                ("loading", index, moved),
+                f"the moment moves the normal force {distance:.6g} m from the origin, and the "
+                f"indenter ends at {reach:.6g} m: it tips over",
+                hint="use a smaller moment, or prescribe tilt instead",
+            )
 
 
-def _arms(indenter: Indenter, ramp: LoadRamp) -> tuple[tuple[float, float], ...]:
-    """Distances of the normal force from the origin, each with how far the indenter reaches that
-    way; none for shapes without end."""
-    M_x, M_y = ramp.tilting.end
-    x, y = abs(M_y) / ramp.normal.end, abs(M_x) / ramp.normal.end
-    ends = () if indenter.rim is None else ((math.hypot(x, y), indenter.rim),)
-    if indenter.extent is None:
-        return ends
-    return *ends, (x, indenter.extent[0] / 2), (y, indenter.extent[1] / 2)
-
-
-def _window_beyond_a_map(parts: Parts) -> Iterator[Problem]:
-    """A window that is larger than the map of heights or of friction."""
-    discretisation = parts.get("semi_analytical")
-    if discretisation is None or discretisation.window is None:
-        return
-    indenter, friction = parts.get("indenter"), parts.get("friction")
+def _window_beyond_a_map(
+    indenter: Indenter, friction: CoulombFriction | None, semi_analytical: SurfaceDiscretisation
+) -> Iterator[Problem]:
     extents = {
-        "the height map": indenter and indenter.extent,
+        "the height map": indenter.extent,
         "the friction map": friction and friction.extent,
     }
     for name, extent in extents.items():
         for index, known in enumerate(extent or ()):
-            length = discretisation.window[index]
+            length = semi_analytical.window[index] if semi_analytical.window else 0.0
             if length > known * (1.0 + 1e-9):
                 yield Problem(
                     ("semi_analytical", "window", index),
@@ -216,11 +188,10 @@ def _window_beyond_a_map(parts: Parts) -> Iterator[Problem]:
                 )
 
 
-def _rigid_base_strained(parts: Parts) -> Iterator[Problem]:
-    body = parts.get("body")
-    for index, step in enumerate(parts.get("loading", ()) if body else ()):
+def _rigid_base_strained(body: Body, loading: Sequence[LoadStep]) -> Iterator[Problem]:
+    for index, step in enumerate(loading if body.material is RIGID else ()):
         for key in ("bulk_strain", "bulk_stress"):
-            if getattr(step, key) and body and body.material is RIGID:
+            if getattr(step, key):
                 yield Problem(
                     ("loading", index, key),
                     "the substrate of the lower body is rigid and has no bulk strain",
@@ -228,9 +199,13 @@ def _rigid_base_strained(parts: Parts) -> Iterator[Problem]:
                 )
 
 
-def _key_of_shear(index: int, step: LoadStep) -> Path:
-    """The key a step should change: its tangential load, or else what made the limit fall."""
-    for name in ("tangential_force", "tangential_shift", "normal_force"):
-        if getattr(step, name) is not None:
-            return ("loading", index, name)
-    return ("loading", index)
+_CHECKS: tuple[Callable[..., Iterator[Problem]], ...] = (
+    _both_rigid,
+    _first_step_without_normal_load,
+    _shear_without_friction,
+    _loads_without_contact,
+    _gross_sliding,
+    _moment_beyond_the_contact,
+    _window_beyond_a_map,
+    _rigid_base_strained,
+)

@@ -3,7 +3,6 @@
 from typing import Any
 
 from contact_scene.accuracy import AccuracyRequest
-from contact_scene.checks.consistency import Parts
 from contact_scene.discretisation import (
     FiniteElementDiscretisation,
     RadialDiscretisation,
@@ -34,9 +33,6 @@ class SceneFile(Scene):
     def scene(self) -> Scene:
         """Scene without discretisations and accuracy."""
         return Scene.model_construct(**{name: getattr(self, name) for name in Scene.model_fields})
-
-    def _parts(self) -> Parts:
-        return {**super()._parts(), "semi_analytical": self.semi_analytical}
 
 
 def scene_schema() -> dict[str, Any]:

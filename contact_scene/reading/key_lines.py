@@ -1,18 +1,15 @@
-"""Lines of the keys of a TOML document, which `tomllib` does not report.
-
-The scanner reads valid documents exactly. In others it is right up to the mistake, which `tomllib`
-reports.
-"""
+"""Lines of the keys of a TOML document, which `tomllib` does not report."""
 
 import re
 import tomllib
 from collections.abc import Iterator
+from itertools import count
 
 from contact_scene.reading.scene_error import Path
 
-DEEPEST = 100
+MAX_DEPTH = 100
 
-# Repeats that never give back (`*+`): others remember every place that they might go back to.
+# Possessive repeats (`*+`) need no memory for backtracking.
 _TOKEN = re.compile(
     r"""(?P<blank>[ \t\r]+|\#[^\n]*)
     |(?P<key>[^\s\[\]{}=,.\#"']+
@@ -22,11 +19,10 @@ _TOKEN = re.compile(
     |(?P<mark>.)""",
     re.DOTALL | re.VERBOSE,
 )
-_END = ("\n", "")
 
 
 class NestedTooDeep(ValueError):
-    """More than `DEEPEST` tables, arrays or dotted keys within each other, on `line`."""
+    """More than `MAX_DEPTH` nested tables, arrays or dotted keys, on `line`."""
 
     def __init__(self, line: int) -> None:
         self.line = line
@@ -34,124 +30,73 @@ class NestedTooDeep(ValueError):
 
 
 def locate(document: str) -> dict[Path, int]:
-    """Return the lines, counted from 1, of every key and array entry, counted from 0.
+    """Determine the line of every key and array entry of a valid document.
 
-    A table counts from its header, or else from the first key within it. Takes time linear in the
-    length of the document; raises `NestedTooDeep`.
+    Lines count from 1, array entries from 0. The line of a table is that of its header, else that
+    of its first key. The time is linear in the length of the document. Raises `NestedTooDeep`, also
+    for invalid documents.
     """
-    scanner = _Scanner(document)
-    scanner.scan()
-    return scanner.lines
-
-
-class _Scanner:
-    """The token at the cursor, empty at the end, and the lines of the keys before it."""
-
-    def __init__(self, document: str) -> None:
-        self.lines: dict[Path, int] = {}
-        self._entries: dict[Path, int] = {}  # number of [[tables]] so far
-        self._tokens = self._read(document)
-        self._next()
-
-    def _read(self, document: str) -> Iterator[tuple[str, bool, int]]:
-        """Tokens, whether they may be a key, and their lines."""
-        line = 1
-        for match in _TOKEN.finditer(document):
-            if match.lastgroup != "blank":
-                text = "\n" if match.lastgroup == "lines" else match[0]
-                yield text, match.lastgroup == "key", line
-            line += match[0].count("\n")
-        while True:
-            yield "", False, line
-
-    def _next(self) -> None:
-        self._text, self._is_key, self._line = next(self._tokens)
-
-    def scan(self) -> None:
-        """Read the whole document."""
-        table: Path = ()
-        while self._text:
-            if self._text == "[":
-                table = self._header()
-            elif not self._pair(table):
-                self._skip_to(*_END)
-            if self._text == "\n":
-                self._next()
-
-    def _skip_to(self, *ends: str) -> None:
-        while self._text not in ends:
-            self._next()
-
-    def _header(self) -> Path:
-        """Read `[a.b]` or `[[a.b]]`; returns the path of the table that it opens."""
-        line = self._line
-        self._next()
-        is_array = self._text == "["
-        if is_array:
-            self._next()
-        keys = self._keys()
-        self._skip_to(*_END)
-        table: Path = ()
-        for depth, key in enumerate(keys, start=1):
-            table = (*table, key)
-            self.lines.setdefault(table, line)
-            if is_array and depth == len(keys):
-                self._entries[table] = self._entries.get(table, 0) + 1
-            if table in self._entries:
-                table = (*table, self._entries[table] - 1)
-                self.lines.setdefault(table, line)
-        # Its own header settles the line of a table known so far from a header further in.
-        self.lines[table] = line
-        return table
-
-    def _keys(self) -> list[str]:
-        """Read the parts of a dotted key; empty where there is none."""
-        keys: list[str] = []
-        while self._is_key:
-            keys.append(_unquoted(self._text))
-            self._check_depth(len(keys))
-            self._next()
-            if self._text != ".":
-                return keys
-            self._next()
-        return []
-
-    def _pair(self, table: Path, depth: int = 0) -> bool:
-        """Read `a.b = value`; returns whether there was one."""
-        line, keys = self._line, self._keys()
-        self._check_depth(depth + len(keys))
-        if not keys or self._text != "=":
-            return False
-        self._next()
-        for key in keys:
-            table = (*table, key)
-            self.lines.setdefault(table, line)
-        self._value(table, depth + len(keys))
-        return True
-
-    def _value(self, path: Path, depth: int) -> None:
-        self._check_depth(depth)
-        opening = self._text
-        if opening not in ("[", "{"):
-            self._skip_to(",", "]", "}", *_END)
-            return
-        self._next()
-        index = 0
-        while self._text not in ("]", "}", ""):
-            if self._text in (",", "\n"):
-                self._next()
-            elif opening == "{":
-                if not self._pair(path, depth + 1):
-                    self._next()
+    lines: dict[Path, int] = {}
+    entries: dict[Path, int] = {}  # number of [[tables]] so far
+    table: Path = ()  # of the last header
+    open_values: list[tuple[Path, Iterator[int] | None]] = []  # arrays with indices, inline tables
+    brackets, keys, value = 0, list[str](), None
+    for text, is_key, line in _tokens(document):
+        path, indices = open_values[-1] if open_values else (table, None)
+        if len(path) + len(keys) > MAX_DEPTH:
+            raise NestedTooDeep(line)
+        if text in ("]", "}") and open_values:
+            value, _ = open_values.pop()
+        elif text == "\n" and not open_values:
+            if brackets and keys:
+                table = _opened(keys, brackets == 2, line, lines, entries)
+            brackets, keys, value = 0, [], None
+        elif text == ",":
+            keys, value = [], None
+        elif text != "\n":
+            if indices is not None and value is None:
+                value = (*path, next(indices))
+                lines.setdefault(value, line)
+            if value is not None and text in ("[", "{"):
+                open_values.append((value, count() if text == "[" else None))
+                keys, value = [], None
+            elif value is None and text == "=":
+                value = path
+                for key in keys:
+                    value = (*value, key)
+                    lines.setdefault(value, line)
+            elif value is None and is_key:
+                keys.append(_unquoted(text))
             else:
-                self.lines.setdefault((*path, index), self._line)
-                self._value((*path, index), depth + 1)
-                index += 1
-        self._next()
+                brackets += text == "["
+    return lines
 
-    def _check_depth(self, depth: int) -> None:
-        if depth > DEEPEST:
-            raise NestedTooDeep(self._line)
+
+def _tokens(document: str) -> Iterator[tuple[str, bool, int]]:
+    """Yield tokens, with True for a possible key, and their lines; the last token ends a line."""
+    line = 1
+    for match in _TOKEN.finditer(document):
+        if match.lastgroup != "blank":
+            yield "\n" if match.lastgroup == "lines" else match[0], match.lastgroup == "key", line
+        line += match[0].count("\n")
+    yield "\n", False, line
+
+
+def _opened(
+    keys: list[str], is_entry: bool, line: int, lines: dict[Path, int], entries: dict[Path, int]
+) -> Path:
+    """Record the line of a header `[a.b]` or `[[a.b]]`; return the path of its table."""
+    table: Path = ()
+    for depth, key in enumerate(keys, start=1):
+        table = (*table, key)
+        lines.setdefault(table, line)
+        if is_entry and depth == len(keys):
+            entries[table] = entries.get(table, 0) + 1
+        if table in entries:
+            table = (*table, entries[table] - 1)
+            lines.setdefault(table, line)
+    lines[table] = line  # also if a header of a table inside came first
+    return table
 
 
 def _unquoted(key: str) -> str:

@@ -8,7 +8,7 @@ from typing import Any
 
 from contact_scene.loading import MAX_STEPS
 from contact_scene.reading.key_lines import (
-    DEEPEST,
+    MAX_DEPTH,
     NestedTooDeep,
     locate,
 )
@@ -33,7 +33,7 @@ def read_toml(file: FilePath) -> tuple[dict[str, Any], dict[Path, int]]:
         lines = locate(text)  # first: what it lets pass, tomllib reads in linear time
         return tomllib.loads(text), lines
     except NestedTooDeep as error:
-        raise _refused(file, "nested too deep", f"at most {DEEPEST} levels", error.line) from None
+        raise _refused(file, "nested too deep", f"at most {MAX_DEPTH} levels", error.line) from None
     except (ValueError, RecursionError) as error:
         place = re.search(r" \(at line (\d+), column (\d+)\)", str(error))
         line = int(place[1]) if place else text.count("\n") + 1
