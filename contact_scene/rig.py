@@ -66,11 +66,11 @@ def of_contact(increment: Reported, rig: Rig | None) -> Reported:
         moved = getattr(increment, name)
         if c and moved is not None:
             own = np.subtract(moved, np.multiply(c, getattr(increment, load)))
-            own = own if isinstance(moved, np.ndarray) else _plain(own)
+            own = own if isinstance(moved, np.ndarray) else plain(own)
             values |= {actuator: moved, name: own}
     return cast(Reported, replace(cast(Any, increment), **values)) if values else increment
 
 
-def _plain(value: Any) -> Any:
-    """Numbers of Python: a float, or a tuple of two."""
+def plain(value: Any) -> Any:
+    """Convert an array to a float or a tuple of floats."""
     return tuple(map(float, value)) if np.ndim(value) else float(value)

@@ -1,4 +1,4 @@
-"""Load cycles: where a history of loads returns to a load that it has had before."""
+"""Load cycles: parts of a load history between steps that end with equal loads."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -10,13 +10,13 @@ from contact_scene.stepping.load_path import (
     VectorControl,
 )
 
-# Loads that differ by less, relative to the largest of their kind, are the same load.
+# Decimals of loads, relative to the largest of their kind, that equal loads have in common.
 DIGITS = 9
 
-# Increments of a step within a cycle, by which the work of the cycle, a sum of trapezoids, agrees
-# with the energy it dissipates to one per cent; where a motion is led, slip may begin at any part
-# of the step. Measured on loops of .3 to .99 of the friction limit, and of shifts up to 15 times
-# that of gross sliding: .08 to .8 and .6 per cent.
+# Increments of a step within a cycle for which the work of the cycle, a trapezoidal sum, agrees
+# with the dissipated energy to 1 %. A step with a prescribed displacement needs more, since slip
+# may start at any point of it. Measured on loops at 0.3 to 0.99 of the friction limit, and with
+# shifts up to 15 times that of gross sliding: 0.08 to 0.8 %, and 0.6 %.
 LED_BY_FORCE = 16
 LED_BY_MOTION = 32
 
@@ -25,10 +25,10 @@ State = tuple[tuple[str, tuple[float, ...]], ...]
 
 @dataclass(frozen=True)
 class LoadCycle:
-    """From the end of one loading step to the end of a later one, where all loads are the same.
+    """Load cycle between the ends of two load steps with equal loads.
 
-    start  step at whose end the cycle begins, from 1
-    end    step at whose end it closes
+    start  number of the step at whose end the cycle begins, from 1
+    end    number of the step at whose end the cycle closes
     """
 
     start: int
@@ -36,10 +36,9 @@ class LoadCycle:
 
 
 def load_cycles(path: Iterable[LoadRamp]) -> tuple[LoadCycle, ...]:
-    """The shortest cycle that each step closes, for every step that closes one.
+    """Find the shortest cycle of every step that closes one.
 
-    All controls must be the same, force or displacement alike, with the same values. A step that
-    changes nothing holds a load and closes no cycle.
+    The kinds and the values of all controls must be equal. A step of constant load closes none.
     """
     ramps = list(path)
     scales = _scales(ramps)
@@ -55,8 +54,10 @@ def load_cycles(path: Iterable[LoadRamp]) -> tuple[LoadCycle, ...]:
 
 
 def loop_increments(path: Iterable[LoadRamp]) -> tuple[int, ...]:
-    """Increments that each step needs for the work of the cycles it is part of; 1 outside of them
-    and where the sideways load rests."""
+    """Return the number of increments of each step for the work of its cycles.
+
+    The number is 1 outside of cycles and in steps with constant tangential load.
+    """
     ramps = list(path)
     within = {step for c in load_cycles(ramps) for step in range(c.start + 1, c.end + 1)}
     return tuple(_of_loop(ramp) if ramp.step in within else 1 for ramp in ramps)
@@ -78,7 +79,7 @@ def _values(control: ScalarControl | VectorControl) -> tuple[float, ...]:
 
 
 def _scales(ramps: list[LoadRamp]) -> list[dict[str, float]]:
-    """The largest value of every coordinate, by force and by displacement."""
+    """Compute the largest value of every coordinate, separately of forces and displacements."""
     scales: list[dict[str, float]] = [{} for _ in _controls(ramps[0])] if ramps else []
     for ramp in ramps:
         for scale, control in zip(scales, _controls(ramp), strict=True):
@@ -89,7 +90,7 @@ def _scales(ramps: list[LoadRamp]) -> list[dict[str, float]]:
 
 
 def _state(ramp: LoadRamp, scales: list[dict[str, float]]) -> State:
-    """What two loads have in common that are the same."""
+    """Return the kinds and rounded relative values of all controls at the end of a ramp."""
     state = []
     for scale, control in zip(scales, _controls(ramp), strict=False):
         size = scale[control.kind.value] or 1.0

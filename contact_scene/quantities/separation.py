@@ -1,6 +1,6 @@
-"""Separation of the bodies at the end of a load step: the empty contact, an exact state.
+"""Separation of the bodies: the empty contact, an exact state.
 
-Without a normal load there is no contact. Tractions, elastic energy, forces and moments vanish. A
+Without a normal load there is no contact: tractions, elastic energy, forces and moments are 0. A
 later contact starts from the virgin state. Only sums over the history and the position of the
 bodies continue (CONVENTIONS).
 """
@@ -16,7 +16,7 @@ from contact_scene.bulk_strain import Strain
 from contact_scene.height_map import lowest_point
 from contact_scene.quantities.residuals import Residuals
 from contact_scene.quantities.summary import ContactStatus
-from contact_scene.rig import MOTIONS
+from contact_scene.rig import MOTIONS, plain
 from contact_scene.stepping.load_path import (
     Control,
     ControlKind,
@@ -26,9 +26,9 @@ from contact_scene.stepping.load_path import (
 Field = NDArray[np.float64]
 Reported = TypeVar("Reported")
 
-# Places of an increment in space and in the history.
+# Attributes for the positions of an increment in space and in the history.
 _PLACES = frozenset({"radii", "angles", "step", "index", "increments_in_step", "path"})
-# Fields and scalars that separation does not change; all others vanish.
+# Fields and scalars that separation does not set to 0.
 _KEPT = _PLACES | frozenset(
     {
         "slip_distance",
@@ -36,7 +36,7 @@ _KEPT = _PLACES | frozenset(
         *("tangential_shift", "twist", "tilt", "dissipated_energy", "dissipation_uncertainty"),
     }
 )
-# What goes on after a return to contact, by the value at separation that it goes on from.
+# Values that continue in a later contact, each with the value at separation that is added.
 _CONTINUED = {
     **{name: name for name in ("tangential_shift", "twist", "input_work", "unresolved_work")},
     "actuator_shift": "actuator_shift",
@@ -57,11 +57,11 @@ def separated(
     place: Mapping[str, int],
     approach: float | None = None,
 ) -> Reported:
-    """Return the increment without contact that follows another one.
+    """Return the increment without contact that follows increment `last`.
 
-    gap       of the undeformed surfaces at the approach 0 and the tilt of `position` [length]
+    gap       undeformed gap at the approach 0 and the tilt of `position` [length]
     place     step and increment
-    approach  prescribed; that of first touch if absent
+    approach  prescribed approach [length]; absent: that of first contact
     """
     before: Any = last
     found = {f.name: _zero(getattr(before, f.name)) for f in fields(before) if f.init}
@@ -71,7 +71,7 @@ def separated(
     found |= position(before, ramp, fraction)
     lowest = approach or 0.0
     if approach is None and found["tilt"] is not None and np.any(found["tilt"]):
-        # Beyond a rim the gap is infinite, and the first contact is on the rim.
+        # With a rim, the gap is infinite outside and first contact is on the rim.
         smooth = bool(np.all(np.isfinite(gap)))
         lowest = float(np.min(gap)) + (lowest_point(gap)[0] if smooth else 0.0)
     dissipated = before.dissipated_energy or 0.0
@@ -95,7 +95,7 @@ def separated(
 
 
 def virgin(increment: Reported) -> Reported:
-    """Return an increment of bodies that have never touched: zero but for its places."""
+    """Return an increment of bodies before any contact: all values are 0 except positions."""
     of: Any = increment
     moved = {f.name: _zero(getattr(of, f.name)) for f in fields(of) if f.init}
     zero = {name: value for name, value in moved.items() if name not in _PLACES}
@@ -103,8 +103,10 @@ def virgin(increment: Reported) -> Reported:
 
 
 def position(last: Any, ramp: LoadRamp, fraction: float) -> dict[str, Any]:
-    """Shift, twist and tilt of separated bodies: the prescribed ones, else those of the last
-    contact; None where they are not reported."""
+    """Determine shift, twist and tilt of separated bodies.
+
+    They are the prescribed ones, else those of the last contact; None if not reported.
+    """
     controls: tuple[Any, ...] = (ramp.tangential, ramp.twisting, ramp.tilting)
     motions = {}
     for name, control in zip(("tangential_shift", "twist", "tilt"), controls, strict=True):
@@ -117,8 +119,8 @@ def position(last: Any, ramp: LoadRamp, fraction: float) -> dict[str, Any]:
 
 
 def since_touch(ramp: LoadRamp, apart: Any) -> LoadRamp:
-    """Return a load step with shift, twist and strain counted from separated bodies that return to
-    contact."""
+    """Return a load step with shift, twist and strain relative to the separated increment `apart`,
+    for a later contact."""
     return replace(
         ramp,
         tangential=_counted(ramp.tangential, apart.tangential_shift, from_zero=True),
@@ -138,11 +140,11 @@ def _counted(control: Any, motion: Any, *, from_zero: bool) -> Any:
         return control
     ends = motion if control.start is None else control.start, control.end
     origin = motion if from_zero else np.zeros_like(motion)
-    return Control(control.kind, *(_plain(np.subtract(end, origin)) for end in ends))
+    return Control(control.kind, *(plain(np.subtract(end, origin)) for end in ends))
 
 
 def continued(apart: Any, increment: Reported) -> Reported:
-    """Return an increment of a later contact with the sums and the position at separation."""
+    """Add the sums and the position at separation to an increment of a later contact."""
     values = {
         name: _added(getattr(apart, source), getattr(increment, name))
         for name, source in _CONTINUED.items()
@@ -155,16 +157,11 @@ def _added(first: Any, second: Any) -> Any:
     if first is None or second is None:
         return None
     total = np.add(first, second)
-    return total if isinstance(second, np.ndarray) else _plain(total)
-
-
-def _plain(value: Any) -> Any:
-    """Numbers of Python: a float, or a tuple of two."""
-    return tuple(map(float, value)) if np.ndim(value) else float(value)
+    return total if isinstance(second, np.ndarray) else plain(total)
 
 
 def _zero(value: Any) -> Any:
-    """Zero of the same kind; None for what has none."""
+    """Return the zero of the type of a value; None for types without one."""
     if isinstance(value, Residuals):
         return Residuals(**{name: _zero(size) for name, size in vars(value).items()})
     if isinstance(value, np.ndarray):

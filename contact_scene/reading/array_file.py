@@ -1,4 +1,4 @@
-"""Arrays that a scene takes from a file: height maps and maps of friction."""
+"""Arrays of a scene from files: height maps and friction maps."""
 
 import hashlib
 from dataclasses import dataclass, field
@@ -16,19 +16,19 @@ from contact_scene.reading.validator_error import (
 )
 
 _FEWEST, _MOST = 4, 16384
-_MOST_VALUES = 4096 * 4096  # 134 MB, more than any grid has that can be solved on
+_MOST_VALUES = 4096 * 4096  # 134 MB, more than the largest grid
 _AT_ONCE = 1 << 20
 _MOST_TEXT = 1 << 28  # bytes
-# Of a text file, where an instrument has found no surface; in lower case.
+# Fields of a text file for points without a measurement, in lower case.
 _MISSING = {"", "nan", "bad", "na", "n/a", "null", "***", "---"}
 
 
 @dataclass(frozen=True)
 class ArrayFile:
-    """A two-dimensional array and the name it came by; equal by content.
+    """Two-dimensional array with its name; arrays with equal values are equal.
 
-    values  read-only, index [i, j] = (x_i, y_j); NaN where a text file or an array has no value
-    name    as the scene file names it; empty for an array made in Python
+    values  read-only, index [i, j] = (x_i, y_j); NaN for missing values
+    name    name in the scene file; empty for an array made in Python
     digest  SHA-256 of shape and values
     """
 
@@ -47,11 +47,11 @@ class ArrayFile:
 
 
 def array_file(value: Any, info: ValidationInfo) -> ArrayFile:
-    """Return the array that a file key names.
+    """Return the array of a file key.
 
-    A scene file names a `.npy`, `.csv` or `.txt` file in or below its own folder,
-    `info.context["folder"]`. A stored run has the array by the name of its key, in
-    `info.context["arrays"]`. Python code may pass any path or the array itself.
+    A scene file names a `.npy`, `.csv` or `.txt` file in or below its folder,
+    `info.context["folder"]`. A stored run contains the array in `info.context["arrays"]`, by its
+    key. Python code may pass any path or the array.
     """
     if isinstance(value, ArrayFile):
         return value
@@ -66,7 +66,7 @@ def array_file(value: Any, info: ValidationInfo) -> ArrayFile:
     if isinstance(value, Path) and folder is None:
         value = str(value)
     if not isinstance(value, str) or not value:
-        hint = "hand over numpy.asarray(...) of it, in SI" if hasattr(value, "__array__") else ""
+        hint = "pass numpy.asarray(...) of it, in SI" if hasattr(value, "__array__") else ""
         raise refusal(f"got {shown(value)}", 'the name of a file such as "heights.npy"', hint)
     path = Path(value) if folder is None else _inside(folder, value)
     return _checked(_read(path, value), value)
@@ -88,30 +88,26 @@ FileKey = Annotated[
 
 
 def _inside(folder: Path, name: str) -> Path:
-    """The path of a file in or below the folder; links must not lead out of it either."""
+    """Resolve the name of a file in or below a folder; refuses links to other folders."""
     relative = PurePosixPath(name)
     is_plain = not relative.is_absolute() and ".." not in relative.parts
     try:
         path = (folder / relative).resolve()
-        if is_plain and "\\" not in name and ":" not in name and _holds(folder, path):
+        inside = path.is_relative_to(folder.resolve())
+        if is_plain and "\\" not in name and ":" not in name and inside:
             return path
     except (OSError, ValueError, RuntimeError):
-        pass  # no name of a file, or links in a circle
+        pass  # not a file name, or circular links
     raise refusal(
         f"got {shown(name)}", "a file in or below the folder of the scene file, relative to it"
     )
 
 
-def _holds(folder: Path, path: Path) -> bool:
-    return path.is_relative_to(folder.resolve())
-
-
 def _read(path: Path, name: str) -> NDArray[np.float64]:
-    """The array in a file; of a `.npy` file a part at a time: two whole ones take too much
-    memory."""
+    """Read an array; a `.npy` file in blocks, to need memory for one array only."""
     expected = (
         "a .npy file with a two-dimensional array of numbers (numpy.save writes it), or a .csv or "
-        ".txt file with as many numbers in every line"
+        ".txt file with equally many numbers in every line"
     )
     try:
         if not path.is_file():
@@ -138,13 +134,13 @@ def _read(path: Path, name: str) -> NDArray[np.float64]:
 
 
 def _text(path: Path, name: str) -> NDArray[np.float64]:
-    """The array in a text file, printed as it is seen from above: x to the right, y upwards.
+    """Read a text file in the orientation of a top view: x to the right, y upwards.
 
     Fields are separated by semicolons, tabs, commas or spaces; lines before the first numbers are
     skipped. Fields of `_MISSING` are NaN.
     """
     if path.stat().st_size > _MOST_TEXT:
-        raise refusal(f"the file {shown(name)} is too long", "a .npy file of so many numbers")
+        raise refusal(f"the file {shown(name)} is too long", "a .npy file for this array")
     lines = path.read_text(encoding="utf-8-sig", errors="replace").splitlines()
     lines = [line for line in lines if line.strip() and line.strip()[0] not in "#%"]
     last = lines[-1] if lines else ""
@@ -160,7 +156,7 @@ def _text(path: Path, name: str) -> NDArray[np.float64]:
     counts = {len(row) for row in rows}
     if len(counts) > 1 or counts == {3}:
         got = f"the lines of {shown(name)} have {min(counts)} to {max(counts)} numbers"
-        raise refusal(got, "values alone, in rows and columns, as many in every line")
+        raise refusal(got, "values alone, in rows and columns, equally many in every line")
     values = np.array(rows or [[]]).T[:, ::-1]
     if separator and last.endswith(separator):
         values = values[:-1]
@@ -168,8 +164,10 @@ def _text(path: Path, name: str) -> NDArray[np.float64]:
 
 
 def _header(stream: BinaryIO, size: int, name: str) -> tuple[tuple[int, ...], bool, np.dtype[Any]]:
-    """Shape, whether columns come first, and type; what the header announces is refused here if
-    need be, before anything is allocated for it."""
+    """Read and check the header of a `.npy` file before memory is allocated.
+
+    returns  shape, True for column-major order, type
+    """
     version = np.lib.format.read_magic(stream)
     read_header = {
         (1, 0): np.lib.format.read_array_header_1_0,
@@ -181,7 +179,7 @@ def _header(stream: BinaryIO, size: int, name: str) -> tuple[tuple[int, ...], bo
     _check_shape(shape, name)
     _check_type(dtype, name)
     if size - stream.tell() != shape[0] * shape[1] * dtype.itemsize:
-        raise refusal(f"the file {shown(name)} is cut short or has a tail", "a whole .npy file")
+        raise refusal(f"the file {shown(name)} is cut short or too long", "a complete .npy file")
     return shape, by_columns, dtype
 
 
@@ -190,9 +188,9 @@ def _named(name: str) -> str:
 
 
 def _check_plain(value: NDArray[Any]) -> None:
-    """Refuse what is more than its numbers: units and masks would be lost."""
+    """Raise an error for arrays with units or masks, which would be lost."""
     if type(value) not in (np.ndarray, np.memmap):
-        hint = "hand over its numbers in SI, without gaps, as a plain array"
+        hint = "pass its numbers in SI, without gaps, as a plain array"
         raise refusal(f"got {shown(value)}", "a plain numpy array or the name of a .npy file", hint)
     _check_type(value.dtype, "")
 
@@ -206,7 +204,7 @@ def _check_shape(shape: tuple[int, ...], name: str) -> None:
     if len(shape) != 2 or not _FEWEST <= min(shape) <= max(shape) <= _MOST:
         expected = f"two dimensions (x, y) of {_FEWEST} to {_MOST} values each"
     elif shape[0] * shape[1] > _MOST_VALUES:
-        expected = f"at most {_MOST_VALUES} values in all, as 4096 x 4096 are"
+        expected = f"at most {_MOST_VALUES} values in all (4096 x 4096)"
     else:
         return
     raise refusal(f"the array {_named(name)} has shape {tuple(shape)}", expected)
@@ -221,7 +219,7 @@ def _checked(values: NDArray[np.float64], name: str) -> ArrayFile:
 
 
 def refuse_missing(array: ArrayFile) -> None:
-    """Refuse an array with NaN; raises a refusal that names the first one."""
+    """Raise an error with the position of the first NaN, if there is one."""
     _refuse(np.isnan(array.values), array.values, array.name)
 
 

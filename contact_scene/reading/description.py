@@ -1,4 +1,4 @@
-"""The base of every part of a scene: a frozen value that admits no unknown key."""
+"""Base class of all models of a scene: frozen, without unknown keys."""
 
 import ast
 import inspect
@@ -15,7 +15,7 @@ MAX_TITLE = 500  # characters
 
 
 class Description(BaseModel):
-    """A frozen, hashable value; unknown keys and non-finite numbers are refused."""
+    """Frozen, hashable model that refuses unknown keys and numbers that are not finite."""
 
     model_config = ConfigDict(
         frozen=True,
@@ -26,8 +26,8 @@ class Description(BaseModel):
 
     @model_validator(mode="before")
     @classmethod
-    def _keeps_the_order(cls, given: Any) -> Any:
-        """Steps, layers and components in a set come in any order."""
+    def _refuse_sets(cls, given: Any) -> Any:
+        """Raise an error for steps, layers or components in a set, which has no order."""
         for name, value in given.items() if isinstance(given, dict) else ():
             if isinstance(value, set | frozenset):
                 raise refusal(f"got a set for {name}", "a tuple or list, which has an order")
@@ -38,8 +38,8 @@ class Description(BaseModel):
 def field_descriptions(model: type) -> dict[str, str]:
     """Return the description of each field of a model: given to `Field`, or its docstring.
 
-    Reading docstrings from the source takes longer than a small contact. They are therefore read
-    for a schema, a message or a page that shows them, not when the class is defined.
+    Docstrings are read from the source on demand: reading them takes longer than the solve of a
+    small contact.
     """
     found: dict[str, str] = {}
     for base in reversed(model.__mro__[:-1]):

@@ -1,32 +1,32 @@
-"""The SI prefix that makes a quantity readable: 3.17 GPa, 0.6 mm, 0.8 µm."""
+"""SI prefixes for readable quantities: 3.17 GPa, 0.6 mm, 0.8 µm."""
 
 from dataclasses import dataclass
 
 PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 
-# Lengths of contacts are read as 0.6 mm, not 600 µm; everything else as 500 MPa, not 0.5 GPa.
+# Lengths are written as 0.6 mm, not 600 µm; other quantities as 500 MPa, not 0.5 GPa.
 SMALLEST = {"m": 0.1}
 LARGEST_PREFIX = {"m": 0}
 
 
 @dataclass(frozen=True)
 class EngineeringUnit:
-    """A unit with its prefix: `value / size` is the number to show next to `name`."""
+    """Unit with an SI prefix; `value / size` is the number in this unit."""
 
     size: float
     name: str
 
     def labelled(self, text: str) -> str:
-        """What an axis says of numbers in this unit: `x (mm)`."""
+        """Append the unit to the label of an axis: `x (mm)`."""
         return f"{text} ({self.name})"
 
     def text(self, value: float, digits: int = 4) -> str:
-        """The value with the unit, to this many significant digits."""
+        """Write a value with its unit and a number of significant digits."""
         return f"{value / self.size:.{digits}g} {self.name}"
 
 
 def engineering_unit(magnitude: float, unit: str) -> EngineeringUnit:
-    """The prefixed form of an SI unit that suits numbers up to this magnitude."""
+    """Select the prefix of an SI unit for numbers up to a magnitude."""
     if not unit:
         return EngineeringUnit(1.0, "")
     exponents = [e for e in PREFIXES if e <= LARGEST_PREFIX.get(unit, 9)]
@@ -40,5 +40,5 @@ def engineering_unit(magnitude: float, unit: str) -> EngineeringUnit:
 
 
 def quantity(value: float, unit: str, digits: int = 4) -> str:
-    """One value in the unit that suits it."""
+    """Write a value in its most readable unit."""
     return engineering_unit(abs(value), unit).text(value, digits)

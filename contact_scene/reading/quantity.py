@@ -1,5 +1,4 @@
-"""Physical quantities as they are written in a scene: a number in SI or a string with a unit; and
-whole numbers within bounds."""
+"""Validators of physical quantities, numbers in SI or texts with a unit, and of whole numbers."""
 
 import math
 import re
@@ -32,18 +31,18 @@ from contact_scene.reading.validator_error import (
     shown,
 )
 
-# Nothing but "number unit" passes; the unit is a product of at most five simple factors.
+# "number unit"; the unit is a product of at most five simple factors.
 _NUMBER = r"[+-]?(?:[0-9]{1,40}(?:\.[0-9]{0,40})?|\.[0-9]{1,40})(?:[eE][+-]?[0-9]{1,4})?"
 _FACTOR = r"[A-Za-zµμ°%]{1,20}(?:(?:\^|\*\*)-?[1-9])?"
 QUANTITY_PATTERN = rf"^({_NUMBER}) ?({_FACTOR}(?:(?: ?[*/·] ?| ){_FACTOR}){{0,4}})$"
 _QUANTITY = re.compile(QUANTITY_PATTERN)
 _NUMBER_ALONE = re.compile(_NUMBER)
 
-# More digits than the pattern admits, so that no product with a unit's factor is rounded twice.
+# More digits than the pattern allows, so that products with factors of units are rounded once.
 _EXACT = Context(prec=200)
 
-# Far beyond any contact, near enough to one that no product of a few quantities overflows, or
-# vanishes; a ratio may be as small as it likes.
+# Magnitudes beyond all contacts for which products of a few quantities neither overflow nor
+# vanish. Pure numbers have no lower limit.
 _PLAUSIBLE = 1e-30, 1e30
 
 
@@ -56,15 +55,15 @@ class WithUnit(float):
 
 @dataclass(frozen=True)
 class Quantity:
-    """Validator of one kind of quantity within bounds, for use in `Annotated[float, ...]`.
+    """Validator of one kind of quantity with limits, for use in `Annotated[float, ...]`.
 
-    kind               what is measured, with its units
-    above, at_least    lower bound, excluded or included [SI unit of the kind]
-    below, at_most     upper bound, excluded or included [SI unit of the kind]
-    wanted             the expectation in words, as in "a positive length"
+    kind             kind of the quantity, with its units
+    above, at_least  lower limit, exclusive or inclusive [SI unit of the kind]
+    below, at_most   upper limit, exclusive or inclusive [SI unit of the kind]
+    wanted           expected value in words, such as "a positive length"
     """
 
-    kind: Kind = field(repr=False)  # its table is long, and `wanted` names it
+    kind: Kind = field(repr=False)  # with a long table
     wanted: str
     above: float | None = None
     at_least: float | None = None
@@ -73,22 +72,26 @@ class Quantity:
 
     @property
     def expected(self) -> str:
-        """What a writer should have written, with an example."""
+        """Expected value in words, with an example."""
         return f"{self.wanted} such as {self.kind.example}" if self.kind.units else self.wanted
 
     def __call__(self, value: Any) -> float:
-        """The value in SI; raises a refusal that names what came and what is expected."""
+        """Convert a value to SI; raises an error with the received and the expected value."""
         number = self._in_si(value)
         if not math.isfinite(number):
             raise refusal(f"got {shown(value)}, which is not finite", self.expected)
-        if not self._is_within(number):
+        if not (
+            (self.above is None or number > self.above)
+            and (self.at_least is None or number >= self.at_least)
+            and (self.below is None or number < self.below)
+            and (self.at_most is None or number <= self.at_most)
+        ):
             raise refusal(f"got {shown(value)}", self.expected)
         smallest, largest = (_PLAUSIBLE[0] if self.kind.units else 0.0), _PLAUSIBLE[1]
         if number != 0.0 and not smallest <= abs(number) <= largest:
             bounds = f"a magnitude between {smallest} and {largest} {self.kind.si}"
             raise refusal(f"got {shown(value)}", bounds.rstrip())
-        # -0.0 and 0.0 are the same quantity and shall give the same bits
-        return type(number)(number + 0.0)
+        return type(number)(number + 0.0)  # 0.0 for -0.0
 
     def _in_si(self, value: Any) -> float:
         if isinstance(value, str):
@@ -101,12 +104,12 @@ class Quantity:
             raise refusal(f"got {shown(value)}", self.expected) from None
 
     def _instead_of(self, value: Any) -> str:
-        """What a script should hand over."""
+        """Return a hint on the value that a script should pass instead."""
         if has_unit(value):
             text = f"write a text such as {self.kind.example}, or " if self.kind.units else ""
-            return f"{text}hand over its number{f' in {self.kind.si}' if self.kind.si else ''}"
-        is_of_a_library = hasattr(value, "__float__") and not isinstance(value, bool)
-        return "hand over one plain float" if is_of_a_library else ""
+            return f"{text}pass its number{f' in {self.kind.si}' if self.kind.si else ''}"
+        of_a_library = hasattr(value, "__float__") and not isinstance(value, bool)
+        return "pass one plain float" if of_a_library else ""
 
     def _from_text(self, text: str) -> float:
         match = _QUANTITY.match(text.strip())
@@ -124,14 +127,6 @@ class Quantity:
             folded = [known for known in self.kind.units if known.lower() == unit.lower()]
             hint = f'did you mean "{number} {(folded or near)[0]}"?' if folded or near else ""
             raise refusal(f"got {shown(text)}", self.expected, hint) from None
-
-    def _is_within(self, number: float) -> bool:
-        return not (
-            (self.above is not None and number <= self.above)
-            or (self.at_least is not None and number < self.at_least)
-            or (self.below is not None and number >= self.below)
-            or (self.at_most is not None and number > self.at_most)
-        )
 
     def __get_pydantic_core_schema__(
         self, source: Any, handler: GetCoreSchemaHandler
@@ -162,13 +157,13 @@ class Quantity:
 
 @dataclass(frozen=True)
 class WholeNumber:
-    """Validator of a whole number, bounds included, for use in `Annotated[int, ...]`."""
+    """Validator of a whole number with inclusive limits, for use in `Annotated[int, ...]`."""
 
     at_least: int
     at_most: int
 
     def __call__(self, value: Any) -> int:
-        """The number; raises a refusal for anything else, 5.0 and true included."""
+        """Return a whole number; raises an error for all other values, also for 5.0 and true."""
         try:
             number = index(value) if is_plain(value) else None
         except TypeError:
@@ -191,8 +186,10 @@ class WholeNumber:
 
 
 def is_plain(value: Any) -> bool:
-    """Whether nothing is lost when a value is taken for a number: it has no unit, mask, imaginary
-    part or second entry, and is neither a truth value nor a time."""
+    """Determine if a value is a real number without loss.
+
+    Excludes values with a unit, mask, imaginary part or several entries, truth values and times.
+    """
     if type(value) in (float, int):
         return True
     if type(value) is np.ndarray:
@@ -203,7 +200,7 @@ def is_plain(value: Any) -> bool:
 
 
 def has_unit(value: Any) -> bool:
-    """Whether a value is one of a library of units, as of pint, astropy or unyt."""
+    """Determine if a value is from a library of units such as pint, astropy or unyt."""
     return hasattr(value, "units") or hasattr(value, "unit")
 
 

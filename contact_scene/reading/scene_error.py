@@ -1,4 +1,4 @@
-"""A mistake in a scene, and the error that carries all of them."""
+"""Problems of a scene, and the exception that contains them."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -18,12 +18,12 @@ _MOST_LISTED = 100
 class Problem:
     """One mistake.
 
-    path      where in the document; list indices count from 0
-    message   what is wrong, or what came
-    expected  what would have been right; may be empty
-    hint      what usually helps; may be empty
+    path      keys and indices in the document; indices count from 0
+    message   mistake, or received value
+    expected  expected value; may be empty
+    hint      remedy; may be empty
     file      name of the file, or the option that set the value; empty for a scene made in Python
-    line      line in the file, counted from 1; None where there is no line
+    line      line in the file, counted from 1; None without a line
     """
 
     path: Path
@@ -35,7 +35,7 @@ class Problem:
 
     @property
     def key(self) -> str:
-        """The path as it is written: `loading[2].normal_force`, the second step counted from 1."""
+        """Dotted path: `loading[2].normal_force` for the second step, counted from 1."""
         return dotted(self.path)
 
     def __str__(self) -> str:
@@ -47,7 +47,7 @@ class Problem:
 
 
 class SceneError(Exception):
-    """A scene that cannot be solved as written; `problems` holds every mistake found."""
+    """Invalid scene; `problems` contains every mistake."""
 
     def __init__(self, problems: Iterable[Problem]) -> None:
         self.problems = tuple(problems)
@@ -60,7 +60,7 @@ class SceneError(Exception):
 
 
 def dotted(path: Path) -> str:
-    """A path with dots between keys and list indices counted from 1, as people count."""
+    """Join the keys of a path by dots; array indices count from 1."""
     text = ""
     for part in path:
         if isinstance(part, int):

@@ -23,7 +23,7 @@ from contact_scene.reading.scene_error import (
     SceneError,
 )
 from contact_scene.reading.toml_file import read_toml
-from contact_scene.reading.validation_errors import mistakes
+from contact_scene.reading.validation_errors import problems_of
 from contact_scene.scene import Scene
 
 D = TypeVar("D", bound=Description)
@@ -133,7 +133,7 @@ def _valid(kind: type[D], document: dict[str, Any], context: dict[str, Any]) -> 
     try:
         return kind.model_validate(document, context=context)
     except ValidationError as error:
-        found = mistakes(document, error, context)
+        found = problems_of(document, error, context)
         if issubclass(kind, Scene):
             found += inconsistencies(_valid_tables(document, error, context))
         raise SceneError(found) from None

@@ -1,4 +1,4 @@
-"""A scene as texts: every key with its value in a readable unit."""
+"""Description of a scene as text: every key with its value in a readable unit."""
 
 from collections.abc import Container, Iterable, Iterator
 from typing import get_args
@@ -24,9 +24,9 @@ def describe(
     discretisation: SurfaceDiscretisation,
     elements: FiniteElementDiscretisation | None = None,
 ) -> Iterator[Line]:
-    """Names and texts of the parts of a scene, of its load steps and of its discretisation.
+    """Yield names and texts of the tables of a scene, its load steps and its discretisation.
 
-    elements  shown where they differ from the default
+    elements  shown if not default
     """
     if scene.title:
         yield "title", scene.title
@@ -52,13 +52,13 @@ def shape_text(indenter: Body) -> str:
 
 
 def _texts(model: BaseModel) -> Iterator[Line]:
-    """Names and texts of all keys; the text is empty where there is no value."""
+    """Yield names and texts of all keys; the text is empty for a key without a value."""
     for name, field in type(model).model_fields.items():
         yield name, _text(getattr(model, name), _unit(field))
 
 
 def _joined(model: BaseModel, left_out: Container[str] = ()) -> str:
-    """Names and texts of the keys that have values, the shape first, without its name."""
+    """Join names and texts of the keys with values; the shape is first, without its name."""
     texts = {name: text for name, text in _texts(model) if text and name not in left_out}
     shape = [texts.pop("shape").replace("_", " ")] if "shape" in texts else []
     own = sorted(texts, key=lambda name: name in Body.model_fields)
@@ -83,7 +83,7 @@ def _text(value: object, unit: str = "") -> str:
 
 
 def _unit(field: FieldInfo) -> str:
-    """SI unit of a quantity, or of each of a pair; empty for a pure number and others."""
+    """Return the SI unit of a quantity or pair of quantities; empty for pure numbers and others."""
     unit = next(_units((*field.metadata, field.annotation)), "")
     return unit if unit != "1" else ""
 

@@ -1,4 +1,4 @@
-"""A TOML file, read within bounds, and the lines of its keys."""
+"""Reading of a TOML file of limited size, with the lines of its keys."""
 
 import re
 import sys
@@ -19,18 +19,18 @@ from contact_scene.reading.scene_error import (
 )
 
 _LARGEST_FILE = 10_000_000
-# Every key, entry, table and escape costs one of these signs, and seven write the longest step:
-# counting them refuses, at once, what would take long and much memory to read.
+# Every key, entry, table and escape contains one of the counted characters, and the longest load
+# step seven. The limit bounds time and memory of reading.
 _MOST_SIGNS = 7 * MAX_STEPS
 _MOST_DIGITS = sys.int_info.default_max_str_digits
 _TOO_LONG = re.compile(rf"[0-9](?:_?[0-9]){{{_MOST_DIGITS},}}+")
 
 
 def read_toml(file: FilePath) -> tuple[dict[str, Any], dict[Path, int]]:
-    """The contents of a TOML file, and the line of every key; raises `SceneError`."""
+    """Read a TOML file; return its contents and the line of every key. Raises `SceneError`."""
     text = _text(file)
     try:
-        lines = locate(text)  # first: what it lets pass, tomllib reads in linear time
+        lines = locate(text)  # first, since its limits let tomllib read in linear time
         return tomllib.loads(text), lines
     except NestedTooDeep as error:
         raise _refused(file, "nested too deep", f"at most {MAX_DEPTH} levels", error.line) from None

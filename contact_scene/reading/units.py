@@ -1,4 +1,4 @@
-"""Units: a table of the usual ones, exact in decimal arithmetic; pint for all others."""
+"""Units of quantities: a table with exact decimal factors, and pint for all other units."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -12,16 +12,16 @@ if TYPE_CHECKING:
 
 
 class UnknownUnit(ValueError):
-    """The unit is unknown or measures something else."""
+    """Unit that is unknown or measures another quantity."""
 
 
 @dataclass(frozen=True, eq=False)
 class Kind:
-    """A kind of quantity and its units; each kind is equal only to itself.
+    """Kind of quantity, with its units.
 
     si       SI unit; empty for a pure number
-    example  as a writer would put it
-    units    unit -> factor to the SI unit, as decimal text so that "18 mm" is exactly 0.018
+    example  example of a value in a scene file
+    units    factor of each unit to the SI unit, in decimal so that "18 mm" is exactly 0.018
     """
 
     si: str
@@ -29,7 +29,7 @@ class Kind:
     units: Mapping[str, Decimal]
 
     def to_si(self, number: Decimal, unit: str, context: Context) -> float:
-        """Value in SI; `UnknownUnit` if the unit does not measure this kind."""
+        """Convert a number with a unit to SI; raises `UnknownUnit` for units of another kind."""
         factor = self.units.get(unit)
         if factor is not None:
             return float(context.multiply(number, factor))
@@ -73,7 +73,7 @@ SHARE = Kind("1", '"0.1 %"', MappingProxyType({"%": Decimal("0.01")}))
 
 @cache
 def _registry() -> "UnitRegistry[Decimal]":
-    # Imported here because it takes longer than all the rest of reading a scene.
+    # Imported here: the import takes longer than reading a scene.
     from pint import UnitRegistry
 
     return UnitRegistry(non_int_type=Decimal)

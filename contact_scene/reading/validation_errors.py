@@ -1,4 +1,4 @@
-"""What pydantic finds wrong, told in the words and keys of the scene file."""
+"""Problems of a scene file, from pydantic's validation errors, by the keys of the file."""
 
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
@@ -25,23 +25,23 @@ _NO_TABLE = ("model_type", "model_attributes_type", "dict_type", "dict_attribute
 _NO_ARRAY = ("tuple_type", "list_type")
 
 
-def mistakes(
+def problems_of(
     document: Mapping[str, Any], error: ValidationError, context: Mapping[str, Any]
 ) -> list[Problem]:
-    """Every mistake that pydantic found in the document, each told once.
+    """Convert the validation error of a document to problems without duplicates.
 
-    context  the validation context that the document was checked with
+    context  validation context of the document
     """
     problems: list[Problem] = []
     for detail in _details(error):
         problems.append(_problem(document, detail))
         if detail["type"].startswith("union_tag") and isinstance(detail["input"], dict):
-            problems += _mistakes_beside_the_shape(document, detail["input"], context)
-    return _without_echoes(problems)
+            problems += _problems_of_unknown_shape(document, detail["input"], context)
+    return _without_duplicates(problems)
 
 
 def _details(error: ValidationError) -> list[ErrorDetails]:
-    """pydantic's findings, without the shortness of a list whose entries are all invalid."""
+    """Return pydantic's errors, without "too short" for a list of invalid entries."""
     found = error.errors(include_url=False)
     return [d for d in found if not (d["type"] == "too_short" and d["input"])]
 
@@ -57,7 +57,8 @@ def _problem(document: Mapping[str, Any], detail: ErrorDetails) -> Problem:
     if kind == "missing":
         return Problem(path[:-1], got, "an array of 2, for x and y")
     if kind == "extra_forbidden":
-        return _unknown_key(path, _known_keys(location[:-1]))
+        model = _model_at(location[:-1])
+        return _unknown_key(path, list(model.model_fields) if model else [])
     if kind.startswith("union_tag"):
         return _unknown_shape(path, detail["input"])
     if kind in _NO_TABLE:
@@ -77,25 +78,23 @@ def _problem(document: Mapping[str, Any], detail: ErrorDetails) -> Problem:
 
 
 def _as_written(document: Mapping[str, Any], detail: ErrorDetails) -> Path:
-    """The error's location as a path in the document: no branches, no deeper than it goes."""
+    """Convert an error location to a path in the document, without branches of unions.
+
+    The path ends at the deepest part that the document contains.
+    """
     path: list[str | int] = []
     value: Any = document
-    unknown = detail["loc"][-1:] if detail["type"] == "extra_forbidden" else ()
-    for part in detail["loc"][: len(detail["loc"]) - len(unknown)]:
+    location: tuple[Any, ...] = detail["loc"]
+    unknown = location[-1:] if detail["type"] == "extra_forbidden" else ()
+    for part in location[: len(location) - len(unknown)]:
         if _is_branch(part):
             continue
         if not isinstance(value, dict if isinstance(part, str) else list):
             break
         path.append(part)
-        value = _entry(value, part)
+        found = isinstance(value, dict) or part < len(value)
+        value = value.get(part) if isinstance(value, dict) else value[part] if found else None
     return (*path, *unknown)
-
-
-def _entry(holder: Any, part: Any) -> Any:
-    """The entry of a table or array, None where it is missing."""
-    if isinstance(holder, list):
-        return holder[part] if part < len(holder) else None
-    return holder.get(part)
 
 
 def _unknown_key(path: Path, known: list[str]) -> Problem:
@@ -129,12 +128,13 @@ def _nearest_shape(given: Mapping[str, Any]) -> str | None:
     return next(iter(get_close_matches(written, SHAPES, n=1)), None)
 
 
-def _mistakes_beside_the_shape(
+def _problems_of_unknown_shape(
     document: Mapping[str, Any], given: Mapping[str, Any], context: Mapping[str, Any]
 ) -> list[Problem]:
-    """What else is wrong with an indenter of unknown shape.
+    """Find the other problems of an indenter of unknown shape.
 
-    Checked as the shape that was probably meant; failing that, by the keys that all shapes have.
+    The keys are checked for the shape with the nearest name, or else for those that all shapes
+    have.
     """
     near = _nearest_shape(given)
     model: type[Body] = SHAPES[near] if near else Body
@@ -143,15 +143,14 @@ def _mistakes_beside_the_shape(
     try:
         model.model_validate(keys, context=dict(context))
     except ValidationError as error:
-        found = _details(error)
-        for detail in found:
+        for detail in (found := _details(error)):
             detail["loc"] = ("indenter", branch, *detail["loc"])
         return [_problem(document, detail) for detail in found]
     return []
 
 
 def _brackets(path: Path, given: Any) -> str:
-    """What to write where single and double brackets were confused."""
+    """Return a hint where single and double brackets may have been confused."""
     if path[-1:] != ("layers",) and len(path) != 1:
         return ""
     header = ".".join(str(part) for part in path if isinstance(part, str))
@@ -160,8 +159,8 @@ def _brackets(path: Path, given: Any) -> str:
     return f"write [{header}], with single brackets" if isinstance(given, list) else ""
 
 
-def _without_echoes(problems: list[Problem]) -> list[Problem]:
-    """Each problem once; and a misspelt key, which makes the right one missing, once as well."""
+def _without_duplicates(problems: list[Problem]) -> list[Problem]:
+    """Remove duplicates, and missing keys that are present under a misspelt name."""
     meant = {(problem.path[:-1], problem.hint) for problem in problems}
     return [
         problem
@@ -171,7 +170,7 @@ def _without_echoes(problems: list[Problem]) -> list[Problem]:
     ]
 
 
-# Where pydantic goes through a union, its locations name the branch in angle brackets.
+# In locations, pydantic names the branch of a union in angle brackets.
 Location = tuple[str | int, ...]
 
 _MATERIAL = '{ young_modulus = "210 GPa", poisson_ratio = 0.3 } or "rigid"'
@@ -184,12 +183,12 @@ _MODEL_IN_BRANCH: dict[str, type[BaseModel]] = {
 
 
 def _is_branch(part: str | int) -> bool:
-    """Whether this part of a location names a branch of a union and not a key."""
+    """Determine if a part of a location names a branch of a union instead of a key."""
     return isinstance(part, str) and part.startswith("<")
 
 
 def _model_at(location: Iterable[str | int]) -> type[BaseModel] | None:
-    """The part of the scene that is described at a location."""
+    """Return the model of the table at a location; None if there is none."""
     model: type[BaseModel] | None = SceneFile
     for part in location:
         if isinstance(part, int):
@@ -201,14 +200,8 @@ def _model_at(location: Iterable[str | int]) -> type[BaseModel] | None:
     return model
 
 
-def _known_keys(location: Location) -> list[str]:
-    """Keys of the table at a location."""
-    model = _model_at(location)
-    return list(model.model_fields) if model is not None else []
-
-
 def _expected_value(location: Location) -> str:
-    """What a key stands for, in words."""
+    """Return the expected value of a key in words."""
     model, key = _model_at(location[:-1]), location[-1]
     if model is None or str(key) not in model.model_fields:
         return ""
@@ -221,7 +214,7 @@ def _expected_value(location: Location) -> str:
 
 
 def _expected_table(location: Location) -> str:
-    """The table that belongs at a location, by the keys it must have."""
+    """Return the expected table at a location, with its required keys."""
     if location and location[-1] in _IN_BRANCH:
         return _IN_BRANCH[str(location[-1])]
     model = _model_at(location)

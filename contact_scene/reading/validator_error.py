@@ -1,4 +1,4 @@
-"""How a validator says no: what came, what was expected, what usually helps."""
+"""Errors of validators: received value, expected value and a hint."""
 
 import re
 from datetime import date, datetime, time
@@ -10,7 +10,7 @@ _LONGEST_SHOWN = 60
 
 
 def refusal(message: str, expected: str = "", hint: str = "") -> PydanticCustomError:
-    """An exception for pydantic validators that keeps message, expectation and hint apart."""
+    """Create an exception for pydantic validators, with separate message, expectation and hint."""
     sentence = "{message}"
     sentence += ", expected {expected}" if expected else ""
     sentence += "; {hint}" if hint else ""
@@ -19,7 +19,7 @@ def refusal(message: str, expected: str = "", hint: str = "") -> PydanticCustomE
 
 
 def shown(value: Any) -> str:
-    """A value as a TOML writer would recognise it, printable and of bounded length."""
+    """Convert a value to printable text of limited length, in the notation of TOML."""
     if isinstance(value, str):
         return '"' + printable(shortened(value)) + '"'
     if isinstance(value, bool):
@@ -36,7 +36,7 @@ def shown(value: Any) -> str:
 
 
 def printable(text: str) -> str:
-    """Text with control characters and quotes escaped, fit for a terminal or a log."""
+    """Escape control characters and quotes of a text, for a terminal or a log."""
     return "".join(c if c.isprintable() and c != '"' else ascii(c)[1:-1] for c in text)
 
 
@@ -47,10 +47,10 @@ def _shown_array(items: list[Any] | tuple[Any, ...]) -> str:
 
 
 def shortened(text: str, longest: int = _LONGEST_SHOWN) -> str:
-    """Its beginning, if it is longer."""
+    """Cut a text to a largest length."""
     return text if len(text) <= longest else text[: longest - 1] + "…"
 
 
 def is_bare_key(part: str) -> bool:
-    """Whether TOML admits this key without quotes."""
+    """Determine if TOML allows a key without quotes."""
     return re.fullmatch(r"[A-Za-z0-9_-]+", part) is not None

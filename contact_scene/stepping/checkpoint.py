@@ -1,6 +1,6 @@
-"""Where the solve of a load history stands, for whoever keeps it.
+"""Checkpoints of the solve of a load history.
 
-A solve that goes on from there gives the same bits as one that was never interrupted.
+A solve that continues from a checkpoint gives the same bits as an uninterrupted solve.
 """
 
 from dataclasses import dataclass
@@ -11,12 +11,12 @@ S = TypeVar("S")
 
 @dataclass(frozen=True)
 class ResumePoint(Generic[S]):
-    """A place in a march through the increments of a load history.
+    """Resume point of a load history.
 
-    done   increments that lie behind, of all steps together
-    state  after the last of them
-    start  at the start of the ramp that it belongs to; None before first touch
-    last   increment counted from the last separation of the bodies; None without one
+    done   number of completed increments of all steps
+    state  state after the last of them; None without contact
+    start  state at the start of the current ramp; None without contact
+    last   last increment, counted from the last separation of the bodies; None without one
     """
 
     done: int
@@ -25,18 +25,22 @@ class ResumePoint(Generic[S]):
     last: Any = None
 
     def within(self, before: int, count: int) -> int:
-        """How many of a step's `count` increments lie behind, if `before` precede the step."""
+        """Return the number of completed increments of one load step.
+
+        before  number of increments of all earlier steps
+        count   number of increments of the step
+        """
         return min(max(self.done - before, 0), count)
 
 
 @dataclass(frozen=True)
 class Checkpoint:
-    """A solve after an increment.
+    """State of a solve after an increment.
 
-    increments  all that lie behind, as they are reported
-    mark        where the march goes on
-    extent      of the grid or mesh that was chosen to hold the contact
-    settled     names of what was computed once for all increments and is in their counts
+    increments  reported increments so far
+    mark        resume point
+    extent      size of the grid or mesh
+    settled     names of computations for all increments that are in the counters already
     """
 
     increments: tuple[Any, ...]
@@ -46,10 +50,10 @@ class Checkpoint:
 
 
 class CheckpointStore(Protocol):
-    """Keeps where one solve stands, outside of its process."""
+    """Storage of the checkpoints of one solve, outside of its process."""
 
     def last(self) -> Checkpoint | None:
-        """What was kept; None if nothing was."""
+        """Return the last stored checkpoint; None if there is none."""
 
-    def keep(self, standing: Checkpoint) -> None:
-        """Told after every increment; may let some of them pass."""
+    def keep(self, checkpoint: Checkpoint) -> None:
+        """Store a checkpoint. Called after every increment; an implementation may skip calls."""

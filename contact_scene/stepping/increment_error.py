@@ -1,6 +1,6 @@
-"""Load steps whose end state depends on the number of their increments.
+"""Load steps with an increment error: the end state depends on the number of increments.
 
-An increment fixes the direction of slip. Three cases are proved to have no increment error:
+Within an increment the direction of slip is fixed. Three cases are proved to have no such error:
 
 - No shear has acted so far.
 - A torsion of bodies of revolution under constant pressure, without any other shear.
@@ -24,8 +24,8 @@ from contact_scene.stepping.load_path import (
     along_one_line,
 )
 
-# Above this fraction of the friction limit shift and energy, which grow like (1 - T/µW)^-½, exceed
-# ten times their first order and depend on the increments at their leading digit.
+# At this fraction of the friction limit shift and energy, which grow as (1 - T/µW)^-½, are 10 times
+# their first order, and their leading digit depends on the increments.
 NEAR_GROSS_SLIP = 0.99
 
 
@@ -48,7 +48,7 @@ def near_gross_slip(scene: Scene) -> tuple[bool, ...]:
 
 
 def _proved(scene: Scene, ramps: Sequence[LoadRamp]) -> bool:
-    """Whether a history is one of the three proved cases."""
+    """Determine if a history is one of the three proved cases."""
     if scene.friction is None or scene.friction.uniform == 0:
         return True
     if any(r.stretch and any(r.stretch[1]) for r in ramps):
@@ -67,25 +67,18 @@ def _proved(scene: Scene, ramps: Sequence[LoadRamp]) -> bool:
     pushed = any(any(r.tangential.end) for r in sheared)
     if any(r.twisting.end for r in sheared):
         tilted = any(any(r.tilting.end) for r in ramps)
-        return not pushed and not tilted and _revolved(scene)
+        revolved = scene.indenter.is_of_revolution and scene.friction.uniform is not None
+        return not pushed and not tilted and revolved
     return along_one_line(ramps) and _similar(scene)
 
 
 def _led(ramp: LoadRamp) -> bool:
-    """Whether a motion is prescribed that takes over from a force, and may shear."""
+    """Determine if a prescribed displacement follows a prescribed force and may cause shear."""
     return ramp.tangential.start is None or ramp.twisting.start is None
 
 
-def _revolved(scene: Scene) -> bool:
-    return (
-        scene.indenter.is_of_revolution
-        and scene.friction is not None
-        and scene.friction.uniform is not None
-    )
-
-
 def _similar(scene: Scene) -> bool:
-    """Whether the bodies are uncoated and of one material with ν = 0."""
+    """Determine if the bodies are uncoated and of one material with ν = 0."""
     materials = {body.material for body in (scene.body, scene.indenter)}
     layers = scene.body.layers or scene.indenter.layers
     return not layers and all(

@@ -1,4 +1,4 @@
-"""The load history resolved: for every step, what each control does from start to end."""
+"""Resolved load history: linear ramps of all controls in every load step."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -14,12 +14,12 @@ from contact_scene.solver_errors import motion_undefined
 Vector = tuple[float, float]
 Value = TypeVar("Value", float, Vector)
 
-# The sine of an angle below this is round-off of a load that goes straight.
+# Sine of an angle that is round-off of a straight load path.
 STRAIGHT = 1e-9
 
 
 class ControlKind(Enum):
-    """What is prescribed: the force, or the displacement that goes with it."""
+    """Kind of a control: prescribed force, or prescribed displacement."""
 
     FORCE = "force"
     DISPLACEMENT = "displacement"
@@ -27,11 +27,12 @@ class ControlKind(Enum):
 
 @dataclass(frozen=True)
 class Control(Generic[Value]):
-    """A coordinate of the rigid motion, or its force, from start to end of a step, linearly.
+    """Linear ramp of a generalised displacement or of its force in a load step.
 
-    kind   whether start and end are forces [force], moments [force length] for rotations; or
-           displacements [length], rotations [radian]
-    start  None where the step takes over from the other kind: known only once solved
+    kind        kind of start and end: forces [force] or, for rotations, moments [force length];
+                displacements [length] or rotations [radian]
+    start, end  values at the start and at the end of the step. The start is None if the preceding
+                control is of the other kind; its value is a result of the preceding step.
     """
 
     kind: ControlKind
@@ -41,13 +42,15 @@ class Control(Generic[Value]):
     def led(
         self, fraction: float, reached: tuple[Value, Value | None]
     ) -> tuple[Value | None, Value | None]:
-        """Force and displacement at a fraction of the step, of which one is given.
+        """Compute the prescribed force or displacement at a fraction of the step.
 
-        Exactly `end` at the end and wherever nothing changes, so that equal loads are equal.
+        At the end, and for constant values, the result is exactly `end`: equal loads are equal.
 
-        reached  force and displacement of the state at the start of the step, where it takes over
-                 from the other kind; no displacement where that is undefined
-        raises   GrossSliding where it would have to be taken over
+        reached  force and displacement at the start of the step, for a start that is None; the
+                 displacement is None if undefined
+        returns  force and displacement; the one that is not prescribed is None
+
+        Raises GrossSliding if the ramp starts from an undefined displacement.
         """
         by_force = self.kind is ControlKind.FORCE
         begin = self.start
@@ -77,15 +80,16 @@ VectorControl = Control[Vector]
 
 @dataclass(frozen=True)
 class LoadRamp:
-    """One loading step with nothing left implicit.
+    """Load step with explicit controls of all coordinates.
 
     step        number of the step, counted from 1
     normal      normal force or approach
     tangential  tangential force or shift, (x, y)
     twisting    torque or twist
     tilting     moment (Mx, My) or tilt (x, y)
-    increments  as asked for in the scene, or None
-    stretch     bulk strain of the lower body at start and end; None where no step names one
+    increments  number of increments in the scene, or None
+    stretch     bulk strain of the lower body at start and end; None without a bulk strain in the
+                history
     """
 
     step: int
@@ -97,7 +101,7 @@ class LoadRamp:
     stretch: tuple[Strain, Strain] | None = None
 
     def strain(self, fraction: float) -> Strain | None:
-        """Bulk strain at a fraction of the step; None where no step names one."""
+        """Interpolate the bulk strain at a fraction of the step; None without one."""
         if self.stretch is None:
             return None
         xx, yy, xy = (_ramped(*ends, fraction) for ends in zip(*self.stretch, strict=True))
@@ -105,11 +109,11 @@ class LoadRamp:
 
     @property
     def strains(self) -> bool:
-        """Whether the bulk strain changes."""
+        """True if the bulk strain changes in the step."""
         return self.stretch is not None and self.stretch[0] != self.stretch[1]
 
 
-# The bodies just touch. Until a step names it, a coordinate is free to shift but not to rotate.
+# First contact without load. Shifts are free and rotations are fixed until a step prescribes them.
 _AT_REST = LoadRamp(
     step=0,
     normal=ScalarControl(ControlKind.FORCE, 0.0, 0.0),
@@ -121,12 +125,11 @@ _AT_REST = LoadRamp(
 
 
 def load_path(loading: Sequence[LoadStep], base: Material | None = None) -> tuple[LoadRamp, ...]:
-    """Resolve steps: what a step does not name is held under its last control.
+    """Resolve load steps: a coordinate that a step does not prescribe keeps its last control.
 
-    Before the first step the bodies just touch: no load and no motion. The first step must name a
-    normal load.
+    The history starts from first contact without load. The first step must prescribe a normal load.
 
-    base  material of the substrate, for bulk stresses; without it these are not resolved
+    base  material of the substrate, for bulk stresses; without it, these are ignored
     """
     ramps: list[LoadRamp] = []
     last = _AT_REST
@@ -151,7 +154,7 @@ def load_path(loading: Sequence[LoadStep], base: Material | None = None) -> tupl
 
 
 def along_one_line(ramps: Sequence[LoadRamp]) -> bool:
-    """Whether all tangential loads are on one line, round-off apart, or are none."""
+    """Determine if all tangential loads are on one line to round-off, or zero."""
     ends = [ramp.tangential.end for ramp in ramps]
     longest = max(ends, key=lambda end: hypot(*end))
     return all(
@@ -163,7 +166,7 @@ def along_one_line(ramps: Sequence[LoadRamp]) -> bool:
 def _stretched(
     step: LoadStep, last: LoadRamp, base: Material | None
 ) -> tuple[Strain, Strain] | None:
-    """Bulk strain at start and end of a step."""
+    """Determine the bulk strain at start and end of a step."""
     if last.stretch is None:
         return None
     end = last.stretch[1]
@@ -177,9 +180,9 @@ def _stretched(
 def _next(
     force: Value | None, displacement: Value | None, last: Control[Value], at_rest: bool
 ) -> Control[Value]:
-    """What a step does with one coordinate, of which it names at most one control.
+    """Determine the ramp of one coordinate, of which a step prescribes at most one control.
 
-    at_rest  force and displacement are both zero so far, whichever of them was controlled
+    at_rest  True if force and displacement are both zero so far
     """
     named = displacement if force is None else force
     if named is None:

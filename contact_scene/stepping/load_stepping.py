@@ -1,4 +1,7 @@
-"""March through a load history: steps are cut into increments, and these in halves where needed."""
+"""Load stepping: the loop over the increments of all load steps, with bisection.
+
+An increment that does not converge is divided into two halves, up to `MAX_HALVINGS` times.
+"""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -32,12 +35,12 @@ MAX_HALVINGS = 4
 Field = NDArray[np.float64]
 
 S = TypeVar("S")
-Told = TypeVar("Told")
+Report = TypeVar("Report")
 
 
 @dataclass(frozen=True)
 class Place:
-    """Where in the history an increment stands: step and increment counted from 1."""
+    """Position of an increment in the history: load step and increment, counted from 1."""
 
     step: int
     index: int
@@ -46,11 +49,11 @@ class Place:
 
 @dataclass(frozen=True)
 class Reached(Generic[S]):
-    """The end of an increment.
+    """End of an increment.
 
-    before    state at its start; None before first touch
-    halvings  how often it was cut in two to converge
-    spent     what the solver has spent on it
+    before    state at the start of the increment; None before first contact
+    halvings  number of bisections
+    spent     work of the solver for the increment
     """
 
     place: Place
@@ -60,87 +63,102 @@ class Reached(Generic[S]):
     spent: float
 
 
-class Solver(Protocol[S, Told]):
-    """What solves the increments of a history, and reports them.
+class Solver(Protocol[S, Report]):
+    """Solver of single increments.
 
-    most_spent  an increment that has taken more without converging is not cut any further
+    most_spent  work above which an increment that does not converge is not bisected any further
     """
 
     @property
     def most_spent(self) -> float: ...
 
     def spent(self) -> float:
-        """Counted so far, in a unit of its own."""
+        """Return the work so far, in a unit that the solver chooses."""
 
     def advance(self, ramp: LoadRamp, start: S | None, before: S | None, fraction: float) -> S:
-        """The state at a fraction of a ramp, from the state before; `start` is that of the ramp.
+        """Solve for the state at a fraction of a ramp.
 
-        raises  NotConverged, and what halves do not help against
+        start   state at the start of the ramp
+        before  state at the end of the previous increment
+
+        Raises NotConverged, and other errors that a bisection does not help against.
         """
 
-    def report(self, reached: Reached[S], last: Told | None) -> Told:
-        """The increment as it is reported, after the last one that was."""
+    def report(self, reached: Reached[S], last: Report | None) -> Report:
+        """Create the reported increment, which follows the reported increment `last`."""
 
-    def undeformed_gap(self, last: Told, tilt: Any) -> Field:
-        """Return the gap without tractions at the approach 0, where an increment has its gap."""
+    def undeformed_gap(self, last: Report, tilt: Any) -> Field:
+        """Compute the gap without tractions at the approach 0, at the points of an increment."""
 
 
 def resumable_increments(
-    scene: Scene, counts: Sequence[int], solver: Solver[S, Told], since: Checkpoint | None
-) -> Iterator[tuple[Told, ResumePoint[S]]]:
-    """Increments of the scene's load path, each with the mark from which the march can go on.
+    scene: Scene, counts: Sequence[int], solver: Solver[S, Report], since: Checkpoint | None
+) -> Iterator[tuple[Report, ResumePoint[S]]]:
+    """Solve the load history; yield every increment with its resume point.
 
-    counts  how many increments each loading step takes
-    since   where the same march stood before, to go on from there
-    raises  what the solver raises, with the last converged increment as `last_state`
+    An increment within a step that has no contact at its approach, before first contact or before
+    separation, is the empty contact. Those before the first contact of the history are yielded
+    together with the first increment in contact, which determines the shapes of their fields.
 
-    An increment within a step that touches nothing at its approach, before first touch or before
-    separation, is the empty contact. Those before the first contact of all are returned together
-    with it, as it determines the shapes of their arrays.
+    Parameters
+    ----------
+    counts : sequence of int
+        Number of increments of each load step.
+    since : Checkpoint or None
+        Checkpoint of the same history, from which the solve continues.
+
+    Raises
+    ------
+    SolverError
+        From the solver, with the last converged increment as `last_state`.
     """
 
-    def empty(last: Told, ramp: LoadRamp, end: float, approach: float | None, place: Place) -> Told:
+    def empty(
+        last: Report, ramp: LoadRamp, end: float, approach: float | None, place: Place
+    ) -> Report:
         """Return the empty contact at a fraction of a ramp."""
         gap = solver.undeformed_gap(last, position(last, ramp, end)["tilt"])
         return with_strain(separated(last, ramp, end, gap, vars(place), approach), ramp.strain(end))
 
-    mark: ResumePoint[S] | None = since.mark if since else None
-    told: Sequence[Any] = since.increments if since else ()
-    last: Told | None = told[-1] if told else None
-    apart = next((i for i in reversed(told) if i.status is ContactStatus.SEPARATED), None)
-    state, done, here = mark.state if mark else None, 0, mark.last if mark else None
+    point: ResumePoint[S] | None = since.mark if since else None
+    earlier: Sequence[Any] = since.increments if since else ()
+    last: Report | None = earlier[-1] if earlier else None
+    apart = next((i for i in reversed(earlier) if i.status is ContactStatus.SEPARATED), None)
+    # `here` is the last increment of this contact, counted from its first touch.
+    state, done, here = point.state if point else None, 0, point.last if point else None
     for ramp, count in zip(scene.load_path(), counts, strict=True):
-        behind = mark.within(done, count) if mark else 0
-        start = mark.start if mark and 0 < behind < count else state
-        done += behind
+        completed = point.within(done, count) if point else 0
+        start = point.start if point and 0 < completed < count else state
+        done += completed
         ends = [0.0, *fractions(scene, ramp, count)]
-        led = since_touch(ramp, apart) if apart else ramp
+        counted, falls = since_touch(ramp, apart) if apart else ramp, ramp.normal.end == 0
         untouched: list[tuple[float, float | None, Place]] = []
-        for index in range(behind + 1, len(ends)):
+        for index in range(completed + 1, len(ends)):
             place, end = Place(ramp.step, index, count), ends[index]
-            done += 1
-            before, way = state, _Way(solver, led, start, solver.spent())
-            falls = ramp.normal.end == 0
-            approach, touches = None, not (falls and (start is None or index == count))
+            done, before, begun = done + 1, state, solver.spent()
             reached: Reached[S] | None = None
+            approach = None
             try:
-                if touches:
-                    found, halvings = way.reach(before, ends[index - 1], end, MAX_HALVINGS)
-                    spent = solver.spent() - way.begun
-                    reached = Reached(place, before, found, halvings, spent)
+                if not (falls and (start is None or index == count)):
+                    most = begun + solver.most_spent
+                    found, halvings = _advanced(
+                        solver, counted, start, before, (ends[index - 1], end), most
+                    )
+                    reached = Reached(place, before, found, halvings, solver.spent() - begun)
             except SolverError as error:
-                fails = not isinstance(error, NothingTouches) or index == count
-                if fails or not (falls or before is None):
+                within = isinstance(error, NothingTouches) and index < count
+                if not (within and (falls or before is None)):
                     error.where = f"step {ramp.step}, increment {index} of {count}"
                     error.last_state = last
                     raise
                 approach = ramp.normal.led(end, (0.0, 0.0))[1]
             if reached is not None:
                 state = reached.state
-                report = solver.report(reached, here if apart else last)
-                here = with_strain(report, ramp.strain(end))
-                for earlier, approach, at in untouched:
-                    last = apart = empty(apart or virgin(here), ramp, earlier, approach, at)
+                here = with_strain(
+                    solver.report(reached, here if apart else last), ramp.strain(end)
+                )
+                for before_touch, approach, at in untouched:
+                    last = apart = empty(apart or virgin(here), ramp, before_touch, approach, at)
                     yield apart, ResumePoint(done - index + at.index, None, start)
                 untouched.clear()
                 last = continued(apart, here) if apart else here
@@ -154,8 +172,11 @@ def resumable_increments(
 
 
 def fractions(scene: Scene, ramp: LoadRamp, count: int) -> list[float]:
-    """Where in the ramp the increments end: uniform in contact radius while the normal load
-    grows from zero or falls to it, uniform in load otherwise."""
+    """Determine the fractions of a ramp at the ends of its increments.
+
+    They are uniform in the contact radius if the normal load starts from 0 or ends there, else
+    uniform in the load.
+    """
     exponent = None
     falls = ramp.normal.end == 0
     if ramp.normal.start == 0 or falls:
@@ -166,30 +187,33 @@ def fractions(scene: Scene, ramp: LoadRamp, count: int) -> list[float]:
     return [1 - radius for radius in radii[-2::-1]] if falls else radii[1:]
 
 
-@dataclass(frozen=True)
-class _Way(Generic[S]):
-    """Along one ramp, from the state at its start; `begun` with so much spent."""
+def _advanced(
+    solver: Solver[S, Any],
+    ramp: LoadRamp,
+    start: S | None,
+    before: S | None,
+    fractions: tuple[float, float],
+    most_spent: float,
+    halvings_left: int = MAX_HALVINGS,
+) -> tuple[S, int]:
+    """Solve one increment, by bisection if needed; return the state and the number of bisections.
 
-    solver: Solver[S, Any]
-    ramp: LoadRamp
-    start: S | None
-    begun: float
-
-    def reach(self, state: S | None, begin: float, end: float, halvings_left: int) -> tuple[S, int]:
-        """The state at fraction `end`, in two halves where one increment does not converge, and
-        the number of halvings that took."""
-        try:
-            return self.solver.advance(self.ramp, self.start, state, end), 0
-        except NotConverged:
-            too_much = self.begun + self.solver.most_spent
-            if halvings_left == 0 or self.solver.spent() > too_much:
-                raise
-        middle = 0.5 * (begin + end)
-        try:
-            half, first = self.reach(state, begin, middle, halvings_left - 1)
-        except NothingTouches:
-            if state is not None:
-                raise
-            half, first = None, 0  # the empty contact
-        whole, second = self.reach(half, middle, end, halvings_left - 1)
-        return whole, 1 + first + second
+    start      state at the start of the ramp
+    before     state at the start of the increment; None before first contact
+    fractions  of the ramp at start and end of the increment
+    """
+    begin, end = fractions
+    try:
+        return solver.advance(ramp, start, before, end), 0
+    except NotConverged:
+        if halvings_left == 0 or solver.spent() > most_spent:
+            raise
+    middle, limits = 0.5 * (begin + end), (most_spent, halvings_left - 1)
+    half, first = None, 0  # the empty contact
+    try:
+        half, first = _advanced(solver, ramp, start, before, (begin, middle), *limits)
+    except NothingTouches:
+        if before is not None:
+            raise
+    whole, second = _advanced(solver, ramp, start, half, (middle, end), *limits)
+    return whole, 1 + first + second
