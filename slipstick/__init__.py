@@ -1,14 +1,14 @@
 """Frictional slip-stick contact of coated bodies, from Python.
 
     scene = slipstick.load_scene("scene.toml")     # or slipstick.Scene(...)
-    result = slipstick.solve(scene)                # solver="fem": by finite elements
-    errors = slipstick.stated_errors(result)       # how far off its numbers may be
+    result = slipstick.solve(scene)                # or solver="fem", "radial"
+    errors = slipstick.stated_errors(result)       # error of every scalar
     slipstick.save(result, "out", errors=errors)   # summary, tables, fields, figures
-    run = slipstick.load("out")                    # and back, arrays with units and meaning
-    below = slipstick.load_stress("out/stress")    # what `slipstick stress` has written
+    run = slipstick.load("out")                    # arrays with units and meanings
+    below = slipstick.load_stress("out/stress")    # output of `slipstick stress`
 
-The names here are all that a script needs; they are imported when they are used. The solvers'
-own names are in `semi_analytical`, `fem_reference` and `radial`.
+The names of this module are imported on first use. The solvers' own interfaces are in
+`semi_analytical`, `fem_reference` and `radial`.
 """
 
 from importlib import import_module

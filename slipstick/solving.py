@@ -59,7 +59,7 @@ def plan(
     solver: str = "semi-analytical",
     discretisation: Discretisation | None = None,
 ) -> Any:
-    """Which effects a solver would compute for a scene, why, and in how many increments.
+    """Return the plan of a solver: the effects with reasons, and the increments.
 
     Parameters are those of `solve`. Raises UnsupportedScene.
     """
@@ -104,31 +104,34 @@ def solve(
     *,
     progress: Progress | None = None,
 ) -> Any:
-    """Contact of a scene, every increment of its load history.
+    """Solve a scene for every increment of its load history.
 
     Parameters
     ----------
-    scene
-        What is solved; of a scene file that was read whole also how finely. Where the file asks
-        for an accuracy, ever finer solves are made until it is met, and the last is returned.
-    solver
-        "semi-analytical", or finite elements with a penalty, "fem", or without one,
-        "fem-complementarity"; or "radial", for pressing of bodies of revolution.
-    discretisation
-        How finely: SurfaceDiscretisation, FiniteElementDiscretisation or RadialDiscretisation.
-        What it leaves open is chosen.
-    progress
-        Called with each increment once it has converged.
+    scene : Scene or SceneFile
+        A SceneFile, from `contact_scene.read_scene_file`, contains a discretisation as well. If it
+        requests an accuracy, the discretisation is refined until the stated errors meet it.
+    solver : str
+        "semi-analytical"; "fem", finite elements with a penalty; "fem-complementarity", finite
+        elements without a penalty; or "radial", for bodies of revolution.
+    discretisation : SurfaceDiscretisation, FiniteElementDiscretisation or RadialDiscretisation
+        Replaces that of the scene file. Values that are not given are chosen by the solver.
+    progress : callable
+        Called with each converged increment.
+
+    Returns
+    -------
+    semi_analytical.Result, fem_reference.Result or radial.Result
 
     Raises
     ------
     TypeError
-        It is no scene, or progress cannot be called.
+        `scene` is not a scene, or `progress` cannot be called.
     ValueError
-        There is no such solver, or the discretisation is of another.
+        The solver is unknown, or the discretisation belongs to another solver.
     SolverError
-        As the solver says: UnsupportedScene, NotConverged, GrossSliding, ResourceRefused and others
-        in `contact_scene.solver_errors`; AccuracyOutOfReach where less was reached than asked.
+        UnsupportedScene, NotConverged, GrossSliding, ResourceRefused and others of
+        `contact_scene.solver_errors`; AccuracyOutOfReach if the requested accuracy is not met.
     """
     chosen, solved, fineness = _asked(scene, solver, discretisation)
     if not (progress is None or callable(progress)):
@@ -160,13 +163,25 @@ def save(
     errors: StatedErrors | None = None,
     all_fields: bool = False,
 ) -> None:
-    """Write the files that `slipstick run` writes: summary, tables, fields and figures.
+    """Write the files of `slipstick run`: summary, tables, fields, figures and page.
 
-    The directory appears whole or not at all; an earlier run in it is replaced. Raises
-    OutputRefused where other files are in the way.
+    The directory is written atomically; an earlier run in it is replaced.
 
-    errors  of the result, from `stated_errors`; they are left out if absent
-    all_fields  store the fields of all increments, not of the last one of each load step
+    Parameters
+    ----------
+    figures : {"none", "overview", "all"}
+        No figures and no page, the overview and the page, or all figures and the page.
+    errors : StatedErrors
+        Result of `stated_errors`. Without it, the files have no errors.
+    all_fields : bool
+        Store the fields of all increments, not only of the last one of each load step.
+
+    Raises
+    ------
+    OutputRefused
+        The directory cannot be written, is in use, or contains files of other programs.
+    TypeError
+        `result` is not a result, or `errors` is not a StatedErrors.
     """
     from contact_results.directory.run_directory import run_directory
     from contact_results.result_files import write_result

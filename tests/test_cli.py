@@ -137,7 +137,7 @@ def test_a_solver_is_used_without_the_other_and_without_the_harness(
     [
         ("verify hertz_pont fem_herz", "'hertz_pont', did you mean hertz_point?; "
          "no case is called 'fem_herz', did you mean fem_hertz?"),
-        ("verify xyz", "no case is called 'xyz'; 'slipstick verify --list --level quick' names"),
+        ("verify xyz", "no case is called 'xyz'; 'slipstick verify --list --level quick' lists"),
         ("maintain study coated_tractions", "did you mean coated-tractions?"),
         ("maintain study meshh scene.toml", "did you mean mesh?"),
         ("maintain study mesh scene.toml --cells 8", "got 8, expected at least 16"),

@@ -125,7 +125,7 @@ def test_a_file_imports_what_lies_beside_it(
         (("no_module:solve", "--case", "hertz_point"), "No module named 'no_module'"),
         (("none.py:solve",), "needs --case"),
         (("none.py:solve", "--case", "hertz_pont"), "hertz_point"),
-        (("folder", "--case", "hertz_point"), "--case is for a function"),
+        (("folder", "--case", "hertz_point"), "--case applies to functions"),
         (("folder",), "expected the folder of 'slipstick challenge export'"),
     ],
 )

@@ -1,6 +1,6 @@
 """The command `slipstick`, one file per command.
 
-Nothing heavy is imported here: `slipstick --help` and `slipstick check` answer at once.
+Solvers are imported by the commands that need them, so that `--help` and `check` start fast.
 """
 
 from slipstick.cli.application import main

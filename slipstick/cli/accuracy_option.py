@@ -1,4 +1,4 @@
-"""An accuracy that is asked for, on the command line or in the scene, and the way to it."""
+"""Requested accuracy of the command line or the scene, and the refinement to it."""
 
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
@@ -24,9 +24,8 @@ AccuracyOption: TypeAlias = Annotated[
     optional(
         "--accuracy",
         metavar="SHARES",
-        help='Refine until errors are this small: "0.1%", or by name: "peak_pressure 0.1%, '
-        'dissipated_energy 1%". Absent: what the table [accuracy] of the scene asks, if it has '
-        "one.",
+        help='Refine until the stated errors are at most these: "0.1%", or by name: '
+        '"peak_pressure 0.1%, dissipated_energy 1%". Default: the table [accuracy] of the scene.',
     ),
 ]
 
@@ -36,8 +35,8 @@ MostSecondsOption: TypeAlias = Annotated[
         "--most-seconds",
         metavar="S",
         min=0,
-        help="With an accuracy: begin no finer solve that would exceed this time all together; "
-        "the best result is kept, with exit code 4. Absent: as long as it takes.",
+        help="With an accuracy: start no finer solve that would exceed this total time. The best "
+        "result is written, with exit code 4. Default: no limit.",
     ),
 ]
 
@@ -48,36 +47,39 @@ ROUNDS, OF_ROUND = "rounds", "checkpoint-"
 def requested_accuracy(
     contents: "SceneFile", option: str | None, most_seconds: float | None
 ) -> "AccuracyRequest | None":
-    """What the option asks for, or else the scene file; a limit of time alone is refused."""
+    """Return the request of the option or else of the scene; raise BadParameter for a time limit
+    without a request."""
     if option is not None:
         from contact_scene.reading.scene_file import read_accuracy
 
         return read_accuracy(option, "--accuracy")
     if most_seconds is not None and contents.accuracy is None:
-        raise typer.BadParameter("--most-seconds is of --accuracy; leave it or give an accuracy")
+        raise typer.BadParameter(
+            "--most-seconds needs an accuracy; add --accuracy or omit --most-seconds"
+        )
     return contents.accuracy
 
 
 def refuse_without_error(error: bool) -> None:
-    """Refuse --no-error beside an accuracy, which needs the errors."""
+    """Refuse --no-error together with an accuracy, which needs the errors."""
     if not error:
         raise typer.BadParameter(
-            "--no-error cannot be met beside an accuracy; leave it or --accuracy (and the table "
-            "[accuracy]) out"
+            "--no-error excludes an accuracy; omit --no-error, or omit --accuracy and the table "
+            "[accuracy]"
         )
 
 
 def leave_unless_met(accuracy: "AccuracyReached | None") -> None:
-    """Leave with the exit code of a limit where less was reached than was asked for."""
+    """Exit with code 4 if the requested accuracy was not reached."""
     from slipstick.cli.terminal import tell
 
     if accuracy is not None and not accuracy.met:
-        tell(f"error: the accuracy was not reached: {accuracy.stopped}; the best result is kept")
+        tell(f"error: the accuracy was not reached: {accuracy.stopped}; the best result is stored")
         raise typer.Exit(ExitCode.RESOURCES_REFUSED)
 
 
 def forget_rounds(output: Path) -> None:
-    """Remove what a killed run with an accuracy has left beside results that are not its own."""
+    """Remove the files that a killed run with an accuracy left for these results."""
     from contact_results.directory.checkpoint import checkpointed
     from contact_results.directory.resume_file import kept_value
     from slipstick.cli.terminal import tell
@@ -102,11 +104,12 @@ def refined_to(
     *,
     step: int | None = None,
 ) -> "Iterator[Refined]":
-    """The scene solved ever finer until a request is met. Beside the results every round leaves
-    its own checkpoint if it is killed, and all of them where the next one goes on; those of the
-    last round stay until the block is done, in which the results are written.
+    """Yield the scene solved with the requested accuracy, by refinement.
 
-    step  at whose end the stress below the surface is wanted; the last if absent
+    Checkpoints of the current solve, and the state after each refinement, are stored next to the
+    results. They are removed at the end of the block, which writes the results.
+
+    step  load step at whose end the stress is required; None for the last
     """
     from contact_errors.adaptive_refinement import Levels, refine
     from contact_results.directory.checkpoint import checkpointed
@@ -115,7 +118,7 @@ def refined_to(
     from slipstick.cli.progress import solve_progress, tell_round
     from slipstick.cli.terminal import tell
 
-    tried = 0  # in this round, whose grid may be outgrown
+    tried = 0  # solves at this refinement; a solve restarts if the contact outgrows its grid
 
     @contextmanager
     def keeping(fineness: Any) -> "Iterator[CheckpointDirectory]":
@@ -137,10 +140,10 @@ def refined_to(
     identity = solve_identity(*asked, code_digest((*SOLVERS, "contact_results", "contact_errors")))
     with kept_value(output, identity, tell, ROUNDS) as kept, ExitStack() as of_round:
 
-        def between(way: Any) -> None:
+        def between(refinement: Any) -> None:
             nonlocal tried
             tried = 0
-            kept.keep(way)
+            kept.keep(refinement)
             of_round.close()
 
         begun = kept.last()

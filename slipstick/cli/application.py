@@ -1,4 +1,4 @@
-"""The application: its commands, its version, and the one place where failures end."""
+"""Entry point of the command line: commands, version, and handling of exceptions."""
 
 import sys
 from collections.abc import Sequence
@@ -15,10 +15,10 @@ application = typer.Typer(
     cls=LazyCommands,
     no_args_is_help=True,
     rich_markup_mode="markdown",
-    epilog="Exit codes: 0 done; 1 accuracy verdict failed; 2 invalid scene or unwritable output; "
+    epilog="Exit codes: 0 success; 1 accuracy verdict failed; 2 invalid scene or output; "
     "3 not converged or resolved; 4 too little memory, disk or time; 5 baseline drift; "
-    "6 inconclusive (judge --strict); 7 worse or dearer than the baseline; "
-    "70 internal error; 141 output closed.",
+    "6 inconclusive (judge --strict); 7 worse than the baseline; 70 internal error; "
+    "141 output closed.",
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
@@ -27,7 +27,7 @@ maintenance = typer.Typer(cls=MaintenanceCommands, no_args_is_help=True)
 application.add_typer(
     maintenance,
     name=MAINTAIN,
-    rich_help_panel="For those who maintain the program",
+    rich_help_panel="Maintenance",
     help="Maintain the program: studies, baselines, reports, schemas, costs.",
 )
 
@@ -56,14 +56,14 @@ def slipstick(
 ) -> None:
     """Frictional contact of elastic, possibly coated bodies: slip, stick and their accuracy.
 
-    A scene file (TOML) says what is pressed on what; start with 'slipstick check SCENE'.
+    A scene file (TOML) describes bodies, friction and loads; start with 'slipstick check SCENE'.
     """
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run the command line and leave with an exit code (see `errors.ExitCode`).
+    """Run the command line and exit with a code of `errors.ExitCode`.
 
-    arguments  without the program's name; None means those of this process
+    arguments  without the name of the program; None for those of this process
     """
     one_thread()
     command = typer.main.get_command(application)
@@ -71,7 +71,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         with cleaned_up_when_stopped():
             command(args=arguments, prog_name="slipstick")
     except SystemExit:
-        # Typer leaves with 1 where its output was closed, and puts this in the place of it.
+        # Typer exits with code 1 after its output was closed, with this replacement of stdout.
         if type(sys.stdout).__name__ == "PacifyFlushWrapper":
             raise SystemExit(ExitCode.NOBODY_READS) from None
         raise

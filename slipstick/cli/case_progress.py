@@ -1,4 +1,4 @@
-"""Progress of the cases of a verification or a study: a line for each."""
+"""Progress of the cases of a verification, a study or a sweep: one line per case."""
 
 from __future__ import annotations
 
@@ -15,14 +15,15 @@ from verification.running.study import StudyCase
 
 @contextmanager
 def case_progress(work: Mapping[str, int], text: Callable[[CaseEnd], str]) -> Iterator[Observer]:
-    """Give a function to call with every case that has ended.
+    """Yield a function to call at the end of every case.
 
-    work  of every case, by name, such as its number of solves: the time left is in proportion
-    text  on the end of a case
+    work  work of every case by name, for example its number of solves; the remaining time is
+          estimated in proportion to it
+    text  function that describes the end of a case
     """
     console = Console(stderr=True, highlight=False, soft_wrap=True)
     started, left = time.monotonic(), dict(work)
-    computed = 0  # work that took time; cases of an earlier run took none
+    computed = 0  # work of this process, without cases of an earlier run
 
     def line(end: CaseEnd) -> None:
         nonlocal computed
@@ -41,7 +42,7 @@ def case_progress(work: Mapping[str, int], text: Callable[[CaseEnd], str]) -> It
 
 
 def how_it_ended(end: CaseEnd) -> str:
-    """Name a case that is done, lost, or already there."""
+    """Return the text of a case that is done, lost or already stored."""
     if end.lost is not None:
         return f"LOST           {end.case.name:24} {end.lost.reason}"
     return f"{'already there' if end.stored else 'done'}: {end.case.name}"
@@ -51,9 +52,9 @@ def how_it_ended(end: CaseEnd) -> str:
 def resume_hint(
     cases: tuple[StudyCase, ...], store: CaseStore, *, fresh: bool = False
 ) -> Iterator[None]:
-    """If a signal ends the process, state the number of stored cases and how to go on.
+    """On a stop signal, print the number of stored cases and how to resume.
 
-    fresh  the command takes nothing from earlier runs
+    fresh  whether the command ignores stored cases of earlier runs
     """
 
     def how_to_go_on() -> str:

@@ -1,4 +1,4 @@
-"""From an exception to one clear message on stderr and an exit code."""
+"""Messages and exit codes of exceptions."""
 
 import errno
 import os
@@ -8,7 +8,7 @@ from importlib.util import find_spec
 
 
 class ExitCode(IntEnum):
-    """What the command's exit code says."""
+    """Exit codes of the commands."""
 
     PASS = 0
     ACCURACY = 1
@@ -18,15 +18,15 @@ class ExitCode(IntEnum):
     BASELINE_DRIFT = 5
     INCONCLUSIVE = 6
     WORSE = 7
-    INTERNAL = 70  # a defect of ours (EX_SOFTWARE), never to be mistaken for a verdict
-    NOBODY_READS = 141  # the output was closed, as by `| head`: 128 + SIGPIPE
+    INTERNAL = 70  # a defect of slipstick (EX_SOFTWARE)
+    NOBODY_READS = 141  # closed output, as by `| head`: 128 + SIGPIPE
 
 
 DISK_FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 
 
 def exit_code(error: Exception) -> ExitCode:
-    """The exit code that stands for this kind of failure."""
+    """Return the exit code of an exception."""
     from contact_results.directory.refusal import Refused
     from contact_scene import SceneError
 
@@ -56,7 +56,7 @@ def _solver_exit_code(error: Exception) -> ExitCode:
 
 
 def message(error: Exception) -> str:
-    """What went wrong, as text for the user."""
+    """Return the message of an exception for the user."""
     from contact_scene import SceneError
 
     if isinstance(error, SceneError) and len(error.problems) > 1:
@@ -67,8 +67,8 @@ def message(error: Exception) -> str:
         return f"{error.filename or 'output'}: {error.strerror}"
     if package := _missing_package(error):
         return (
-            f"the package {package!r} is not installed: this environment is older than the "
-            "program; './run' in its folder renews it, or 'pip install -e .'"
+            f"the package {package!r} is not installed: the environment is older than the program; "
+            "update it by './run' in the folder of the program, or by 'pip install -e .'"
         )
     if exit_code(error) is ExitCode.INTERNAL:
         return (
@@ -79,13 +79,16 @@ def message(error: Exception) -> str:
 
 
 def _missing_package(error: Exception) -> str:
-    """The package that could not be imported because it is nowhere; empty if none."""
+    """Return the name of the package whose import failed; empty for other errors."""
     package = ((isinstance(error, ModuleNotFoundError) and error.name) or "").partition(".")[0]
     return package if package and find_spec(package) is None else ""
 
 
 def explain(error: Exception) -> ExitCode:
-    """Print the message (with SLIPSTICK_DEBUG=1 also the traceback) and return the exit code."""
+    """Print the message of an exception and return its exit code.
+
+    With SLIPSTICK_DEBUG=1, print the traceback as well.
+    """
     from rich.console import Console
     from rich.text import Text
 

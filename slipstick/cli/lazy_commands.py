@@ -1,4 +1,4 @@
-"""Commands that are imported when they are called, not when they are listed."""
+"""Commands that are imported when they are called."""
 
 from dataclasses import dataclass
 from importlib import import_module
@@ -7,12 +7,11 @@ from typing import Any
 import typer
 from typer.core import TyperCommand, TyperGroup
 
-# Characters of a message: a value that nobody reads to its end is not repeated to its end.
-LONGEST = 600
+LONGEST = 600  # characters of a message
 
 
 class WordedCommand(TyperCommand):
-    """A command that tells a bad value in our words instead of a validator's."""
+    """Command that replaces messages of validators by messages of slipstick."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Parse the command line; raises BadParameter."""
@@ -23,7 +22,7 @@ class WordedCommand(TyperCommand):
             raise
 
     def invoke(self, ctx: Any) -> Any:
-        """Call the function; raises BadParameter, too."""
+        """Call the function; raises BadParameter."""
         try:
             return super().invoke(ctx)
         except typer.BadParameter as error:
@@ -32,7 +31,7 @@ class WordedCommand(TyperCommand):
 
 
 def _in_short(message: str) -> str:
-    """Its begin and its end."""
+    """Shorten a long message to its start and its end."""
     left_out = len(message) - LONGEST
     if left_out <= 0:
         return message
@@ -41,7 +40,7 @@ def _in_short(message: str) -> str:
 
 
 def _in_our_words(error: typer.BadParameter) -> str:
-    """The message; unchanged where no validator is behind it that says what it found."""
+    """Return the message of a validator error in plain words; other messages are unchanged."""
     find: Any = getattr(error.__cause__, "errors", None)
     if find is None:
         return error.message
@@ -60,7 +59,7 @@ def _in_our_words(error: typer.BadParameter) -> str:
 
 @dataclass(frozen=True)
 class LazyCommand:
-    """Where a command's function lives, and the line that `--help` shows for it."""
+    """Module and function of a command, and its line in `--help`."""
 
     module: str
     function: str
@@ -83,8 +82,8 @@ def _commands(summaries: dict[str, str]) -> dict[str, LazyCommand]:
 COMMANDS = _commands(
     {
         "example": "Print a scene file that comes with the program.",
-        "check": "Validate a scene file and say what it describes.",
-        "plan": "Say which effects a scene needs, on which grid, and how long a run would take.",
+        "check": "Validate a scene file and describe it.",
+        "plan": "Print the effects, the grid, the time and the memory of a run.",
         "run": "Solve a scene and write its results, tables and pictures.",
         "stress": "Compute displacement and stress below the surface.",
         "sweep": "Solve a scene for values of its keys; write a table and a chart.",
@@ -100,22 +99,22 @@ MAINTAIN = "maintain"
 MAINTENANCE = _commands(
     {
         "study": "Compute a study on a pool of processes and write its page.",
-        "compare": "Say what changed since the numbers that were accepted, or since a report.",
+        "compare": "List changes since the accepted numbers, or since a report.",
         "baseline": "List the accepted numbers, or accept those of a report.",
         "tolerances": "Propose or accept tolerances that follow the errors.",
-        "records": "List stored records, their age and cost, or make them again.",
+        "records": "List stored records, their age and cost, or regenerate them.",
         "report": "Render the report again from recorded results.",
         "schema": "Print the JSON Schema of a scene file, a summary or a report.",
     }
 )
 
 
-# By the words that call them.
+# All commands by their words on the command line.
 ALL_COMMANDS = COMMANDS | {f"{MAINTAIN} {name}": each for name, each in MAINTENANCE.items()}
 
 
 class LazyCommands(TyperGroup):
-    """A group that knows names and summaries from a table and imports only what is called."""
+    """Group of commands from a table; it imports only the called command."""
 
     table = COMMANDS
 

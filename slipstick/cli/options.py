@@ -1,4 +1,4 @@
-"""Arguments and options that several commands take in the same words."""
+"""Arguments and options that several commands share."""
 
 from __future__ import annotations
 
@@ -19,18 +19,23 @@ if TYPE_CHECKING:
 
 
 def optional(*flags: str, help: str, **more: Any) -> OptionInfo:
-    """An option whose help says what its absence means; `more` as `typer.Option` takes it."""
+    """Return an option whose help text states the default.
+
+    more  arguments of `typer.Option`
+    """
     return typer.Option(*flags, show_default=False, help=help, **more)
 
 
 def directory(help: str) -> OptionInfo:
-    """Where a command writes, if not at the place that the help names."""
+    """Return the option for the output directory; the help text states the default."""
     return optional("--output", "-o", metavar="DIR", help=help)
 
 
 OutputOption: TypeAlias = Annotated[
     Path,
-    typer.Option("--output", "-o", metavar="DIR", help="Where the results go; made if absent."),
+    typer.Option(
+        "--output", "-o", metavar="DIR", help="Directory of the results; created if missing."
+    ),
 ]
 
 
@@ -43,8 +48,8 @@ SetOption: TypeAlias = Annotated[
     optional(
         "--set",
         metavar="KEY=VALUE",
-        help="Override a key of the scene, such as indenter.radius=9mm or "
-        "loading[2].increments=40 (the second step); any number of times.",
+        help="Override a key of the scene, for example indenter.radius=9mm, or "
+        "loading[2].increments=40 (second step). The option may be repeated.",
     ),
 ]
 
@@ -58,7 +63,7 @@ def odd_numbers(contents: SceneFile) -> tuple[str, ...]:
 
 
 def warn_of_odd_numbers(contents: SceneFile) -> tuple[str, ...]:
-    """Tell them, before anything is solved; returns what was told."""
+    """Print the warnings of `odd_numbers` and return them."""
     from slipstick.cli.terminal import tell
 
     warnings = odd_numbers(contents)
@@ -70,15 +75,15 @@ def warn_of_odd_numbers(contents: SceneFile) -> tuple[str, ...]:
 _OPTION = typer.Option(
     "--solver",
     metavar="NAME",
-    help="'semi-analytical', or finite elements, 'fem' with a penalty and "
-    "'fem-complementarity' without one; these read the table fem_reference and ignore "
-    "semi_analytical; or 'radial', for bodies of revolution that are pressed: nearly exact, in "
-    "milliseconds; with friction, pushed, turned or twisted, in seconds.",
+    help="'semi-analytical'; 'fem', finite elements with a penalty; 'fem-complementarity', without "
+    "a penalty; or 'radial', for bodies of revolution: nearly exact, in milliseconds without "
+    "friction and seconds with friction. Each reads its own table of the scene: semi_analytical, "
+    "fem_reference or radial.",
     show_default=SolverName.SEMI_ANALYTICAL.value,
 )
 
 SolverOption: TypeAlias = Annotated[SolverName, _OPTION]
-# Where it matters whether one was named.
+# The option without a default, for commands that distinguish an absent option.
 AskedSolver: TypeAlias = Annotated[SolverName | None, _OPTION]
 
 
@@ -88,13 +93,13 @@ SchedulerOption: TypeAlias = Annotated[
         "--scheduler",
         metavar="ADDRESS",
         help="Compute on the workers of the dask cluster at tcp://host:port or tls://host:port, "
-        "whatever --workers says.",
+        "instead of --workers.",
     ),
 ]
 
 
 def workers_at(scheduler: str | None, processes: int) -> int | Workers:
-    """The workers of a cluster, or so many processes of this machine."""
+    """Return the workers of a cluster, or the number of processes on this machine."""
     if scheduler is None:
         return processes
     from verification.running.cluster import ClusterUnavailable, ClusterWorkers
@@ -106,7 +111,7 @@ def workers_at(scheduler: str | None, processes: int) -> int | Workers:
 
 
 class LevelName(StrEnum):
-    """How much is computed."""
+    """Level of a verification or a study."""
 
     QUICK = "quick"
     STANDARD = "standard"
@@ -117,13 +122,13 @@ ALMOST, ALIKE = 0.85, 0.5  # similarity of two names, from 0 to 1
 
 
 def unknown_names(kind: str, given: Iterable[str], known: Collection[str], listing: str) -> str:
-    """What to say of the names that are not known, each with those it is near to; else "".
+    """Return a message about unknown names with suggestions; empty if all names are known.
 
-    kind     what the names are of
-    listing  the command that names all
+    kind     noun for a name, such as "case"
+    listing  command that lists all names
     """
-    told = [_unknown_name(kind, name, known) for name in given if name not in known]
-    return "; ".join([*told, f"'{listing}' names all"] if told else [])
+    messages = [_unknown_name(kind, name, known) for name in given if name not in known]
+    return "; ".join([*messages, f"'{listing}' lists all"] if messages else [])
 
 
 def _unknown_name(kind: str, name: str, known: Collection[str]) -> str:
@@ -133,7 +138,7 @@ def _unknown_name(kind: str, name: str, known: Collection[str]) -> str:
 
 
 def _near(name: str, known: Collection[str]) -> list[str]:
-    """The name that differs by a letter or two; failing that, those that resemble it."""
+    """Return the known name with the highest similarity; else up to three similar names."""
     spelt = {one.replace("-", "_"): one for one in known}
     name = name.replace("-", "_")
     found = get_close_matches(name, spelt, 1, ALMOST) or get_close_matches(name, spelt, 3, ALIKE)

@@ -1,4 +1,4 @@
-"""How far a solve is: a bar on a terminal, plain lines in a log."""
+"""Progress of a solve: a bar on a terminal, lines in a log."""
 
 import time
 from collections.abc import Iterator, Mapping, Sequence
@@ -22,9 +22,9 @@ SECONDS_BETWEEN_LINES = 10.0
 
 @contextmanager
 def solve_progress(increments: Sequence[int]) -> Iterator[Observer]:
-    """Give a function to call after every increment.
+    """Yield a function to call after every increment.
 
-    increments  how many of them every loading step has
+    increments  number of increments of every load step
     """
     console = Console(stderr=True, highlight=False, soft_wrap=True)
     if not console.is_terminal:
@@ -52,7 +52,7 @@ def solve_progress(increments: Sequence[int]) -> Iterator[Observer]:
 
 
 def coarse_solves_shown() -> AbstractContextManager[object]:
-    """Show that coarse solves are made for the error estimates."""
+    """Show a status line during the coarse solves of the error estimate."""
     console = Console(stderr=True, highlight=False, soft_wrap=True)
     return console.status("coarse solves for the error estimates")
 
@@ -60,7 +60,7 @@ def coarse_solves_shown() -> AbstractContextManager[object]:
 def tell_round(
     number: int, asked: Mapping[str, float], reached: Mapping[str, float | None]
 ) -> None:
-    """Say after a round how far it is from what was asked, by the quantity that is farthest."""
+    """Print, after a refinement, the quantity with the largest ratio of error to request."""
     from slipstick.cli.outcome_text import against
 
     console = Console(stderr=True, highlight=False, soft_wrap=True)
@@ -75,7 +75,7 @@ def tell_round(
 
 
 class _Log:
-    """One line at the end of every step, and in long steps one from time to time."""
+    """Log with one line at the end of every load step, and every 10 s."""
 
     def __init__(self, console: Console, steps: int) -> None:
         self.console = console

@@ -1,4 +1,4 @@
-"""Text on a terminal: pairs and tables, without colours and never folded when piped."""
+"""Pairs and tables as text, without colours, and without line breaks in a pipe."""
 
 from collections.abc import Iterable, Sequence
 
@@ -6,12 +6,12 @@ import typer
 
 from slipstick.cli.errors import ExitCode
 
-BETWEEN = "  "  # columns, and half of it at either edge
-WIDE = 200  # columns of a log, where nobody wants a table to be folded at 80
+BETWEEN = "  "  # space between two columns
+WIDE = 200  # width of a table that is not printed to a terminal
 
 
 def print_pairs(pairs: Iterable[tuple[str, str]]) -> None:
-    """A word and what it stands for, one line each."""
+    """Print names and texts, one pair per line."""
     pairs = list(pairs)
     width = max(len(word) for word, _ in pairs)
     for word, meaning in pairs:
@@ -19,21 +19,24 @@ def print_pairs(pairs: Iterable[tuple[str, str]]) -> None:
 
 
 def tell(text: str) -> None:
-    """A line for people, apart from what the command puts out."""
+    """Print a line to stderr."""
     typer.echo(harmless(text), err=True)
 
 
 def harmless(text: str) -> str:
-    """The text without control characters: a scene must not steer the terminal that shows it."""
+    """Escape control characters, so that a scene file cannot control the terminal."""
     return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
 
 
 def print_table(
     columns: Iterable[str], rows: Iterable[Sequence[str]], *, numbers: bool = False
 ) -> None:
-    """A table whose first column is a name; the others are right-aligned if they are numbers, and
-    stand in blocks below each other where they are too many for the terminal."""
-    # Imported here because 'slipstick check' shows no table and shall answer at once.
+    """Print a table.
+
+    numbers  right-align all columns but the first, and divide a table that is wider than the
+             terminal into blocks
+    """
+    # Imported here, because `slipstick check` prints no table and should start fast.
     from rich.box import SIMPLE_HEAD
     from rich.console import Console
     from rich.table import Table
@@ -43,7 +46,7 @@ def print_table(
         def on_broken_pipe(self) -> None:
             try:
                 super().on_broken_pipe()
-            except SystemExit:  # with 1, which is a verdict
+            except SystemExit:  # code 1 would be an accuracy verdict
                 raise SystemExit(ExitCode.NOBODY_READS) from None
 
     console = Output(highlight=False)
@@ -63,7 +66,7 @@ def print_table(
 
 
 def _blocks(headings: Sequence[str], rows: Sequence[Sequence[str]], width: int) -> list[list[int]]:
-    """Positions of the columns that go beside each other, the first in every block."""
+    """Return the positions of the columns of each block; each begins with the first column."""
     lines = [
         [*heading.split("\n"), *(row[k] for row in rows)] for k, heading in enumerate(headings)
     ]

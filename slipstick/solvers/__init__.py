@@ -1,1 +1,1 @@
-"""The solvers as commands and scripts use them: by name, and one like the other."""
+"""Solvers by name, with one interface for commands and scripts."""

@@ -1,4 +1,4 @@
-"""The solvers by the names of the command line."""
+"""Names of the solvers on the command line."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class SolverName(StrEnum):
-    """What a solver is called."""
+    """Name of a solver."""
 
     SEMI_ANALYTICAL = "semi-analytical"
     FEM = "fem"
@@ -21,12 +21,12 @@ class SolverName(StrEnum):
 
     @property
     def is_fem(self) -> bool:
-        """Whether it solves on a section, by finite elements."""
+        """Whether the solver uses finite elements."""
         return self in (SolverName.FEM, SolverName.FEM_COMPLEMENTARITY)
 
     @property
     def method(self) -> Method | None:
-        """How finite elements enforce contact and friction; None for other solvers."""
+        """Contact method of finite elements; None for other solvers."""
         if not self.is_fem:
             return None
         from fem_reference import Method
@@ -35,7 +35,7 @@ class SolverName(StrEnum):
 
     @property
     def solver(self) -> Solver:
-        """The solver; no other is imported."""
+        """The solver, imported on access."""
         if self is SolverName.RADIAL:
             from slipstick.solvers.on_radii import OnRadii
 
@@ -50,7 +50,7 @@ class SolverName(StrEnum):
 
 
 def solver_of(result: Result) -> Solver:
-    """The solver that a result is of; raises TypeError for what is no result."""
+    """Return the solver of a result; raise TypeError for other objects."""
     if not all(hasattr(result, name) for name in ("solver", "plan", "increments")):
         kind = type(result).__name__
         raise TypeError(f"got a {kind}, expected the result that slipstick.solve returns")

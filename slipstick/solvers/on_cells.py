@@ -1,4 +1,4 @@
-"""The semi-analytical solver, on the cells of a surface grid."""
+"""Semi-analytical solver on the cells of a surface grid."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ from slipstick.solvers.solver import (
 if TYPE_CHECKING:
     from contact_errors.on_cells import CellSolver
 
-# Load steps, of one increment each, by which the saving of the plan is counted.
+# Load steps, with one increment each, of the solves that measure the saving of the plan.
 FORCED_INCREMENTS = 4
-WORTH_SAYING = 1.1
-FEWEST = 8  # cells along a side of the coarse solve behind the time of a run
+LEAST_SAVING = 1.1  # smallest ratio of convolutions that is reported
+FEWEST = 8  # smallest number of cells along a side of the coarse solve for the time estimate
 
 
 class OnCells:
-    """See `solver.Solver`."""
+    """Implementation of `solver.Solver`."""
 
     def fineness(self, contents: SceneFile) -> SurfaceDiscretisation:
         return contents.semi_analytical
@@ -72,7 +72,7 @@ class OnCells:
         return CellSolver(scene, fineness, stress=stress)
 
     def work(self, scene: Scene, fineness: SurfaceDiscretisation, plan: Plan) -> Pairs:
-        """Grid, tolerance, increments and memory; what the scene left open says so."""
+        """Yield grid, tolerance, increments, time and memory; chosen values are marked."""
         grid = semi_analytical.discretise(scene, fineness)
         left_open = [name for name in ("cells", "window") if getattr(fineness, name) is None]
         chosen = f" ({' and '.join(left_open)} chosen)" if left_open else ""
@@ -80,7 +80,7 @@ class OnCells:
         yield "tolerance", f"{fineness.tolerance:.3g}"
         yield "increments", increments_text(plan.increments)
         if any(step.path_matters for step in plan.path):
-            accuracy = f"{fineness.path_accuracy:.3g}, where the scene names no increments"
+            accuracy = f"{fineness.path_accuracy:.3g}, for load steps without prescribed increments"
             yield "path accuracy", accuracy
         yield self._time(scene, fineness, grid, plan)
         yield from _saving(scene, fineness, grid, plan)
@@ -113,7 +113,7 @@ class OnCells:
             return self._time(scene, fineness, grid, plan, 2 * most)
 
     def reasons(self, plan: Plan) -> Sequence[tuple[str, str, str]]:
-        """The beginning of a long history; nothing where no path matters."""
+        """Return the reasons of the first load steps; empty if the result is path-independent."""
         if not any(step.path_matters for step in plan.path):
             return ()
         shown = [
@@ -127,7 +127,7 @@ class OnCells:
 
 
 def _saving(scene: Scene, fineness: SurfaceDiscretisation, grid: SurfaceGrid, plan: Plan) -> Pairs:
-    """Count the convolutions that the plan saves, in a coarse solve of the beginning."""
+    """Measure the convolutions that the plan saves, by coarse solves of the first load steps."""
     forced = all_effects(plan)
     if not any(was.on < now.on for was, now in zip(plan.effects, forced.effects, strict=True)):
         return
@@ -144,12 +144,12 @@ def _saving(scene: Scene, fineness: SurfaceDiscretisation, grid: SurfaceGrid, pl
     except SolverError:
         return
     ratio = counts[1] / counts[0]
-    if ratio >= WORTH_SAYING:
+    if ratio >= LEAST_SAVING:
         yield "saving", f"all effects on would take {ratio:.2g} times the convolutions"
 
 
 def _grid_text(grid: SurfaceGrid) -> str:
-    """Cells and window of a grid."""
+    """Return the text of the cells and the window of a grid."""
     (nx, ny), (Lx, Ly) = grid.cells, grid.window
     length = engineering_unit(max(Lx, Ly), "m")
     return f"{nx} x {ny} cells on {Lx / length.size:.4g} x {length.text(Ly)}"

@@ -1,4 +1,4 @@
-"""The finite-element solvers, on the section of bodies of revolution."""
+"""Finite-element solvers on the section of bodies of revolution."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class OnElements:
-    """See `solver.Solver`.
+    """Implementation of `solver.Solver`.
 
-    method  how contact and friction are enforced
+    method  contact method: complementarity or penalty
     """
 
     method: Method
@@ -68,7 +68,7 @@ class OnElements:
         return ElementSolver(scene, fineness, method=self.method)
 
     def work(self, scene: Scene, fineness: FiniteElementDiscretisation, plan: Plan) -> Pairs:
-        """Mesh, tolerance, increments, factorisations and memory."""
+        """Yield method, mesh, tolerance, increments, factorisations, time and memory."""
         radius = meshed_radius(scene, fineness.contact_radius)
         sections = sections_of(scene, fineness)
         chosen = "" if fineness.contact_radius else ", estimated without friction"
@@ -128,7 +128,7 @@ def _mesh_text(sections: Iterable[SectionMesh], asked: FiniteElementDiscretisati
 
 
 def _motions(plan: Plan, asked: FiniteElementDiscretisation) -> int:
-    """Angular harmonics for which a stiffness is factored."""
+    """Return the number of angular harmonics with a factored stiffness."""
     if plan.path is Path.HARMONICS:
         return asked.harmonics + 1
     return 2 if plan.path in (Path.TWISTING, Path.SHEARING) else 1

@@ -1,4 +1,4 @@
-"""The radial solver, for scenes of revolution in one dimension."""
+"""Radial solver for bodies of revolution."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class OnRadii:
-    """See `solver.Solver`."""
+    """Implementation of `solver.Solver`."""
 
     def fineness(self, contents: SceneFile) -> RadialDiscretisation:
         return contents.radial
@@ -54,7 +54,7 @@ class OnRadii:
         return RingSolver(scene, fineness)
 
     def work(self, scene: Scene, fineness: RadialDiscretisation, plan: Plan) -> Pairs:
-        """Rings, tolerance, increments, time and memory."""
+        """Yield rings, tolerance, increments, time and memory."""
         from radial.memory import estimated_bytes
 
         yield "rings", _rings_text(fineness, plan)
@@ -84,4 +84,4 @@ def _rings_text(asked: RadialDiscretisation, plan: Plan) -> str:
     if plan.circle:
         angles = "" if plan.circle is Circle.ONE else f", times {plan.angles} angles"
         return f"{plan.rings} over the contact, denser at its edge{angles}"
-    return f"{asked.rings} over the largest contact; they show the fields and decide nothing"
+    return f"{asked.rings} over the largest contact, for output only"

@@ -1,4 +1,4 @@
-"""What commands and scripts ask of a solver."""
+"""Interface of the solvers for commands and scripts."""
 
 from __future__ import annotations
 
@@ -33,16 +33,16 @@ MAX_STEPS_SHOWN = 12
 
 
 class Solver(Protocol):
-    """A way of solving scenes. Its plans are its own; they have `effects` and `increments`."""
+    """Interface of a solver. The plans of all solvers have `effects` and `increments`."""
 
     def fineness(self, contents: SceneFile) -> Discretisation:
-        """The table of a scene file that is meant for it."""
+        """Return the discretisation that a scene file contains for this solver."""
 
     def default(self) -> Discretisation:
-        """How fine it is unless somebody says otherwise."""
+        """Return the default discretisation."""
 
     def plan(self, scene: Scene, fineness: Any) -> Any:
-        """What a solve will compute; raises UnsupportedScene."""
+        """Return the plan of a solve; raise UnsupportedScene."""
 
     def solve(
         self,
@@ -52,29 +52,29 @@ class Solver(Protocol):
         progress: Progress | None = None,
         store: CheckpointStore | None = None,
     ) -> Result:
-        """The result of a plan; raises a SolverError."""
+        """Return the result of a plan; raise a SolverError."""
 
     def errors(self, result: Any) -> StatedErrors:
         """Estimate the errors of a result by coarse solves."""
 
     def refined(self, scene: Scene, fineness: Any, *, stress: bool = False) -> DiscretisedSolver:
-        """The solver with a discretisation that can be refined.
+        """Return the solver of a scene with a refinable discretisation.
 
         stress  whether a stress in the body is required
         """
 
     def work(self, scene: Scene, fineness: Any, plan: Any) -> Pairs:
-        """How fine a solve would be and what it would take, in words."""
+        """Yield names and texts of the discretisation, time and memory of a solve."""
 
     def reasons(self, plan: Any) -> Sequence[tuple[str, str, str]]:
-        """Steps whose increments have a reason worth telling: number, increments and why."""
+        """Return number, increments and reason of load steps; empty if none has a reason."""
 
     def layout(self, result: Any) -> Pairs:
-        """How fine a result is, in words."""
+        """Yield names and texts of the discretisation of a result."""
 
 
 def increments_text(counts: tuple[int, ...]) -> str:
-    """How many, and of a short history how many in every step."""
+    """Return the text of the number of increments: total and, for the first steps, by step."""
     if len(counts) == 1:
         return str(counts[0])
     shown = " + ".join(map(str, counts[:MAX_STEPS_SHOWN]))
@@ -85,9 +85,9 @@ def increments_text(counts: tuple[int, ...]) -> str:
 def time_of_run(
     solve: Callable[[], T], judge: Callable[[T], object], coarse: Work, run: Work
 ) -> tuple[str, str]:
-    """State the CPU time of a run from those of a coarse solve and of its error estimate.
+    """Estimate the CPU time of a run from those of a coarse solve and of its error estimate.
 
-    Raises ContactNotResolved where the coarse run has too few cells.
+    Raises ContactNotResolved if the coarse solve has too few cells.
     """
     try:
         result, solved = cpu_seconds(solve)

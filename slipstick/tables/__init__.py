@@ -1,1 +1,1 @@
-"""Tables of reference numbers, each with its uncertainty."""
+"""Tables of reference numbers with uncertainties."""

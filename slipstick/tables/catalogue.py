@@ -1,4 +1,4 @@
-"""All tables, by name."""
+"""Catalogue of the tables by name."""
 
 from __future__ import annotations
 
@@ -40,11 +40,10 @@ COULOMB = (
 HERTZ = "; Hertz's values are those of the same force on the bare half-space"
 ON_COATING = "on a layer of thickness h that is bonded to a half-space, both of the same ratio nu"
 RUBBED = (
-    "twice the change of a number by twice as many rings and increments, what is left of the load, "
-    f"and {ROUND_OFF:g} of the number for round-off"
+    "2 times the change of a number for 2 times the rings and increments, plus the relative error "
+    f"of the load, plus {ROUND_OFF:g} of the number for round-off"
 )
-# Nothing rubs more; a ball then sticks all over, and rings have no slip to tell.
-MAX_FRICTION = 10.0
+MAX_FRICTION = 10.0  # the contact sticks nearly everywhere
 COATING = {
     "E1_over_E2": Axis(
         "Young's modulus of the layer over that of the substrate",
@@ -138,10 +137,10 @@ TABLES: Mapping[str, Table] = {
                 "delta_over_deltaH": "approach over Hertz's on the substrate",
                 "c_over_a": "stick radius over the contact radius",
             },
-            f"A rigid paraboloid, pressed with friction from first touch {ON_COATING}{HERTZ}",
+            f"A rigid paraboloid, pressed with friction from the first contact {ON_COATING}{HERTZ}",
             COULOMB,
             scalars,
-            f"{RUBBED}; of the stick radius besides {FRONT:g} a, to which rings tell a front",
+            f"{RUBBED}; for the stick radius plus {FRONT:g} a, the resolution of the rings",
         ),
         Table(
             "tractions",
@@ -159,11 +158,11 @@ TABLES: Mapping[str, Table] = {
                 "p_over_pH": "pressure over Hertz's on the axis on the substrate",
                 "q_over_mu_pH": "radial shear, outward on the layer, over mu p_H",
             },
-            f"A rigid paraboloid, pressed with friction from first touch {ON_COATING}{HERTZ}",
+            f"A rigid paraboloid, pressed with friction from the first contact {ON_COATING}{HERTZ}",
             COULOMB,
             tractions,
-            f"{RUBBED}; besides {OF_RING:g} of p_H that rings leave, or near to the edge of the "
-            f"stick what a thousandth of the radius makes",
+            f"{RUBBED}; plus {OF_RING:g} p_H for the rings, or near the stick radius the change "
+            f"over {FRONT:g} a",
         ),
     )
 }

@@ -1,5 +1,7 @@
-"""A rigid ball pressed on a coated body with friction, in units of Hertz's contact of the same
-force on the bare substrate."""
+"""Rigid paraboloid on a coated body with friction, in units of the Hertz contact on the substrate.
+
+The Hertz contact has the same force on the bare substrate.
+"""
 
 from __future__ import annotations
 
@@ -27,17 +29,17 @@ from radial.normal.surface import pressure
 from radial.plan import PATH_INCREMENTS
 from slipstick.tables.table import Found
 
-# Of the contact on the bare substrate: a_H = p_H = δ_H = 1, E*_2 = π/2, W = 2π/3.
+# Units of the Hertz contact on the substrate: a_H = p_H = δ_H = 1, E*_2 = π/2, W = 2π/3.
 BALL, MODULUS, FORCE = Paraboloid(radius=1.0, material=RIGID), pi / 2, 2 * pi / 3
-KEPT = 16
-# Error of a stick radius of the radial solver, in contact radii.
+CACHED = 16  # number of cached contacts
+# Error of the stick radius of the radial solver, in contact radii.
 FRONT = 1e-3
-BESIDE = 0.05  # of the contact radius: so near to a front tractions are as uncertain as its place
-OF_RING = 2e-5  # of p_H: what rings leave of a traction where two numbers of them happen to agree
+NEAR_FRONT = 0.05  # distance from the stick radius, in contact radii, with additional uncertainty
+OF_RING = 2e-5  # smallest discretisation error of a traction, in p_H
 
 
 def scene(place: Sequence[float]) -> Scene:
-    """Return the contact of E1/E2, h/a_H, ν and µ, pressed."""
+    """Return the scene for E1/E2, h/a_H, ν and µ."""
     moduli, thickness, ratio, friction = place
     young = MODULUS * (1 - ratio**2)
     film, base = (
@@ -52,18 +54,18 @@ def scene(place: Sequence[float]) -> Scene:
     )
 
 
-@lru_cache(maxsize=KEPT)
+@lru_cache(maxsize=CACHED)
 def pressed(place: tuple[float, ...], increments: int, fineness: int) -> FrictionalState:
-    """The contact at the end of so many increments, and so many times as many rings."""
+    """Solve a contact; `fineness` multiplies the number of rings."""
     asked = scene(place)
     solver = Rubbing.of(asked, RadialDiscretisation(), fineness)
     *_, (_, mark) = resumable_increments(asked, (increments,), solver, None)
-    assert mark.state is not None  # pressed
+    assert mark.state is not None  # in contact
     return mark.state
 
 
 def scalars(place: Sequence[float], fineness: int) -> Found:
-    """Contact radius, approach, and the stick radius over the contact radius."""
+    """Compute contact radius, approach, and stick radius over contact radius."""
     found = pressed(tuple(place), PATH_INCREMENTS * fineness, fineness)
     end = found.end
     values = (end.radius, end.approach, found.front / end.radius)
@@ -71,7 +73,7 @@ def scalars(place: Sequence[float], fineness: int) -> Found:
 
 
 def tractions(place: Sequence[float], fineness: int) -> Found:
-    """Pressure, and shear over the coefficient of friction, at a share of the contact radius."""
+    """Compute p and q/µ at a distance from the axis that is given in contact radii."""
     *contact, x = place
     found = pressed(tuple(contact), PATH_INCREMENTS * fineness, fineness)
     end, friction = found.end, contact[-1]
@@ -83,7 +85,7 @@ def tractions(place: Sequence[float], fineness: int) -> Found:
 
     here = both(x)
     left = [OF_RING, OF_RING]
-    if abs(x - found.front / end.radius) < BESIDE:
+    if abs(x - found.front / end.radius) < NEAR_FRONT:
         for off in (-FRONT, FRONT):
             moved = both(min(max(x + off, 0.0), 1.0))
             left = [max(old, abs(a - b)) for old, a, b in zip(left, moved, here, strict=True)]

@@ -1,4 +1,4 @@
-"""A table over dimensionless parameters, and how uncertain its numbers are."""
+"""Table of numbers with uncertainties over dimensionless parameters."""
 
 from __future__ import annotations
 
@@ -9,23 +9,19 @@ from itertools import product
 ROUND_OFF = 1e-13
 TIMES = 2.0
 UNCERTAINTY = (
-    "twice the change of a number by twice as many orders and points, what is left of the load, "
-    f"and {ROUND_OFF:g} of the number for round-off"
+    "2 times the change of a number for 2 times the orders and points, plus the relative error of "
+    f"the load, plus {ROUND_OFF:g} of the number for round-off"
 )
-
-
-# Of parameters that have no bounds of their own: farther from one nothing is a contact.
-FARTHEST = 1e12
+FARTHEST = 1e12  # default bound of a parameter
 
 
 @dataclass(frozen=True)
 class Axis:
-    """A parameter.
+    """Parameter of a table.
 
-    meaning  in words
-    values   that are tabulated unless somebody names others
-    least    values are larger than this
-    most     and at most this
+    values  default values
+    least   lower bound, exclusive
+    most    upper bound, inclusive
     """
 
     meaning: str
@@ -38,8 +34,8 @@ class Axis:
 class Found:
     """Quantities at one point, in the order of the table.
 
-    missed  by what part of itself the load was
-    left    what each is uncertain by beside that and what doubling tells, absolute; none if absent
+    missed  relative error of the load
+    left    additional absolute uncertainty of each quantity; empty for none
     """
 
     values: tuple[float, ...]
@@ -49,15 +45,15 @@ class Found:
 
 @dataclass(frozen=True)
 class Table:
-    """What is tabulated.
+    """Definition of a table.
 
-    axes        parameters by name, the first varies slowest
+    axes        parameters by name; the first varies slowest
     quantities  meanings by name
-    problem     what is solved
-    source      of the equations
-    at          quantities at parameters, in the order of the axes, with so many times as many
-                orders and points, or rings and increments, as it takes
-    uncertainty  how it is found
+    problem     description of the contact
+    source      reference of the equations
+    at          function of the parameters and a factor of the discretisation: orders and points, or
+                rings and increments
+    uncertainty  description of the uncertainty
     """
 
     name: str
@@ -70,13 +66,13 @@ class Table:
 
     @property
     def columns(self) -> dict[str, str]:
-        """Meanings by name: parameters, quantities, and the uncertainty of each of these."""
+        """Meanings by name: parameters, quantities, and uncertainties of the quantities."""
         parameters = {name: axis.meaning for name, axis in self.axes.items()}
         uncertain = {f"{name}_uncertainty": f"of {name}, absolute" for name in self.quantities}
         return {**parameters, **self.quantities, **uncertain}
 
     def rows(self, chosen: Mapping[str, Sequence[float]]) -> Iterator[dict[str, float]]:
-        """A row by column for all combinations, of chosen values or those of the axes."""
+        """Yield one row, by column, for every combination of the chosen or default values."""
         for place in product(*(chosen.get(name, axis.values) for name, axis in self.axes.items())):
             found, finer = self.at(place, 1), self.at(place, 2)
             left = found.left or (0.0,) * len(found.values)

@@ -1,4 +1,4 @@
-"""`slipstick maintain baseline`: the numbers that later reports are compared with."""
+"""`slipstick maintain baseline`: list or accept the numbers for later comparisons."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from slipstick.cli.options import optional
 def baseline(
     names: Annotated[
         list[str] | None,
-        typer.Argument(metavar="CASE", help="Cases to accept or list; none means all."),
+        typer.Argument(metavar="CASE", help="Cases to accept or list. Default: all."),
     ] = None,
     accept: Annotated[
         bool, typer.Option("--accept", help="Record the numbers of a report.")
@@ -22,7 +22,9 @@ def baseline(
     because: Annotated[
         str,
         optional(
-            "--because", metavar="TEXT", help="Why these numbers are right; --accept needs it."
+            "--because",
+            metavar="TEXT",
+            help="Reason why the numbers are right; required by --accept.",
         ),
     ] = "",
     source: Annotated[
@@ -34,35 +36,33 @@ def baseline(
         optional(
             "--to",
             metavar="DIR",
-            help="Folder of the baselines; the one that comes with slipstick if absent.",
+            help="Folder of the baselines. Default: the baselines of slipstick.",
         ),
     ] = None,
     with_failures: Annotated[
-        bool, typer.Option("--with-failures", help="Accept cases with failed verdicts as well.")
+        bool, typer.Option("--with-failures", help="Accept cases with failed verdicts.")
     ] = False,
     with_changes: Annotated[
         bool,
-        typer.Option(
-            "--with-changes", help="Accept numbers of a source that differs from its commit."
-        ),
+        typer.Option("--with-changes", help="Accept numbers of sources with uncommitted changes."),
     ] = False,
 ) -> None:
-    """List the accepted numbers, or accept those of a report as what later ones are compared with.
+    """List the accepted numbers, or accept the numbers of a report as baseline.
 
-    Accepted are values, counts and verdicts of every case of the report, with the command, the
-    versions, the processor, the commit, the date and the reason. Exit code 2 if there is no
-    reason, a verdict failed, or the source differed from its commit: a baseline of numbers that no
-    commit gives could not be made again. So: commit, verify, accept, commit the baseline.
-    Each level is recorded for itself; what is recorded of the others stays. Keys that the report
-    no longer has, and cases that a report of all cases no longer has, are listed in REMOVED.md with
-    the reason.
-    """  # fmt: skip
+    A baseline has values, counts and verdicts of every case of the report, with the command, the
+    versions, the processor, the commit, the date and the reason. Exit code 2 if there is no reason,
+    if a verdict failed, or if the sources had uncommitted changes. The order is: commit, verify,
+    accept, commit the baseline.
+
+    Only the level of the report is replaced. Removed keys, and cases missing in a report of all
+    cases, are listed in REMOVED.md with the reason.
+    """
     from verification.regression.baseline import BASELINES
 
     folder = BASELINES if directory is None else directory
     if not accept:
         if because:
-            raise typer.BadParameter("--because gives the reason of --accept, which is not there")
+            raise typer.BadParameter("--because needs --accept; add --accept or omit --because")
         _list(folder, names or [])
         return
     from verification.regression.baseline import accept as record

@@ -1,4 +1,4 @@
-"""`slipstick challenge`: our problems, for other codes to solve."""
+"""`slipstick challenge`: list or export problems for other codes."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from slipstick.cli.options import directory
 
 
 class Action(StrEnum):
-    """What to do."""
+    """Action of the command."""
 
     LIST = "list"
     EXPORT = "export"
@@ -21,19 +21,20 @@ class Action(StrEnum):
 def challenge(
     action: Annotated[Action, typer.Argument(help="List all challenges, or export one.")],
     case: Annotated[
-        str | None, typer.Argument(metavar="CASE", help="Which; 'list' names them.")
+        str | None,
+        typer.Argument(metavar="CASE", help="Name of the challenge; 'list' prints all names."),
     ] = None,
     output: Annotated[
-        Path | None, directory("Where the files go; challenge-CASE if absent.")
+        Path | None, directory("Directory of the files. Default: challenge-CASE.")
     ] = None,
     blind: Annotated[
-        bool, typer.Option("--blind", help="Leave out the reference and the scales.")
+        bool, typer.Option("--blind", help="Omit the reference and the scales.")
     ] = False,
 ) -> None:
-    """Export a problem for another code: scene, words, tables to fill, and the reference.
+    """Export a problem for another code: scene, description, empty tables, and the reference.
 
-    Fill in answers.csv, levels.csv and solver.toml, then: slipstick judge DIR. Nothing of slipstick
-    is needed to answer.
+    Fill in answers.csv, levels.csv and solver.toml, then run 'slipstick judge DIR'. The answer does
+    not need slipstick.
     """
     from slipstick.cli.options import unknown_names
     from verification.challenge.cases import challenges

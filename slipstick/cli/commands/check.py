@@ -1,4 +1,4 @@
-"""`slipstick check`: is this scene valid, and what does it describe?"""
+"""`slipstick check`: validate and describe a scene file."""
 
 import json
 from dataclasses import asdict
@@ -17,10 +17,10 @@ def check(
         bool, typer.Option("--json", help="Print the outcome as JSON, for editors and scripts.")
     ] = False,
 ) -> None:
-    """Validate a scene file and say what it describes.
+    """Validate a scene file and describe it.
 
-    Every mistake is listed with file, line and key, and of a valid scene every number that is
-    hardly what was meant. Nothing is solved. Exit code 0 if the scene is valid, 2 if it is not.
+    Every mistake is listed with file, line and key. For a valid scene, every implausible number is
+    listed. Nothing is solved. Exit code 0 if the scene is valid, 2 if it is not.
     """
     from contact_scene import SceneError, read_scene_file
 

@@ -26,33 +26,35 @@ def compare(
         optional(
             "--baseline",
             metavar="PLACE",
-            help="A folder of baselines, or the report.json of another report; the baselines that "
-            "come with slipstick if absent.",
+            help="Folder of baselines, or report.json of another report. Default: the baselines of "
+            "slipstick.",
         ),
     ] = None,
     chosen: Annotated[
         bool,
         typer.Option(
-            "--chosen", help="Compare a report of chosen cases without missing the other cases."
+            "--chosen", help="Compare a report of chosen cases; do not report missing cases."
         ),
     ] = False,
 ) -> None:
-    """Say what changed since the baseline, by how much in units of the tolerance, since which
-    commit, and how to see it again.
+    """List the changes since the baseline, with the commit of the baseline and a command.
 
-    Nothing is computed. Exit code 0 if nothing changed; 5 if something did and is within what
-    its reference allows (also: new, not recorded yet, suspiciously better, cheaper); 7 if a
-    recorded verdict, finding, run or case is missing, or if within the tolerance an error has
-    grown by half or a case takes a twentieth more iterations, convolutions or factorisations; 1 if
-    something fails that did not or has
-    moved away from its reference by more than is allowed at all; 2 if the report contradicts
-    itself, or if only chosen cases ran and others are recorded: such a report never stands for a
-    whole one, unless --chosen says that it need not. What other processors and versions leave
-    is no change: a millionth of what errors are divided by, and a hundredth of what is allowed
-    where the error has not grown by half.
+    Changes are given in units of the tolerance. Nothing is computed.
 
-    Baselines are recorded by level, and those of the report's level are taken.
-    """  # fmt: skip
+    Exit codes:
+
+    - 0: no change
+    - 1: a verdict fails that passed, or a number moved away from its reference by more than the
+      tolerance
+    - 2: the report contradicts itself, or has chosen cases only, without --chosen
+    - 5: other changes within the tolerance: new, not recorded, much better, fewer iterations
+    - 7: a recorded verdict, finding, run or case is missing, an error grew by 50 %, or iterations,
+      convolutions or factorisations grew by 5 %
+
+    Differences of processors and versions are no change: 1e-6 of the scale of an error, and 1 % of
+    the tolerance if the error grew by less than 50 %. The baselines are those of the report's
+    level.
+    """
     from verification.regression.comparison import compared, refuse_if_not_whole
     from verification.report.changes import without_baseline
     from verification.running.sources import age_text
@@ -66,7 +68,7 @@ def compare(
     _print_changes(outcome)
     if len(without_baseline(outcome)) == len(outcome.cases) > 0:
         typer.echo(
-            f"error: nothing is recorded of these cases at level {outcome.level}; to record it: "
+            f"error: these cases have no baseline at level {outcome.level}; to record one: "
             f"slipstick maintain baseline --accept --because '...' --from {report}",
             err=True,
         )
@@ -76,7 +78,7 @@ def compare(
 
 
 def exit_code_of(report: Report) -> ExitCode:
-    """What a compared report amounts to."""
+    """Return the exit code of a compared report."""
     from verification.judging.outcome import ChangeKind
     from verification.report.changes import change_rows, without_baseline
 

@@ -1,4 +1,4 @@
-"""`slipstick example`: print a scene file that comes with the program."""
+"""`slipstick example`: print an example scene."""
 
 from importlib.resources import files
 from typing import Annotated

@@ -1,4 +1,4 @@
-"""`slipstick export`: the surface of a run for ParaView."""
+"""`slipstick export`: write the surface of a run for ParaView."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def export(
 ) -> None:
     """Write the surface at the end of every step of a run as VTU files for ParaView.
 
-    A stress is VTU already; 'slipstick.load' reads a run into Python.
+    The output of 'slipstick stress' has VTU files already. In Python, 'slipstick.load' reads a run.
     """
     from contact_results.directory.file_names import STRESS, SUMMARY
     from contact_results.directory.refusal import Refused

@@ -1,4 +1,4 @@
-"""`slipstick judge`: another code's answers to a challenge."""
+"""`slipstick judge`: judge the answers of another code to a challenge."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class GradeName(StrEnum):
-    """A: 1e-4 of the scale, B: 1e-3, C: 1e-2."""
+    """Accuracy class; largest error A: 1e-4 of the scale, B: 1e-3, C: 1e-2."""
 
     A = "A"
     B = "B"
@@ -28,38 +28,56 @@ def judge(
         str,
         typer.Argument(
             metavar="DIR|FILE.py:FUNCTION",
-            help="A challenge, filled in; or a function that solves.",
+            help="Folder of a challenge with answers, or a function that solves it.",
         ),
     ],
     case: Annotated[
-        str | None, optional("--case", metavar="CASE", help="What the function is to solve.")
+        str | None, optional("--case", metavar="CASE", help="Challenge that the function solves.")
     ] = None,
     levels: Annotated[
-        int, typer.Option("--levels", metavar="N", help="Of a function: 0 to N - 1.", min=1)
+        int,
+        typer.Option(
+            "--levels",
+            metavar="N",
+            help="Number of levels at which the function is called, from 0.",
+            min=1,
+        ),
     ] = 4,
     page: Annotated[
         Path | None,
-        optional("--page", metavar="FILE", help="Write the sheet as HTML, badge.json beside it."),
+        optional(
+            "--page",
+            metavar="FILE",
+            help="Write the sheet as HTML to FILE, and badge.json to its folder.",
+        ),
     ] = None,
     grade: Annotated[
         GradeName | None,
-        optional("--class", metavar="CLASS", help="What every error must meet: A, B or C."),
+        optional("--class", metavar="CLASS", help="Class that every error must meet: A, B or C."),
     ] = None,
     strict: Annotated[
         bool,
-        typer.Option("--strict", help="Exit with 6 where something is inconclusive."),
+        typer.Option("--strict", help="Exit with code 6 if a verdict is inconclusive."),
     ] = False,
     partial: Annotated[
-        bool, typer.Option("--partial", help="Accept that required numbers are omitted.")
+        bool, typer.Option("--partial", help="Accept answers without required numbers.")
     ] = False,
 ) -> None:
-    """Judge what another code answered, by bounds that do not depend on it.
+    """Judge the answers of another code by bounds that do not depend on the code.
 
-    Per number and field: the error against class A, B or C; whether it stalls under refinement;
-    whether the uncertainty that it claims is honest; whether fields carry the load; the order, if
-    one is claimed. Exit code 0 if nothing failed, 1 if a verdict did or a required number is
-    omitted, 2 if the files cannot be read, 3 if the solver gave up or raised, 6 with --strict if
-    something is inconclusive. FILE.py is run: judge only what you trust.
+    The judgement of each number and field includes its error against class A, B or C, convergence
+    under refinement, the claimed uncertainty, the balance of fields with the load, and the claimed
+    order.
+
+    Exit codes:
+
+    - 0: no verdict failed
+    - 1: a verdict failed, or a required number is missing
+    - 2: the files cannot be read
+    - 3: the solver failed
+    - 6: a verdict is inconclusive, with --strict
+
+    FILE.py is executed: judge only code that you trust.
     """
     from contact_results.directory.atomic_file import atomic_file
     from slipstick.cli.terminal import print_table
@@ -72,7 +90,7 @@ def judge(
     if names_a_solver(answers):
         found = _solved(answers, case, levels, grade, strict)
     elif case is not None:
-        raise typer.BadParameter("--case is for a function; a folder knows its challenge")
+        raise typer.BadParameter("--case applies to functions only; omit it for a folder")
     else:
         found = judged(*read_answers(Path(answers)), None if grade is None else Grade(grade))
     print_table(COLUMNS, [row_texts(row) for row in found.rows])
@@ -92,7 +110,7 @@ def judge(
 def _solved(
     name: str, case: str | None, levels: int, grade: GradeName | None, strict: bool
 ) -> Judgement:
-    """Of a function; ends the command where it cannot or raises."""
+    """Judge a function; exit if it cannot solve the challenge or raises an exception."""
     from contact_results.directory.refusal import Refused
     from slipstick.cli.errors import ExitCode
     from slipstick.cli.options import unknown_names
@@ -102,7 +120,9 @@ def _solved(
     from verification.challenge.python_api import judge as judge_solver
 
     if case is None:
-        raise typer.BadParameter("a function needs --case; 'slipstick challenge list' names them")
+        raise typer.BadParameter(
+            "a function needs --case; 'slipstick challenge list' lists the challenges"
+        )
     if problem := unknown_names("challenge", [case], challenges(), "slipstick challenge list"):
         raise typer.BadParameter(problem)
     solve = named_solver(name)

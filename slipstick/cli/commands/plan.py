@@ -1,4 +1,4 @@
-"""`slipstick plan`: what a solve would do, before it does it."""
+"""`slipstick plan`: effects, grid, time and memory of a solve."""
 
 import re
 from typing import TYPE_CHECKING, Annotated
@@ -31,18 +31,18 @@ def plan(
         optional(
             "--accuracy",
             metavar="SHARES",
-            help='Say what each of these would cost, such as "1%,0.1%,0.01%", or "approach 0.1%, '
-            'contact_radius 0.1%" together, or requests of "run" with semicolons between them; '
-            "solves on a coarse grid. Absent: nothing of it.",
+            help='Print the cost of each accuracy of a list, such as "1%,0.1%,0.01%", or of a '
+            'request such as "approach 0.1%, contact_radius 0.1%"; separate several requests by '
+            "semicolons. Default: no list.",
         ),
     ] = None,
 ) -> None:
-    """Say which effects a scene needs and why, on which grid or mesh, and what a run would take.
+    """Print the effects of a scene with reasons, and grid or mesh, time and memory of a run.
 
-    The time is within a factor of two. It follows from a coarse solve, on at most 32 cells along a
-    side or 8 elements over the contact radius and in at most 48 increments, which this command
-    makes. A scene that the solver does not support is refused as by 'run'. With --accuracy, cells,
-    increments, time and memory of 'run --accuracy' follow from a coarse solve, too.
+    The time is accurate within a factor of 2. It is estimated by a coarse solve on at most 32 cells
+    along a side or 8 elements over the contact radius, in at most 48 increments. A scene that the
+    solver does not support is refused as by 'run'. With --accuracy, the cost of each accuracy is
+    estimated by a coarse solve as well.
     """
     from contact_scene import read_scene_file
     from slipstick.cli.terminal import print_pairs, print_table
@@ -58,22 +58,22 @@ def plan(
     if reasons := chosen.reasons(decided):
         print_table(("step", "increments", "why"), reasons)
     if solver is not SolverName.RADIAL and (how := by_radii(contents.scene)):
-        print_pairs([("radial", f"--solver radial would do: {how}")])
+        print_pairs([("radial", f"--solver radial can solve this: {how}")])
     if accuracy is not None:
         _print_prices(accuracy, chosen, contents)
 
 
 def by_radii(scene: "Scene") -> str | None:
-    """What one dimension makes of a scene; None where it calls for more."""
+    """Return the kind of solution by the radial solver; None for an unsupported scene."""
     from contact_scene.solver_errors import UnsupportedScene
     from radial.angular_grid import Circle
     from radial.plan import plan
 
     how = {
-        None: "pressing, or torsion of what is pressed, nearly exact",
-        Circle.ONE: "pressing and torsion together, on rings",
-        Circle.HALF: "a push along one line, on rings and angles",
-        Circle.WHOLE: "pushes that turn, or torsion beside them, on rings and angles",
+        None: "normal load, or torsion at constant load, nearly exact",
+        Circle.ONE: "normal load and torsion together, on rings",
+        Circle.HALF: "tangential load along one line, on rings and angles",
+        Circle.WHOLE: "tangential load with changing direction or torsion, on rings and angles",
     }
     try:
         decided = plan(scene)
@@ -83,8 +83,7 @@ def by_radii(scene: "Scene") -> str | None:
 
 
 def _print_prices(option: str, solver: "Solver", contents: "SceneFile") -> None:
-    """Print cells, increments, time and memory of every accuracy that an option names, and of those
-    that no grid can meet why not."""
+    """Print the cost of each accuracy, or the reason why no grid can meet it."""
     from contact_errors.adaptive_refinement import Levels, price
     from contact_scene.reading.scene_file import read_accuracy
     from contact_scene.solver_errors import AccuracyOutOfReach
@@ -110,8 +109,11 @@ def _print_prices(option: str, solver: "Solver", contents: "SceneFile") -> None:
 
 
 def requests_of(option: str) -> list[str]:
-    """Each as `run --accuracy` takes it: what stands between semicolons, and without these every
-    share without a name, and the names in a row until one comes again."""
+    """Divide the option into requests of `run --accuracy`.
+
+    Semicolons separate requests. Without semicolons, each share without a name is a request, and
+    consecutive names form a request up to the first repeated name.
+    """
     if ";" in option:
         return [part.strip() for part in option.split(";") if part.strip()] or [option]
     requests: list[list[str]] = []

@@ -1,4 +1,4 @@
-"""`slipstick maintain records`: stored records, their age, and all of them again."""
+"""`slipstick maintain records`: list or regenerate stored records."""
 
 from __future__ import annotations
 
@@ -18,19 +18,17 @@ def records(
         Path, typer.Argument(metavar="DIR", help="Folder with full/ and studies/.")
     ] = Path("reports"),
     check: Annotated[
-        bool, typer.Option("--check", help="End with 7 if a record is older than the code.")
+        bool, typer.Option("--check", help="Exit with code 7 if a record is older than the code.")
     ] = False,
     regenerate: Annotated[
-        bool, typer.Option("--regenerate", help="Make those older than the code again.")
+        bool, typer.Option("--regenerate", help="Regenerate records older than the code.")
     ] = False,
 ) -> None:
-    """List stored records by cost, with the commit that made them and whether the code has changed
-    since.
+    """List stored records by cost, with their commit and changes of the code since.
 
-    The age of a record is that of the modules that made it and of all that these import. With
-    --regenerate records older than the code are made again, the cheapest first, and their times
-    are printed. Exit code 7 with --check if a record is older than the code, 1 if one cannot be
-    made.
+    A record is older than the code if one of the modules that made it, or of their imports, has
+    changed. --regenerate makes these records again, the cheapest first, and prints the times. Exit
+    code 7 with --check if a record is older than the code; 1 if a record cannot be made.
     """
     from slipstick.cli.terminal import print_table
     from verification.judging.outcome import commit_text

@@ -1,4 +1,4 @@
-"""`slipstick maintain report`: render a report again from its record."""
+"""`slipstick maintain report`: render a report from its record."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ def report(
         typer.Argument(metavar="DIR", help="A directory that 'slipstick verify' wrote."),
     ] = Path("reports/quick"),
 ) -> None:
-    """Render the report again from its report.json; nothing is computed.
+    """Render the report from its report.json; nothing is computed.
 
-    For a report of an earlier version, or one of which only report.json was kept, as it is or
-    packed by 'xz report.json'. Exit code 2 if there is none, or none that this version can read.
+    The record may be compressed, by 'xz report.json'. Exit code 2 if there is no record, or if this
+    version cannot read it.
     """
     from verification.report.files import PAGE, draw_again, refuse_if_unwritable
 
@@ -33,7 +33,7 @@ def report(
 
 
 def read_report(place: Path) -> Report:
-    """The report; without one that this version can read, a message and exit code 2."""
+    """Read a report; exit with code 2 and a message if that is not possible."""
     from verification.report.files import EARLIER, record_in
     from verification.running.report_record import load_report
 
@@ -47,5 +47,5 @@ def read_report(place: Path) -> Report:
         return load_report(record)
     except ValueError as error:
         reason = str(error).splitlines()[0]
-        typer.echo(f"error: {record} is not a report that can be used: {reason}", err=True)
+        typer.echo(f"error: {record} is not a readable report: {reason}", err=True)
         raise typer.Exit(ExitCode.INVALID) from None

@@ -1,4 +1,4 @@
-"""`slipstick run`: from a scene to a directory of results."""
+"""`slipstick run`: solve a scene and write its results."""
 
 from contextlib import ExitStack
 from enum import StrEnum
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 class Figures(StrEnum):
-    """Pictures that a run draws."""
+    """Figures of a run."""
 
     NONE = "none"
     OVERVIEW = "overview"
@@ -48,20 +48,19 @@ def run(
         typer.Option(
             "--figures",
             metavar="NAME",
-            help="overview: one picture, and the page index.html; all: maps, profiles and loops, "
-            "too; none: neither.",
+            help="overview: one figure and the page index.html; all: maps and profiles as well; "
+            "none: no figure and no page.",
         ),
     ] = Figures.OVERVIEW,
     overwrite: Annotated[
         bool,
-        typer.Option("--overwrite", help="Replace files in DIR that are not of an earlier run."),
+        typer.Option("--overwrite", help="Replace result files in DIR that no run has written."),
     ] = False,
     error: Annotated[
         bool,
         typer.Option(
             "--error/--no-error",
-            help="State an error for every number, by coarser solves beside the run; or leave "
-            "them out.",
+            help="State an error for every number, by coarse solves, or omit the errors.",
         ),
     ] = True,
     all_fields: Annotated[
@@ -75,15 +74,14 @@ def run(
     accuracy: AccuracyOption = None,
     most_seconds: MostSecondsOption = None,
 ) -> None:
-    """Solve a scene and write summary, fields, tables, a picture and a page into DIR.
+    """Solve a scene and write summary, fields, tables, a figure and a page into DIR.
 
-    DIR appears whole or not at all. The results of an earlier run in it are replaced once the new
-    ones are there; other files in it are left alone. A run that takes longer leaves checkpoints
-    beside DIR while it lasts: the same command goes on from there if it was killed.
+    DIR is written atomically. Results of an earlier run in DIR are replaced; other files remain.
+    A run of more than some seconds stores checkpoints next to DIR: after it was killed, the same
+    command resumes it.
 
-    With --accuracy, or a table [accuracy] in the scene, the scene is solved on ever finer cells and
-    increments until the errors are as small as asked; cells and increments of the scene are where
-    that begins, not where it ends.
+    With --accuracy, or a table [accuracy] in the scene, cells and increments are refined, starting
+    from those of the scene, until the stated errors meet the request.
     """
     from contact_results.directory.checkpoint import checkpointed
     from contact_results.directory.code_digest import solve_identity
@@ -153,7 +151,7 @@ def run(
         if warning not in told:
             tell(f"warning: {warning}")
     if not error:
-        typer.echo("  no errors: --no-error left them out")
+        typer.echo("  no errors, because of --no-error")
     typer.echo(f"results in {output}")
     leave_unless_met(reached)
 

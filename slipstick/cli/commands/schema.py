@@ -1,4 +1,4 @@
-"""`slipstick maintain schema`: the JSON Schema of what is read and of what is written."""
+"""`slipstick maintain schema`: print the JSON Schema of a file format."""
 
 import json
 from enum import StrEnum
@@ -8,7 +8,7 @@ import typer
 
 
 class SchemaOf(StrEnum):
-    """The documents that have a schema."""
+    """File formats with a JSON Schema."""
 
     SCENE = "scene"
     SUMMARY = "summary"
@@ -23,7 +23,7 @@ def schema(
         ),
     ] = SchemaOf.SCENE,
 ) -> None:
-    """Print the JSON Schema of a scene file, of a run's summary or of a report."""
+    """Print the JSON Schema of a scene file, a summary or a report."""
     typer.echo(json.dumps(_document(of), indent=2))
 
 

@@ -1,4 +1,4 @@
-"""`slipstick maintain study`: compute a study's cases and write what follows from them."""
+"""`slipstick maintain study`: compute a study and write its page."""
 
 from __future__ import annotations
 
@@ -29,14 +29,15 @@ LEAST_LEVELS, MAX_LEVELS = 4, 10
 
 def study(
     name: Annotated[
-        str | None, typer.Argument(metavar="NAME", help="The study; --list names them.")
+        str | None,
+        typer.Argument(metavar="NAME", help="Name of the study; --list prints all names."),
     ] = None,
     scene: Annotated[
         Path | None,
         typer.Argument(
             metavar="SCENE",
             show_default=False,
-            help="Scene file (TOML) of the studies that refine something in it.",
+            help="Scene file (TOML), for refinement studies.",
         ),
     ] = None,
     overrides: SetOption = None,
@@ -45,7 +46,7 @@ def study(
         optional(
             metavar="N",
             min=1,
-            help="Loading step of SCENE at whose end quantities are read; the last if absent.",
+            help="Load step of SCENE at whose end quantities are read. Default: the last.",
         ),
     ] = None,
     solver: Annotated[
@@ -53,8 +54,8 @@ def study(
         optional(
             "--solver",
             metavar="NAME",
-            help="What solves SCENE: 'semi-analytical', or finite elements, 'fem' with a penalty "
-            "and 'fem-complementarity' without one; the study's own if absent.",
+            help="Solver of SCENE: 'semi-analytical', or finite elements, 'fem' with a penalty and "
+            "'fem-complementarity' without one. Default: the first solver of the study.",
         ),
     ] = None,
     levels: Annotated[
@@ -67,19 +68,19 @@ def study(
         ),
     ] = None,
     output: Annotated[
-        Path | None, directory("Where everything goes; out/study-NAME-LEVEL if absent.")
+        Path | None, directory("Directory of the results. Default: out/study-NAME-LEVEL.")
     ] = None,
     cells: Annotated[
         int | None,
         optional(
             metavar="N",
             min=LEAST_CELLS,
-            help="Cells of the finest grid along each side, even, or elements of the finest mesh "
-            "per contact radius; scene and level decide if absent.",
+            help="Even number of cells along each side of the finest grid, or elements of the "
+            "finest mesh per contact radius. Default: from scene and level.",
         ),
     ] = None,
     level: Annotated[
-        LevelName, typer.Option("--level", help="How much is computed, and how finely.")
+        LevelName, typer.Option("--level", help="Number and fineness of the cases.")
     ] = LevelName.QUICK,
     workers: Annotated[
         int, typer.Option("--workers", metavar="N", min=1, help="Processes at a time.")
@@ -91,10 +92,11 @@ def study(
 ) -> None:
     """Compute the cases of a study on a pool of processes and write its page.
 
-    Every finished case leaves a record in DIR/cases: the same command goes on where a killed one
-    stopped. DIR receives index.html, study.json, figures and tables; earlier ones of the first two
-    wait in DIR/earlier meanwhile. Exit code 1 if a statement failed or a case was lost.
-    """  # fmt: skip
+    Every finished case is stored in DIR/cases: after the command was killed, the same command
+    computes the missing cases. DIR receives index.html, study.json, figures and tables. During the
+    study, earlier versions of index.html and study.json are in DIR/earlier. Exit code 1 if a
+    statement failed or a case was lost.
+    """
     from slipstick.cli.options import unknown_names
     from verification.judging.case import Level
     from verification.running.study import Settings
@@ -175,14 +177,18 @@ def _studied(
 
 def _refuse_odd(cells: int | None) -> None:
     if cells is not None and cells % 2:
-        raise typer.BadParameter(f"--cells {cells} is odd, and half of them are needed too")
+        raise typer.BadParameter(
+            f"got --cells {cells}, expected an even number; half of the cells are used as well"
+        )
 
 
 def _refuse_without_scene(name: str, **options: object) -> None:
-    """Options that say something of a scene."""
+    """Refuse options that apply to a scene for a study without a scene."""
     for option, value in options.items():
         if value is not None:
-            raise typer.BadParameter(f"--{option} is of a scene, and study {name} takes none")
+            raise typer.BadParameter(
+                f"--{option} needs a scene, and study {name} takes none; omit the option"
+            )
 
 
 def _scene_study(
@@ -193,7 +199,7 @@ def _scene_study(
     solver: SolverName | None,
     settings: Settings,
 ) -> Study:
-    """The study of a scene, once it is clear that it can be made as asked."""
+    """Return the study of a scene; raise BadParameter if the options do not fit."""
     from verification.studies.catalogue import SCENE_STUDIES
     from verification.studies.refinement.scene_level import CELLS, CannotRefine
 
@@ -201,7 +207,7 @@ def _scene_study(
     chosen = known.solvers[0] if solver is None else solver.value
     if chosen not in known.solvers:
         able = " or ".join(known.solvers)
-        raise typer.BadParameter(f"study {name} is of {able}, and --solver is {solver}")
+        raise typer.BadParameter(f"got --solver {solver}, expected {able} for study {name}")
     if chosen == CELLS:
         _refuse_odd(settings.cells)
     try:
@@ -222,7 +228,7 @@ def _command(
     levels: int | None,
     solver: SolverName | None,
 ) -> str:
-    """The command that makes the same study again."""
+    """Return the command that repeats the study."""
     words = ["slipstick", "maintain", "study", name, *([] if scene is None else [str(scene)])]
     words += ["--level", level.value, *(w for change in overrides for w in ("--set", change))]
     words += [] if solver is None else ["--solver", solver.value]

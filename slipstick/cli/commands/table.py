@@ -1,4 +1,4 @@
-"""`slipstick table`: reference numbers of contacts, to the last digits that there are."""
+"""`slipstick table`: print reference numbers of contacts with their uncertainties."""
 
 from __future__ import annotations
 
@@ -17,21 +17,23 @@ if TYPE_CHECKING:
 def table(
     name: Annotated[
         str | None,
-        typer.Argument(help="Which; all are listed if absent.", show_default=False),
+        typer.Argument(
+            help="Name of the table. Without a name, the tables are listed.", show_default=False
+        ),
     ] = None,
     over: Annotated[
         list[str] | None,
         optional(
             "--over",
             metavar="PARAMETER=V,V,...",
-            help="Other values of a parameter than those of the table; once for every parameter.",
+            help="Values of a parameter instead of those of the table; once per parameter.",
         ),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of CSV.")] = False,
 ) -> None:
-    """Print reference numbers, each with its uncertainty, and where they come from.
+    """Print reference numbers with their uncertainties and their provenance.
 
-    CSV begins with the provenance in lines that start with '#'.
+    In CSV, lines with the provenance start with '#'.
     """
     from slipstick.tables.catalogue import TABLES
 
@@ -64,7 +66,7 @@ def _list(tables: Mapping[str, Table]) -> None:
 
 
 def _values(chosen: Table, given: Sequence[str]) -> dict[str, list[float]]:
-    """Of the parameters that were named; raises BadParameter."""
+    """Return the values of the given parameters; raise BadParameter."""
     found: dict[str, list[float]] = {}
     for text in given:
         name, _, numbers = text.partition("=")

@@ -1,4 +1,4 @@
-"""`slipstick maintain tolerances`: tolerances that follow the errors."""
+"""`slipstick maintain tolerances`: propose or accept tolerances from the errors."""
 
 from __future__ import annotations
 
@@ -15,20 +15,26 @@ def tolerances(
     reports: Annotated[
         list[Path],
         typer.Argument(
-            metavar="REPORT...", help="Reports of one level, each by another BLAS kernel."
+            metavar="REPORT...", help="Reports of one level with different BLAS kernels."
         ),
     ],
     accept: Annotated[bool, typer.Option("--accept", help="Store the proposals.")] = False,
     because: Annotated[
-        str, optional("--because", metavar="TEXT", help="Why the errors are right.")
+        str,
+        optional(
+            "--because",
+            metavar="TEXT",
+            help="Reason why the errors are right; required by --accept.",
+        ),
     ] = "",
 ) -> None:
-    """Propose a tolerance of twice the largest error for each number with slack, or accept these.
+    """Propose or accept a tolerance of 2 times the largest error for each number with slack.
 
-    A number has slack if its tolerance exceeds three times its largest error. Reports of several
-    BLAS kernels are made by OPENBLAS_CORETYPE=Haswell, SkylakeX, Prescott and so on. Accepted
-    tolerances of a level are in verification/tolerances, with their errors and the reason; the
-    bounds in the cases remain the largest tolerances. Exit code 2 without a reason.
+    A number has slack if its tolerance exceeds 3 times its largest error. The variable
+    OPENBLAS_CORETYPE=Haswell, SkylakeX or Prescott selects the BLAS kernel of a report. Accepted
+    tolerances of a level are in verification/tolerances, with errors and reason; the bounds in the
+    cases remain upper limits.
+    Exit code 2 without a reason.
     """
     from slipstick.cli.terminal import print_table
     from verification.regression.tolerances import (

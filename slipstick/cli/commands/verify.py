@@ -1,4 +1,4 @@
-"""`slipstick verify`: measure the accuracy and write the report."""
+"""`slipstick verify`: measure the accuracy and write a report."""
 
 from __future__ import annotations
 
@@ -26,15 +26,15 @@ CASES = "cases"  # of the report's directory: the records of finished cases
 def verify(
     names: Annotated[
         list[str] | None,
-        typer.Argument(metavar="CASE", help="Cases to run; none means all."),
+        typer.Argument(metavar="CASE", help="Cases to run. Default: all."),
     ] = None,
     level: Annotated[
-        LevelName, typer.Option("--level", help="How fine: quick takes about two minutes.")
+        LevelName, typer.Option("--level", help="Level; quick takes about 2 minutes.")
     ] = LevelName.QUICK,
     output: Annotated[
         Path | None,
         directory(
-            "Where the report goes; reports/LEVEL if absent, with -selection for some cases."
+            "Directory of the report. Default: reports/LEVEL, with -selection for chosen cases."
         ),
     ] = None,
     list_cases: Annotated[
@@ -46,12 +46,12 @@ def verify(
             "--workers",
             metavar="N",
             min=1,
-            help="Cases at a time, each in a process of its own; one per core if absent, "
-            "and for a case alone none.",
+            help="Number of cases at a time, each in its own process. Default: one per core; a "
+            "single case runs in the process of the command.",
         ),
     ] = None,
     fresh: Annotated[
-        bool, typer.Option("--fresh", help="Compute again what earlier runs have left in DIR.")
+        bool, typer.Option("--fresh", help="Ignore stored cases of earlier runs in DIR.")
     ] = False,
     scheduler: SchedulerOption = None,
     studies: Annotated[
@@ -59,24 +59,21 @@ def verify(
         optional(
             "--studies",
             metavar="DIR",
-            help="Folder whose studies the report shows; reports/studies and out if absent.",
+            help="Folder of the studies in the report. Default: reports/studies and out.",
         ),
     ] = None,
 ) -> None:
     """Measure the accuracy against closed forms and write the report.
 
-    Exit code 0 if nothing failed, 1 if a verdict failed, if fewer than 95 % of the stated errors of
-    a full report cover, or if a study failed that these same sources have made. What is new since
-    the baseline is printed and is no failure ('slipstick maintain compare' has an exit code for
-    it). DIR receives index.html (the report, to be opened in a browser) with sheets.html,
-    report.json, junit.xml and summary.md.
+    Exit code 1 if a verdict failed, if fewer than 95 % of the stated errors of a full report cover
+    the true errors, or if a study of the same sources failed; otherwise 0. Changes since the
+    baseline are printed and are no failure; see 'slipstick maintain compare'. DIR receives
+    index.html (the report), sheets.html, report.json, junit.xml and summary.md.
 
-    Every finished case leaves a record in DIR/cases: the same command goes on where a killed one
-    stopped, and computes again what other sources or libraries made; a case that was running is
-    begun anew. An earlier report waits in DIR/earlier until the new one is whole, so that what a
-    killed verification leaves cannot be taken for its result. A case whose worker dies has failed;
-    the others are finished.
-    """  # fmt: skip
+    Every finished case is stored in DIR/cases. After the command was killed, the same command
+    computes the missing cases, and those of other sources or libraries. An earlier report is in
+    DIR/earlier until the new one is complete. A case whose worker dies has failed.
+    """
     from contact_results.blas_threads import is_one_thread
     from slipstick.cli.options import unknown_names
     from verification.cases.catalogue import CASES as KNOWN
@@ -124,10 +121,12 @@ def _verified(
 
     refuse_if_unwritable(directory)
     with in_sole_use(directory):
-        baselines = read_baselines()  # a damaged one is better known before hours of work
-        kept = () if names else PLACES  # what is asked of a case is no report of the whole
+        baselines = read_baselines()  # refuse a damaged baseline before the work
+        places_of_studies = () if names else PLACES  # a report of chosen cases has no studies
         try:
-            studies = stored_records(*((kept, _left_out) if places is None else (places,)))
+            studies = stored_records(
+                *((places_of_studies, _left_out) if places is None else (places,))
+            )
         except ValueError as error:
             typer.echo(f"error: {error}", err=True)
             raise typer.Exit(ExitCode.INVALID) from None
@@ -152,14 +151,14 @@ def _verified(
 def judged(
     cases: tuple[Case, ...], level: str, directory: Path, workers: int | Workers, *, fresh: bool
 ) -> tuple[tuple[CaseOutcome, ...], dict[str, float]]:
-    """The outcomes in the order of the cases, and of those that have a record the wall seconds.
+    """Return the outcomes in the order of the cases, and the wall seconds of cases with a record.
 
-    level      by name, in capitals
-    directory  of the report
-    workers    processes of this machine at a time, or others
-    fresh      take nothing from earlier runs
+    level      name in capitals
+    directory  directory of the report
+    workers    number of processes, or workers of a cluster
+    fresh      ignore stored cases of earlier runs
 
-    Raises OutputRefused, before any work, where nothing can be written.
+    Raises OutputRefused, before any work, if the directory cannot be written.
     """
     from slipstick.cli.case_progress import case_progress, resume_hint
     from verification.cases.catalogue import CaseToJudge, JudgedCase, lost
@@ -188,7 +187,7 @@ def judged(
 
 
 def _verdict(end: CaseEnd) -> str:
-    """State the verdict of a case, with its counts and seconds."""
+    """Return the text of the verdict of a case, with counts and seconds."""
     from slipstick.cli.case_progress import how_it_ended
     from verification.cases.catalogue import JudgedCase
     from verification.judging.outcome import SYMBOLS, WORDS
@@ -217,7 +216,7 @@ def _print_list(cases: tuple[Case, ...]) -> None:
 
 
 def _left_out(problem: str) -> None:
-    typer.echo(f"WARN {problem}: left out; --studies names another folder", err=True)
+    typer.echo(f"WARN {problem}: left out; use --studies for another folder", err=True)
 
 
 def _print_outcome(report: Report, directory: Path) -> None:
