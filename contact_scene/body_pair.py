@@ -1,26 +1,26 @@
-"""The two bodies as a pair: whether pressure shears them, and how unlike their materials may be."""
+"""Elastic properties of the pair of bodies: coupling, effective modulus, contrast of materials."""
 
 from contact_scene.body import Body
 from contact_scene.material import IsotropicMaterial, Material
 from contact_scene.scene import Scene
 from contact_scene.solver_errors import UnsupportedScene
 
-# |beta| below this is round-off of equal materials given in different units.
+# |beta| below this value is round-off of equal materials in different units.
 UNCOUPLED = 1e-12
 
 
 def coupling(scene: Scene) -> tuple[bool, str]:
-    """Whether pressure moves the surfaces past each other, and why.
+    """Determine if pressure causes a relative tangential displacement, with the reason.
 
-    For half-spaces Dundurs' beta decides (Dundurs 1969); a layer couples by itself unless the
-    other body is its mirror image.
+    The criterion is Dundurs' beta (Dundurs 1969) for half-spaces. Layered bodies are coupled unless
+    both bodies are equal.
     """
     lower, upper = scene.body, scene.indenter
     if (lower.material, lower.layers) == (upper.material, upper.layers):
-        return False, "the two bodies are alike: pressure moves both surfaces by the same amount"
+        return False, "the two bodies are equal: pressure moves both surfaces by the same amount"
     beta = dundurs_beta(scene)
     if beta is None:
-        return True, "a coating moves sideways under pressure, and the other body does not follow"
+        return True, "a layer moves sideways under pressure, and the other body does not follow"
     text = f"Dundurs' beta is {beta:.2g}"
     if abs(beta) <= UNCOUPLED:
         return False, f"{text}: pressure does not move the surfaces past each other"
@@ -28,9 +28,9 @@ def coupling(scene: Scene) -> tuple[bool, str]:
 
 
 def dundurs_beta(scene: Scene) -> float | None:
-    """½ [(1-2ν1)/G1 - (1-2ν2)/G2] / [(1-ν1)/G1 + (1-ν2)/G2]; a rigid body has 1/G = 0.
+    """Compute Dundurs' β = ½ [(1-2ν1)/G1 - (1-2ν2)/G2] / [(1-ν1)/G1 + (1-ν2)/G2].
 
-    None where one of the bodies is not the same all through.
+    A rigid body has 1/G = 0. None for bodies with layers of another material.
     """
     for body in (scene.body, scene.indenter):
         if any(layer.material != body.material for layer in body.layers):
@@ -39,7 +39,7 @@ def dundurs_beta(scene: Scene) -> float | None:
 
 
 def outermost_beta(scene: Scene) -> float:
-    """The same of the outermost materials, which decide what happens at an edge."""
+    """Compute Dundurs' β of the outermost materials, which determines edge singularities."""
     difference = total = 0.0
     for sign, body in ((1, scene.body), (-1, scene.indenter)):
         material = _outermost(body)
@@ -51,7 +51,10 @@ def outermost_beta(scene: Scene) -> float:
 
 
 def contact_modulus(scene: Scene) -> float:
-    """E* of the outermost materials: 1/E* = Σ (1-ν²)/E over what is elastic [force/length^2]."""
+    """Compute E* of the outermost materials, 1/E* = Σ (1-ν²)/E [force/length^2].
+
+    The sum is over elastic materials.
+    """
     outermost = map(_outermost, (scene.body, scene.indenter))
     return 1 / sum(
         1 / material.plane_strain_modulus
@@ -65,15 +68,15 @@ def _outermost(body: Body) -> Material:
 
 
 def refuse_contrast(scene: Scene, most: float, why: str) -> None:
-    """Raise UnsupportedScene where the materials of a body are too unlike.
+    """Raise UnsupportedScene if the shear moduli of a body differ too much.
 
     most  largest ratio of shear moduli
-    why   what a solver makes of a larger one
+    why   reason of the limit, for the message
     """
     for name, body in (("body", scene.body), ("indenter", scene.indenter)):
         moduli = [material.shear_modulus for material in body.elastic_materials]
         if moduli and max(moduli) > most * min(moduli):
             raise UnsupportedScene(
                 f"the materials of the {name} have shear moduli from {min(moduli):.3g} to "
-                f"{max(moduli):.3g} Pa{why}; name a rigid base, or leave the soft part out"
+                f"{max(moduli):.3g} Pa{why}; use a rigid base, or leave the soft part out"
             )

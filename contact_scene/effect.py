@@ -1,4 +1,4 @@
-"""Effects that act in a scene or do not, with reasons, as shown to people."""
+"""Physical effects of a scene, active or not, with reasons for the user."""
 
 from dataclasses import dataclass
 
@@ -10,7 +10,7 @@ COUPLING = "normal-tangential coupling"
 
 @dataclass(frozen=True)
 class Effect:
-    """One effect, whether it acts in this scene, and the reason in one sentence."""
+    """Effect, active (on) or not, with the reason in one sentence."""
 
     name: str
     on: bool
@@ -21,7 +21,7 @@ PRESSURE = Effect("pressure", True, "the indenter is pressed on")
 
 
 def second_body(scene: Scene) -> Effect:
-    """Whether both bodies deform."""
+    """Determine if both bodies deform."""
     both = scene.body.deforms and scene.indenter.deforms
     if both:
         return Effect("second elastic body", True, "both bodies deform; their compliances add")
@@ -29,13 +29,10 @@ def second_body(scene: Scene) -> Effect:
     return Effect("second elastic body", False, f"the {rigid} is rigid")
 
 
-def layers(scene: Scene, one: str) -> Effect:
-    """Which bodies have how many layers.
-
-    one  what a single one is called
-    """
+def layers(scene: Scene) -> Effect:
+    """Determine the number of layers of each body."""
     where = [
-        f"the {name} has {one if len(body.layers) == 1 else f'{len(body.layers)} layers'}"
+        f"the {name} has {len(body.layers)} layer{'s' if len(body.layers) > 1 else ''}"
         for name, body in (("body", scene.body), ("indenter", scene.indenter))
         if body.layers
     ]
@@ -43,30 +40,27 @@ def layers(scene: Scene, one: str) -> Effect:
 
 
 def friction(scene: Scene) -> Effect:
-    """Whether there is any."""
+    """Determine if the scene has friction."""
     on = scene.friction is not None
     return Effect("friction", on, "[friction] is given" if on else "the scene has no friction")
 
 
 def strained(scene: Scene) -> Effect:
-    """Whether the lower body is strained along its surface."""
+    """Determine if the lower body has a bulk strain."""
     on = any(ramp.stretch for ramp in scene.load_path())
-    why = "a step names" if on else "no step names"
+    why = "a step prescribes" if on else "no step prescribes"
     return Effect("bulk strain", on, f"{why} a bulk strain or a bulk stress of the lower body")
 
 
 def coupled(scene: Scene, on: bool, why: str) -> Effect:
-    """Whether pressure and shear act on each other.
-
-    why  pressure does or does not move the surfaces past each other
-    """
+    """Create the effect of the coupling; without friction there is another reason."""
     if scene.friction is None:
-        why = "without shear there is nothing for the pressure to couple with"
+        why = "without friction there is no shear"
     return Effect(COUPLING, on, why)
 
 
 def load_history(on: bool) -> Effect:
-    """Whether the path of the loads matters."""
+    """Create the effect of path-dependence."""
     if on:
         return Effect("load history", True, "slip depends on the path of several steps")
     return Effect("load history", False, "the final state does not depend on the path")

@@ -1,4 +1,4 @@
-"""Interpolation of maps: smoothly of heights, within their bounds of other values."""
+"""Interpolation of maps: cubic convolution of heights, linear of friction coefficients."""
 
 from functools import reduce
 from typing import Annotated, Any
@@ -9,18 +9,17 @@ from pydantic import BeforeValidator
 
 from contact_scene.reading.quantity import PositiveLength
 
-# A coordinate this close to a map point (in spacings) is that point: grids that coincide but were
-# computed by another formula differ by a few units of round-off.
+# Distance of a coordinate from a map point, in spacings, that is round-off of equal grids.
 _COINCIDES = 1e-9
 
-# Sum of the magnitudes of the negative weights of cubic convolution in two dimensions, at most: at
-# the centre of four points it is 2 (9/8) (1/8).
+# Largest sum of the magnitudes of the negative weights of cubic convolution in two dimensions,
+# 2 (9/8) (1/8) at the centre of four points.
 _NEGATIVE_WEIGHTS = 9 / 32
-# Values whose rows are searched at once; patches of them that are searched; those with the lowest
-# samples, whose minimum is refined; refinements, each to a quarter of the width.
+# Values per block of rows; largest number of sampled patches in a block; number of patches with the
+# lowest samples that are refined; number of refinements, each to a quarter of the width.
 _BLOCK, _MOST_PATCHES, _PATCHES, _REFINEMENTS = 1 << 17, 8192, 64, 14
 
-_SWEEPS = 20  # of the Jacobi iteration, on every level
+_SWEEPS = 20  # Jacobi iterations on every level
 
 
 def _one_for_both(value: Any) -> Any:
@@ -40,16 +39,16 @@ HeightUnit = Annotated[
 
 
 def _is_name(value: Any) -> bool:
-    """Whether a unit is given by its name alone."""
+    """Determine if a unit is given by its name alone."""
     return isinstance(value, str) and value[:1].isalpha()
 
 
 def filled(heights: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Replace NaN by a solution of Laplace's equation, to about 1 % of the heights around.
+    """Replace NaN by a solution of Laplace's equation, to about 1 % of the adjacent heights.
 
     Cascadic multigrid: Jacobi iteration from the solution on half the points along each side
     (Bornemann and Deuflhard 1996, Numer. Math. 75, 135). Every iterate is a mean of measured
-    heights: none is lower than the lowest of these.
+    heights and not below the lowest of them.
     """
     known = np.isfinite(heights)
     if np.all(known):
@@ -76,15 +75,29 @@ def filled(heights: NDArray[np.float64]) -> NDArray[np.float64]:
 def interpolate(
     heights: NDArray[np.float64], spacing: tuple[float, float], x: ArrayLike, y: ArrayLike
 ) -> NDArray[np.float64]:
-    """Heights between the points of a map, by cubic convolution (Keys 1981, IEEE ASSP 29, Eq. 15).
+    """Interpolate a map by cubic convolution (Keys 1981, IEEE ASSP 29, Eq. 15).
 
-    heights  values at the centres of cells, (nx, ny), centred on the origin [length]
-    spacing  distance of neighbouring values (dx, dy) [length]
-    x, y     where [length], broadcast together; ValueError outside the cells of the map
-    returns  heights [length], third-order accurate in the spacing, continuous slopes;
-             the map's own values, unchanged, at its own points
+    Beyond its rim, the map is continued by parabolas, which retains the third order there.
 
-    Values beyond the rim continue the map by parabolas, which keeps the third order there.
+    Parameters
+    ----------
+    heights : ndarray, shape (nx, ny)
+        Values at the centres of cells, centred on the origin [length].
+    spacing : tuple of float
+        Distance between adjacent values along x and y [length].
+    x, y : array_like
+        Coordinates [length], broadcast together.
+
+    Returns
+    -------
+    ndarray, shape of x + y
+        Heights [length] of third order in the spacing, with continuous slopes; at the points of the
+        map, its values bit for bit.
+
+    Raises
+    ------
+    ValueError
+        For coordinates outside the cells of the map.
     """
     x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
     i, s = _locate(x, heights.shape[0], spacing[0], "x")
@@ -93,13 +106,13 @@ def interpolate(
 
 
 def lowest_point(heights: NDArray[np.float64]) -> tuple[float, tuple[float, float]]:
-    """Minimum of the surface that `interpolate` defines between the outermost points of a map.
+    """Find the minimum of the surface of `interpolate` between the outermost points of a map.
+
+    The surface beyond the outermost points is extrapolated and therefore ignored. The search is by
+    blocks of rows, without a copy of the map.
 
     heights  values at the points, (nx, ny) [length]
-    returns  the minimum, counted from the lowest value [length]; its position, in indices of points
-
-    Values beyond the outermost points are extrapolated and do not decide on first contact. The map
-    is searched by blocks of rows, so that a large one is not copied.
+    returns  minimum relative to the lowest value [length]; its position in indices of points
     """
     x = int(np.argmin(np.min(heights, axis=1)))  # argmin copies whole arrays that are read-only
     y = int(np.argmin(heights[x]))
@@ -114,22 +127,23 @@ def lowest_point(heights: NDArray[np.float64]) -> tuple[float, tuple[float, floa
 
 
 def _with_neighbours(heights: NDArray[np.float64], begin: int, end: int) -> NDArray[np.float64]:
-    """Rows of a map from `begin` to `end` with one more on each side, and columns likewise; those
-    beyond the outermost are extrapolated."""
+    """Return rows `begin` to `end` of a map with one more row or column on every side.
+
+    Those beyond the outermost points are extrapolated.
+    """
     first = max(begin - 3, 0)  # extrapolation takes three rows
     padded = _continued(_continued(heights[first : end + 4]).T).T
     return np.asarray(padded[begin - first + 1 : end - first + 4, 1:-1])
 
 
 def _lowest_between(padded: NDArray[np.float64], limit: float) -> tuple[float, tuple[float, float]]:
-    """Minimum of the surface between points and its position, where it lies below a limit; else
-    the limit.
+    """Find the minimum of the surface below a limit, and its position; else return the limit.
 
-    padded  with one value beyond the outermost points
-
-    Cubic convolution undershoots its 16 values by their range times `_NEGATIVE_WEIGHTS` at most.
-    This bound selects the patches that can lie below the limit; their minimum is found on grids
+    Cubic convolution undershoots its 16 values by at most their range times `_NEGATIVE_WEIGHTS`.
+    This bound selects the patches that can be below the limit. Their minimum is located on grids
     that shrink around it.
+
+    padded  map with one value beyond the outermost points
     """
     last = np.array(padded.shape) - 3.0
     lowest, place, half = limit, np.zeros(2), 0.5
@@ -153,10 +167,10 @@ def _lowest_between(padded: NDArray[np.float64], limit: float) -> tuple[float, t
 
 
 def _patches_below(padded: NDArray[np.float64], limit: float) -> NDArray[np.float64]:
-    """Centres of the patches between points whose bound lies below a limit, (count, 2), in indices
-    of points; of more than `_MOST_PATCHES` those with the lowest bounds.
+    """Select the patches between four points with a bound below a limit; return their centres.
 
-    padded  with one value beyond the outermost points
+    padded   map with one value beyond the outermost points
+    returns  (count, 2), in indices of points, at most `_MOST_PATCHES` with the lowest bounds
     """
 
     def of_four(extreme: np.ufunc, rows: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -176,8 +190,11 @@ def _convolved(
     j: NDArray[np.intp],
     t: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Cubic convolution at the distances s and t behind the second of four padded values, the first
-    of which has the indices i and j."""
+    """Evaluate the cubic convolution of 4 x 4 padded values.
+
+    i, j  indices of the first value
+    s, t  distances from the second value, in spacings
+    """
     across, along = _weights(s), _weights(t)
     result = np.zeros(np.broadcast_shapes(s.shape, t.shape))
     for k in range(4):
@@ -189,8 +206,11 @@ def _convolved(
 def interpolate_between(
     values: NDArray[np.float64], spacing: tuple[float, float], x: ArrayLike, y: ArrayLike
 ) -> NDArray[np.float64]:
-    """As `interpolate`, linearly along x and y: nowhere above or below the neighbouring values,
-    and as far as half a spacing beyond the outermost as these."""
+    """Interpolate a map bilinearly, within the range of the adjacent values.
+
+    Arguments are those of `interpolate`. Values are constant up to half a spacing beyond the
+    outermost points.
+    """
     x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
     i, s = _locate(x, values.shape[0], spacing[0], "x")
     j, t = _locate(y, values.shape[1], spacing[1], "y")
@@ -202,8 +222,8 @@ def interpolate_between(
 def _locate(
     coordinate: NDArray[np.float64], count: int, spacing: float, axis: str
 ) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
-    """Index of the map point at or before each coordinate (counted from the rim's first
-    continued value) and the distance from it in spacings."""
+    """Determine the index of the map point at or before each coordinate, plus one for the first
+    extrapolated value, and the distance from it in spacings."""
     position = coordinate / spacing + 0.5 * (count - 1)
     nearest = np.rint(position)
     position = np.where(np.abs(position - nearest) <= _COINCIDES, nearest, position)
@@ -211,16 +231,16 @@ def _locate(
     if not np.all(inside):
         farthest, reach = float(np.max(np.abs(coordinate))), 0.5 * count * spacing
         raise ValueError(
-            f"the map covers |{axis}| <= {reach:g} ({count} values, {spacing:g} apart), "
-            f"but is asked for |{axis}| = {farthest:g}: "
-            f"choose a window of at most {2 * reach:g} along {axis}"
+            f"the map covers |{axis}| <= {reach:g} ({count} values, {spacing:g} apart), but the "
+            f"point requested is |{axis}| = {farthest:g}: use a window of at most {2 * reach:g} "
+            f"along {axis}"
         )
     index = np.floor(position)
     return index.astype(np.intp) + 1, position - index
 
 
 def _continued(rows: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Rows with two more before the first and after the last, on parabolas through three."""
+    """Extrapolate two rows before the first and after the last by parabolas through three rows."""
     first = 3.0 * rows[0] - 3.0 * rows[1] + rows[2]
     second = 3.0 * first - 3.0 * rows[0] + rows[1]
     last = 3.0 * rows[-1] - 3.0 * rows[-2] + rows[-3]
@@ -229,7 +249,7 @@ def _continued(rows: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _weights(t: NDArray[np.float64]) -> tuple[NDArray[np.float64], ...]:
-    """Weights of the four neighbours, t in [0, 1] behind the second; (0, 1, 0, 0) at t = 0."""
+    """Compute the weights of four values at the distance t in [0, 1] from the second."""
     return (
         t * (-0.5 + t * (1.0 - 0.5 * t)),
         1.0 + t * t * (-2.5 + 1.5 * t),

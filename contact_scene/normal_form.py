@@ -1,4 +1,4 @@
-"""Normal form of a scene: a degenerate value is replaced by the absence of its effect.
+"""Normal form of a scene, with degenerate values replaced by the absence of their effect.
 
 All solvers plan and solve the normal form. A scene and its degenerate variants therefore have the
 same plan and the same numbers.
@@ -17,18 +17,18 @@ from contact_scene.stepping.load_path import (
 )
 
 B = TypeVar("B", bound=Body)
-# Controls that do nothing, with the control and the value that an unnamed coordinate has.
+# Controls without effect, each with the default control of its coordinate and the value 0.
 Unnamed = dict[str, tuple[str, object]]
 
 
 def normal_form(scene: Scene) -> Scene:
     """Return the scene without its degenerate values; the same object if there is none.
 
-    - Layers of the material below them become part of it.
+    - Layers with the material below them are merged into it.
     - An ellipsoid with equal radii becomes a paraboloid.
-    - A zero force, moment or motion that symmetry makes equal to the free or fixed coordinate
-      becomes the control that an unnamed coordinate has.
-    - Friction that is zero everywhere is left out if no load shears the contact.
+    - A control that is zero in all steps and equal to the default control by symmetry becomes the
+      default: free shift, fixed twist, fixed tilt.
+    - Friction that is zero everywhere is removed if no load shears the contact.
     """
     indenter, ramps = _round(scene.indenter), scene.load_path()
     merged = {"indenter": _merged(indenter), "body": _merged(scene.body)}
@@ -51,7 +51,7 @@ def _round(indenter: Indenter) -> Indenter:
 
 
 def _merged(body: B) -> B:
-    """A body without layers of the material below them."""
+    """Merge layers with the material below them."""
     layers: list[Layer] = []
     below = body.material
     for layer in reversed(body.layers):
@@ -67,7 +67,7 @@ def _merged(body: B) -> B:
 
 
 def _unnamed(scene: Scene, ramps: tuple[LoadRamp, ...]) -> Unnamed:
-    """Controls that are zero in the whole history and do nothing."""
+    """Determine the controls that are zero in the whole history and without effect."""
     tilts = any(any(ramp.tilting.end) for ramp in ramps)
     twists = any(ramp.twisting.end or (ramp.stretch and ramp.stretch[1][2]) for ramp in ramps)
     pushed = any(any(ramp.tangential.end) for ramp in ramps)

@@ -1,16 +1,13 @@
-"""What can go wrong in a solve, one class per thing a caller may want to treat differently.
-
-Both solvers raise these, so that a caller need not know which one it has called.
-"""
+"""Exceptions of all solvers, one class per cause that a caller may treat separately."""
 
 from typing import Any
 
 
 class SolverError(RuntimeError):
-    """The scene is well formed, but this solve cannot give a trustworthy answer.
+    """Valid scene without a reliable solution by this solve.
 
-    last_state  the last converged state of the history, or None
-    where       the place in the history, such as "step 2, increment 3 of 18"; None before it
+    last_state  last converged state of the history, or None
+    where       position in the history, such as "step 2, increment 3 of 18"; None before its start
     """
 
     last_state: Any = None
@@ -22,66 +19,66 @@ class SolverError(RuntimeError):
 
 
 class UnsupportedScene(SolverError):
-    """The scene asks for physics that this version of the solver does not have."""
+    """Scene with physics that the solver does not support."""
 
 
 class GrossSliding(SolverError):
-    """The tangential load exceeds what friction can carry under force control."""
+    """Tangential force above the friction limit."""
 
 
 def motion_undefined() -> GrossSliding:
-    """To be raised for a history that was to go on from where the motion is undefined."""
+    """Create the error of a history that continues from an undefined shift or twist."""
     return GrossSliding(
-        "the increment before reached the friction limit under force control, where the motion is "
-        "undefined, so the history cannot go on; prescribe the shift or twist instead"
+        "the previous increment reached the friction limit under force control, where the shift or "
+        "twist is undefined, so the history cannot continue; prescribe the shift or twist instead"
     )
 
 
 class ContactAtWindowEdge(SolverError):
-    """The contact reached the border of the computed window, so its tractions are cut off."""
+    """Contact at the border of the window, which cuts off its tractions."""
 
 
 class ContactAtZoneEdge(SolverError):
-    """The contact reached the end of fine elements or of rings, so its tractions are cut off."""
+    """Contact at the end of the fine elements or rings, which cuts off its tractions."""
 
 
 class ContactNotResolved(SolverError):
-    """The contact is smaller than the cells: none touches, or only a few carry the load."""
+    """Contact of too few cells or rings, or of none."""
 
 
 class NothingTouches(ContactNotResolved):
-    """No cell or ring comes into contact at a prescribed approach."""
+    """Prescribed approach without contact of any cell or ring."""
 
 
 class SurfacesOverlap(SolverError):
-    """The springs of a penalty leave more overlap than is allowed; smaller increments do not help.
+    """Overlap above its limit in the penalty method; smaller increments do not help.
 
-    overlap  what is left, relative to what the bodies move
+    overlap  overlap relative to the displacement of the bodies
     """
 
     def __init__(self, overlap: float, augmentations: int, allowed: float) -> None:
         times = f"{augmentations} augmentation{'s' if augmentations != 1 else ''}"
         super().__init__(
-            f"the surfaces overlap by {overlap:.1e} of the approach after {times}, allowed "
-            f"{allowed:.1e}; give a larger penalty or more augmentations"
+            f"the surfaces overlap by {overlap:.1e} of the approach after {times}, allowed are "
+            f"{allowed:.1e}; use a larger penalty or more augmentations"
         )
         self.overlap = overlap
 
 
 class ResourceRefused(SolverError):
-    """The solve would need more memory than this machine has available."""
+    """Solve that requires more than the available memory."""
 
 
 class AccuracyOutOfReach(SolverError):
-    """An accuracy was asked for that no grid can meet."""
+    """Requested accuracy that no grid reaches."""
 
 
 class NotConverged(SolverError):
-    """The iteration stopped above its tolerance; nothing of the failed increment is returned.
+    """Iteration that ended above its tolerance; the increment has no result.
 
-    iterations  iterations spent
-    residual    the worst dimensionless residual reached
-    tolerance   what was asked for
+    iterations  number of iterations
+    residual    largest dimensionless residual
+    tolerance   limit of the residuals
     """
 
     def __init__(self, problem: str, iterations: int, residual: float, tolerance: float) -> None:

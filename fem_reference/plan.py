@@ -155,7 +155,7 @@ def _effects(
     return (
         effect.PRESSURE,
         effect.second_body(scene),
-        effect.layers(scene, "1 layer"),
+        effect.layers(scene),
         effect.friction(scene),
         Effect(
             "tangential load",

@@ -113,7 +113,7 @@ def plan(scene: Scene) -> Plan:
     effects = (
         effect.PRESSURE,
         effect.second_body(scene),
-        effect.layers(scene, "a layer"),
+        effect.layers(scene),
         effect.friction(scene),
         Effect("tangential load", pushed, tells),
         Effect("torsion", twists, "a step twists" if twists else "no step twists"),

@@ -106,7 +106,7 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
     effects = (
         effect.PRESSURE,
         effect.second_body(scene),
-        effect.layers(scene, "a layer"),
+        effect.layers(scene),
         effect.friction(scene),
         Effect("tangential load", friction and loaded, _why_shear(friction, loaded)),
         Effect("tilt", tilt, _why_tilt(tilt)),

@@ -103,7 +103,7 @@ def test_a_window_beyond_the_height_map_is_refused_with_both_lengths() -> None:
     for x in (-6.1e-3, 6.1e-3, np.array([0.0, 6.1e-3, -1e-3])):
         with pytest.raises(ValueError, match=r"\|x\| <= 0.006 .*\|x\| = 0.0061: .* 0.012 along x"):
             shape.initial_gap(x, 0.0)
-    with pytest.raises(ValueError, match=r"covers \|y\| <= 0.0045 .* asked for \|y\| = nan"):
+    with pytest.raises(ValueError, match=r"covers \|y\| <= 0.0045 .* requested is \|y\| = nan"):
         shape.initial_gap(0.0, np.nan)
 
 

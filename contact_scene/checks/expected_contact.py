@@ -1,10 +1,9 @@
-"""How far a contact is likely to reach and what strains it makes, before anything is solved."""
+"""Estimates of contact radius and strain from Hertz theory, before a solve."""
 
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from contact_scene.body import Body
 from contact_scene.body_pair import contact_modulus
 from contact_scene.geometry import Sphere
 from contact_scene.material import IsotropicMaterial
@@ -16,15 +15,17 @@ from contact_scene.stepping.load_path import (
     LoadRamp,
 )
 
-# atanh(x) with x atanh(x) = 1: at an approach of R the contact of a rigid sphere has the radius xR
+# atanh(x) with x atanh(x) = 1. At the approach R, the contact of a rigid sphere has the radius x R
 # and the force atanh(x) E* R^2 (Sneddon 1965).
 _AT_EQUATOR = 1.19967864
 BISECTIONS = 60  # to round-off
 
 
 def refuse_equator(scene: Scene) -> None:
-    """Raise UnsupportedScene for a sphere that is pressed to its equator, beyond which it has no
-    shape: by its approach, or by its force between bodies without layers."""
+    """Raise UnsupportedScene for a sphere pressed to its equator, where its shape ends.
+
+    The limit is that of the approach or, for bodies without layers, of the normal force.
+    """
     indenter = scene.indenter
     if not isinstance(indenter, Sphere):
         return
@@ -39,14 +40,14 @@ def refuse_equator(scene: Scene) -> None:
         if end >= most:
             load, unit = ("normal force", "N") if by_force else ("approach", "m")
             raise UnsupportedScene(
-                f"step {ramp.step} presses the sphere to its equator: a {load} of {end:.4g} "
-                f"{unit}, and {most:.4g} {unit} press it in by its radius; take less, or a "
+                f"step {ramp.step} presses the sphere to its equator: its {load} is {end:.4g} "
+                f"{unit}, and at {most:.4g} {unit} the approach is the radius; take less, or a "
                 "paraboloid"
             )
 
 
 def contact_approach(scene: Scene, approach: float, modulus: float) -> float:
-    """Approach of the bodies where that of the actuator is given, by half-spaces [length].
+    """Estimate the approach of half-spaces from that of the actuator of a rig [length].
 
     modulus  E* [force/length^2]
     """
@@ -66,11 +67,11 @@ def contact_approach(scene: Scene, approach: float, modulus: float) -> float:
 
 @dataclass(frozen=True)
 class ExpectedContact:
-    """The contact at the end of a step, by Hertz for what lies within it.
+    """Estimated contact at the end of a step, from Hertz theory with one modulus.
 
     modulus  E* [force/length^2]
-    radius   of the contact [length]
-    strain   by order of magnitude
+    radius   contact radius [length]
+    strain   strain to an order of magnitude
     """
 
     ramp: LoadRamp
@@ -80,12 +81,12 @@ class ExpectedContact:
 
     @property
     def stiffness(self) -> float:
-        """Along the normal, and up to 30 % more than along the surface [force/length]."""
+        """Normal stiffness [force/length], up to 30 % above the tangential stiffness."""
         return 2 * self.modulus * self.radius
 
 
 def expected_contacts(scene: Scene) -> Iterator[ExpectedContact]:
-    """That of every step of which it is known."""
+    """Estimate the contact at the end of every step, as far as the shape allows."""
     k, outermost = scene.indenter.gap_exponent, contact_modulus(scene)
     if k is None:
         return
@@ -104,21 +105,19 @@ def expected_contacts(scene: Scene) -> Iterator[ExpectedContact]:
         if (a := radius(modulus)) > 0:
             force = end if by_force else modulus * a * contact_approach(scene, end, modulus)
             strain = force / (math.pi * a**2) / modulus
-            # Below a cone strains do not depend on the load.
+            # Strains below a cone do not depend on the load.
             yield ExpectedContact(ramp, modulus, a, 0.0 if k == 1 else strain)
 
 
 def _modulus_within(scene: Scene, radius: float) -> float:
-    """E* of the substrates under layers thinner than the contact, and of thicker layers; 0 where
-    all of that is rigid."""
+    """Compute E* of the substrates below thin layers and of the outermost thick layers.
+
+    Layers are thin if their total thickness is below the radius. Returns 0 for rigid materials.
+    """
     compliance = 0.0
     for body in (scene.body, scene.indenter):
-        thin = _thickness(body) < radius
+        thin = sum(layer.thickness for layer in body.layers) < radius
         material = body.material if thin or not body.layers else body.layers[0].material
         if isinstance(material, IsotropicMaterial):
             compliance += 1.0 / material.plane_strain_modulus
     return 1.0 / compliance if compliance else 0.0
-
-
-def _thickness(body: Body) -> float:
-    return sum(layer.thickness for layer in body.layers)

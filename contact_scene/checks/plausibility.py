@@ -33,13 +33,13 @@ from contact_scene.stepping.load_path import ControlKind
 
 @dataclass(frozen=True)
 class Usual:
-    """What a quantity usually is.
+    """Usual range of a quantity.
 
-    least, most  magnitude [SI unit]
-    unit         in SI
-    meant        units in which a number without one was perhaps meant, with their sizes, the
-                 likeliest first
-    signed       whether a negative number is smaller than any of its magnitude
+    least, most  limits of the magnitude [SI unit]
+    unit         SI unit
+    meant        units that the user of a bare number may have intended, with their factors, most
+                 likely first
+    signed       True if the limits apply to the value instead of its magnitude
     """
 
     least: float
@@ -55,7 +55,7 @@ _STEP = Usual(1e-12, 1e-3, "m", {"um": 1e-6, "nm": 1e-9})
 _DEGREE = {"deg": math.pi / 180}
 _FRICTION = Usual(0.0, 5.0, "", {"per cent": 1e-2})
 
-# By key. From gels to diamond, from the tip of a microscope to a wheel.
+# Usual ranges by key, from gels to diamond and from microscope tips to wheels.
 USUAL: Mapping[str, Usual] = {
     "young_modulus": _MODULUS,
     **dict.fromkeys(("radius", "radii", "window", "contact_radius"), _SIZE),
@@ -65,40 +65,42 @@ USUAL: Mapping[str, Usual] = {
     "normal_force": Usual(1e-12, 1e9, "N", {}),
     **dict.fromkeys(("coefficient", "map"), _FRICTION),
     "twist": Usual(0.0, 0.1, "rad", _DEGREE),
-    "tilt": Usual(0.0, 0.02, "rad", _DEGREE),  # about 1 deg: what a bad mounting has
-    "slope_angle": Usual(0.0, 0.36, "rad", _DEGREE),  # 20 deg: cones as steep as indenters
+    "tilt": Usual(0.0, 0.02, "rad", _DEGREE),  # about 1 deg, the tilt of a bad mounting
+    "slope_angle": Usual(0.0, 0.36, "rad", _DEGREE),  # 20 deg, the slope of sharp indenters
     "poisson_ratio": Usual(0.0, 0.5, "", {}, signed=True),
     "tolerance": Usual(0.0, 1e-3, "", {}),
 }
-# Softer than rubber and larger than a ball: numbers of a scene without units, or in its own.
+# Limits of modulus [Pa] and radius [m] of a dimensionless scene: softer than rubber and larger than
+# a ball.
 _SOFTEST, _LARGEST = 1e6, 0.1
-_STEEP = 1.0  # heights that differ by more than their distance
-_STIFF = 2e10  # Pa: metals and ceramics, whose mean pressure is limited by their hardness
-# Mean pressure over E* that only the hardest ceramics and diamond bear: hardness is 0.01 to 0.04 of
-# the modulus in steels, 0.05 in ceramics, 0.1 in diamond.
+_STEEP = 1.0  # largest difference of adjacent heights over their distance
+_STIFF = 2e10  # least modulus of metals and ceramics [Pa], where hardness limits the mean pressure
+# Ratio of mean pressure to E* above the hardness of most materials: hardness is 0.01 to 0.04 of the
+# modulus in steels, 0.05 in ceramics, 0.1 in diamond.
 _HARD = 0.05
-# Stiffness of a rig over that of the contact from which on the force is nearly prescribed.
+# Stiffness of a rig over that of the contact below which the force is nearly prescribed.
 _SOFT = 1e-3
 SPRINGS = (
     ("normal_stiffness", "approach", "normal_force"),
     ("tangential_stiffness", "tangential_shift", "tangential_force"),
 )
-# Contact radii beyond which nothing shows of what is below a layer, and those that a layer has
-# where nothing shows of it; softer and stiffer ones by so much the less.
+# Layer thickness in contact radii above which the material below has no effect, and below which
+# the layer has none. The ratio of the moduli shifts both limits.
 _DEEP, _THIN = 20.0, 1e-4
 
 
 def implausible(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
     """Return warnings about implausible numbers, with the probable intention.
 
-    fineness  tables of the scene file that say how finely it is to be solved, by name
-    Numbers near one that make sense together, of a scene without units, are none.
+    fineness  discretisation tables of the scene file, by name
+
+    A dimensionless scene, with consistent numbers near 1, causes no warnings.
     """
     return (*unlikely(scene, **fineness), *_strained(tuple(expected_contacts(scene))))
 
 
 def unlikely(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
-    """The same without strains, which a result tells better."""
+    """Return the warnings without those about strains, which a result determines better."""
     pressed = tuple(expected_contacts(scene))
     if _without_units(scene) and not any(_strained(pressed)):
         return ()
@@ -141,7 +143,7 @@ def _text(value: float, usual: Usual) -> str:
 
 
 def _numbers(value: object, path: Path) -> Iterator[tuple[Path, float]]:
-    """Every number of a part of the scene, with its path."""
+    """Yield every number of a part of the scene, with its path."""
     if isinstance(value, BaseModel):
         for name in type(value).model_fields:
             yield from _numbers(getattr(value, name), (*path, name))
@@ -155,7 +157,7 @@ def _numbers(value: object, path: Path) -> Iterator[tuple[Path, float]]:
 
 
 def _without_units(scene: Scene) -> bool:
-    """Whether its numbers are those of nothing that exists, in SI."""
+    """Determine if the numbers of a scene are dimensionless: too soft and too large for SI."""
     known = list(_numbers(scene, ()))
     moduli = [value for path, value in known if path[-1] == "young_modulus"]
     radii = [value for path, value in known if {"radius", "radii"} & {*path}]
@@ -165,14 +167,15 @@ def _without_units(scene: Scene) -> bool:
 def _steep(scene: Scene) -> Iterator[str]:
     if isinstance(indenter := scene.indenter, HeightMap):
         rows, (dx, dy) = indenter.heights, indenter.spacing
-        # Row by row, without a second array of that size.
+        # Row by row, without a second array of equal size.
         along_x = max(float(np.max(np.abs(b - a))) for a, b in pairwise(rows)) / dx
         along_y = max(float(np.max(np.abs(np.diff(row)))) for row in rows) / dy
         if (steepest := max(along_x, along_y)) > _STEEP:
             range_ = quantity(float(np.ptp(rows)), "m")
             yield (
-                f"indenter.file: the heights differ by {range_} and neighbours by {steepest:.2g} "
-                "times their distance; indenter.height_unit names their unit, by default metres"
+                f"indenter.file: the heights differ by {range_}, adjacent heights by "
+                f"{steepest:.2g} times their distance. Set indenter.height_unit unless the unit is "
+                "metres"
             )
 
 
@@ -181,8 +184,8 @@ def _measured(scene: Scene) -> Iterator[str]:
         return
     if indenter.lowest_on_rim:
         yield (
-            "indenter.file: the lowest point lies on the rim of the map, and the contact begins "
-            "there; heights count away from the body, with flip = true towards it: change "
+            "indenter.file: the lowest point, at which contact begins, lies on the rim of the map. "
+            "Heights are positive away from the body, with flip = true towards it. Change "
             "indenter.flip if the map is inverted"
         )
     if indenter.unmeasured:
@@ -195,7 +198,7 @@ def _measured(scene: Scene) -> Iterator[str]:
 def _too_small(
     scene: Scene, pressed: tuple[ExpectedContact, ...], fineness: Mapping[str, BaseModel]
 ) -> Iterator[str]:
-    """On a window or a mesh that does not hold the expected contact."""
+    """Warn about a window or mesh that is smaller than the expected contact."""
     a = max((end.radius for end in pressed), default=scene.indenter.rim or 0.0)
     window = getattr(fineness.get("semi_analytical"), "window", None)
     radius = getattr(fineness.get("fem_reference"), "contact_radius", None)
@@ -212,7 +215,7 @@ def _too_small(
 
 
 def _of_no_effect(scene: Scene, pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
-    """On layers of which, or below which, the contact shows nothing."""
+    """Warn about layers without effect, and layers that hide the material below."""
     a = max((end.radius for end in pressed), default=0.0)
     if not a:
         return
@@ -224,32 +227,35 @@ def _of_no_effect(scene: Scene, pressed: tuple[ExpectedContact, ...]) -> Iterato
                 if isinstance(below, IsotropicMaterial)
                 else 0.0
             )
-            told = f"{name}.layers[{number}].thickness: {quantity(layer.thickness, 'm', 6)} is"
             radii = layer.thickness / a
-            times = f"{radii:.2g} times the contact radius of about {quantity(a, 'm', 2)}"
+            text = (
+                f"{name}.layers[{number}].thickness: {quantity(layer.thickness, 'm', 6)} is "
+                f"{radii:.2g} times the contact radius of about {quantity(a, 'm', 2)}: hardly "
+                "anything shows of"
+            )
             if radii > _DEEP * max(1.0, softer):
-                yield f"{told} {times}: hardly anything shows of what lies below"
+                yield f"{text} what lies below"
                 break
             if softer and radii * max(softer, 1 / softer) < _THIN:
-                yield f"{told} {times}: hardly anything shows of it"
+                yield f"{text} it"
 
 
 def _far(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
-    """On a shift that moves the indenter out of the contact."""
+    """Warn about a shift that exceeds the contact radius."""
     for end in pressed:
         if end.ramp.tangential.kind is ControlKind.DISPLACEMENT:
             shift = math.hypot(*end.ramp.tangential.end)
             if shift > end.radius:
                 yield (
                     f"loading[{end.ramp.step}].tangential_shift: {quantity(shift, 'm')} is further "
-                    f"than the contact radius of about {quantity(end.radius, 'm', 2)}, where the "
-                    "theory of small displacements has ended"
+                    f"than the contact radius of about {quantity(end.radius, 'm', 2)}, beyond the "
+                    "theory of small displacements"
                 )
                 return
 
 
 def _soft(scene: Scene, pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
-    """On springs of a rig through which a displacement is as good as a force."""
+    """Warn about springs so soft that a prescribed displacement nearly prescribes the force."""
     pairs = zip(SPRINGS, compliances(scene.rig), strict=True)
     for end, ((key, name, force), compliance) in product(pressed, pairs):
         control = end.ramp.normal if force == "normal_force" else end.ramp.tangential
@@ -257,38 +263,39 @@ def _soft(scene: Scene, pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
             yield (
                 f"rig.{key}: {quantity(1 / compliance, 'N/m')} is less than {_SOFT:g} of the "
                 f"stiffness of the contact of about {quantity(end.stiffness, 'N/m', 2)}: {name} "
-                f"prescribes nearly a force, at a higher cost and with more round-off; prescribe "
+                "prescribes nearly a force, at a higher cost and with more round-off; prescribe "
                 f"{force} instead"
             )
             return
 
 
 def _yielding(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
-    """On the first step whose pressure hardly anything so stiff bears."""
+    """Warn about the first step with a pressure beyond the hardness of most stiff materials."""
     for end in pressed:
         if end.modulus > _STIFF and _HARD < end.strain <= SMALL_STRAIN:
             yield (
-                f"loading[{end.ramp.step}].{_led_by(end)} presses with about "
+                f"loading[{end.ramp.step}].{_normal_load(end)} presses with about "
                 f"{quantity(end.strain * end.modulus, 'Pa', 2)} in the mean, {end.strain:.2g} of "
                 f"E* = {quantity(end.modulus, 'Pa')}: all but diamond and the hardest ceramics "
-                "yield before, and the theory knows no yield"
+                "yield before, and the theory excludes plastic yield"
             )
             return
 
 
-def _led_by(end: ExpectedContact) -> str:
-    """The control that leads a step, and its end."""
+def _normal_load(end: ExpectedContact) -> str:
+    """Write the normal control of a step and its value."""
     by_force = end.ramp.normal.kind is ControlKind.FORCE
     load = quantity(end.ramp.normal.end, "N" if by_force else "m")
     return f"{'normal_force' if by_force else 'approach'}: {load}"
 
 
 def _strained(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
-    """On the first step that would press far beyond linear elasticity."""
+    """Warn about the first step with strains far beyond linear elasticity."""
     for end in pressed:
         if end.strain > SMALL_STRAIN:
             yield (
-                f"loading[{end.ramp.step}].{_led_by(end)} on E* = {quantity(end.modulus, 'Pa')} "
-                f"makes strains of about {end.strain:.2g}, where the theory of small ones has ended"
+                f"loading[{end.ramp.step}].{_normal_load(end)} on E* = "
+                f"{quantity(end.modulus, 'Pa')} causes strains of about {end.strain:.2g}, beyond "
+                "the theory of small strains"
             )
             return

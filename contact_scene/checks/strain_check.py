@@ -1,4 +1,4 @@
-"""Whether strains are still small: where they are not, the solvers' theory has ended."""
+"""Check of the strains of a result against the limit of linear elasticity."""
 
 from collections.abc import Iterable, Iterator
 from typing import Protocol
@@ -9,13 +9,13 @@ from contact_scene.body import Body, Layer
 from contact_scene.material import IsotropicMaterial
 from contact_scene.scene import Scene
 
-# The theory is wrong by the order of the strains it neglects. Hertz's ball is there at
-# a/R = 0.24, a cone at a slope of 11 degrees: Johnson 1985, eqs. 3.39 and 5.11.
+# The relative error of linear elasticity is of the order of the strain. A Hertzian ball reaches
+# this strain at a/R = 0.24, a cone at a slope of 11 degrees (Johnson 1985, eqs. 3.39 and 5.11).
 SMALL_STRAIN = 0.1
 
 
 class StepEnd(Protocol):
-    """The state at the end of a loading step, by either solver or from a summary."""
+    """State at the end of a load step, from a solver or a summary."""
 
     @property
     def normal_force(self) -> float: ...
@@ -44,7 +44,7 @@ def beyond_linear_theory(scene: Scene, ends: Iterable[StepEnd]) -> tuple[str, ..
 
 
 def _strains(scene: Scene, end: StepEnd) -> Iterator[tuple[float, str]]:
-    """Strains by order of magnitude, and where they are; none without contact."""
+    """Estimate strains to an order of magnitude, with their locations; none without contact."""
     if end.contact_area <= 0 or end.normal_force <= 0:
         return
     pressure = end.normal_force / end.contact_area
@@ -58,9 +58,9 @@ def _strains(scene: Scene, end: StepEnd) -> Iterator[tuple[float, str]]:
 
 
 def _strained(body: Body, contact_radius: float) -> Iterator[tuple[float, str]]:
-    """Moduli of what lies no deeper than a contact radius, where the pressure has not faded.
+    """Yield the moduli of layers and substrate down to a depth of one contact radius.
 
-    E/(1 - nu^2) of what can yield sideways; what a thin layer is bonded to holds it.
+    The modulus is E/(1 - nu^2); for thin layers see `_layer_modulus`.
     """
     depth = 0.0
     for number, layer in enumerate(body.layers, start=1):
@@ -72,21 +72,16 @@ def _strained(body: Body, contact_radius: float) -> Iterator[tuple[float, str]]:
 
 
 def _layer_modulus(layer: Layer, contact_radius: float) -> float:
-    """Pressure over strain [force/length^2].
+    """Compute the ratio of pressure to strain of a layer [force/length^2].
 
-    A layer thinner than the contact radius is held: it is compressed with the modulus of uniaxial
-    strain, or sheared as it is squeezed out sideways, with G a/h, whichever is easier.
+    The bond restrains a layer thinner than the contact radius: it is compressed in uniaxial strain,
+    E (1 - nu) / ((1 + nu) (1 - 2 nu)), or squeezed out in shear, G a/h, whichever is softer.
     """
-    free = layer.material.plane_strain_modulus
+    material, nu = layer.material, layer.material.poisson_ratio
     if layer.thickness >= contact_radius:
-        return free
-    sheared = layer.material.shear_modulus * contact_radius / layer.thickness
-    if layer.material.poisson_ratio == 0.5:
-        return max(free, sheared)
-    return max(free, min(_uniaxial_modulus(layer.material), sheared))
-
-
-def _uniaxial_modulus(material: IsotropicMaterial) -> float:
-    """E (1 - nu) / ((1 + nu) (1 - 2 nu)) [force/length^2]."""
-    nu = material.poisson_ratio
-    return material.young_modulus * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu))
+        return material.plane_strain_modulus
+    squeezed = material.shear_modulus * contact_radius / layer.thickness
+    if nu < 0.5:
+        uniaxial = material.young_modulus * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu))
+        squeezed = min(uniaxial, squeezed)
+    return max(material.plane_strain_modulus, squeezed)

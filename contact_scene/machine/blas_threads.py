@@ -1,4 +1,4 @@
-"""One thread of linear algebra, whatever the environment says."""
+"""Linear algebra with one thread, independent of the environment."""
 
 import sys
 from collections.abc import Iterator
@@ -10,14 +10,15 @@ from threadpoolctl import ThreadpoolController
 
 @contextmanager
 def one_thread() -> Iterator[None]:
-    """While a solver works: two threads add in another order, so that the bits would differ, and
-    wait for one another over systems as small as those of a contact."""
+    """Limit BLAS to one thread in the block.
+
+    Several threads sum in another order, which changes bits, and are slower for small systems.
+    """
     with _libraries(len(sys.modules)).limit(limits=1, user_api="blas"):
         yield
 
 
 @lru_cache(maxsize=1)
 def _libraries(imported: int) -> ThreadpoolController:
-    """All that are loaded. To find them takes as long as a contact on few cells, and only an import
-    brings in another."""
+    """Find the loaded libraries. The search is slow, and only an import can load another."""
     return ThreadpoolController()

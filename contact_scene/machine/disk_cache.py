@@ -1,9 +1,8 @@
-"""Arrays kept on disk, found again by what determines them: they depend on neither load nor shape
-nor friction, and many runs need the same.
+"""Cache of arrays on disk, for operators that do not depend on load, shape and friction.
 
-A file holds raw numbers behind their own checksum; its name is the hash of what they were computed
-from. One that is damaged, cut off, foreign or renamed is named, computed again and replaced.
-Without a place to write there is no cache, and no complaint.
+A file contains a checksum and raw numbers; its name is the hash of all data that determine the
+array. A damaged, foreign or renamed file causes a warning; its array is computed again and
+replaced. Without a writable directory there is no cache and no warning.
 """
 
 from __future__ import annotations
@@ -24,19 +23,19 @@ from contact_scene.machine.trusted_file import open_own
 
 FIRST_LINE = b"slipstick array, format 1\n"
 SUFFIX = ".array"
-# All entries together; one alone may take a quarter. The least recently used ones go first.
+# Largest size of all entries [byte]; one entry may have a quarter. The least recently used entries
+# are deleted first.
 LARGEST_CACHE = 1 << 30
-OF_CLOCKS_APART = 3600.0  # seconds by which machines that share a cache may differ
 
 _ignored = ContextVar("_ignored", default=False)
-# Without a handler of the caller's, a warning is one line on stderr.
+# Without a handler, a warning is one line on stderr.
 log = logging.getLogger(__name__)
 
 
 def remembered(
     identity: str, shape: tuple[int, ...], compute: Callable[[], NDArray[np.float64]]
 ) -> NDArray[np.float64]:
-    """The array that `compute` gives, from the cache if it is there.
+    """Return an array from the cache, or compute and store it.
 
     identity  text that determines every bit of the array
     """
@@ -55,7 +54,7 @@ def remembered(
 
 @contextlib.contextmanager
 def without_cache() -> Iterator[None]:
-    """Neither read nor write the cache in the block, for a measurement of what a solve costs."""
+    """Disable the cache in the block, to measure the cost of a solve."""
     before = _ignored.set(True)
     try:
         yield
@@ -64,12 +63,12 @@ def without_cache() -> Iterator[None]:
 
 
 def cache_directory() -> Path | None:
-    """SLIPSTICK_CACHE_DIR, or `slipstick` in the user's cache directory (XDG), if there is one."""
+    """Return SLIPSTICK_CACHE_DIR, or `slipstick` in the user's cache directory (XDG), or None."""
     chosen = os.environ.get("SLIPSTICK_CACHE_DIR")
     if chosen:
         return Path(chosen)
     user = os.environ.get("XDG_CACHE_HOME", "")
-    if os.path.isabs(user):  # the specification tells to ignore a relative one
+    if os.path.isabs(user):  # relative paths are ignored, as in the specification
         return Path(user) / "slipstick"
     try:
         return Path.home() / ".cache" / "slipstick"
@@ -78,12 +77,12 @@ def cache_directory() -> Path | None:
 
 
 def _read(path: Path, key: str, shape: tuple[int, ...]) -> NDArray[np.float64] | None:
-    """The stored array, or None unless the file is whole and the one that was asked for."""
+    """Read a stored array; None if the file is damaged or has another key."""
     size = 8 * int(np.prod(shape))
     try:
         with open_own(path) as file:
             header = file.read(len(FIRST_LINE) + 2 * 65)
-            body = file.read(size + 1)  # one more, to see whether the file is longer
+            body = file.read(size + 1)  # one more byte, to detect a longer file
     except (FileNotFoundError, NotADirectoryError):
         return None
     except OSError as error:
@@ -99,7 +98,7 @@ def _read(path: Path, key: str, shape: tuple[int, ...]) -> NDArray[np.float64] |
 
 
 def _write(path: Path, key: str, values: NDArray[np.float64]) -> None:
-    """Store an array so that nobody ever sees a part of it; make room by age."""
+    """Store an array atomically, and delete old entries."""
     body = values.astype("<f8").tobytes()
     if len(body) > LARGEST_CACHE // 4:
         return
@@ -117,19 +116,17 @@ def _write(path: Path, key: str, values: NDArray[np.float64]) -> None:
 
 
 def _header(key: str, body: bytes) -> bytes:
-    """What stands before the numbers: format, identity and checksum."""
+    """Build the header of a file: format, key and checksum."""
     return FIRST_LINE + f"{key}\n{sha256(body).hexdigest()}\n".encode()
 
 
 def _make_room(newest: Path) -> None:
-    """Delete the least recently used entries beyond LARGEST_CACHE; other files are not touched."""
-    entries, latest = [], newest.stat().st_mtime + OF_CLOCKS_APART
+    """Delete the least recently used entries beyond LARGEST_CACHE; other files remain."""
+    entries = []
     for path in newest.parent.glob("*" + SUFFIX):
-        with contextlib.suppress(OSError):  # another process may be making room as well
+        with contextlib.suppress(OSError):  # another process may delete entries, too
             status = path.stat()
-            # One of a clock that was wrong would be the last to go for as long as that was ahead.
-            used = status.st_mtime if status.st_mtime <= latest else 0.0
-            entries.append((path != newest, -used, status.st_size, path))
+            entries.append((path != newest, -status.st_mtime, status.st_size, path))
     total = 0
     for _, _, size, path in sorted(entries):
         total += size

@@ -1,4 +1,4 @@
-"""Memory that can still be had on this machine."""
+"""Available memory of the machine."""
 
 import os
 import sys
@@ -8,14 +8,14 @@ MEMORY = Path("/proc/meminfo")
 
 
 def available_bytes() -> int:
-    """Memory that can be had without swapping, as far as the system tells [byte]."""
+    """Determine the memory that is available without swapping [byte]."""
     try:
-        with MEMORY.open("rb") as lines:  # of which it is one of the first
+        with MEMORY.open("rb") as lines:
             for line in lines:
                 if line.startswith(b"MemAvailable:"):
                     return int(line.split()[1]) << 10
     except OSError:
         pass
-    if not hasattr(os, "sysconf"):  # Windows does not tell
+    if not hasattr(os, "sysconf"):  # unknown on Windows
         return sys.maxsize
     return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")

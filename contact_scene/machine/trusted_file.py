@@ -1,19 +1,18 @@
-"""Files that this program has kept for itself, in places where others may write as well."""
+"""Files written by this program, in places where other users may write."""
 
 import os
 import stat
 from io import BufferedReader
 from pathlib import Path
 
-# Of systems that have either: a queue is not waited for, and bytes are not taken for text.
+# Flags of some systems: do not wait for a named pipe, and read bytes instead of text.
 NEITHER_WAITING_NOR_TEXT = getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
 
 
 def open_own(path: Path) -> BufferedReader:
-    """Open for reading what this user, or the system's administrator, has put there.
+    """Open a file of this user or of the administrator for reading.
 
-    Raises OSError, also for what is no plain file, which might never end, and for a file of
-    another user, whose checksum says only that it is whole.
+    Raises OSError, also for pipes and devices, which may not end, and for files of other users.
     """
     descriptor = os.open(path, os.O_RDONLY | NEITHER_WAITING_NOR_TEXT)
     try:

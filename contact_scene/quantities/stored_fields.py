@@ -1,6 +1,6 @@
-"""Storage of a long history in a file, from which values are read when they are used.
+"""Storage of a long history in a temporary file, with values read on access.
 
-The file has no name: it is gone with the last value that has a field in it, and with the process.
+The file has no name: the system deletes it with the last value that refers to it.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ from typing import IO, Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-# Bytes of arrays that a history holds in memory. A longer one has a file, in the system's folder
-# for temporary files (TMPDIR).
+# Largest size of the arrays of a history in memory [byte]. Further arrays are in a file, in the
+# system's folder for temporary files (TMPDIR).
 MAX_HELD = 4 << 20
-LEAST_STORED = 512  # bytes; the place of an array in a file takes as much
+LEAST_STORED = 512  # smallest array in the file [byte]; the record of its place has this size
 
 Value = TypeVar("Value", bound="WithFields")
 
@@ -35,31 +35,30 @@ class StoredArray:
 
     @property
     def nbytes(self) -> int:
-        """Of the array."""
+        """Size of the array [byte]."""
         return self.dtype.itemsize * math.prod(self.shape)
 
     def read(self) -> NDArray[Any]:
-        """A copy: it cannot be written to, since nobody else would see it."""
+        """Read a copy of the array. It is read-only, since changes would not reach the file."""
         mapped = np.memmap(self.file, self.dtype, "r", self.offset, self.shape)
         values = np.array(mapped, subok=False)
         values.flags.writeable = False
         return values
 
     def __reduce_ex__(self, protocol: Any) -> Any:
-        """Another process gets the array, once for all values that share it."""
+        """Pickle the array instead of its place in the file, which other processes cannot read."""
         return self.read().__reduce_ex__(protocol)
 
 
 class _StoredState(NamedTuple):
-    """The attributes of a value in a file, arrays by their places. No dataclass, so that no
-    checkpoint can hold one."""
+    """Place of the attributes of a value in a file. Not a dataclass, which checkpoints accept."""
 
     file: IO[bytes]
     offset: int
     size: int
 
     def read(self) -> dict[str, Any]:
-        """Read the attributes."""
+        """Read the attributes; arrays remain in the file."""
         content = np.memmap(self.file, np.uint8, "r", self.offset, (self.size,)).tobytes()
         state, arrays = pickle.loads(content)
         return state | {
@@ -69,8 +68,10 @@ class _StoredState(NamedTuple):
 
 
 class WithFields:
-    """A value whose arrays, or all of whose attributes, may lie in a file. An array is read at
-    every access; the attributes of one value at a time stay in memory."""
+    """Value with arrays, or all attributes, in a file.
+
+    An array is read at every access. The attributes of one value at a time are in memory.
+    """
 
     def __getattribute__(self, name: str) -> Any:
         own = object.__getattribute__(self, "__dict__")
@@ -87,9 +88,9 @@ class WithFields:
         return dict(vars(self))
 
 
-# Attributes of a value that lies in a file: its place, and its state while it is the last one read.
+# Attributes of a value in a file: its place, and its attributes if it was read last.
 _STATE, _OPENED = "_stored_state", "_opened_state"
-# Attributes that stay in memory, by which the increments of a history are told apart.
+# Attributes that remain in memory and identify the increments of a history.
 _AT_HAND = ("step", "index", "increments_in_step")
 _last_read: weakref.ref[WithFields] | None = None
 
@@ -107,14 +108,16 @@ def _state(value: WithFields, own: dict[str, Any]) -> dict[str, Any]:
 
 
 def stored_bytes(value: WithFields) -> int:
-    """Of all arrays of a value [byte]."""
+    """Compute the size of all arrays of a value [byte]."""
     return sum(getattr(array, "nbytes", 0) for array in vars(value).values())
 
 
 class FieldStore:
-    """Takes the values of one history in their order: the first ones stay in memory, those whose
-    arrays are beyond `MAX_HELD` bytes go into a file. An array that a value shares with the one
-    before, or has twice, is stored once."""
+    """Storage of the values of one history, in their order.
+
+    Arrays beyond `MAX_HELD` bytes, and all values from then on, are in a file. An array that a
+    value shares with the preceding value, or has twice, is stored once.
+    """
 
     def __init__(self) -> None:
         self._held = 0
@@ -122,12 +125,12 @@ class FieldStore:
         self._known: dict[int, tuple[NDArray[Any], NDArray[Any] | StoredArray]] = {}
 
     def kept(self, value: Value) -> Value:
-        """The same value, to be held; raises OSError where the file cannot grow."""
+        """Store a value; return its equivalent. Raises OSError if the file cannot grow."""
         kept = copy.copy(value)
         known: dict[int, tuple[NDArray[Any], NDArray[Any] | StoredArray]] = {}
         for name, array in vars(value).items():
             if isinstance(array, np.ndarray) and array.nbytes >= LEAST_STORED:
-                place = id(array)  # nobody else's while `_known` holds the array
+                place = id(array)  # unique, since `_known` refers to the array
                 found = known.get(place) or self._known.get(place) or (array, self._put(array))
                 known[place] = found
                 vars(kept)[name] = found[1]
@@ -135,7 +138,7 @@ class FieldStore:
         return kept if self._file is None else self._stored(kept, self._file)
 
     def _stored(self, value: Value, file: IO[bytes]) -> Value:
-        """Write the attributes of a value whose arrays are in the file or in memory."""
+        """Write the attributes of a value to the file, except arrays that are there already."""
         state = dict(vars(value))
         arrays = {
             name: (array.offset, array.dtype.str, array.shape)
@@ -159,16 +162,16 @@ class FieldStore:
         return StoredArray(self._file, place, array.dtype, array.shape)
 
     def _write(self, content: bytes | memoryview) -> int:
-        """Append to the file; returns the place."""
+        """Append to the file; return the offset."""
         try:
             if self._file is None:
-                # Open as long as a value has a field in it.
+                # Open as long as a value refers to it.
                 self._file = tempfile.TemporaryFile(prefix="slipstick-")  # noqa: SIM115
             offset = self._file.seek(0, 2)
             self._file.write(content)
             self._file.flush()
         except OSError as error:
-            folder = tempfile.tempdir or "temporary files"  # where there is none, asking raises
+            folder = tempfile.tempdir or "temporary files"  # gettempdir raises if there is none
             error.filename = f"{folder} (TMPDIR), for the fields of increments"
             raise
         return offset
