@@ -173,7 +173,7 @@ def test_a_map_that_touches_first_at_its_rim_is_refused_at_once(
     asked = scene(PRESS, PUSH, indenter=measured(heights), friction=MU)
     told: list[object] = []
     assert any("lies on the rim of the map" in remark for remark in implausible(asked))
-    with pytest.raises(ContactAtWindowEdge, match=r"border of the window.*change indenter.flip"):
+    with pytest.raises(ContactAtWindowEdge, match=r"border of the window.*Change indenter.flip"):
         slipstick.solve(asked, progress=told.append)
     assert not told
 
@@ -300,5 +300,5 @@ def test_the_plan_of_an_unresolved_contact_is_refused_as_its_solve() -> None:
     asked = scene({"approach": APPROACH}, indenter=cone)
     fineness = SurfaceDiscretisation(cells=(8, 8), window=(4e-3, 4e-3))
     for call in (OnCells().work, lambda *given: OnCells().solve(*given)):
-        with pytest.raises(ContactNotResolved, match="take more cells"):
+        with pytest.raises(ContactNotResolved, match="Use more cells"):
             list(call(asked, fineness, slipstick.plan(asked)))
