@@ -1,9 +1,9 @@
-"""Multipliers of resultants: what makes a projected traction carry the load that is asked for.
+"""Multipliers of prescribed resultants, by a damped Newton method on the dual function.
 
-The projection on tractions with given sums is q = P(y + Σ λ m), P the projection cell by cell and m
-the rigid motions that the sums belong to. The λ minimise a convex function (the dual), found by a
-damped Newton method. It works on the gradient of that function, the defect of the sums: its values
-are differences of large numbers near the limit of what can be carried.
+The projection on tractions with given sums is q = P(y + Σ λ m), with the cell-wise projection P and
+the rigid motions m conjugate to the sums. The multipliers λ minimise the convex dual function. The
+line search uses its gradient, the defect of the sums, because near the friction limit values of the
+function are differences of large numbers.
 """
 
 from collections.abc import Callable
@@ -17,17 +17,17 @@ MAX_SWEEPS = 100
 
 
 class Shifted(Protocol):
-    """A traction shifted by multipliers and projected."""
+    """Traction shifted by multipliers and projected."""
 
     @property
     def defect(self) -> Vector:
-        """Sums of the traction less those asked for: the gradient of the dual."""
+        """Sums of the traction minus the prescribed sums: gradient of the dual function."""
 
     def settled(self, multiplier: Vector) -> bool:
-        """Whether the defect is round-off."""
+        """Return whether the defect is round-off."""
 
     def newton_step(self) -> Vector:
-        """Change of the multipliers that removes the defect to first order."""
+        """Compute the change of the multipliers that removes the defect to first order."""
 
 
 Point = TypeVar("Point", bound=Shifted)
@@ -36,10 +36,12 @@ Point = TypeVar("Point", bound=Shifted)
 def find_multiplier(
     shifted_by: Callable[[Vector], Point], multiplier: Vector
 ) -> tuple[Point, Vector]:
-    """The point without defect, and its multipliers; not settled where no traction has the sums.
+    """Find the multipliers without defect; return the projected traction and the multipliers.
 
-    shifted_by  the point that belongs to a multiplier
-    multiplier  where to start
+    The result is not settled if no traction has the prescribed sums.
+
+    shifted_by  projected traction as a function of the multipliers
+    multiplier  initial guess
     """
     shifted = shifted_by(multiplier)
     for _ in range(MAX_SWEEPS):
@@ -50,7 +52,8 @@ def find_multiplier(
         part = 1.0
         while True:
             trial = shifted_by(multiplier + part * step)
-            # The defect is the slope of the dual: the step may pass the minimum only a little.
+            # Curvature condition on the gradient of the dual: the step passes the minimum at most
+            # to half the initial slope.
             if np.sum(trial.defect * step) <= 0.5 * steepest or part < 1e-9:
                 break
             part *= 0.5

@@ -1,7 +1,7 @@
-"""Stress at and near the edge of a contact, by tractions with their edge.
+"""Stress at and near the edge of a contact, by tractions with sub-cell edge.
 
-At the surface the cells about the observer are one root of a quadratic; beyond and below, cells at
-the edge act by their small cells, and others by their mean and slope.
+At the surface a quadratic p² in a box of cells about the observer is integrated along rays. Farther
+cells at the edge are divided into subcells with point forces; other cells act by mean and slope.
 """
 
 import numpy as np
@@ -20,18 +20,18 @@ Spacing = tuple[float, float]
 
 # Half side in cells of the box in which phi is one quadratic.
 BOX = 2
-# Small cells along a side: beyond the box, and in it at a depth of one cell.
+# Subcells along a side of a cell: beyond the box, and in the box at a depth of one cell.
 PARTS, PARTS_AT_A_CELL = 4, 6
-# Observers, and small cells or points that they see, that are treated at once.
+# Batch sizes: observers, and pairs of observer and subcell.
 OBSERVERS, SEEN = 64, 1 << 15
 
 
 def stress_at_surface(
     edged: EdgedTractions, phi: Quadratic, plane: Field, material: HalfSpace, spacing: Spacing
 ) -> Field:
-    """Stress (6, n) at z = 0 at the places of phi, near the edge.
+    """Compute the stress (6, n) at z = 0 at the positions of phi, near the edge.
 
-    phi       about them, (n,), index coordinates
+    phi       quadratics about the positions (n,), index coordinates
     plane     (6, nx, ny) stress at the cell centres by `edged.cells`
     material  outermost
     """
@@ -50,10 +50,9 @@ def stress_at_surface(
 def change_at_depth(
     edged: EdgedTractions, x: Field, y: Field, depth: float, material: HalfSpace, spacing: Spacing
 ) -> Field:
-    """By how much stress (6, n) below places (n,) is other than by `edged.cells`.
+    """Compute the change of stress (6, n) at positions (n,) due to sub-cell tractions.
 
-    depth  z > 0 [length], within the outermost material; below a quarter of a cell there are not
-           small cells enough
+    depth  z > 0 [length], within the outermost material; accurate from a quarter of a cell on
     """
     cells = depth / max(spacing)
     near = max(PARTS, int(np.ceil(PARTS_AT_A_CELL / cells)))
@@ -69,7 +68,8 @@ def change_at_depth(
 
 
 def _in_box(edged: EdgedTractions, phi: Quadratic, material: HalfSpace, spacing: Spacing) -> Field:
-    """By the box: one root, and what the means of its cells have beside it."""
+    """Compute the stress by the box of cells: by rays for √phi, plus the deviation of the cell
+    means."""
     i, j = np.rint(phi.x).astype(int), np.rint(phi.y).astype(int)
     x, y = phi.x - i, phi.y - j
     half = BOX + 0.5
@@ -86,10 +86,10 @@ def _in_box(edged: EdgedTractions, phi: Quadratic, material: HalfSpace, spacing:
     inside = (at_i >= 0) & (at_i < last[1]) & (at_j >= 0) & (at_j < last[2])
     means = edged.means[:, np.clip(at_i, 0, last[1] - 1), np.clip(at_j, 0, last[2] - 1)] * inside
     left = means - np.concatenate([slip, np.ones((1, len(i)))])[..., None, None] * by_root
-    # Observer less source: over increasing sources the corners run downward.
+    # Observer minus source: corners in decreasing order for increasing sources.
     corners = np.arange(BOX + 1, -BOX - 1, -1) - 0.5
     to_x, to_y = (
-        # On a side of cells, where uniform tractions would be singular, beside it.
+        # On a cell side uniform tractions are singular: evaluated next to it.
         np.where(at[:, None] == corners, 1e-9, at[:, None] - corners) * side
         for at, side in zip((x, y), spacing, strict=True)
     )
@@ -111,9 +111,9 @@ def _by_points(
     *,
     slopes_alone: bool = False,
 ) -> Field:
-    """By the cells of the patch beyond the box, mean and slope, by Gauss points.
+    """Compute the stress by mean and slope of cells in the patch beyond the box, at Gauss points.
 
-    slopes_alone  without the means, and the box too
+    slopes_alone  omit the means, and include the box
     """
     i, j = np.rint(x).astype(int), np.rint(y).astype(int)
     a, b = (
@@ -150,7 +150,10 @@ def _by_parts(
     count: int,
     within: tuple[int, int],
 ) -> Field:
-    """By what the count² small cells differ from their cells, first and last ring of these."""
+    """Compute the stress by the deviations of count² subcells from their cells.
+
+    within  first and last ring of cells about the observer
+    """
     i, j = np.rint(x).astype(int), np.rint(y).astype(int)
     pairs = []
     for start in range(0, len(x), OBSERVERS):
@@ -174,5 +177,5 @@ def _by_parts(
 
 
 def _summed(stress: Field, observer: Indices, count: int) -> Field:
-    """(6, pairs) to (6, observers)."""
+    """Sum (6, pairs) over the pairs of each observer (6, observers)."""
     return np.stack([np.bincount(observer, component, count) for component in stress])

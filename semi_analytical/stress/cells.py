@@ -1,8 +1,8 @@
-"""Integrals over loaded cells of the tabulated response at depth.
+"""Cell integrals of the tabulated response at depth, by adaptive subdivision and Gauss points.
 
-The response is analytic but at a distance, the clearance, below or above the surface. A cell that
-is small against its distance from there needs few points; one that is not is cut. So cells of any
-size against layers and depths are integrated to rounding.
+The response is analytic up to a singularity at a distance above or below the surface, the
+clearance. Cells that are small relative to their distance from it need few points; others are
+divided. The integrals are accurate to round-off for all cell sizes, layers and depths.
 """
 
 from collections.abc import Iterator
@@ -20,10 +20,10 @@ from semi_analytical.influence.layered_response import BATCH
 from semi_analytical.stress.components import each_response, empty_response
 from semi_analytical.stress.radial_table import DepthTable, clearance, depth_table, in_scene_axes
 
-# Distance of a box in units of its half side, as for the surface.
+# Least distance of a box from the singularity in units of its half side, as for the surface.
 CLEAR = 4.0
 
-# Levels that share one table: its work space stays some tens of megabytes.
+# Levels per table, so that its work space is some tens of megabytes.
 AT_ONCE = 16
 
 
@@ -34,7 +34,7 @@ def cell_integrals(
     spacing: tuple[float, float],
     shape: tuple[int, int],
 ) -> Field:
-    """Fields by unit tractions on the cells at offsets i < nx, j < ny.
+    """Integrate the fields by unit tractions over the cells at offsets i < nx, j < ny.
 
     table      up to MARGIN cells beyond the farthest offset
     level      index in the table
@@ -57,7 +57,7 @@ def cell_integrals(
 
 
 def _with_exact_zeros(result: Field) -> Field:
-    """Odd there: exactly zero, not nearly."""
+    """Set responses on their planes of antisymmetry to exactly zero."""
     for coefficients, (along_x, along_y) in each_response(result):
         if along_x < 0:
             coefficients[0, :] = 0
@@ -67,9 +67,9 @@ def _with_exact_zeros(result: Field) -> Field:
 
 
 def _response(table: DepthTable, level: int, x: Field, y: Field) -> Field:
-    """Fields by unit point forces, shape (FIELDS, acting tractions, *x.shape)."""
+    """Compute the fields by unit point forces, shape (FIELDS, acting tractions, *x.shape)."""
     r = np.hypot(x, y)
-    away = np.where(r > 0, r, 1.0)  # on the axis what depends on the direction vanishes
+    away = np.where(r > 0, r, 1.0)  # on the axis functions of the direction vanish
     functions = table.at(level, r.ravel()).reshape(-1, *x.shape)
     return in_scene_axes(functions, np.where(r > 0, x / away, 1.0), y / away)
 
@@ -77,7 +77,7 @@ def _response(table: DepthTable, level: int, x: Field, y: Field) -> Field:
 def _averaged(
     table: DepthTable, level: int, spacing: tuple[float, float], shape: tuple[int, int]
 ) -> Field:
-    """All cells by a nine-point average along x and y, good for the far ones only."""
+    """Average over all cells by nine points along x and y; accurate for far cells only."""
     x = np.arange(shape[0] + MARGIN) * spacing[0]
     y = np.arange(shape[1] + MARGIN) * spacing[1]
     points = empty_response((len(x), len(y)), sheared=table.sheared)
@@ -95,14 +95,15 @@ def _averaged(
 
 
 def _averaged_along(field: Field, axis: int, sign: int) -> Field:
-    """Cell averages along one axis of values at offsets >= 0, shorter by MARGIN."""
+    """Average over cells along one axis, from values at offsets >= 0; shorter by MARGIN."""
     mirrored = sign * np.flip(np.take(field, range(1, MARGIN + 1), axis), axis)
     averaged = correlate1d(np.concatenate([mirrored, field], axis), CELL_AVERAGE, axis)
     return np.take(averaged, range(MARGIN, averaged.shape[axis] - MARGIN), axis)
 
 
 def _near_cells(spacing: tuple[float, float], shape: tuple[int, int], clearance: float) -> Indices:
-    """Indices (i, j) of the cells closer to the singularity than FAR of their longer sides."""
+    """Return the indices (i, j) of cells closer to the singularity than FAR times their longer
+    side."""
     radius = FAR * max(spacing)
     i = np.arange(min(shape[0], int(radius / spacing[0]) + 1))
     j = np.arange(min(shape[1], int(radius / spacing[1]) + 1))
@@ -111,7 +112,7 @@ def _near_cells(spacing: tuple[float, float], shape: tuple[int, int], clearance:
 
 
 def _clear_boxes(spacing: tuple[float, float], cells: Indices, clearance: float) -> Boxes:
-    """Cells cut until every box is small against its distance from the singularity."""
+    """Divide cells until every box is small relative to its distance from the singularity."""
     count = len(cells)
     offsets = cells.astype(np.float64)
     boxes = Boxes(
@@ -149,10 +150,10 @@ def layered_coefficients(
     *,
     sheared: bool,
 ) -> Iterator[Field]:
-    """Yield the part of the fields at each level that the layers cause, from a table.
+    """Iterate over the contributions of the layers to the fields at each level, from a table.
 
-    At a level in the outermost layer, the response of a half-space of its material is left out.
-    Arguments and shapes as of `field.depth_coefficients`.
+    At a level in the outermost layer, the response of a half-space of its material is excluded.
+    Arguments and shapes are those of `field.depth_coefficients`.
     """
     reach = hypot((shape[0] + MARGIN) * spacing[0], (shape[1] + MARGIN) * spacing[1])
     for start in range(0, len(levels), AT_ONCE):

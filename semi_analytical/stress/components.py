@@ -22,9 +22,9 @@ def acting(sheared: bool) -> tuple[str, ...]:
 
 
 def parity(field: str, traction: str) -> tuple[int, int]:
-    """+1 if a response is even, -1 if it is odd, along x and along y.
+    """Return the parity of a response along x and along y: +1 if even, -1 if odd.
 
-    By reflection each axis named in the field or the traction is one change of sign.
+    By reflection each occurrence of an axis in the field or the traction is one change of sign.
     """
     axes = field + traction
     return (-1) ** axes.count("x"), (-1) ** axes.count("y")

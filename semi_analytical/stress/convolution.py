@@ -1,6 +1,6 @@
-"""Tractions to fields at one depth: linear convolution, on whole planes or on some rows of cells.
+"""Linear convolution of tractions with fields at one depth, on planes or on rows of cells.
 
-Both pad with zeros to at least the sum of the lengths, so there is no periodic image.
+Zero padding to at least the sum of both lengths avoids periodic images.
 """
 
 from collections.abc import Callable
@@ -17,12 +17,12 @@ Convolution = Callable[[Field], Field]
 
 
 def plane_convolution(tractions: Field) -> Convolution:
-    """Convolve tractions (acting tractions, nx, ny) on all cells; fields (FIELDS, nx, ny)."""
+    """Return a convolution with tractions (acting tractions, nx, ny); fields (FIELDS, nx, ny)."""
     _, nx, ny = tractions.shape
     half_x, half_y = (_half_period(cells) for cells in (nx, ny))
     along_y = rfft(np.swapaxes(tractions, 1, 2), 2 * half_y, axis=1)
     spectra = fft(along_y, 2 * half_x, axis=2)
-    # By responses that are odd along one side, whose spectra are -i times a real one.
+    # For responses that are odd along one side, whose spectra are -i times real ones.
     turned = -1j * spectra
     padded = np.zeros((half_x + 1, half_y + 1))
 
@@ -43,7 +43,7 @@ def plane_convolution(tractions: Field) -> Convolution:
 
 
 def row_convolution(tractions: Field, rows: Indices) -> Convolution:
-    """Convolve on some rows of cells only; fields (FIELDS, nx, len(rows)).
+    """Return a convolution for some rows of cells; fields (FIELDS, nx, len(rows)).
 
     rows  indices along y
     """
@@ -77,8 +77,10 @@ def _half_period(cells: int) -> int:
 
 
 def _spectrum(coefficients: Field, parity: tuple[int, int]) -> Field:
-    """Transform coefficients at the offsets 0 … m along each side, (my + 1, 2 mx); if odd along one
-    side, over -i."""
+    """Transform coefficients at the offsets 0 … m along each side, (my + 1, 2 mx).
+
+    The transform of a response that is odd along one side is divided by -i.
+    """
     if parity == (1, 1):
         return even_transform(coefficients)[:]
     if parity == (-1, -1):

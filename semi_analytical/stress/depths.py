@@ -1,4 +1,4 @@
-"""Depths at which fields are asked for: which material each is seen from, and what to take."""
+"""Depths of subsurface fields and the material on either side of an interface."""
 
 from collections.abc import Sequence
 
@@ -9,10 +9,10 @@ from contact_scene import Body
 from semi_analytical.frf.depth import Level
 from semi_analytical.frf.stack import Stack, stack_of
 
-# A depth this close to an interface, relative to it, is on it.
+# Relative distance within which a depth is taken as that of an interface.
 ON_INTERFACE = 1e-9
 
-# Default depths in contact radii: dense where the stress of a smooth contact turns.
+# Default depths in contact radii, dense where the stress of a smooth contact varies most.
 DEFAULT_DEPTHS = (*np.linspace(0.0, 1.0, 21), 1.125, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0)
 
 NEIGHBOURS = 4
@@ -20,10 +20,10 @@ ON_SAMPLE = 1e-9  # of the spacing
 
 
 def levels_of(stack: Stack, depths: Sequence[float | Level]) -> tuple[Level, ...]:
-    """Depths as levels; a plain number on an interface means its upper side.
+    """Convert depths to levels; a number at an interface means its upper side.
 
-    Raises ValueError for a depth that is negative or not finite, or lies in a rigid base, and for
-    a level that is not in the layer it names.
+    Raises ValueError for a depth that is negative, not finite or in a rigid base, and for a level
+    outside of its layer.
     """
     return tuple(
         _checked(stack, depth) if isinstance(depth, Level) else _level(stack, float(depth))
@@ -32,7 +32,7 @@ def levels_of(stack: Stack, depths: Sequence[float | Level]) -> tuple[Level, ...
 
 
 def interfaces(body: Body | Stack) -> tuple[tuple[Level, ...], ...]:
-    """Both sides of every interface, upper side first; of a rigid base there is one side only."""
+    """Return the sides of every interface, upper side first; a rigid base has no lower side."""
     stack = _stack(body)
     pairs = []
     for k, depth in enumerate(_bottoms(stack)):
@@ -43,7 +43,7 @@ def interfaces(body: Body | Stack) -> tuple[tuple[Level, ...], ...]:
 
 
 def default_depths(body: Body | Stack, contact_radius: float) -> tuple[Level, ...]:
-    """From the surface to three contact radii, every layer resolved, both sides of interfaces.
+    """Choose depths from the surface to three contact radii, at interfaces and within layers.
 
     contact_radius  length over which the tractions act [length]
     """
@@ -52,7 +52,7 @@ def default_depths(body: Body | Stack, contact_radius: float) -> tuple[Level, ..
     floor = bottoms[-1] if stack.base is None else np.inf
     depths = [d * contact_radius for d in DEFAULT_DEPTHS if d * contact_radius < floor]
     for top, bottom in zip((0.0, *bottoms), bottoms, strict=False):
-        # A layer thinner than the spacing above still shows its own gradient.
+        # Layers thinner than the spacing of the depths are resolved.
         depths += [top + (bottom - top) * part for part in (0.25, 0.5, 0.75)]
     sides = [side for pair in interfaces(stack) for side in pair]
     between = [_level(stack, d) for d in depths if not _near_any(d, bottoms, contact_radius)]
@@ -73,7 +73,7 @@ def _near_any(depth: float, bottoms: Sequence[float], contact_radius: float) -> 
 
 def _level(stack: Stack, depth: float) -> Level:
     if not (np.isfinite(depth) and depth >= 0):
-        raise ValueError(f"depth is {depth}, expected a finite length >= 0: the body fills z >= 0")
+        raise ValueError(f"depth is {depth}, expected a finite length >= 0 (the body is z >= 0)")
     bottoms = _bottoms(stack)
     for layer, bottom in enumerate(bottoms):
         if abs(depth - bottom) <= ON_INTERFACE * bottom:
@@ -83,7 +83,7 @@ def _level(stack: Stack, depth: float) -> Level:
     if stack.base is None:
         raise ValueError(
             f"depth {depth} lies in the rigid base, which begins at {bottoms[-1] if bottoms else 0}"
-            "; ask for depths above it"
+            ". Use smaller depths"
         )
     return Level(depth, len(bottoms))
 
@@ -92,18 +92,18 @@ def _checked(stack: Stack, level: Level) -> Level:
     bottoms = (0.0, *_bottoms(stack), np.inf)
     last = len(stack.layers) if stack.base is not None else len(stack.layers) - 1
     if not 0 <= level.layer <= last:
-        raise ValueError(f"{level} names a layer that is not there; the deepest is {last}")
+        raise ValueError(f"{level} names a layer that does not exist; the deepest is {last}")
     top, bottom = bottoms[level.layer], bottoms[level.layer + 1]
     if not top <= level.depth <= bottom or not np.isfinite(level.depth):
-        raise ValueError(f"{level} is not in that layer, which reaches from {top} to {bottom}")
+        raise ValueError(f"{level} is outside of its layer, which extends from {top} to {bottom}")
     return level
 
 
 def line_weights(samples: NDArray[np.float64], at: float) -> NDArray[np.float64]:
-    """Weights that give the value at a position: Lagrange's on the four samples around it.
+    """Compute the weights of cubic Lagrange interpolation at a position.
 
     samples  equally spaced, increasing [length]
-    returns  shape of the samples, few of them not zero; fewer samples give a lower degree
+    returns  shape of the samples, at most four not zero; fewer samples give a lower degree
     raises   ValueError outside the samples
     """
     weights = np.zeros(len(samples))
@@ -111,7 +111,7 @@ def line_weights(samples: NDArray[np.float64], at: float) -> NDArray[np.float64]
     place = (at - samples[0]) / spacing
     nearest = round(place)
     if not -ON_SAMPLE <= place <= len(samples) - 1 + ON_SAMPLE:
-        raise ValueError(f"{at} is outside of the samples, {samples[0]} to {samples[-1]}")
+        raise ValueError(f"{at} is outside of the samples {samples[0]} to {samples[-1]}")
     if abs(place - nearest) <= ON_SAMPLE:
         weights[nearest] = 1.0
         return weights

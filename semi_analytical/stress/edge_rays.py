@@ -1,9 +1,9 @@
-"""Stress at the surface under tractions that fall like a square root, as integrals over rays.
+"""Surface stress by tractions that fall like a square root, as integrals along rays.
 
-Near the observer phi = p² is one quadratic. Along a ray of direction e it is Q = f + b r + c r²,
-with b = grad·e and c = e·H·e/2, and as the surface stress of a point force falls with 1/r², what
-the ray adds is its angular function times the finite part of the integral of √Q+/r, in closed form.
-What is singular drops, for the angular functions have no mean.
+Near the observer phi = p² is a quadratic. Along a ray of direction e it is Q = f + b r + c r², with
+b = grad·e and c = e·H·e/2. The surface stress of a point force falls with 1/r². The contribution of
+a ray is therefore its angular function times the finite part of the integral of √Q+/r, in closed
+form. The singular parts cancel, as the angular functions have zero mean.
 """
 
 from math import pi
@@ -15,17 +15,17 @@ from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.stress.point_force import stress_by_force
 
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(6)
-# Panels grow away from the directions in which rays begin to meet what is loaded.
+# Bounds of angular panels, graded towards the directions at which rays begin to meet the contact.
 GRADES = (0.02, 0.1, 0.5)
-# Below this the integrals are those of k = 0.
+# Argument below which the limit k = 0 is used.
 STRAIGHT = 1e-9
 
 
 def stress_by_root(phi: Quadratic, box: Field, slip: Field, nu: float) -> Field:
-    """Stress (6, n) at z = 0 at the places of phi, by p = √phi+ and q = slip p within a box.
+    """Compute the stress (6, n) at z = 0 by p = √phi+ and q = slip p within a box.
 
-    phi   lengths of the unit in which the box is given
-    box   (4, n): how far it reaches to -x, +x, -y, +y of the places, positive
+    phi   about the observers; lengths in the unit of the box
+    box   (4, n): positive distances of its sides at -x, +x, -y, +y from the observers
     slip  (2, n) shear over pressure
     """
     angle, weight = _directions(phi, box)
@@ -53,13 +53,16 @@ def stress_by_root(phi: Quadratic, box: Field, slip: Field, nu: float) -> Field:
 
 
 def _directions(phi: Quadratic, box: Field) -> tuple[Field, Field]:
-    """Angles of the rays and their weights (n, rays): Gauss points between the corners of the box
-    and the directions about which the integral over a ray turns quickly."""
+    """Choose angles and weights of rays (n, rays).
+
+    Gauss points lie between the corners of the box and the directions near which the integral along
+    a ray varies rapidly.
+    """
     left, right, down, up = box
     corners = [np.arctan2(y, x) for x in (-left, right) for y in (-down, up)]
     g = phi.slope
     n_x, n_y = phi.f_x / g, phi.f_y / g
-    # In the axes of the gradient n and the tangent t the discriminant b² - 4 f c along n u + t is
+    # In the axes of gradient n and tangent t the discriminant b² - 4 f c along n u + t is
     # nn u² + 2 nt u + tt.
     turned_nn = phi.f_xx * n_x**2 + 2 * phi.f_xy * n_x * n_y + phi.f_yy * n_y**2
     turned_nt = (phi.f_yy - phi.f_xx) * n_x * n_y + phi.f_xy * (n_x**2 - n_y**2)
@@ -82,7 +85,7 @@ def _directions(phi: Quadratic, box: Field) -> tuple[Field, Field]:
 
 
 def _along_ray(f: Field, b: Field, c: Field, reach: Field) -> Field:
-    """Finite part of the integral of √Q+/r over 0 < r < reach, Q = f + b r + c r²."""
+    """Compute the finite part of the integral of √Q+/r over 0 < r < reach, Q = f + b r + c r²."""
     root = np.sqrt(np.maximum(b * b - 4 * f * c, 0.0))
     q = -(b + np.where(b < 0, -root, root)) / 2
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -100,7 +103,7 @@ def _along_ray(f: Field, b: Field, c: Field, reach: Field) -> Field:
 
 
 def _between(f: Field, b: Field, c: Field, low: Field, high: Field) -> Field:
-    """Integral of √Q/r where Q is not negative; from r = 0 on without its singular part."""
+    """Integrate √Q/r where Q >= 0; from r = 0 on without the singular part."""
     at_low, at_high = (np.sqrt(np.maximum(f + (b + c * r) * r, 0.0)) for r in (low, high))
     whole = at_high - at_low + b / 2 * _arc(c, high - low, at_low + at_high)
     from_zero = low == 0
@@ -113,7 +116,7 @@ def _between(f: Field, b: Field, c: Field, low: Field, high: Field) -> Field:
 
 
 def _arc(k: Field, n: Field, d: Field) -> Field:
-    """2 arctan(√-k n/d)/√-k, with artanh where k > 0."""
+    """Compute 2 arctan(√-k n/d)/√-k; with artanh for k > 0."""
     size = np.sqrt(np.abs(k))
     flat = size * n <= STRAIGHT * d
     size_or_one, d_or_one = np.where(flat, 1.0, size), np.where(d > 0, d, 1.0)

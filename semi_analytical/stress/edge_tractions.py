@@ -1,8 +1,8 @@
 """Tractions within the cells at the edge of a contact: p = √phi+, q = slip p.
 
-On cells of uniform tractions the edge is a staircase of steps; beside it and below it stress feels
-them. What a fit of phi knows of the inside of a cell is kept as small cells that differ from it.
-Lengths are cells, places index coordinates.
+Uniform tractions on cells form a staircase along the edge, which affects the stress nearby. A fit
+of phi describes the traction within cells at the edge, as deviations on subcells. Lengths are in
+cells, positions in index coordinates.
 """
 
 from dataclasses import dataclass
@@ -16,23 +16,24 @@ from semi_analytical.edge.fit import Stencil, fit_about
 from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.edge.shape import EdgeShape, edge_shape
 
-# Rings of cells that are taken apart, and how far outside of the contact one may be cut.
+# Depth of the cells that are divided into subcells, and their largest distance from the contact.
 TAKEN_APART, CUT = 3.5, 1.5
-# How much the ratio of shear to pressure is believed of slipping cells that are no data for the
-# shape, and of cells that stick.
+# Weight of the ratio of shear to pressure in slipping cells that are no data of the shape, and in
+# sticking cells.
 UNSURE, STUCK = 0.05, 1e-8
 
 
 @dataclass(frozen=True)
 class EdgedTractions:
-    """Tractions (q_x, q_y, p) of a contact and what is known of them within the cells at its edge.
+    """Tractions (q_x, q_y, p) of a contact with their variation within the cells at its edge.
 
-    cells         (3, nx, ny) uniform on the cells, as they were given
-    means         (3, nx, ny) the same, or of the fit where those given are not believed
+    cells         (3, nx, ny) uniform on the cells, as given
+    means         (3, nx, ny) cell means, replaced by those of the fit in rejected rings
     shape         of the edge
-    ratio         (2, nx, ny) shear over pressure, believed as far as ratio_weight (nx, ny) says
-    i, j          (k,) cells that are taken apart
-    here, slip    phi and shear over pressure (2, k) about them
+    ratio         (2, nx, ny) shear over pressure
+    ratio_weight  (nx, ny) weight of the ratio in fits
+    i, j          (k,) cells that are divided into subcells
+    here, slip    phi and shear over pressure (2, k) at these cells
     """
 
     cells: Field
@@ -46,12 +47,11 @@ class EdgedTractions:
     slip: Field
 
     def slip_at(self, x: Field, y: Field) -> Field:
-        """Shear over pressure (2, n) at places (n,), by linear fits."""
+        """Compute shear over pressure (2, n) at positions (n,), by linear fits."""
         return _slip_at(self.shape, self.ratio, self.ratio_weight, x, y)
 
     def parts(self, count: int) -> Field:
-        """Tractions of the count² small cells of those that are taken apart, less those of `cells`
-        (3, k, count, count)."""
+        """Compute tractions of the count² subcells minus those of `cells` (3, k, count, count)."""
         at = part_centres(count)
         about = self.here.reshaped((-1, 1, 1))
         small = about.about(about.x + at[:, None], about.y + at)
@@ -64,8 +64,7 @@ class EdgedTractions:
 
     @property
     def slopes(self) -> tuple[Field, Field]:
-        """Differences of `cells` along x and y per cell (3, nx, ny), zero where a cell is taken
-        apart and outside of the contact."""
+        """Slopes of `cells` along x and y (3, nx, ny) per cell: zero if divided or unloaded."""
         whole = self.cells[2] > 0
         whole[self.i, self.j] = False
         by_x, by_y = (np.asarray(np.gradient(self.cells, axis=axis)) for axis in (1, 2))
@@ -73,20 +72,20 @@ class EdgedTractions:
 
 
 def part_centres(count: int) -> Field:
-    """Centres of small cells along a side, from the centre of the cell (count,)."""
+    """Compute the centres of subcells along a side, relative to the cell centre (count,)."""
     return (np.arange(count) + 0.5) / count - 0.5
 
 
 def edged_tractions(
     pressure: Field, shear: Field | None, stuck: Mask | None, stencil: Stencil, rings: int
 ) -> EdgedTractions:
-    """Tractions with their edge.
+    """Fit the edge of tractions on cells.
 
     pressure, shear  (nx, ny) and (2, nx, ny) on the cells [force/length²]
-    stuck            (nx, ny) cells of the contact that stick; None where all slip
-    stencil, rings   as in `edge_shape`; with two rings or more the tractions of those that are
-                     dropped are not believed, and replaced by those of the fit
-    Raises ValueError where there is no cell to fit the edge to.
+    stuck            (nx, ny) cells of the contact that stick; None in gross slip
+    stencil, rings   as in `edge_shape`; with two rings or more, the tractions of rejected rings are
+                     replaced by those of the fit
+    Raises ValueError where no cell is available for the fit.
     """
     region = pressure > 0
     cells = np.zeros((3, *pressure.shape))

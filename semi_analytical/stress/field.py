@@ -1,4 +1,4 @@
-"""Displacement and stress below the surface, under tractions on the cells of a grid."""
+"""Displacement and stress below the surface by tractions on the cells of a grid."""
 
 from __future__ import annotations
 
@@ -23,20 +23,20 @@ from semi_analytical.stress.depths import (
 from semi_analytical.stress.rectangle import RectanglePotentials, half_space_response
 
 DOUBLE = 8
-# Arrays of the size of the window at the peak besides the fields, measured with shear at 90² and
-# 176² cells as 222: sets of coefficients, potentials of the closed form, spectra.
+# Arrays of the size of the window at the peak, in addition to the fields: coefficients, potentials
+# of the closed form, spectra. Measured with shear at 90² and 176² cells: 222.
 WORK = 9 * len(FIELDS) * len(TRACTIONS)
 FIXED = 100 << 20
 
 
 @dataclass(frozen=True)
 class SubsurfaceField:
-    """Fields in one body, z into it; at an interface each side is a level of its own.
+    """Fields in one body, z into it; each side of an interface is a separate level.
 
     x, y          positions, shapes (nx,) and (ny,) [length]
-    levels        depth and layer of each level, as asked for
+    levels        depth and layer of each level, in the order of the request
     displacement  (u_x, u_y, u_z), zero far away, shape (nz, 3, nx, ny) [length]
-    stress        tension positive, shape (nz, 6, nx, ny), order xx, yy, zz, yz, xz, xy
+    stress        tensile stress positive, shape (nz, 6, nx, ny), order xx, yy, zz, yz, xz, xy
     """
 
     x: Field
@@ -47,7 +47,7 @@ class SubsurfaceField:
 
     @classmethod
     def joined(cls, parts: Iterable[SubsurfaceField]) -> SubsurfaceField:
-        """Join fields of equal places at successive levels."""
+        """Join fields at equal positions and successive levels."""
         each = list(parts)
         return cls(
             each[0].x,
@@ -63,14 +63,14 @@ class SubsurfaceField:
         return np.array([level.depth for level in self.levels])
 
     def along_x(self, y: float = 0.0) -> SubsurfaceField:
-        """The section at y, by cubic interpolation between rows of cells; shapes (…, nx, 1)."""
+        """Interpolate the section at y between rows of cells by cubics; shapes (…, nx, 1)."""
         weights = line_weights(self.y, y)[:, None]
         return SubsurfaceField(
             self.x, np.array([y]), self.levels, self.displacement @ weights, self.stress @ weights
         )
 
     def below(self, x: float = 0.0, y: float = 0.0) -> tuple[Field, Field]:
-        """Displacement (nz, 3) and stress (nz, 6) on the vertical line at (x, y)."""
+        """Return displacement (nz, 3) and stress (nz, 6) on the vertical line at (x, y)."""
         section = self if len(self.y) == 1 and self.y[0] == y else self.along_x(y)
         weights = line_weights(self.x, x)
         return (
@@ -86,14 +86,12 @@ def subsurface(
     shear: Field | None,
     depths: Sequence[float | Level],
 ) -> SubsurfaceField:
-    """Fields of the lower body at all cell centres of some depths.
+    """Compute the fields of the lower body at all cell centres of some depths.
 
-    The tractions are constant on every cell and nothing else is approximated: no periodic images,
-    no truncated spectrum; the fields are those of these tractions to about 1e-12.
+    The tractions are constant on every cell. There is no other approximation (no periodic images,
+    no truncated spectrum): the relative error of the fields of these tractions is about 1e-12.
 
-    Parameters
-    ----------
-    body
+    Parameters ---------- body
         Layers on a half-space or a rigid base. Of a scene, the lower body. For the upper body
         pass it and -shear: z then points up into it, u_z and the stresses yz, xz change sign.
     grid
@@ -103,9 +101,7 @@ def subsurface(
     depths
         Depths [length], or levels where the side of an interface matters.
 
-    Raises
-    ------
-    ValueError
+    Raises ------ ValueError
         A depth is not in the body, or the tractions do not fit the grid.
     ResourceRefused
         The fields do not fit into the memory.
@@ -123,10 +119,10 @@ def subsurface_section(
     depths: Sequence[float | Level],
     y: float = 0.0,
 ) -> SubsurfaceField:
-    """The same on the section at y alone: a fraction of the time and memory of whole planes.
+    """Compute the fields of `subsurface` on the section at y, at a fraction of time and memory.
 
-    Between rows of cells it is interpolated cubically, which costs 0.02 dy^4 of the fourth
-    derivative. Raises what `subsurface` raises.
+    Cubic interpolation between rows of cells has an error of 0.02 dy^4 times the fourth derivative.
+    Raises the errors of `subsurface`.
     """
     rows = np.flatnonzero(line_weights(grid.y, y))
     near = fields_by_level(body, grid, pressure, shear, depths, rows)
@@ -141,9 +137,9 @@ def fields_by_level(
     depths: Sequence[float | Level],
     rows: Indices | None = None,
 ) -> Iterator[SubsurfaceField]:
-    """Iterate over the fields of one level after the other; other arguments as of `subsurface`.
+    """Iterate over the fields of each level; other arguments as for `subsurface`.
 
-    rows  indices along y of the rows of cells that are needed; all if absent
+    rows  indices along y of the required rows of cells; None for all
     """
     tractions = _tractions(grid, pressure, shear)
     stack = _stack(body)
@@ -169,15 +165,15 @@ def depth_coefficients(
     *,
     sheared: bool = True,
 ) -> Iterator[Field]:
-    """Yield the fields at offsets (i dx, j dy), i, j >= 0, of each level in turn.
+    """Iterate over the fields by unit tractions on a cell at each level.
 
-    The outermost material responds in closed form within it, and the layers add their part. Below
-    it the whole response is tabulated. Other quadrants follow by `components.parity`.
-    Displacements [length^3/force], stresses dimensionless.
+    In the outermost material a closed form is used, to which layers add their contribution. Below
+    it the whole response is tabulated. Offsets are (i dx, j dy) with i, j >= 0; other quadrants
+    follow by `components.parity`. Displacements [length^3/force], stresses dimensionless.
 
     spacing  cell sides [length]
-    shape    number of offsets along x and y, the zero offset included
-    sheared  include the responses to shear, before that to pressure
+    shape    number of offsets along x and y, including zero
+    sheared  include the responses to shear, before those to pressure
     yields   shape (FIELDS, acting tractions, nx, ny)
     """
     if not stack.layers:
@@ -200,7 +196,7 @@ def _closed_form(
     shape: tuple[int, int],
     sheared: bool,
 ) -> Field:
-    """A half-space of the material at this level."""
+    """Compute the fields of a half-space of the material at this level."""
     x = (np.arange(shape[0] + 1, dtype=np.float64) - 0.5) * spacing[0]
     y = (np.arange(shape[1] + 1, dtype=np.float64) - 0.5) * spacing[1]
     potentials = RectanglePotentials(x, y, level.depth)
@@ -208,17 +204,17 @@ def _closed_form(
 
 
 def _stack(body: Body | Scene | Stack) -> Stack:
-    """Raises ValueError for a rigid body."""
+    """Return the stack of a body; raise ValueError for a rigid body."""
     if isinstance(body, Scene):
         body = body.body
     stack = body if isinstance(body, Stack) else stack_of(body)
     if stack.is_rigid:
-        raise ValueError("the body is rigid: there are no fields in it")
+        raise ValueError("the body is rigid and has no subsurface fields")
     return stack
 
 
 def _tractions(grid: SurfaceGrid, pressure: Field, shear: Field | None) -> Field:
-    """Check (q_x, q_y, p) on the cells; p alone without shear."""
+    """Validate and collect (q_x, q_y, p) on the cells; p alone without shear."""
     for name, field, expected in (
         ("pressure", pressure, grid.cells),
         ("shear", shear, (2, *grid.cells)),
@@ -233,21 +229,20 @@ def _tractions(grid: SurfaceGrid, pressure: Field, shear: Field | None) -> Field
 
 
 def required_bytes(cells: tuple[int, int], levels: int, numbers: int = 0) -> int:
-    """Peak memory of fields on whole planes [byte].
+    """Estimate the peak memory of fields on whole planes [byte].
 
-    numbers  largest count of numbers per point that follow from the fields, these included
+    numbers  largest count of numbers per point derived from the fields, fields included
     """
     arrays = max(WORK + len(FIELDS) * levels, numbers * levels)
     return DOUBLE * cells[0] * cells[1] * arrays + FIXED
 
 
 def refuse_beyond_memory(cells: tuple[int, int], levels: int, numbers: int = 0) -> None:
-    """Raise ResourceRefused if fields at so many levels, and the numbers that follow from them, do
-    not fit into the free memory."""
+    """Raise ResourceRefused if fields at the levels and derived numbers exceed the free memory."""
     required, available = required_bytes(cells, levels, numbers), available_bytes()
     if required > available:
         raise ResourceRefused(
             f"fields at {levels} depths on {cells[0]} x {cells[1]} cells need "
-            f"{required / 2**30:.2g} GiB of memory, {available / 2**30:.2g} GiB are available; "
-            "take fewer cells or depths, or the section alone"
+            f"{required / 2**30:.2g} GiB of memory, {available / 2**30:.2g} GiB are available. "
+            "Use fewer cells or depths, or the section alone"
         )

@@ -1,8 +1,7 @@
-"""Stress near the edge of a contact, where tractions on cells do not give it, and whether the edge
-can be seen in them at all.
+"""Stress near the edge of a contact by fitted tractions, with a test of the fit.
 
-Tension is largest on the edge itself, and the values at cell centres fall away from it with the
-root of the distance to both sides: at 128 cells they are a tenth too low.
+The tensile stress is largest at the edge and falls with the square root of the distance on both
+sides. Values at the centres of cells with constant tractions are 10 % too low at 128 cells.
 """
 
 from __future__ import annotations
@@ -23,28 +22,29 @@ from semi_analytical.stress.edge_tractions import EdgedTractions, edged_traction
 from semi_analytical.stress.field import SubsurfaceField, subsurface
 from semi_analytical.stress.patch import NODES
 
-# The fit, and one to other cells, the difference of which measures the error; of tractions that are
-# constant on cells, and of those with a corrected edge, of which only the cut cells are left out.
+# Stencil and rejected rings of two fits, whose difference estimates the error: for tractions that
+# are constant on cells, and for tractions with edge correction (only cut cells rejected).
 STENCILS = ((WIDE, 2), (WIDER, 3))
 CORRECTED_STENCILS = ((NARROW, 1), (Stencil(4, 2.2), 1))
-# Points at which the two are compared, where the tension is less than the largest by 1 less this
-# part of the size of stress at the most; and the part of that size that is too far apart.
+# Comparison of the fits: number of points; they count where the tensile stress is within 1 - LARGE
+# of its maximum, relative to the size of stress; and the largest accepted difference.
 COMPARED, LARGE, TOO_FAR_APART = 32, 0.8, 0.02
-# A cell slips if its shear over pressure is this part of the largest; rings that all have to.
+# Least ratio of shear to pressure in slipping cells, relative to the largest; and the width in
+# cells of the annulus in which all cells must slip.
 SLIPPING, SLIPPING_RINGS = 0.999, 2.5
-# How far beside and below the edge stress is evaluated anew, in cells; and from which depth on.
+# Region of the correction in cells: distance from the edge, depth below it, and least depth > 0.
 BESIDE, BELOW, SHALLOWEST = 4.0, 4.0, 0.25
-# Shear that is round-off, over the largest pressure.
+# Largest shear that is round-off, relative to the largest pressure.
 NO_SHEAR = 1e-9
 
-NOT_SMOOTH = "the square of the pressure is no smooth function at {} of the edge"
+NOT_SMOOTH = "the square of the pressure is not smooth at {} of the edge"
 
 
 class EdgeNotSeen(Exception):
     """The tractions do not determine the stress at the edge; the message states the cause.
 
-    candidate  surface with the edge as far as it could be fitted: the stress there may still be the
-               largest; None where nothing could be fitted
+    candidate  surface with the edge as far as it was fitted: the stress there may still be the
+               maximum; None where the fit failed
     """
 
     def __init__(self, cause: str, candidate: NearEdge | None = None) -> None:
@@ -54,14 +54,14 @@ class EdgeNotSeen(Exception):
 
 @dataclass(frozen=True)
 class NearEdge:
-    """A loaded surface with its edge.
+    """Loaded surface with fitted edge.
 
     tractions  with their edge
-    phi        about points of the edge (n,)
-    apart      difference of the largest principal stress there by another fit, over `size`
-    size       largest of that stress and of the pressure of border cells [force/length²]: its
-               error follows from that of the tractions, also where the stress is nearly 0
-    plane      stress at z = 0 at the cell centres by the cells (6, nx, ny)
+    phi        quadratics about points of the edge (n,)
+    apart      difference of the largest principal stress there between two fits, over `size`
+    size       scale of stress: the larger of that principal stress and the pressure of border cells
+               [force/length²]. It is not small where the stress is nearly zero
+    plane      stress at z = 0 at the cell centres by `tractions.cells` (6, nx, ny)
     """
 
     stack: Stack
@@ -74,20 +74,20 @@ class NearEdge:
 
     @property
     def x(self) -> Field:
-        """Of the points of the edge (n,) [length]."""
+        """Coordinate x of the points of the edge (n,) [length]."""
         return np.asarray(self.grid.x[0] + self.phi.x * self.grid.spacing[0])
 
     @property
     def y(self) -> Field:
-        """Of the points of the edge (n,) [length]."""
+        """Coordinate y of the points of the edge (n,) [length]."""
         return np.asarray(self.grid.y[0] + self.phi.y * self.grid.spacing[1])
 
     def stress(self) -> Field:
-        """On the edge (6, n) [force/length²], its limit from within."""
+        """Compute the stress on the edge as the limit from within (6, n) [force/length²]."""
         return _at_surface(self, self.phi)
 
     def at(self, x: Field, y: Field) -> Field:
-        """At places of the surface near the edge (6, n) [force/length²]; x, y (n,) [length]."""
+        """Compute the stress at positions x, y (n,) [length] near the edge (6, n)."""
         of_cells = (
             (p - c[0]) / side
             for p, c, side in zip(
@@ -98,12 +98,11 @@ class NearEdge:
 
     @property
     def beside(self) -> Mask:
-        """Cells (nx, ny) below which stress is evaluated anew."""
+        """Cells (nx, ny) of the region in which the stress is corrected."""
         return _beside(self.tractions)
 
     def corrected(self, field: SubsurfaceField) -> SubsurfaceField:
-        """Return a field, on all or some rows of cells, with the stress near the edge by the
-        tractions with their edge."""
+        """Return a field, on all or some rows of cells, with the stress near the edge corrected."""
         rows = np.searchsorted(self.grid.y, field.y)
         i, k = np.nonzero(self.beside[:, rows])
         x, y = i.astype(float), rows[k].astype(float)
@@ -119,12 +118,12 @@ class NearEdge:
         return replace(field, stress=stress)
 
     def reaches(self, level: Level) -> bool:
-        """Whether stress at a level is evaluated anew."""
+        """Return whether the stress at a level is corrected."""
         return level.layer == 0 and near_surface(level.depth, self.grid.spacing)
 
 
 def near_surface(depth: float, spacing: tuple[float, float]) -> bool:
-    """Whether stress at a depth feels the edge, and can be given it."""
+    """Return whether the edge affects the stress at a depth where the correction is accurate."""
     cells = depth / max(spacing)
     return depth == 0 or SHALLOWEST <= cells < BELOW
 
@@ -137,12 +136,13 @@ def near_edge(
     *,
     corrected: bool = False,
 ) -> NearEdge:
-    """What `NearEdge` says of a body under tractions whose pressure falls like a root towards the
-    edge of a smooth contact; arguments as of `subsurface`.
+    """Fit the edge of a smooth contact; arguments as for `subsurface`.
 
-    corrected  whether the tractions are means over cells with a corrected edge
+    The pressure must fall like a square root towards the edge.
 
-    Raises EdgeNotSeen, and what `subsurface` raises.
+    corrected  whether the tractions are cell means with edge correction
+
+    Raises EdgeNotSeen, and the errors of `subsurface`.
     """
     if shear is not None and np.max(np.abs(shear)) <= NO_SHEAR * np.max(pressure):
         shear = None
@@ -161,7 +161,7 @@ def near_edge(
         raise EdgeNotSeen(NOT_SMOOTH.format("any point"))
     for at, count in zip((phi.x[both], phi.y[both]), grid.cells, strict=True):
         if not (np.min(at) >= NODES and np.max(at) <= count - 1 - NODES):
-            raise EdgeNotSeen(f"the contact comes within {NODES} cells of the border of the window")
+            raise EdgeNotSeen(f"the contact is within {NODES} cells of the border of the window")
     plane = subsurface(stack, grid, pressure, shear, (0.0,)).stress[0]
     depth = distance_transform_edt(np.pad(region, 1))[1:-1, 1:-1]
     slipping = np.inf if stuck is None or not np.any(stuck) else np.min(depth[stuck])
@@ -179,15 +179,15 @@ def near_edge(
     cause = None
     if slipping <= SLIPPING_RINGS:
         cause = (
-            f"cells within {SLIPPING_RINGS:g} cells of the edge stick: the shear there is no "
-            "multiple of the pressure"
+            f"cells within {SLIPPING_RINGS:g} cells of the edge stick, where the shear is not "
+            "proportional to the pressure"
         )
     elif not np.all(both):
         cause = NOT_SMOOTH.format(f"{np.count_nonzero(~both)} of {len(both)} points")
     elif not apart <= TOO_FAR_APART:
         cause = (
-            f"two fits of the edge leave the tension there {apart:.2g} of the stress apart, more "
-            f"than {TOO_FAR_APART:g}: take smaller cells"
+            f"two fits of the edge differ by {apart:.2g} of the stress in the tensile stress, more "
+            f"than {TOO_FAR_APART:g}. Use smaller cells"
         )
     if cause is not None:
         raise EdgeNotSeen(cause, found)
@@ -195,7 +195,7 @@ def near_edge(
 
 
 def _stuck(pressure: Field, shear: Field) -> Mask:
-    """Cells of the contact that stick."""
+    """Return the cells of the contact that stick."""
     region = pressure > 0
     size = np.hypot(*shear)
     ratio = np.divide(size, pressure, out=np.zeros_like(size), where=region)
@@ -203,7 +203,7 @@ def _stuck(pressure: Field, shear: Field) -> Mask:
 
 
 def _on_edge(phi: Quadratic) -> Quadratic:
-    """Without the rounding of zero."""
+    """Set phi at the edge to exactly zero."""
     return replace(phi, f=np.zeros_like(phi.f))
 
 
@@ -214,7 +214,7 @@ def _at_surface(found: NearEdge, phi: Quadratic) -> Field:
 
 
 def _beside(tractions: EdgedTractions) -> Mask:
-    """Cells within BESIDE of the edge, to both sides."""
+    """Return the cells within BESIDE cells of the edge, inside and outside."""
     shape = tractions.shape
     away = distance_transform_edt(shape.depth == 0)
     beside = (shape.depth <= BESIDE + 0.5) & (away <= BESIDE)
@@ -224,6 +224,6 @@ def _beside(tractions: EdgedTractions) -> Mask:
 
 
 def _largest(stress: Field) -> Field:
-    """Largest principal stress in the surface, which carries nothing on the edge (n,)."""
+    """Compute the largest principal stress of the surface at its edge, free of traction (n,)."""
     xx, yy, xy = stress[0], stress[1], stress[5]
     return np.asarray((xx + yy) / 2 + np.hypot((xx - yy) / 2, xy))

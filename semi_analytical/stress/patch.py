@@ -1,7 +1,7 @@
-"""Stress at the surface by the cells beyond a patch about the observer, between cell centres.
+"""Surface stress between cell centres, by the cells beyond a patch about the observer.
 
-The patch is summed with its edge; what is left of the plane of cell centres without it is smooth,
-layers and all, and interpolated.
+The contribution of the patch is subtracted at the cell centres. The remaining stress, that of the
+layers included, is smooth and is interpolated.
 """
 
 from functools import lru_cache
@@ -25,8 +25,10 @@ def stress_from_beyond(
     material: HalfSpace,
     spacing: tuple[float, float],
 ) -> Field:
-    """Stress (6, n) at z = 0 at places (n,), index coordinates, by all cells but those of the patch
-    about the nearest one, which is NODES cells or more from the border of the plane.
+    """Compute the stress (6, n) at z = 0 at positions (n,), index coordinates, without the patch.
+
+    The patch is centred at the nearest cell, which is at least NODES cells from the border of the
+    plane.
 
     cells     (3, nx, ny) tractions
     plane     (6, nx, ny) stress at the cell centres by all of them
@@ -43,7 +45,7 @@ def stress_from_beyond(
 
 
 def _patches(cells: Field, i: Indices, j: Indices) -> Field:
-    """Tractions on the patch about cells (n, 3, side, side)."""
+    """Return the tractions on the patches about cells (n, 3, side, side)."""
     shift = np.arange(2 * PATCH + 1)
     padded = np.pad(cells, [(0, 0), (PATCH, PATCH), (PATCH, PATCH)])
     found = padded[:, (i[:, None] + shift)[:, :, None], (j[:, None] + shift)[:, None, :]]
@@ -52,13 +54,13 @@ def _patches(cells: Field, i: Indices, j: Indices) -> Field:
 
 @lru_cache(4)
 def _patch_kernel(material: HalfSpace, spacing: tuple[float, float]) -> Field:
-    """Stress at every node by every traction of the patch (3 side², 6 nodes)."""
+    """Compute the stress at every node by every traction of the patch (3 side², 6 nodes)."""
     reach = PATCH + NODES
     x, y = ((np.arange(-reach, reach + 2.0) - 0.5) * side for side in spacing)
     response = half_space_response(RectanglePotentials(x, y, 0.0), material, 0.0)[STRESS]
     side = 2 * PATCH + 1
     columns = [
-        # Observer less source, sources in increasing order.
+        # Observer minus source, sources in increasing order.
         response[:, :, a : a + side, b : b + side][:, :, ::-1, ::-1].reshape(6, -1)
         for a in range(2 * NODES + 1)
         for b in range(2 * NODES + 1)
@@ -67,7 +69,7 @@ def _patch_kernel(material: HalfSpace, spacing: tuple[float, float]) -> Field:
 
 
 def _lagrange(at: Field) -> Field:
-    """Weights of the nodes (n, 2 NODES + 1)."""
+    """Compute the Lagrange weights of the nodes (n, 2 NODES + 1)."""
     nodes = np.arange(-NODES, NODES + 1)
     weights = np.ones((len(at), len(nodes)))
     for column, node in enumerate(nodes):

@@ -1,7 +1,7 @@
-"""Stress in a half-space under point forces on its surface.
+"""Stress in a half-space under point forces on its surface (Boussinesq 1885, Cerruti 1882).
 
-Boussinesq and Cerruti: derivatives of the potentials of `rectangle.py` at a point, contracted with
-the force.
+The formulas are derivatives of the potentials of `rectangle.py` at a point, contracted with the
+force.
 """
 
 from math import pi
@@ -12,8 +12,8 @@ from contact_scene.array_types import Field
 
 
 def stress_by_force(x: Field, y: Field, depth: float, nu: float, force: Field) -> Field:
-    """Stress (6, …) times an area, in the order of CONVENTIONS.md, without what acts at the point
-    alone.
+    """Compute the stress times an area (6, …), order of CONVENTIONS.md, outside the point of
+    action.
 
     x, y   observer minus force (…), not both zero at depth zero [length]
     depth  z >= 0 [length]
@@ -36,7 +36,7 @@ def stress_by_force(x: Field, y: Field, depth: float, nu: float, force: Field) -
     if not sheared:
         normal = [even + x * x * square, even + y * y * square, z * through]
         return np.stack([*normal, y * through, x * through, x * y * square])
-    # Shear: z B_xxx + 2 nu C_xxx and what turning the axes makes of them.
+    # Shear: z B_xxx + 2 nu C_xxx, and their components in rotated axes.
     along = q_x * x + q_y * y
     c_cubed = (3 * rho + z) * cubed * deep_squared * deep
     b_cubed = (8 * rho * rho + 9 * rho * z + 3 * z * z) * fifth * deep_squared * deep

@@ -1,12 +1,13 @@
-"""The radial functions of the fields at some depths, tabulated over the distance.
+"""Table of the radial functions of the fields at some depths, in panels over the distance.
 
-What is tabulated is smooth: in the outermost layer only what the layers add to the half-space of
-its material, which acts like images no closer than 2h - z, and below it everything, from no closer
-than z. This clearance is the length on which the functions vary near the axis.
+The tabulated functions are smooth. In the outermost layer they are the contribution of the layers
+to a half-space of its material, with image sources at a distance of at least 2h - z. Below it they
+are the whole response, with sources at a distance of at least z. This clearance is the length scale
+near the axis.
 
-With H_n[f] = 1/2pi int f J_n(alpha r) alpha d alpha, the scalars of `frf/depth.py` and the cosine
-and sine of the angle phi of the observer, seen from the force, isotropy leaves 15 functions: six
-under pressure, nine under shear (waves along and across, turned into the axes of the scene).
+With H_n[f] = 1/2pi int f J_n(alpha r) alpha d alpha, the scalars of `frf/depth.py` and the angle
+phi of the observer, seen from the force, isotropy leaves 15 functions: six for pressure and nine
+for shear (transforms along and across the wave, rotated to the axes of the scene).
 """
 
 from dataclasses import dataclass
@@ -36,12 +37,12 @@ from semi_analytical.influence.radial_panels import (
 )
 from semi_analytical.stress.components import empty_response
 
-# exp(-alpha d) (alpha d)^2 is below 1e-17 from here on.
+# Value of alpha d above which exp(-alpha d) (alpha d)^2 is below 1e-17.
 REACH = 48.0
 
 # Order of the Bessel function of each radial function.
 ORDERS = (1, 0, 0, 1, 0, 2, 0, 2, 1, 0, 2, 1, 1, 1, 3)
-BY_PRESSURE = 6  # of these functions, the first
+BY_PRESSURE = 6  # number of functions for pressure, which are first
 
 
 @dataclass(frozen=True)
@@ -57,11 +58,11 @@ class DepthTable:
 
     @property
     def sheared(self) -> bool:
-        """Whether the responses to shear are among the functions."""
+        """Whether the table includes the responses to shear."""
         return self.coefficients.shape[-1] > BY_PRESSURE
 
     def at(self, level: int, r: Array) -> Array:
-        """The functions at distances r at one of the levels, shape (functions, len(r))."""
+        """Interpolate the functions of a level at distances r, shape (functions, len(r))."""
         coefficients = self.coefficients[level]
         values = np.empty((coefficients.shape[2], len(r)))
         for panel, inside, place in places_on_panels(self.edges, r):
@@ -70,7 +71,7 @@ class DepthTable:
 
 
 def clearance(stack: Stack, level: Level) -> float:
-    """Distance of the nearest source of what is tabulated at a level [length]."""
+    """Return the distance of the nearest source of the tabulated functions at a level [length]."""
     if level.layer == 0:
         return 2 * stack.layers[0].thickness - level.depth
     return level.depth
@@ -99,7 +100,7 @@ def _transforms(
     weight: Array,
     orders: tuple[int, ...],
 ) -> Array:
-    """Hankel transforms at distances r, shape (levels, len(r), functions)."""
+    """Compute Hankel transforms at distances r, shape (levels, len(r), functions)."""
     descent = Descent(stack, alpha)
     sources = np.stack([_integrands(descent, level)[: len(orders)] for level in levels])
     sources *= alpha * weight / (2 * pi)
@@ -116,14 +117,14 @@ def _integrands(descent: Descent, level: Level) -> Array:
 
 
 def _bessel(x: Array) -> tuple[Array, Array, Array, Array]:
-    """J_0 to J_3. The recurrence cancels for small x, where the measure alpha d alpha vanishes."""
+    """Compute J_0 to J_3. The recurrence cancels at small x, where alpha d alpha vanishes."""
     first, second = j0(x), j1(x)
     third = 2 * second / x - first
     return first, second, third, 4 * third / x - second
 
 
 def integrands(fields: DepthScalars, plane: PlaneScalars) -> Array:
-    """What the Hankel transforms are taken of, shape (functions, wavenumbers)."""
+    """Compute the integrands of the Hankel transforms, shape (functions, wavenumbers)."""
     (U_q, U_p), (W_q, W_p) = fields.displacement
     (s_q, s_p), (n_q, n_p) = fields.traction
     T, t = fields.transverse_displacement, fields.transverse_traction
@@ -140,9 +141,9 @@ def integrands(fields: DepthScalars, plane: PlaneScalars) -> Array:
 
 
 def in_scene_axes(functions: Array, cos: Array, sin: Array) -> Array:
-    """Fields by unit forces, shape (FIELDS, acting tractions, *cos.shape).
+    """Compute the fields by unit forces, shape (FIELDS, acting tractions, *cos.shape).
 
-    functions  values of the radial functions, or of those by pressure (functions, *cos.shape)
+    functions  values of all radial functions, or of those for pressure (functions, *cos.shape)
     cos, sin   of phi
     """
     ur_p, uz_p, n_p, s_p, mean_p, half_p, *by_shear = functions
@@ -163,7 +164,7 @@ def in_scene_axes(functions: Array, cos: Array, sin: Array) -> Array:
     by_x[0], by_x[1], by_x[2] = u_mean - along, across, cos * uz
     by_y[0], by_y[1], by_y[2] = across, u_mean + along, sin * uz
 
-    # Half the difference of the normal stresses, and xy.
+    # Half the difference of the normal stresses xx and yy, and the stress xy.
     turn_x, slide_x = cos * once - cos3 * thrice, sin * once - sin3 * thrice
     turn_y, slide_y = -sin * once - sin3 * thrice, cos * once + cos3 * thrice
     by_x[3], by_x[4], by_x[5] = cos * mean + turn_x, cos * mean - turn_x, -cos * n

@@ -1,13 +1,13 @@
 """Fields in a homogeneous half-space under uniform tractions on a rectangle, in closed form.
 
-Normal traction: Love (1929). Tangential traction: the same potentials, here derived anew. With rho
-the distance from the source point, the half-space's response (CONVENTIONS.md, exp(-alpha z) waves)
-consists of derivatives of three harmonic functions of one family,
+Normal traction: Love (1929). Tangential traction: derivatives of the same potentials. With the
+distance rho from the source point, the response of the half-space (CONVENTIONS.md, exp(-alpha z)
+waves) consists of derivatives of the harmonic functions
 
     A = 1/rho,    B = -ln(rho + z),    C = z ln(rho + z) - rho,    A = -B_z,  B = -C_z,
 
-over 2 pi. Integrated over the rectangle each derivative is the second difference of a primitive
-over its corners; functions of x alone or y alone have been dropped from the primitives.
+divided by 2 pi. The integral of each derivative over the rectangle is the second difference of a
+primitive over the corners. Functions of x alone or y alone are omitted from the primitives.
 """
 
 from functools import cached_property
@@ -23,9 +23,8 @@ from semi_analytical.stress.components import empty_response
 class RectanglePotentials:
     """Integrals over a rectangle of derivatives of A, B, C, over 2 pi, at a depth.
 
-    x, y   first and last corner offsets of the observer from the loaded rectangles: the observers'
-           offsets minus and plus half a side, so that neighbours share them; shapes (…, nx + 1),
-           (…, ny + 1), none of them zero at depth zero [length]
+    x, y   corner offsets of the observers from the loaded rectangles, minus and plus half a side,
+           shared by neighbours; shapes (…, nx + 1), (…, ny + 1), none zero at depth zero [length]
     depth  z >= 0 [length]
 
     Each integral has shape (…, nx, ny).
@@ -53,7 +52,7 @@ class RectanglePotentials:
 
     @cached_property
     def _angle_x(self) -> Field:
-        """Primitive of -B_xx; rho - z is written without cancellation."""
+        """Primitive of -B_xx, with rho - z written without cancellation."""
         x, y, z, rho = self._x, self._y, self._z, self._rho
         return np.arctan(x * y * (x**2 + y**2) / (self._deep * (x**2 * rho + y**2 * z)))
 
@@ -176,10 +175,12 @@ class RectanglePotentials:
 def half_space_response(
     f: RectanglePotentials, material: HalfSpace, depth: float, *, sheared: bool = True
 ) -> Field:
-    """Fields by unit tractions on a rectangle, shape (FIELDS, acting tractions, …, nx, ny).
+    """Compute the fields by unit tractions on a rectangle, shape (FIELDS, acting tractions, …, nx,
+    ny).
 
-    They are in equilibrium and regular at nu = 1/2; the divergence is 2 (1 - 2 nu) / 2G times A_z
-    under pressure, A_x and A_y under shear, and 2 nu times these enters every normal stress.
+    They are in equilibrium and regular at nu = 1/2. The divergence of the displacement is 2 (1 - 2
+    nu) / 2G times A_z under pressure, A_x and A_y under shear. Every normal stress includes 2 nu
+    times these derivatives.
     """
     G, nu = material
     z, g = depth, 1 - 2 * nu

@@ -1,1 +1,1 @@
-"""The tangential problem: shear for given pressure, from arrays and operators alone."""
+"""Tangential problem: shear for given pressure, in terms of arrays and operators."""

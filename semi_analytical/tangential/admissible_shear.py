@@ -1,7 +1,7 @@
-"""Shear tractions that friction allows: |q| <= bound in every cell, with a given sum or without.
+"""Tangential loads, and projection on the shears that Coulomb's law admits.
 
-The exact projection on {discs, and Σq = total} is what makes the shear problem robust: every
-iterate carries the load and obeys Coulomb's bound, and the multiplier of the sum is the rigid
+A shear is admissible if |q| <= bound in every cell and, under force control, if it has the given
+sum. Every iterate is projected exactly on this convex set. The multiplier of the sum is the rigid
 shift (see multipliers.py).
 """
 
@@ -13,95 +13,94 @@ import numpy as np
 from contact_scene.array_types import Field, Mask, Vector, VectorField
 from semi_analytical.multipliers import find_multiplier
 
-# What rounding leaves of a sum of shears, relative to the sum of their magnitudes.
+# Rounding error of a sum of shears, relative to the sum of their magnitudes.
 ROUND_OFF = 1e-14
-# Relative distance from the friction limit at which force control loses the shift: what would still
-# stick, a thousandth of the contact wide (the cube root), is less than a cell.
+# Relative distance from the friction limit below which the shift is undefined: the stick zone, by
+# the cube root a thousandth of the contact wide, is smaller than a cell.
 AT_LIMIT = 1e-9
-# What rounding leaves of the multiplier, relative to it; all cells that stick move with it.
+# Relative rounding error of the multiplier, which shifts the shear of all sticking cells.
 MULTIPLIER_ROUND_OFF = 5e-16
 
 
 class TangentialLoad(Protocol):
-    """What leads the indenter in its plane. Its motion is a vector: the shift, and what else it
-    can do."""
+    """Load of the tangential problem. Its motion is the shift (2,), or shift and twist (3,)."""
 
     def rigid(self, motion: Vector) -> VectorField:
-        """Displacement of the indenter's particles, to broadcast with (2, nx, ny) [length]."""
+        """Compute the displacement of the indenter, which broadcasts with (2, nx, ny) [length]."""
 
     def nearest(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
-        """The admissible shear nearest to y + γ rigid(motion), and the motion of the load.
+        """Project y + γ rigid(motion) on the admissible shears; return the shear and the motion.
 
-        motion  first guess where the load leaves it free
+        motion  initial guess of its free components
         """
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """The nearest shear that friction allows and that carries the load."""
+        """Project a shear on the admissible shears."""
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[VectorField, ...]:
-        """Rigid motions whose forces are given, fields of this shape (2, nx, ny)."""
+        """Return the unit motions whose forces are prescribed, fields of this shape (2, nx, ny)."""
 
     @property
     def given(self) -> Vector:
-        """The given forces, in the order of the free motions [force / cell area]."""
+        """Prescribed forces, in the order of the free motions [force / cell area]."""
 
     def forces(self, q: VectorField) -> Vector:
-        """Those of a shear."""
+        """Compute the forces of a shear on the free motions."""
 
     def exhausts(self, bound: Field) -> bool:
-        """Whether friction can carry no more than the load, or nothing at all."""
+        """Return whether the load is at or above the friction limit, which may be zero."""
 
     def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
-        """The shear and the motion where all cells slip."""
+        """Return the shear and the motion in gross slip."""
 
 
 @dataclass(frozen=True)
 class ShearSum:
-    """Force control: the sum Σq of all cell shears, T / cell area, shape (2,).
+    """Force control: sum Σq of all cell shears, T / cell area, shape (2,).
 
-    summed  components with a resultant; the others are odd about a mirror plane: with their images
-            they have none, and do not move the indenter
+    summed  components with a resultant; the others are odd about a mirror plane: their sum over the
+            window is zero, and the indenter does not move along them
     """
 
     total: Vector
     summed: tuple[bool, bool] = (True, True)
 
     def rigid(self, motion: Vector) -> VectorField:
-        """The shift, everywhere the same."""
+        """Return the shift as a field."""
         return everywhere(motion)
 
     def nearest(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
-        """By projection; the multiplier of the sum is γ times the shift."""
+        """Project with the sum; its multiplier is γ times the shift."""
         q, multiplier = project(y, bound, self.total, gamma * motion, self.summed)
         return q, multiplier / gamma
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """On the discs, with the sum."""
+        """Project on the discs |q| <= bound and the sum."""
         return project(q, bound, self.total, summed=self.summed)[0]
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[VectorField, ...]:
-        """Along x and along y, or one of these."""
+        """Return the unit shifts along the summed components."""
         return tuple(np.broadcast_to(everywhere(e), shape) for e in np.eye(2)[list(self.summed)])
 
     @property
     def given(self) -> Vector:
-        """The sum."""
+        """Prescribed sum."""
         return self.total[list(self.summed)]
 
     def forces(self, q: VectorField) -> Vector:
-        """The sum of a shear."""
+        """Compute the sum of a shear."""
         return np.array([np.sum(one) for one, summed in zip(q, self.summed, strict=True) if summed])
 
     def exhausts(self, bound: Field) -> bool:
-        """Whether the force is at the friction limit or beyond."""
+        """Return whether the force is at or above the friction limit."""
         return float(np.hypot(*self.total)) >= float(np.sum(bound)) * (1 - AT_LIMIT)
 
     def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
-        """All cells pull along the force."""
+        """Return the friction limit along the force."""
         if not np.any(bound):
             return np.zeros((2, *bound.shape)), motion
         return bound * everywhere(self.total / np.hypot(*self.total)), motion
@@ -114,50 +113,50 @@ class FixedShift:
     shift: Vector
 
     def rigid(self, motion: Vector) -> VectorField:
-        """The shift, everywhere the same."""
+        """Return the shift as a field."""
         return everywhere(motion)
 
     def nearest(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
-        """Cell by cell."""
+        """Project cell by cell."""
         return project_on_discs(y + everywhere(gamma * self.shift), bound), self.shift
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """On the discs."""
+        """Project on the discs |q| <= bound."""
         return project_on_discs(q, bound)
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[VectorField, ...]:
-        """None."""
+        """Return no motion: no force is prescribed."""
         return ()
 
     @property
     def given(self) -> Vector:
-        """No force."""
+        """Empty: no force is prescribed."""
         return np.zeros(0)
 
     def forces(self, q: VectorField) -> Vector:
-        """No force."""
+        """Return an empty vector."""
         return np.zeros(0)
 
     def exhausts(self, bound: Field) -> bool:
-        """Only where there is no friction at all."""
+        """Return whether the friction limit is zero everywhere."""
         return not np.any(bound)
 
     def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
-        """Without friction nothing is carried."""
+        """Return zero shear: gross slip occurs only without friction."""
         return np.zeros((2, *bound.shape)), self.shift
 
 
 @dataclass(frozen=True)
 class SprungShift(FixedShift):
-    """Displacement control through a spring: the shift of the actuator, shape (2,) [length].
+    """Displacement control through a spring: shift of the actuator, shape (2,) [length].
 
-    The spring is part of the compliance. `nearest` returns the shear that carries the force in the
-    spring after the step, not before: without that, a soft spring turns every change of the shift
-    into slip of all cells. Its motion is that of the contact.
+    The spring is part of the compliance. `nearest` uses the spring force after the step: with the
+    force before the step, a soft spring would convert every change of the shift into slip of all
+    cells. The motion is that of the contact.
 
-    compliance  displacement by the spring per sum of the shear [length^3/force]
+    compliance  displacement of the spring per sum of the shear [length^3/force]
     summed      see `ShearSum`
     """
 
@@ -165,13 +164,13 @@ class SprungShift(FixedShift):
     summed: tuple[bool, bool] = (True, True)
 
     def extension(self, q: VectorField) -> Vector:
-        """Extension of the spring under a shear (2,) [length]."""
+        """Compute the extension of the spring under a shear (2,) [length]."""
         return np.asarray(self.compliance * np.sum(q, axis=(1, 2)) * self.summed)
 
     def nearest(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
-        """P(y + λ) with λ/γ the motion of the contact: Σq + λ/(γc) = δ*/c."""
+        """Compute P(y + λ) such that Σq + λ/(γc) = δ*/c; λ/γ is the motion of the contact."""
         c = self.compliance
         total = self.shift * self.summed / c
         stiffness = 1 / (gamma * c)
@@ -179,8 +178,10 @@ class SprungShift(FixedShift):
         return q, multiplier / gamma
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """On the discs, with the same sum where friction can carry it: a soft spring would turn a
-        change of the sum into a large motion."""
+        """Project on the discs with the sum preserved, if friction can carry the sum.
+
+        With a soft spring a change of the sum would be a large motion.
+        """
         total = np.sum(q, axis=(1, 2)) * self.summed
         if np.hypot(*total) >= np.sum(bound) * (1 - AT_LIMIT):
             return project_on_discs(q, bound)
@@ -188,8 +189,14 @@ class SprungShift(FixedShift):
 
 
 class NaturalShear(NamedTuple):
-    """The natural map at a shear q: z = q + γ (ω + c - u), its projection P(z), the slip ω + c - u,
-    the motion ω of the load, and Σ|q - P(z)| over the sum of the bound."""
+    """Natural map at a shear q.
+
+    z          q + γ (ω + c - u)
+    projected  P(z)
+    slipped    slip ω + c - u
+    motion     motion of the load, ω
+    error      Σ|q - P(z)| / Σ bound
+    """
 
     z: VectorField
     projected: VectorField
@@ -206,11 +213,13 @@ def natural_shear(
     gamma: float,
     motion: Vector,
 ) -> NaturalShear:
-    """Evaluate the natural map. With a spring z has the motion of the contact after the step, the
-    slip that of the present extension; in a solution they are equal.
+    """Evaluate the natural map of semismooth Newton methods.
+
+    With a spring, z has the motion of the contact after the step and the slip that of the present
+    extension; the two are equal in a solution.
 
     apart   c - u (2, nx, ny) [length]
-    motion  first guess
+    motion  initial guess
     """
     if isinstance(load, SprungShift):
         extension = load.extension(q)
@@ -227,17 +236,17 @@ def natural_shear(
 
 
 def magnitude(v: VectorField) -> Field:
-    """Length of the vectors (2, ...), shape (...)."""
+    """Compute the length of vectors (2, ...), shape (...)."""
     return np.sqrt(v[0] * v[0] + v[1] * v[1])
 
 
 def everywhere(v: Vector) -> VectorField:
-    """A vector (2,) as a field that broadcasts with (2, nx, ny)."""
+    """Return a vector (2,) as a field that broadcasts with (2, nx, ny)."""
     return v[:, None, None]
 
 
 def project_on_discs(y: VectorField, bound: Field) -> VectorField:
-    """The nearest shear with |q| <= bound, cell by cell."""
+    """Project a shear on |q| <= bound, cell by cell."""
     length = magnitude(y)
     return np.asarray(y * np.where(length > bound, bound / np.where(length > 0, length, 1.0), 1.0))
 
@@ -250,12 +259,13 @@ def project(
     summed: tuple[bool, bool] = (True, True),
     stiffness: float = 0.0,
 ) -> tuple[VectorField, Vector]:
-    """The nearest shear with |q| <= bound and Σq = total, and the multiplier λ of the sum.
+    """Project a shear on |q| <= bound and Σq = total; return the shear and the multiplier λ of the
+    sum.
 
-    y      any shear (2, nx, ny)
-    bound  friction limit µp (nx, ny); |total| must be less than its sum
-    guess  where to start the search for λ
-    summed  components that have a sum; λ is zero of others
+    y          any shear (2, nx, ny)
+    bound      friction limit µp (nx, ny); |total| must be less than its sum
+    guess      initial guess of λ
+    summed     components with a prescribed sum; λ is zero along the others
     stiffness  of a spring, over γ: Σq + stiffness λ = total
     """
     if guess is None:
@@ -270,14 +280,14 @@ def project(
 
 @dataclass(frozen=True)
 class _Shifted:
-    """y + λ cut off at the discs.
+    """Projection of y + λ on the discs.
 
     z, length  y + λ (2, nx, ny) and its length (nx, ny)
-    outside    where that is longer than the bound
-    scale, q   factor of the cut (nx, ny), and q = scale z
-    defect     Σq + stiffness λ - total (2,), the gradient of the dual function of λ; zero of what
-               has no sum
-    summed     components that have a sum
+    outside    cells where the length exceeds the bound
+    scale, q   factor of the projection (nx, ny), and q = scale z
+    defect     Σq + stiffness λ - total (2,), the gradient of the dual function of λ; zero along
+               components without sum
+    summed     components with a prescribed sum
     stiffness  see `project`
     capacity   sum of the bound
     """
@@ -302,7 +312,7 @@ class _Shifted:
         summed: tuple[bool, bool],
         stiffness: float,
     ) -> "_Shifted":
-        """Shift `y` by a multiplier and cut it off."""
+        """Shift `y` by a multiplier and project it on the discs."""
         z = y + everywhere(multiplier)
         length = magnitude(z)
         outside = length > bound
@@ -313,20 +323,20 @@ class _Shifted:
 
     @property
     def strength(self) -> float:
-        """Σ|q|."""
+        """Sum of the magnitudes Σ|q|."""
         return float(np.sum(self.length * self.scale))
 
     def settled(self, multiplier: Vector) -> bool:
-        """Whether the defect is round-off, of the sum or of the multiplier."""
+        """Return whether the defect is round-off, of the sum or of the multiplier."""
         answer = np.sum(self.scale) + self.stiffness
         blur = MULTIPLIER_ROUND_OFF * answer * np.sum(np.abs(multiplier))
         return bool(np.sum(np.abs(self.defect)) <= ROUND_OFF * self.strength + blur)
 
     def newton_step(self) -> Vector:
-        """Change of λ that removes the defect to first order.
+        """Compute the regularised Newton step of λ.
 
-        A cell on its disc answers only across its own direction; a small multiple of the
-        identity keeps the step finite while all cells are on theirs and vanishes with the defect.
+        A cell on its disc changes only perpendicular to its shear. A multiple of the identity keeps
+        the matrix regular while all cells are on their discs, and vanishes with the defect.
         """
         w = np.where(self.outside, self.scale / np.where(self.outside, self.length**2, 1.0), 0.0)
         x, y = self.z

@@ -1,8 +1,8 @@
-"""The shear problem linearised in its zones of stick and slip, and its solution.
+"""Tangential problem linearised in given zones of stick and slip, by projected conjugate gradients.
 
-Free rigid motions, whose forces are given, are unknowns beside the shear, and all shears keep these
-forces. Where everything slips one way the force along it cannot be kept (the pseudo-inverse says
-so) and is left to the exact projection.
+Rigid motions of prescribed force are additional unknowns, and all iterates preserve these forces.
+Where all cells slip in one direction, the force along it cannot be preserved: the pseudo-inverse
+leaves it to the exact projection.
 """
 
 from typing import NamedTuple
@@ -17,22 +17,22 @@ from semi_analytical.tangential.shear_zones import (
 )
 
 MAX_ITERATIONS = 100
-# Of the given forces: what a zone that slips one way does not determine.
+# Relative singular value below which the zones do not determine a force.
 UNDETERMINED = 1e-12
 
 
 class Point(NamedTuple):
-    """A shear and its displacement, each (2, nx, ny)."""
+    """Shear and its displacement, each (2, nx, ny)."""
 
     shear: VectorField
     displacement: VectorField
 
 
 class LinearisedShear:
-    """The derivative in given zones under a load.
+    """Derivative of the tangential problem in given zones under a load.
 
     displace, inverse  see `tangential_problem.solve_tangential`
-    carriers           shears (2, nx, ny) by which the load is carried in these zones
+    carriers           shears (2, nx, ny) that correct the prescribed forces in these zones
     """
 
     def __init__(
@@ -43,7 +43,7 @@ class LinearisedShear:
         load: TangentialLoad,
         carriers: list[VectorField] | None = None,
     ) -> None:
-        """carriers  of the load, from the same zones at another point"""
+        """Compute the carriers, or reuse `carriers` of another point with the same zones."""
         self._displace, self._inverse, self._zones, self._load = displace, inverse, zones, load
         if carriers is None:
             units = load.free_motions(zones.pulled.shape)
@@ -55,14 +55,16 @@ class LinearisedShear:
         self._shares = np.linalg.pinv(responses.reshape(count, count).T, rcond=UNDETERMINED)
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """A shear near q in the zones that friction allows and that carries the load."""
+        """Return an admissible shear near q that slips in the slip zone."""
         near = self._zones.pulled + self._zones.free(q)
         self._carry(self._load.given - self._load.forces(near), near)
         return self._load.admissible(near, bound)
 
     def solved(self, base: Point, slipped: VectorField, depth: float) -> tuple[Point, int]:
-        """Where the linearised problem is solved, but for the part `depth` of what it does not
-        fulfil at the base; and the iterations. By conjugate gradients.
+        """Solve the linearised problem by preconditioned conjugate gradients.
+
+        Iterations stop when the norm of the residual at the base has fallen by the factor `depth`.
+        Returns the point and the iterations.
 
         slipped  ω + c - u at the base (2, nx, ny)
         """
@@ -86,13 +88,12 @@ class LinearisedShear:
         return Point(q, u), iterations
 
     def _preconditioned(self, v: VectorField) -> VectorField:
-        """Roughly the free shear, without any given force, that displaces by v and a rigid
-        motion."""
+        """Apply the preconditioner and remove the prescribed forces of the result."""
         free = self._zones.preconditioned(v, self._inverse)
         self._carry(-self._load.forces(free), free)
         return free
 
     def _carry(self, forces: Field, free: VectorField) -> None:
-        """Let a free shear carry so much more."""
+        """Add carriers with the given forces to a free shear, in place."""
         for share, carrier in zip(self._shares @ forces, self.carriers, strict=True):
             free += share * carrier

@@ -1,9 +1,9 @@
-"""Stick and slip, and the shear problem linearised in these zones.
+"""Stick and slip zones, and the derivative of the tangential problem in them.
 
-Where a cell sticks both components of the shear are free, where it slips q = µp n + s t: n along
-the natural map's z, and s across it, which takes besides the stiffness d = (|z| - µp) / (γ µp) that
-the curvature of the disc adds. On free shears the derivative is Π A Π + d, Π the projection on
-them.
+Both components of the shear are free in sticking cells. A slipping cell has q = µp n + s t with n
+along z of the natural map and t perpendicular to it. Its free component s has the additional
+compliance d = (|z| - µp) / (γ µp) due to the curvature of the disc. On free shears the derivative
+is Π A Π + d with the projection Π on them.
 """
 
 from collections.abc import Callable
@@ -20,16 +20,16 @@ from semi_analytical.tangential.admissible_shear import magnitude
 
 Map = Callable[[VectorField], VectorField]
 
-# Of the self-compliance: a cell that is held back more does not turn.
+# Upper limit of d over the self-compliance, for cells of very small friction limit.
 STIFFEST = 1e6
 
 
 class ShearZones:
-    """The zones in which a point z of the natural map lies.
+    """Stick and slip zones at a point z of the natural map.
 
-    slip     where it slips (nx, ny)
-    pulled   µp n there (2, nx, ny)
-    turning  d there (nx, ny) [length^3/force]
+    slip     slipping cells (nx, ny)
+    pulled   µp n in slipping cells (2, nx, ny) [force/length^2]
+    turning  compliance d of slipping cells (nx, ny) [length^3/force]
     """
 
     def __init__(self, z: VectorField, bound: Field, self_compliance: float) -> None:
@@ -51,7 +51,7 @@ class ShearZones:
         self._xy = self._tangent[0] * self._tangent[1]
 
     def free(self, v: VectorField) -> VectorField:
-        """Π v."""
+        """Project on the free shears: Π v."""
         across = self._xy * v
         free = np.empty_like(across)
         np.multiply(self._xx, v[0], out=free[0])
@@ -60,7 +60,7 @@ class ShearZones:
         return free
 
     def same(self, other: "ShearZones | None") -> bool:
-        """Whether the same cells slip."""
+        """Return whether the slip zones are identical."""
         return other is not None and np.array_equal(self.slip, other.slip)
 
     @cached_property
@@ -78,15 +78,14 @@ class ShearZones:
         return self._beyond / (self._self_compliance + self.turning)
 
     def preconditioned(self, v: VectorField, inverse: Map) -> VectorField:
-        """Roughly the free shear that the derivative makes free displacements v of,
+        """Apply an approximate inverse of the derivative,
 
-            M = Π χ_0 F⁻¹ χ_0 Π + Σ_j χ_j t (f + d_j)⁻¹ t χ_j,    χ_0 = 1 where it sticks
+            M = Π χ_0 F⁻¹ χ_0 Π + Σ_j χ_j t (f + d_j)⁻¹ t χ_j,    χ_0 = 1 in sticking cells,
 
-        with F, f and the shares χ_j of grades as in `ApproximateInverse` and
-        `slip_compliance_bins`. Far beyond the last grade f is nothing beside d: there M goes over
-        to t (K₀ + d)⁻¹ t.
+        with F, f and the weights χ_j of bins as in `ApproximateInverse` and `slip_compliance_bins`.
+        Far beyond the last bin d dominates f: there M tends to t (K₀ + d)⁻¹ t.
 
-        inverse  F⁻¹ of two components, then the (f + d_j)⁻¹ of one each
+        inverse  F⁻¹ of two components, then (f + d_j)⁻¹ of one component per bin
         """
         given = np.empty((len(self._shares) + 1, *v.shape[1:]))
         unheld = self._shares[0] + self._stick

@@ -1,11 +1,11 @@
-"""The shear problem: stick where |q| < bound, slip along the shear where |q| = bound.
+"""Semismooth Newton method for the tangential problem with Coulomb friction.
 
-For a given bound µp the increment minimises the convex energy ½ q·A q - c·q over all admissible
-shears (Kalker 1990, chapter 4), where c is what the surface has to be moved by: slip follows from
-ω + c - A q, and vanishes where cells stick. Each step reads stick and slip off the natural map,
-solves the problem linearised in these zones and projects the answer exactly: a semismooth Newton
-method with the true vector law of Coulomb friction. It is taken, or part of it, when the energy
-goes down enough.
+Cells stick where |q| < bound and slip along the shear where |q| = bound. For a given bound µp the
+increment minimises the convex energy ½ q·A q - c·q over the admissible shears (Kalker 1990, chapter
+4). Here c is the displacement that stick requires: the slip is ω + c - A q and vanishes where cells
+stick. Each step takes stick and slip zones from the natural map, solves the problem linearised in
+these zones and projects the solution. A line search accepts steps that reduce the energy
+sufficiently.
 """
 
 from dataclasses import dataclass
@@ -32,18 +32,18 @@ from semi_analytical.tangential.shear_zones import (
 )
 
 MAX_STEPS = 120
-# Part of the residual that solves leave at most, as they do while the zones change.
+# Residual norm after a linear solve over that before: largest value, used while the zones change.
 ROUGHLY = 0.05
-# Part of the tolerance that they need not go below.
+# Least residual of a linear solve, relative to the tolerance.
 FINE = 0.3
-# Changes of the energy below this part of the work of the shear may be round-off.
+# Changes of the energy below this fraction of the work of the shear may be round-off.
 LEVEL = 1e-12
 
 
 @dataclass(frozen=True)
 class TangentialSolution:
-    """Shear (2, nx, ny), its displacement (2, nx, ny), the motion of the load, the slip zone, the
-    residual that is left, and the iterations spent."""
+    """Solution of the tangential problem: shear and its displacement (2, nx, ny), motion, slip
+    zone."""
 
     shear: VectorField
     displacement: VectorField
@@ -72,7 +72,7 @@ class _Problem:
     self_compliance: float
 
     def natural(self, point: Point, motion: Vector) -> NaturalShear:
-        """The natural map q -> P(q + γ (ω + c - u)), whose fixed points solve the problem."""
+        """Evaluate the natural map q -> P(q + γ (ω + c - u)), whose fixed points are solutions."""
         apart = self.target - point.displacement
         gamma = 1 / self.self_compliance
         return natural_shear(self.load, point.shear, apart, self.bound, gamma, motion)
@@ -90,19 +90,20 @@ def solve_tangential(
     tolerance: float,
     enough: float = 0.0,
 ) -> TangentialSolution:
-    """Shear, motion and slip zone of one increment at a given pressure.
+    """Compute shear, motion and slip zone of one increment at given pressure.
 
     displace         shear (2, nx, ny) -> tangential displacement (2, nx, ny); symmetric, positive
-    inverse          roughly the inverse of `displace`, and that of slip held back: (2 + grades,
-                     nx, ny) of as many (see `ApproximateInverse`); symmetric, positive
+    inverse          approximate inverse of `displace`, then of one component with the compliance of
+                     each bin: (2 + bins, nx, ny) to the same shape (see `ApproximateInverse`);
+                     symmetric, positive
     bound            friction limit µp (nx, ny), zero outside the contact [force/length^2]
     target           c (2, nx, ny): cells stick where A q = ω + c [length]
-    load             what leads the indenter: Σq (with |Σq| < Σ bound) or the shift ω
-    start, motion    first guesses of the shear with its displacement, which only tell stick from
-                     slip, and of the motion of the load
+    load             prescribed Σq (with |Σq| < Σ bound) or shift ω
+    start, motion    initial guesses: shear with its displacement, which only determines the initial
+                     zones, and motion of the load
     self_compliance  displacement of a cell by its own unit shear [length^3/force]
     tolerance        on Σ|q - P(q + γ(ω + c - A q))| / Σ bound, and on the slip direction
-    enough           part of the residual of the start at which to stop before the tolerance
+    enough           reduction of the initial residual that suffices, if above the tolerance
     raises           NotConverged
     """
     problem = _Problem(displace, bound, target, load, self_compliance)
@@ -125,7 +126,7 @@ def solve_tangential(
         taken = point, natural.error
         in_slip = (bound > 0) & (magnitude(natural.z) > bound)
         moved = point.displacement
-        if not np.any(in_slip):  # a single cell may not move at all, only the surface around it
+        if not np.any(in_slip):  # the displacement of a single cell may be zero at its centre
             largest = max(float(np.max(np.abs(u))) for u in (moved, target))
             moved = np.full_like(moved, largest)
         direction = slip_direction(point.shear, bound, natural.slipped, moved)
@@ -135,9 +136,9 @@ def solve_tangential(
         if residual <= aim:
             return TangentialSolution(*point, natural.motion, in_slip, residual, iterations)
         guess = point
-        if on_the_way:  # its zones are other ones
+        if on_the_way:  # a shortened step has other zones
             continue
-        # Newton's error is the square of the last one: nothing is won by solving deeper.
+        # Newton's method squares the error, so that a more accurate linear solve has no benefit.
         depth = max(residual if settled else ROUGHLY, FINE * aim / residual)
         guess, spent = linearised.solved(point, natural.slipped, min(depth, ROUGHLY))
         iterations += spent
@@ -148,10 +149,12 @@ def solve_tangential(
 def _toward(
     problem: _Problem, taken: tuple[Point, float] | None, newton: Point, motion: Vector
 ) -> tuple[Point, NaturalShear]:
-    """To the Newton answer, or only part of the way, or down the gradient: always downhill.
+    """Accept the Newton point, a shortened step, or a step along the projected gradient (line
+    search).
 
-    Near the solution energies differ by less than round-off; only there is the Newton answer also
-    taken when it halves the natural residual. Elsewhere that may lead uphill, and round in circles.
+    Close to the solution changes of the energy are below round-off. Only there a Newton point is
+    also accepted if it halves the natural residual; elsewhere this criterion may increase the
+    energy and lead to cycles.
     """
     natural = problem.natural(newton, motion)
     if taken is None:
@@ -164,7 +167,7 @@ def _toward(
     level = change <= LEVEL * np.sum(np.abs(q * u))
     if change <= 0.1 * slope or (level and natural.error < 0.5 * error):
         return newton, natural
-    # Without curvature the two differ by round-off.
+    # Without curvature the points differ by round-off.
     step = min(1.0, -slope / curvature) if curvature > 0 else 0.0
     if step < 1e-3:
         d = problem.natural(Point(q, u), natural.motion).projected - q

@@ -1,9 +1,10 @@
-"""Torsion of the indenter, led by its torque. Not imported where nothing twists.
+"""Torsion of the indenter under a prescribed torque. Not imported without torsion.
 
-A given twist only changes by what the surfaces have to be moved. A given torque Σ(q_y x - q_x y) Δ
-is a force like the tangential force: the twist is its multiplier, as the shift is that of Σq. What
-friction carries of both at once is a convex set of (T, M); in its direction a load reaches the
-limit where all cells slip about one pole (the minimum over all poles of the power of friction).
+A prescribed twist only adds to the displacement that stick requires. A prescribed torque Σ(q_y x -
+q_x y) Δ is a constraint as the tangential force is: the twist is its multiplier, as the shift is
+that of Σq. The loads (T, M) that friction can carry form a convex set. A load reaches its boundary
+when all cells slip about one pole, which minimises the power of friction (upper-bound theorem of
+limit analysis).
 """
 
 from collections.abc import Callable
@@ -23,20 +24,20 @@ from semi_analytical.tangential.admissible_shear import (
 )
 
 MAX_STEPS = 100
-# Of the largest speed: rounds off the kink of the power where the pole falls on a cell.
+# Smoothing of |speed| at the pole, relative to the largest speed.
 BLUNT = 1e-8
-# Relative fall of the power of friction at which its minimum is reached.
+# Relative decrease of the power of friction at which the iteration stops.
 FLAT = 1e-15
 
 
 @dataclass(frozen=True)
 class ShearMoments:
-    """Force control of the twist: Σ(q_y x - q_x y), and of the shift or not.
+    """Prescribed torque Σ(q_y x - q_x y), with prescribed Σq or prescribed shift.
 
     rotation  (-y, x) of the cells (2, nx, ny) [length]
     torque    Σ(q_y x - q_x y) = M_z / cell area
-    total     Σq = T / cell area, shape (2,); None where the shift is given
-    shift     of the indenter (2,); None where Σq is given
+    total     Σq = T / cell area, shape (2,); None where the shift is prescribed
+    shift     of the indenter (2,); None where Σq is prescribed
     The motion is (shift x, shift y, twist).
     """
 
@@ -47,12 +48,12 @@ class ShearMoments:
 
     @cached_property
     def reach(self) -> float:
-        """Largest arm: with it as unit a twist compares with a shift [length]."""
+        """Largest arm, the unit in which a twist is comparable with a shift [length]."""
         return float(np.max(magnitude(self.rotation)))
 
     @cached_property
     def units(self) -> tuple[VectorField, ...]:
-        """Unit motions of given force: along x and y if Σq is given, and the rotation."""
+        """Unit motions of prescribed force: along x and y if Σq is prescribed, and the rotation."""
         turn = self.rotation / self.reach
         if self.total is None:
             return (turn,)
@@ -60,26 +61,26 @@ class ShearMoments:
 
     @cached_property
     def given(self) -> Vector:
-        """The forces of the unit motions."""
+        """Prescribed forces on the unit motions."""
         torque = self.torque / self.reach
         return np.array([torque] if self.total is None else [*self.total, torque])
 
     def forces(self, q: VectorField) -> Vector:
-        """The forces of a shear on the unit motions."""
+        """Compute the forces of a shear on the unit motions."""
         return np.array([np.sum(q * unit) for unit in self.units])
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[VectorField, ...]:
-        """The unit motions."""
+        """Return the unit motions."""
         return self.units
 
     def rigid(self, motion: Vector) -> VectorField:
-        """Shift and rotation."""
+        """Compute the displacement by shift and rotation."""
         return everywhere(motion[:2]) + motion[2] * self.rotation
 
     def nearest(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
-        """By projection; the multipliers are γ times the motion."""
+        """Project with the prescribed forces; their multipliers are γ times the motion."""
         if self.shift is not None:
             y = y + everywhere(gamma * self.shift)
             guess = gamma * self.reach * motion[2:]
@@ -90,7 +91,7 @@ class ShearMoments:
         return q, np.array([*shift, multiplier[-1] / (gamma * self.reach)])
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """On the discs, with the forces."""
+        """Project on the discs and the prescribed forces."""
         return self._projected(q, bound, np.zeros(len(self.given)))[0]
 
     def _projected(self, y: VectorField, bound: Field, guess: Vector) -> tuple[VectorField, Vector]:
@@ -106,18 +107,18 @@ class ShearMoments:
         return q, multiplier
 
     def _loaded(self, bound: Field) -> tuple[Mask, Field]:
-        """Select the cells that carry shear, and the unit motions of them (k, 2, n)."""
+        """Select the cells that carry shear, and their unit motions (k, 2, n)."""
         loaded = bound > 0
         return loaded, np.stack([unit[:, loaded] for unit in self.units])
 
     def exhausts(self, bound: Field) -> bool:
-        """Whether the load is at the limit of friction or beyond."""
+        """Return whether the load is at or above the friction limit."""
         if not np.any(bound):
             return True
         return bool(np.any(self.given)) and self.limit(bound)[0] <= 1 + AT_LIMIT
 
     def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
-        """All cells slip about the pole at which the load reaches the limit."""
+        """Return the shear in gross slip about the pole of the friction limit."""
         if not np.any(bound) or not np.any(self.given):
             return np.zeros((2, *bound.shape)), motion
         loaded, units = self._loaded(bound)
@@ -127,9 +128,10 @@ class ShearMoments:
         return q, motion
 
     def limit(self, bound: Field) -> tuple[float, Vector]:
-        """How many times the load friction can carry, and how the indenter then slides (k,).
+        """Compute the load factor at the friction limit, and the direction of sliding (k,).
 
-        The least power of friction over all rigid motions on which the load does unit work.
+        Newton's method minimises the power of friction over all rigid motions on which the load
+        does unit work. The load factor is the minimum.
         """
         loaded, units = self._loaded(bound)
         limit = bound[loaded]
@@ -155,10 +157,10 @@ class ShearMoments:
 
 
 def _power(velocity: Vector, limit: Vector, units: Field) -> tuple[float, Vector, Field]:
-    """Compute the power of friction in full slip, with its gradient and its curvature.
+    """Compute the power of friction in gross slip, with its gradient and Hessian.
 
-    velocity  shares of the unit motions (k,)
-    limit     of friction on the loaded cells (n,)
+    velocity  components along the unit motions (k,)
+    limit     friction limit of the loaded cells (n,)
     units     their unit motions (k, 2, n)
     """
     speed = np.tensordot(velocity, units, 1)
@@ -186,7 +188,7 @@ def _products(units: Field, weight: Vector) -> Field:
 
 
 def _blunt_size(speed: VectorField) -> Field:
-    """|speed|, without the kink at the pole: a cell there may slip any way, or not at all."""
+    """Compute |speed|, smoothed at the pole, where the slip direction of a cell is undefined."""
     size = magnitude(speed)
     return np.hypot(size, BLUNT * np.max(size))
 
@@ -197,7 +199,7 @@ Power = tuple[float, Vector, Field]
 def _descended(
     power_at: Callable[[Vector], Power], x: Vector, step: Vector, power: float, fall: float
 ) -> tuple[Vector, Power]:
-    """Along a Newton step, half as far until the power falls enough."""
+    """Apply a Newton step with bisection until the power decreases sufficiently (Armijo)."""
     part = 1.0
     while True:
         there = power_at(x + part * step)
@@ -208,8 +210,10 @@ def _descended(
 
 @dataclass(frozen=True)
 class _Shifted:
-    """y + Σ λ unit cut off at the discs of the loaded cells: see multipliers.py and
-    admissible_shear._Shifted."""
+    """Projection of y + Σ λ unit on the discs of the loaded cells.
+
+    See multipliers.py and admissible_shear._Shifted.
+    """
 
     z: Field
     length: Vector
@@ -224,7 +228,7 @@ class _Shifted:
     def by(
         cls, multiplier: Vector, y: Field, limit: Vector, units: Field, given: Vector
     ) -> "_Shifted":
-        """Shift `y` (2, n) by multipliers and cut it off."""
+        """Shift `y` (2, n) by multipliers and project it on the discs."""
         z = y + np.tensordot(multiplier, units, 1)
         length = magnitude(z)
         outside = length > limit
@@ -234,16 +238,16 @@ class _Shifted:
         return cls(z, length, outside, scale, q, units, defect, float(np.sum(limit)))
 
     def settled(self, multiplier: Vector) -> bool:
-        """Whether the defect is round-off, of the sums or of the multipliers."""
+        """Return whether the defect is round-off, of the sums or of the multipliers."""
         blur = MULTIPLIER_ROUND_OFF * np.sum(self.scale) * np.sum(np.abs(multiplier))
         strength = np.sum(self.length * self.scale)
         return bool(np.sum(np.abs(self.defect)) <= ROUND_OFF * strength + blur)
 
     def newton_step(self) -> Vector:
-        """Change of λ that removes the defect to first order, damped while all cells slip.
+        """Compute the Newton step of λ, damped while all cells slip.
 
-        The damping is relative to the stiffness of the cells, which does not vanish, as the trace
-        of the derivative does where all cells slip along their motion.
+        The damping is relative to the stiffness of the cells. The trace of the derivative is no
+        measure: it vanishes where all cells slip along their motion.
         """
         w = np.where(self.outside, self.scale / np.where(self.outside, self.length**2, 1.0), 0.0)
         along, products = _along(self.units, self.z), _products(self.units, self.scale)
