@@ -1,4 +1,4 @@
-"""Contact by superposition and FFT: the semi-analytical method."""
+"""Semi-analytical contact solver: superposition of influence coefficients by FFT convolution."""
 
 from contact_scene.effect import Effect
 from contact_scene.quantities.residuals import Residuals

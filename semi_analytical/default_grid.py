@@ -1,4 +1,4 @@
-"""Cells and window for a scene that leaves them open."""
+"""Default cells and window of a scene."""
 
 from dataclasses import replace
 from functools import partial
@@ -29,35 +29,36 @@ from semi_analytical.plan import plan
 
 Pair = tuple[float, float]
 
-# Peak pressure to about 1e-4 and fields to a few 1e-3 for a smooth contact.
+# Errors of a smooth contact: about 1e-4 for the peak pressure, a few 1e-3 for fields.
 DEFAULT_CELLS = (128, 128)
-# In all, of maps with few points along one side.
+# Limit of the total number for maps with few points along one side.
 MAX_DEFAULT_CELLS = 512**2
-# Window in contact diameters; ten per cent let the bodies part within it.
+# Window in contact diameters; with 10 % the edge of the contact lies within it.
 MARGIN = 1.1
 ROUND_OFF = 1e-9  # of the number of values of a map in a window
 SCOUT_CELLS = 64
 SCOUT_TOLERANCE = 1e-3
 MAX_ENLARGEMENTS = 40
-# Coupling changes the radius of a contact by less than this part of the load does (3.5 %).
+# Fraction of the load whose uncoupled contact lies within the coupled one of the full load: it
+# changes the radius by 3.5 %, more than coupling does.
 SURELY = 0.9
 GROWTH = 1.6
 
 
 def discretise(scene: Scene, asked: SurfaceDiscretisation) -> SurfaceGrid:
-    """The grid that was asked for, with what was left open chosen.
+    """Choose the cells and the window that a discretisation leaves open.
 
-    A window that is not given is fitted to the largest contact of the history, scouted on a
-    coarse grid under the largest normal load, as far as maps of heights and friction reach. Cells
-    that are not given divide the spacing of a map (of heights, if there are two) by the same whole
-    number along x and y, and are no wider than the spacing of the other.
+    The window is fitted to the largest contact of the history, found on a coarse grid under the
+    largest normal load, within the extent of height and friction maps. The spacing of a map (of
+    heights, if there are two) is an integer multiple of the cell side, with one multiple along x
+    and y. Cells are not wider than the spacing of the other map.
     """
     scene = normal_form(scene)
     return _grid(scene, asked, asked.window or _within_maps(scene, fitted_window(scene)))
 
 
 def enlarged(scene: Scene, asked: SurfaceDiscretisation, grid: SurfaceGrid) -> SurfaceGrid:
-    """A grid of a larger window; the same where that is all that the maps of the scene cover."""
+    """Return a grid of a larger window, within the extent of the maps of the scene."""
     L_x, L_y = grid.window
     return _grid(scene, asked, _within_maps(scene, (GROWTH * L_x, GROWTH * L_y)))
 
@@ -91,10 +92,10 @@ def _within_maps(scene: Scene, window: Pair) -> Pair:
 
 
 def fitted_window(scene: Scene) -> Pair:
-    """Sides of a window that just holds the largest contact of the history [length].
+    """Find the sides of the smallest window for the largest contact of the history [length].
 
-    raises  ContactAtWindowEdge where none does; UnsupportedScene for a shape that says nothing of
-            how far its contact will reach
+    raises  ContactAtWindowEdge if no window contains the contact; UnsupportedScene for a shape
+            without a law for the contact size
     """
     if scene.indenter.extent is not None:
         return scene.indenter.extent
@@ -119,15 +120,18 @@ def fitted_window(scene: Scene) -> Pair:
             return fitted
         window = fitted
     raise ContactAtWindowEdge(
-        "no window was found that holds the contact: either it goes on to the end of the shape (a "
-        "sphere pressed to its equator) or it is far larger than expected; give a window in "
+        "no window was found that contains the contact: it extends to the end of the shape (a "
+        "sphere pressed to its equator) or is far larger than expected. Set window in "
         "[semi_analytical]"
     )
 
 
 def refuse_small_window(scene: Scene, grid: SurfaceGrid) -> None:
-    """Raise ContactAtWindowEdge if the contact under the largest load of the history will reach the
-    border of a window: that without friction does so under `SURELY` of the load."""
+    """Raise ContactAtWindowEdge if the contact under the largest load reaches the border of a
+    window.
+
+    The test uses the frictionless contact under `SURELY` of the load, which is smaller.
+    """
     decided = plan(scene)
     model = ContactModel.of(scene, grid, decided.symmetry)
     for load in _largest_loads(scene, decided.tilt):
@@ -135,13 +139,13 @@ def refuse_small_window(scene: Scene, grid: SurfaceGrid) -> None:
         try:
             press(model, replace(load, force=force, approach=approach), SCOUT_TOLERANCE)
         except ContactAtWindowEdge as error:
-            raise ContactAtWindowEdge(f"under the largest load of the history {error}") from None
-        except SolverError:  # of too few cells; the history meets it, or does not
+            raise ContactAtWindowEdge(f"under the largest load of the history, {error}") from None
+        except SolverError:  # on too few cells; left to the solution of the history
             return
 
 
 def _contact(model: ContactModel, load: NormalTarget) -> NDArray[np.bool_]:
-    """Cells in contact, none where it is too small for the grid."""
+    """Return the cells in contact; none where the contact is too small for the grid."""
     try:
         return model.domain.extend(press(model, load, SCOUT_TOLERANCE).pressure > 0)
     except ContactNotResolved:
@@ -149,7 +153,8 @@ def _contact(model: ContactModel, load: NormalTarget) -> NDArray[np.bool_]:
 
 
 def _extents(contact: NDArray[np.bool_], grid: SurfaceGrid) -> tuple[float, float]:
-    """Sides of the smallest window about the origin that holds the contact cells [length]."""
+    """Compute the sides of the smallest window about the origin that contains the contact cells
+    [length]."""
     x, y = grid.coordinates()
     return (
         2 * float(np.max(np.abs(x[contact]))) + grid.spacing[0],
@@ -158,8 +163,11 @@ def _extents(contact: NDArray[np.bool_], grid: SurfaceGrid) -> tuple[float, floa
 
 
 def _largest_loads(scene: Scene, tilts: bool) -> list[NormalTarget]:
-    """Loads among which is the one whose contact reaches farthest from the origin: the largest
-    force and the largest approach of the history, and those that tilt or lean most."""
+    """Select the loads whose contact may extend farthest from the origin.
+
+    These are the largest force and approach of the history, and those of largest tilt or
+    eccentricity.
+    """
     pressing = (ramp for ramp in scene.load_path() if ramp.normal.end)
     ends = [normal_target(ramp, None, 1.0, tilts) for ramp in pressing]
     measures = (_size, *((partial(_lean, 0), partial(_lean, 1)) if tilts else ()))
@@ -172,18 +180,20 @@ _CONTROLS = list(product((True, False), repeat=2))
 
 
 def _control(load: NormalTarget) -> tuple[bool, bool]:
-    """Whether the force is given, and whether the moment is."""
+    """Return whether the force is prescribed, and whether the moment is."""
     return load.force is not None, load.tilting is not None and load.tilting.moment is not None
 
 
 def _size(load: NormalTarget) -> float:
-    """Force or approach."""
+    """Return force or approach."""
     return load.force or load.approach or 0.0
 
 
 def _lean(axis: int, load: NormalTarget) -> float:
-    """How far a load leans along y (axis 0) or x (axis 1): by its tilt, or by its moment, over the
-    force where that is given too."""
+    """Return the tilt or the moment of a load along y (axis 0) or x (axis 1).
+
+    A moment is divided by the force, if prescribed.
+    """
     assert load.tilting is not None
     if load.tilting.tilt is not None:
         return abs(load.tilting.tilt[axis])
@@ -192,9 +202,9 @@ def _lean(axis: int, load: NormalTarget) -> float:
 
 
 def _guessed_semi_axes(scene: Scene, load: NormalTarget) -> tuple[float, float]:
-    """Reach of the contact along x and y, good to an order of magnitude.
+    """Estimate the semi-axes of the contact along x and y to an order of magnitude.
 
-    raises  UnsupportedScene for a shape that says nothing of it
+    raises  UnsupportedScene for a shape without a law for the contact size
     """
     indenter, exponent = scene.indenter, scene.indenter.gap_exponent
     if indenter.rim is not None:
@@ -206,8 +216,8 @@ def _guessed_semi_axes(scene: Scene, load: NormalTarget) -> tuple[float, float]:
         powers = indenter.contact_under(load.force, contact_modulus(scene))
     if powers is None or exponent is None:
         raise UnsupportedScene(
-            f"how far the contact will reach is not known beforehand of this indenter "
-            f"({shape_text(indenter)}); give a window in [semi_analytical]"
+            f"the contact size of this indenter ({shape_text(indenter)}) cannot be estimated. Set "
+            f"window in [semi_analytical]"
         )
     degree = exponent if load.approach is not None else exponent + 1
     return _root(powers[0], degree), _root(powers[1], degree)

@@ -1,4 +1,4 @@
-"""What a solve returns. Fields are (nx, ny), vectors (2, nx, ny), index [i, j] = (x_i, y_j)."""
+"""Result of the semi-analytical solver. Scalars are (nx, ny), vectors (2, nx, ny) at (x_i, y_j)."""
 
 from dataclasses import dataclass, field
 from typing import Annotated, ClassVar
@@ -22,23 +22,22 @@ F = Kind.FIELD
 
 @dataclass(frozen=True, kw_only=True)
 class Increment(ReportedIncrement):
-    """The converged state at the end of one increment of the load history.
+    """Converged state at the end of one increment of the load history.
 
     moment       (Σ p y Δ, Σ p x Δ) [force length]
-    iterations   of the pressure and shear solvers, grids of all sizes
-    convolutions of scalars, grids of all sizes
-    slip_before, dissipation_before
+    iterations   of the normal and tangential solvers on all grids
+    convolutions number of convolutions of scalars on all grids slip_before, dissipation_before
                  slip and dissipation at the start of the increment
-    in_stick     contact cells that did not slip in this increment
+    in_stick     contact cells without slip in this increment
     edge_report  outcome of the edge correction; None where it was not attempted
 
-    Slip is of the lower body's particles relative to the indenter's, so that it opposes the shear.
-    Fields of shear are None without friction.
+    Slip is that of the lower body relative to the indenter, opposite to the shear. Fields of shear
+    are None without friction.
     """
 
     pressure: Annotated[Field, Reported("Pa", "Normal traction, positive in contact.", F)]
     gap: Annotated[
-        Field, Reported("m", "Distance of the deformed surfaces, inf where they never touch.", F)
+        Field, Reported("m", "Gap of the deformed surfaces; inf where contact is impossible.", F)
     ]
     status: ContactStatus = ContactStatus.FRICTIONLESS
     contact_radius: float = field(init=False)
@@ -57,18 +56,18 @@ class Increment(ReportedIncrement):
     slip: Annotated[
         VectorField | None,
         Reported(
-            "m", "Slip (x, y) of the lower body against the indenter since the start.", F, True
+            "m", "Slip (x, y) of the lower body relative to the indenter since the start.", F, True
         ),
     ] = None
     in_stick: Annotated[
         Mask | None, Reported("", "Whether the cell is in contact and sticks.", F)
     ] = None
     slip_distance: Annotated[
-        Field | None, Reported("m", "Way slipped since the start, increments added up.", F)
+        Field | None, Reported("m", "Path length of slip since the start.", F)
     ] = None
     dissipation: Annotated[
         Field | None,
-        Reported("J/m^2", "Energy per area lost to friction since the start.", F),
+        Reported("J/m^2", "Energy per area dissipated by friction since the start.", F),
     ] = None
     edge_report: EdgeReport | None = None
     slip_before: VectorField | None = None
@@ -99,10 +98,12 @@ class Increment(ReportedIncrement):
         self,
     ) -> Annotated[
         Field | None,
-        Reported("J/m^2", "Energy per area lost to friction within the increment.", F),
+        Reported("J/m^2", "Energy per area dissipated by friction within the increment.", F),
     ]:
-        """Energy per area dissipated within the increment (nx, ny) [force/length]; nowhere
-        negative, None without friction."""
+        """Energy per area dissipated within the increment (nx, ny) [force/length].
+
+        It is nowhere negative; None without friction.
+        """
         if self.dissipation is None or self.dissipation_before is None:
             return None
         return np.asarray(self.dissipation - self.dissipation_before)
@@ -110,7 +111,7 @@ class Increment(ReportedIncrement):
 
 @dataclass(frozen=True)
 class Result:
-    """All increments of a load history on one grid, with what was asked for and decided."""
+    """Increments of a load history on one grid, with tolerance and plan."""
 
     scene: Scene
     grid: SurfaceGrid
@@ -121,5 +122,5 @@ class Result:
 
     @property
     def steps(self) -> tuple[Increment, ...]:
-        """The last increment of every loading step."""
+        """Last increment of every load step."""
         return tuple(i for i in self.increments if i.index == i.increments_in_step)

@@ -1,4 +1,4 @@
-"""The surface grid: rectangular cells that carry constant tractions."""
+"""Surface grid of rectangular cells with constant tractions."""
 
 from dataclasses import dataclass
 
@@ -12,7 +12,7 @@ class SurfaceGrid:
 
     cells   number of cells along x and y, at least 2 each
     window  side lengths of the window [length], positive
-    Raises ValueError for anything else.
+    Raises ValueError for other values.
     """
 
     cells: tuple[int, int]
@@ -20,9 +20,9 @@ class SurfaceGrid:
 
     def __post_init__(self) -> None:
         if min(self.cells) < 2:
-            raise ValueError(f"a grid of {self.cells} cells: give at least 2 along each side")
+            raise ValueError(f"cells is {self.cells}: use at least 2 along each side")
         if not all(0 < side < np.inf for side in self.window):
-            raise ValueError(f"a window of {self.window}: give two positive lengths")
+            raise ValueError(f"window is {self.window}: use two positive lengths")
 
     @property
     def spacing(self) -> tuple[float, float]:
@@ -46,23 +46,26 @@ class SurfaceGrid:
 
     @property
     def even(self) -> bool:
-        """Whether x = 0 and y = 0 lie between cells, alike on both sides."""
+        """Whether x = 0 and y = 0 lie between cells, with exactly symmetric coordinates."""
         if any(count % 2 for count in self.cells):
             return False
         return all(bool((at == -at[::-1]).all()) for at in (self.x, self.y))
 
     def coordinates(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Cell centres X, Y, each of shape (nx, ny) [length]."""
+        """Return the cell centres X, Y, each of shape (nx, ny) [length]."""
         return np.repeat(self.x[:, None], self.cells[1], axis=1), np.tile(
             self.y, (self.cells[0], 1)
         )
 
     def refined(self, factor: int = 2) -> "SurfaceGrid":
-        """The same window with `factor` times as many cells along each side."""
+        """Return a grid of the same window with `factor` times the cells per side."""
         return SurfaceGrid((self.cells[0] * factor, self.cells[1] * factor), self.window)
 
     def coarsened(self) -> "SurfaceGrid":
-        """The same window with half the cells along each side; both counts must be even."""
+        """Return a grid of the same window with half the cells per side.
+
+        Raises ValueError for odd numbers of cells.
+        """
         if self.cells[0] % 2 or self.cells[1] % 2:
             raise ValueError(f"{self.cells} cells cannot be halved: both counts must be even")
         return SurfaceGrid((self.cells[0] // 2, self.cells[1] // 2), self.window)

@@ -1,4 +1,4 @@
-"""March through a load history: state, increment, state."""
+"""Load stepping of the semi-analytical solver: solution, energies and edge correction."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
@@ -54,9 +54,9 @@ class Correct(Protocol):
     ) -> Corrected | EdgeReport: ...
 
 
-# An increment that has taken more without converging is not cut any further. In one go converge
-# those of the stability map with µ = 5 below films a thousand times as stiff or as soft as their
-# base: the dearest takes 5 700.
+# Convolutions above which an increment that does not converge is not bisected. In the stability map
+# (µ = 5, modulus ratios of film and base from 1/1000 to 1000) the most expensive increment that
+# converges takes 5 700.
 MAX_CONVOLUTIONS = 30_000
 
 
@@ -68,9 +68,9 @@ def march(model: ContactModel, plan: Plan, tolerance: float) -> Iterator[Increme
 def marked(
     model: ContactModel, plan: Plan, tolerance: float, since: Checkpoint | None = None
 ) -> Iterator[tuple[Increment, ResumePoint[State]]]:
-    """Increments of the scene's load path, each with the mark from which the march can go on.
+    """Iterate over the increments of the load history, each with its resume point.
 
-    since   where the same march stood before, to go on from there
+    since   checkpoint from which to resume
     raises  NotConverged and GrossSliding, with the last converged increment as `last_state`
     """
     solver = _Solver(model, plan, _advance(plan), _correction(model, plan), tolerance)
@@ -78,7 +78,7 @@ def marked(
 
 
 def _advance(plan: Plan) -> Advance:
-    """How one increment is solved: a solver that is not needed is not even imported."""
+    """Return the solver of one increment. Solvers that are not required are not imported."""
     if plan.coupling is Coupling.NONE:
         return solve_increment
     if plan.coupling is Coupling.ONE_WAY:
@@ -91,7 +91,7 @@ def _advance(plan: Plan) -> Advance:
 
 
 def _correction(model: ContactModel, plan: Plan) -> Correct | None:
-    """The edge correction, where it is applied."""
+    """Return the edge correction; None if the plan excludes it."""
     if plan.edge == "off":
         return None
     from semi_analytical.edge_correction.correction import EdgeCorrection
@@ -101,7 +101,7 @@ def _correction(model: ContactModel, plan: Plan) -> Correct | None:
 
 @dataclass(frozen=True)
 class _Solver:
-    """The model as the march sees it; it counts convolutions."""
+    """Model and solver of an increment for the load stepping; work is counted in convolutions."""
 
     model: ContactModel
     plan: Plan
@@ -111,17 +111,17 @@ class _Solver:
 
     @property
     def most_spent(self) -> float:
-        """Of one increment."""
+        """Work limit of one increment."""
         return MAX_CONVOLUTIONS
 
     def spent(self) -> float:
-        """Convolutions so far."""
+        """Return the number of convolutions so far."""
         return self.model.convolutions.count
 
     def advance(
         self, ramp: LoadRamp, start: State | None, before: State | None, fraction: float
     ) -> State:
-        """The state at a fraction of the ramp, accepted, with its energies."""
+        """Solve the state at a fraction of a ramp, with its energies and edge correction."""
         normal = normal_target(ramp, start, fraction, self.plan.tilt)
         tangential = None
         if self.plan.shear:
@@ -146,12 +146,12 @@ class _Solver:
         return replace(after, corrected=edges, edge_report=replace(edges.report, border=border))
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Field:
-        """See `contact_scene.stepping.load_stepping.Solver`."""
+        """Return the gap without tractions; see `contact_scene.stepping.load_stepping.Solver`."""
         closure = 0.0 if tilt is None else plane(self.model, tilt)
         return self.model.domain.extend(self.model.gap - closure)
 
     def report(self, reached: Reached[State], last: Increment | None) -> Increment:
-        """The state, with what the increment has changed and cost."""
+        """Report an increment with its changes and cost."""
         before, after = reached.before, reached.state
         held = before is not None and before.target == after.target
         spreads = self.plan.coupling is not Coupling.NONE or not held
@@ -162,8 +162,7 @@ class _Solver:
 def _increment(
     model: ContactModel, last: Increment | None, reached: Reached[State], *, spreads: bool
 ) -> Increment:
-    """Report the state on the window, with the changes and the cost of the increment after the
-    last one. All fields are extended to the window here.
+    """Report a state on the window, with changes and cost since the last increment.
 
     spreads  see `stick_area`
     """
@@ -208,7 +207,7 @@ def _increment(
         tangential_shift=sheared.shift,
         torque=sheared.torque,
         twist=sheared.twist,
-        # Both areas are fitted on their own; where all sticks they may cross by their errors.
+        # Independent fits of both areas may differ by their errors in full stick.
         stick_area=min(stuck * cell, pressed.contact_area),
         dissipated_energy=sheared.dissipated_energy,
         dissipation_uncertainty=state.energy.uncertain,
@@ -219,7 +218,7 @@ def _increment(
 def _with_edges(
     increment: Increment, corrected: Corrected, model: ContactModel, target: NormalTarget
 ) -> Increment:
-    """With the contact as it is with its edge inside the cells; energies stay those of cells."""
+    """Replace the contact of an increment by the edge-corrected one, but not its energies."""
     p, tilt, cell = corrected.pressure, corrected.tilt, model.window.cell_area
     moment = reached_moment(model, target, p)
     return replace(
@@ -245,11 +244,12 @@ def _stick(
     *,
     spreads: bool,
 ) -> tuple[float, TangentialState, Increment]:
-    """Area of the stick zone in cells, and shear and increment with their edges inside the cells.
+    """Compute the stick area in cells; return it with edge-corrected shear and increment.
+
+    Force, shift and their work are not corrected.
 
     p        pressure on cells
     spreads  see `stick_area`
-    Force, shift and their work along the history stay those of the cells.
     """
     border = corrected.sheared if corrected else None
     if corrected is not None and border is not None:
@@ -267,8 +267,7 @@ def _stick(
 
 
 def _traced(increment: Increment, last: Increment | None, sheared: TangentialState) -> Increment:
-    """With what slip leaves on the surface and had left there before the increment; nothing where
-    the motion is undefined."""
+    """Add slip and dissipation to an increment, unless the shift is undefined."""
     if sheared.dissipated_energy is None:
         return increment
     nothing = untouched(sheared.in_stick.shape)

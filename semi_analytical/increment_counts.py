@@ -1,27 +1,28 @@
-"""Into how many increments the loading steps are cut, by error laws that were measured.
+"""Number of increments of each load step, by measured error rules.
 
-An increment fixes the direction of slip for all of it, and what sticks keeps what it had at the
-end of the increment; both cost accuracy where the state depends on the path. The error is
-Σ|q - q_fine| / Σµp at the end of a step that is cut into n equal increments (a first loading:
-uniform in contact radius). Measured on 64 x 64 and 128 x 128 cells against 64 to 160 increments:
+An increment has one slip direction, and sticking cells keep the slip of the end of the preceding
+increment. Both cause an error where the state depends on the load path. The increment error is Σ|q
+- q_fine| / Σµp at the end of a step of n equal increments (in first loading: uniform in contact
+radius). Measured on 64 x 64 and 128 x 128 cells against 64 to 160 increments:
 
-    pressing for the first time, unlike half-spaces      min(0.9 (m²/n)^(3/2), 1.3/n), m = µ/|β|
+    first loading, normal, dissimilar half-spaces        min(0.9 (m²/n)^(3/2), 1.3/n), m = µ/|β|
         rigid paraboloid, ν = 0 to 0.45, µ = 0.05 to 4
-        other shapes: not below 0.25 m/n; cone, ellipsoid of 1 : 3, ν = 0 and 0.3, µ = 0.05 to 0.5
-    the same with layers                                 as above with m² = 9µ, and 2/n
+        other shapes: at least 0.25 m/n; cone, ellipsoid of 1 : 3, ν = 0 and 0.3, µ = 0.05 to 0.5
+    first loading with layers                            as above with m² = 9µ, and 2/n
         one layer of 0.1 to 3 contact radii, E1/E2 = 1/4 to 4, ν = 0.3, µ = 0.05 to 1
-    pressing and pushing at once, for the first time     2/n
-        bodies that do not couple, T/µW = 0.1 to 0.9
-    pushing sideways under constant normal load          0.4 x min(x, Δx)/n
-        unlike bodies, and turning ones that do not couple; x the largest T/µW of the step,
-        0.3 to 0.99, Δx its change; with layers as above
-    turning again and again, by w = Σ Δx/x in all        min(0.25 w, 0.9) x Δx/n
-        errors of a step last for half a turn: polygons of 4 to 16 steps, T/µW = 0.3 to 0.9; at
-        the end of any step
-    changing the normal load by ΔW later                 0.15 ΔW/W/n, and as above for T;
-        0.6 ΔW/W/n for unlike bodies. W down to 1/5 or up to fivefold, with and without T
+    first loading, normal and tangential together        2/n
+        uncoupled bodies, T/µW = 0.1 to 0.9
+    tangential load at constant normal load              0.4 x min(x, Δx)/n
+        coupled bodies, and changes of direction of uncoupled ones; x the largest T/µW of the
+        step, 0.3 to 0.99, Δx its change; with layers as above
+    several changes of direction, w = Σ Δx/x             min(0.25 w, 0.9) x Δx/n
+        the error of a step decays over half a turn: polygons of 4 to 16 steps, T/µW = 0.3 to
+        0.9; at the end of any step
+    later change ΔW of the normal load                   0.15 ΔW/W/n, and as above for T;
+        0.6 ΔW/W/n for coupled bodies. W down to 1/5 or up to fivefold, with and without T
 
-Beyond what is named here the laws are guesses; `slipstick maintain study increments` measures.
+Outside of these ranges the rules are extrapolated. `slipstick maintain study increments` repeats
+the measurement.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ from contact_scene import ControlKind, CoulombFriction, LoadRamp, Scene
 from contact_scene.geometry import ShapedBody
 from contact_scene.quantities.cycles import loop_increments
 
-# The sine of an angle below this is round-off of a load that goes straight.
+# Largest sine of the angle between successive loads of constant direction (round-off).
 STRAIGHT = 1e-9
 ROUND_OFF = 1e-9
 MOST = 100_000
@@ -49,7 +50,7 @@ TURNING = 0.25
 TURNED_ROUND = 0.9
 PRESSING_LATER = 0.15
 PRESSING_UNLIKE = 0.6
-# Of a step that strains bodies that do not couple: slip may turn back within it.
+# Least number of increments of a step with bulk strain, in which slip may reverse.
 STRAINED = 16
 
 Vector = tuple[float, float]
@@ -57,9 +58,9 @@ Vector = tuple[float, float]
 
 @dataclass(frozen=True)
 class StepIncrements:
-    """How many increments one loading step takes.
+    """Number of increments of one load step.
 
-    path_matters  whether the state at its end depends on how finely it is cut
+    path_matters  whether the end state depends on the number
     why           the reason in one sentence
     """
 
@@ -70,11 +71,11 @@ class StepIncrements:
 
 @dataclass(frozen=True)
 class Bodies:
-    """What the error laws need of a scene.
+    """Properties of a scene for the error rules.
 
-    coupled  whether pressure and shear act on each other
-    beta     Dundurs' constant; None if a body has layers
-    friction between them
+    coupled   whether the normal and tangential problems are coupled
+    beta      Dundurs constant; None if a body has layers
+    friction  friction law
     """
 
     coupled: bool
@@ -85,11 +86,14 @@ class Bodies:
 def path_increments(
     scene: Scene, shear: bool, bodies: Bodies, accuracy: float
 ) -> tuple[StepIncrements, ...]:
-    """As the scene asks; else one where the path does not matter, enough for the accuracy where it
-    does, and enough for the work of closed cycles.
+    """Choose the number of increments of each load step.
 
-    shear     whether shear is solved for at all
-    accuracy  error of the shear that increments may leave, Σ|error of q| / Σµp
+    It is the largest of: 1; for path-dependent steps the number by the error rules; the number for
+    bulk strain; the number for the work of closed cycles. A number prescribed by the scene replaces
+    it.
+
+    shear     whether shear is solved for
+    accuracy  allowed increment error, Σ|error of q| / Σµp
     """
     steps = []
     sheared = bodies.coupled
@@ -103,17 +107,17 @@ def path_increments(
         if matters:
             count, why = way.count(bodies, accuracy, turned)
         if shear and way.ramp.strains and count < STRAINED:
-            count, why = STRAINED, "the lower body is strained"
+            count, why = STRAINED, "the lower body has a bulk strain"
         if shear and of_loop > count:
             count, why = of_loop, "the work of a closed cycle"
         if way.ramp.increments is not None:
-            count, why = way.ramp.increments, "as the scene asks"
+            count, why = way.ramp.increments, "prescribed by the scene"
         steps.append(StepIncrements(count, matters, why))
     return tuple(steps)
 
 
 def _ways(scene: Scene) -> list[_Way]:
-    # Force and shift are nearly parallel, so that either tells where the other starts.
+    # Force and shift are nearly parallel: the end of one is the start of the other, in direction.
     ways: list[_Way] = []
     for ramp in scene.load_path():
         last = ways[-1].ramp.tangential.end if ways else (0.0, 0.0)
@@ -121,12 +125,12 @@ def _ways(scene: Scene) -> list[_Way]:
     return ways
 
 
-NO_SHEAR = "nothing is sheared: the state does not depend on the path"
+NO_SHEAR = "no shear: the state does not depend on the load path"
 
 
 @dataclass(frozen=True)
 class _Way:
-    """One loading step.
+    """Load step for the error rules.
 
     start  tangential force or shift at its start
     shape  of the indenter
@@ -138,7 +142,7 @@ class _Way:
 
     @property
     def ends_sheared(self) -> bool:
-        """Whether the step names a sideways load."""
+        """Whether the tangential load or torsion at the end of the step is not zero."""
         return any(self.ramp.tangential.end) or self.ramp.twisting.end != 0
 
     @property
@@ -152,14 +156,14 @@ class _Way:
 
     @property
     def _growing(self) -> bool:
-        """Whether all that the step does is to press harder."""
+        """Whether only the normal load changes, and grows."""
         normal, tilting = self.ramp.normal, self.ramp.tilting
         grows = normal.start is not None and normal.start <= normal.end
         return grows and tilting.start == tilting.end and not self._moving
 
     @property
     def _moving(self) -> bool:
-        """Whether the sideways load changes."""
+        """Whether the tangential load, the torsion or the bulk strain changes."""
         twisting = self.ramp.twisting
         if self.ramp.strains:
             return True
@@ -167,7 +171,7 @@ class _Way:
 
     @property
     def _turning(self) -> bool:
-        """Whether the sideways load changes its direction, reversal and round-off apart."""
+        """Whether the tangential load changes its direction, other than by reversal."""
         start, end = self.start, self.ramp.tangential.end
         cross = start[0] * end[1] - start[1] * end[0]
         twists = self.ramp.twisting.start != 0 or self.ramp.twisting.end != 0
@@ -177,29 +181,29 @@ class _Way:
         return abs(cross) > STRAIGHT * hypot(*start) * hypot(*end)
 
     def matters(self, coupled: bool) -> tuple[bool, str]:
-        """Whether the end of the step depends on the path to it, and why not."""
+        """Return whether the end state of the step depends on the load path, and why not."""
         if self._first and self.shape.rim is not None:
-            return False, "below a flat punch all tractions grow in proportion"
+            return False, "all tractions below a flat punch grow in proportion"
         if self._growing and not coupled:
-            return False, "the normal load grows, and nothing slips"
+            return False, "the normal load grows without slip"
         if self._pressing or self._turning or (coupled and self._moving):
             return True, ""
-        return False, "the load goes straight and the bodies do not couple"
+        return False, "the load has a constant direction and the bodies are uncoupled"
 
     def turned(self, bodies: Bodies) -> float:
-        """Change of the sideways load relative to its largest, where it turns."""
+        """Compute Δx/x of a step that changes direction, else 0."""
         x, change = self._parts_of_limit(bodies)
         return change / x if self._turning and x else 0.0
 
     def count(self, bodies: Bodies, accuracy: float, turned: float) -> tuple[int, str]:
-        """Enough for the accuracy, and by which law.
+        """Compute the number of increments for an accuracy, and name the error rule.
 
-        turned  Σ Δx/x of all steps that turn; zero where fewer than two do
+        turned  Σ Δx/x of all steps that change direction; 0 for fewer than two
         """
         if self._first and not self._moving:
             return _pressed_first(bodies, accuracy, self.shape)
         if self._first:
-            return _first_order(BOTH_AT_ONCE, accuracy, "pressing and pushing at once")
+            return _first_order(BOTH_AT_ONCE, accuracy, "normal and tangential first loading")
         x, change = self._parts_of_limit(bodies)
         coefficient = SIDEWAYS * x * min(x, change)
         if self._turning:
@@ -209,19 +213,21 @@ class _Way:
             rate = PRESSING_UNLIKE if bodies.coupled else PRESSING_LATER
             coefficient += rate * self._pressing_change
             return _first_order(coefficient, accuracy, "the normal load changes under shear")
-        why = "the sideways load turns" if self._turning else "pressure and shear are coupled"
+        why = "pressure and shear are coupled"
+        if self._turning:
+            why = "the tangential load changes its direction"
         return _first_order(coefficient, accuracy, why)
 
     @property
     def _pressing_change(self) -> float:
-        """Change of the normal load relative to the larger; 1 where that is not known."""
+        """Change of the normal load relative to the larger value; 1 if unknown."""
         normal, tilting = self.ramp.normal, self.ramp.tilting
         if normal.start is None or tilting.start != tilting.end:
             return 1.0
         return abs(normal.end - normal.start) / max(normal.start, normal.end)
 
     def _parts_of_limit(self, bodies: Bodies) -> tuple[float, float]:
-        """Largest T/µW of the step, and its change; 1 where that is not known before the solve."""
+        """Compute the largest T/µW of the step and its change; 1 if unknown before the solution."""
         if not self._moving:
             return 0.0, 0.0
         normal, tangential = self.ramp.normal, self.ramp.tangential
@@ -241,18 +247,22 @@ class _Way:
 
 
 def _pressed_first(bodies: Bodies, accuracy: float, shape: ShapedBody) -> tuple[int, str]:
-    """The stick edge runs outwards with the contact: what matters is how much of it sticks."""
+    """Compute the number of increments of normal first loading of coupled bodies.
+
+    The error depends on the relative size of the stick zone, whose edge moves with that of the
+    contact.
+    """
     layered = bodies.beta is None
     most = (FULL_STICK_LAYERS if layered else FULL_STICK) / accuracy
     mu = bodies.friction.uniform
     if mu is None:
-        return _rounded(most), "pressing bodies that couple, with friction that is not µp"
+        return _rounded(most), "first loading of coupled bodies, with friction other than µp"
     if layered:
         m_squared = LAYERS * mu
-        why = f"pressing coated bodies, µ = {mu:.2g}"
+        why = f"first loading of coated bodies, µ = {mu:.2g}"
     else:
         m_squared = (mu / abs(bodies.beta or 1.0)) ** 2
-        why = f"pressing unlike bodies, µ/|β| = {m_squared**0.5:.2g}"
+        why = f"first loading of dissimilar bodies, µ/|β| = {m_squared**0.5:.2g}"
     count = (PRESSING_FIRST / accuracy) ** (2 / 3) * m_squared
     if shape.gap_exponent != 2 or not shape.is_of_revolution:
         count = max(count, OTHER_SHAPES * sqrt(m_squared) / accuracy)

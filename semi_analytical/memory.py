@@ -1,4 +1,4 @@
-"""Memory of a run, estimated before anything is allocated."""
+"""Memory estimate of a run."""
 
 from contact_scene.machine.free_memory import available_bytes
 from contact_scene.quantities.stored_fields import MAX_HELD
@@ -7,51 +7,50 @@ from semi_analytical.grid import SurfaceGrid
 from semi_analytical.plan import Coupling, Plan
 
 DOUBLE = 8
-# Arrays of the size of the window held at once: coefficients, spectra, work space, solver vectors,
-# results of an increment. Of two numbers the second has the size of the reduced domain. Measured of
-# complete runs on fitted windows, of which the contact takes nine tenths along each side.
+# Simultaneous arrays of the size of the window: coefficients, spectra, work space, solver vectors,
+# results of an increment. The second of two numbers counts arrays of the size of the reduced
+# domain. Measured in complete runs on fitted windows (contact 90 % of each side).
 PRESSURE_ARRAYS = 12, 20
 HISTORY_ARRAYS = 4
 SHEAR_ARRAYS = 28, 54
-# Arms and unit motions, and what they are multiplied with.
+# Arms, unit motions and their products.
 TILT_ARRAYS = 10
 TORSION_ARRAYS = 6
 # Spectra of the coupling in one direction.
 ONE_WAY_ARRAYS = 8
-# Of coupled bodies, by the number of mirror images: arrays at most during an increment, as far as
-# they are written to, and between increments, counted by tracemalloc on 256 x 256 cells; of the
-# first increment, and of later ones.
+# Coupled bodies, by the number of mirror images: for the first and for later increments, largest
+# number of arrays during an increment (that are written to) and between increments, counted by
+# tracemalloc on 256 x 256 cells.
 COUPLED_ARRAYS = {
     1: ((122, 44), (182, 72)),
     2: ((81, 50), (141, 85)),
     4: ((60, 37), (120, 54)),
 }
-# Spectra of what tractions do within the cells, and that along the edge, in about as many cells as
-# a side has; more of it where loads turn, whose edges stay inside the cells. Those of shear are of
-# the window, in work space that shear has, too. So are all of bodies that couple, counted as above,
-# beside the arrays between increments.
+# Edge correction: spectra of sub-cell responses, and data of the edge cells, about one per cell of
+# a side; more where loads change direction, as earlier edges are stored. Spectra for shear are on
+# the window, in the work space of shear. Those of coupled bodies are counted as above, in addition
+# to the arrays between increments.
 EDGE_ARRAYS = 25
 EDGE_RIM = 74_000  # bytes per cell of a side, in the mean
 EDGE_SHEAR, EDGE_SHEAR_ARRAYS = 23 << 20, 100
 EDGE_COUPLED, EDGE_COUPLED_ARRAYS, EDGE_COUPLED_RIM = 30 << 20, 96, 34_000
 EDGE_SHEAR_RIM = 49_000
 EDGE_TURNED_RIM = 150_000
-# Arrays that every increment leaves behind: pressure and gap; shear, slip, its distance and
-# dissipation, and masks.
+# Arrays stored per increment: pressure and gap; shear, slip, its path length, dissipation, masks.
 PRESSURE_RESULT = 2
 SHEAR_RESULT = 7
 LIGHT = 500  # bytes of an increment whose attributes are in a file
-LIBRARIES = 75 << 20  # of the process that solves
-# Libraries that write and draw, arrays, and what the solver leaves that has not gone back to the
-# system; the stress that is drawn takes no more. Shear has more maps, bodies that couple leave
-# more, and of every loading step beyond two there is a panel more, up to so many.
+LIBRARIES = 75 << 20  # bytes of libraries for the solution
+# Output: libraries, arrays, and memory of the solver that is not returned to the system; the stress
+# figures take no more. Shear has more maps, coupled bodies retain more memory, and every load step
+# beyond two adds a panel, up to MAX_DRAWN steps.
 DRAWING, DRAWING_ARRAYS = 77 << 20, 20
 DRAWING_SHEAR, DRAWING_COUPLED = 11 << 20, 23 << 20
 DRAWING_STEP, DRAWING_SHEAR_STEP, MAX_DRAWN = 5 << 20, 4 << 20, 6
 
 
 def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
-    """Largest memory of a process that runs, libraries and figures included [byte]."""
+    """Estimate the peak memory of a run, libraries and figures included [byte]."""
     array = grid.cells[0] * grid.cells[1] * DOUBLE
     increments = sum(plan.increments)
     kept = PRESSURE_RESULT + (SHEAR_RESULT if plan.shear else 0)
@@ -64,12 +63,12 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
 
 
 def _share(grid: SurfaceGrid, plan: Plan) -> float:
-    """Cells of the domain over those of the window."""
+    """Return the ratio of cells of the domain to cells of the window."""
     return 1 / plan.symmetry.images if grid.even else 1.0
 
 
 def _arrays(grid: SurfaceGrid, plan: Plan) -> float:
-    """Of the size of the window while it is solved on cells."""
+    """Count the arrays of the size of the window during the solution on cells."""
     share = _share(grid, plan)
     arrays = PRESSURE_ARRAYS[0] + PRESSURE_ARRAYS[1] * share
     if plan.shear:
@@ -80,7 +79,7 @@ def _arrays(grid: SurfaceGrid, plan: Plan) -> float:
 
 
 def _coupled(grid: SurfaceGrid, plan: Plan) -> float:
-    """Bytes of coupled bodies, of the solve or of the edge correction after it."""
+    """Estimate the memory for coupled bodies, of the solution or of the edge correction [byte]."""
     array, side = grid.cells[0] * grid.cells[1] * DOUBLE, sum(grid.cells) / 2
     by_increment = COUPLED_ARRAYS[plan.symmetry.images if grid.even else 1]
     during, between = by_increment[sum(plan.increments) > 1]
@@ -92,7 +91,7 @@ def _coupled(grid: SurfaceGrid, plan: Plan) -> float:
 
 
 def _edges(grid: SurfaceGrid, plan: Plan) -> float:
-    """Bytes that edges take inside the cells."""
+    """Estimate the memory of the edge correction for uncoupled bodies [byte]."""
     if plan.edge == "off":
         return 0
     array, side = grid.cells[0] * grid.cells[1] * DOUBLE, sum(grid.cells) / 2
@@ -100,7 +99,7 @@ def _edges(grid: SurfaceGrid, plan: Plan) -> float:
     alone = EDGE_ARRAYS * array + EDGE_RIM * side
     if not plan.shear:
         return alone * share
-    # Where the way to the end of a step matters, that end alone does not tell the edge of stick.
+    # The stick border of path-dependent steps of several increments is corrected only with "all".
     steps = sum(plan.edge == "all" or not s.path_matters or s.count == 1 for s in plan.path[1:])
     if not steps:
         return alone
@@ -110,7 +109,7 @@ def _edges(grid: SurfaceGrid, plan: Plan) -> float:
 
 
 def _drawing(array: int, plan: Plan) -> int:
-    """Bytes that files and figures take."""
+    """Estimate the memory of files and figures [byte]."""
     steps = max(min(len(plan.path), MAX_DRAWN) - 2, 0)
     drawing = DRAWING + DRAWING_ARRAYS * array + DRAWING_STEP * steps
     drawing += DRAWING_SHEAR + DRAWING_SHEAR_STEP * steps if plan.shear else 0
@@ -118,11 +117,11 @@ def _drawing(array: int, plan: Plan) -> int:
 
 
 def refuse_if_too_large(grid: SurfaceGrid, plan: Plan) -> None:
-    """Raise ResourceRefused if the solve would not fit."""
+    """Raise ResourceRefused if the solution does not fit into the free memory."""
     needed, available = estimated_bytes(grid, plan), available_bytes()
     if needed > available:
         raise ResourceRefused(
             f"{grid.cells[0]} x {grid.cells[1]} cells and {sum(plan.increments)} increments need "
-            f"about {needed / 2**30:.1f} GiB, {available / 2**30:.1f} GiB are available; choose "
-            f"fewer cells or increments"
+            f"about {needed / 2**30:.1f} GiB, {available / 2**30:.1f} GiB are available. Use fewer "
+            f"cells or increments"
         )

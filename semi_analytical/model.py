@@ -1,4 +1,4 @@
-"""Discrete contact model: gap, friction limit and operators on one grid, and a coarser one."""
+"""Discrete contact model: gap, friction limit and operators on a grid, and its coarser models."""
 
 from functools import cached_property
 
@@ -17,18 +17,18 @@ from semi_analytical.operator.domain import WINDOW, Pair, ReducedDomain, Reduced
 from semi_analytical.operator.operator import DisplacementOperator
 from semi_analytical.operator.transforms import Convolutions, offsets_for
 
-# A grid of no more cells along a side is not halved: from a pressure by Hertz's law it is solved in
-# less time than its coarser grids would take.
+# Largest number of cells per side for which no coarser model is used: from an initial pressure by
+# Hertz theory the solution takes less time than the coarser grids.
 COARSEST = 64
 
 
 class ContactModel:
-    """Scene on one grid, as the solvers need it. Everything is built at its first use.
+    """Scene on one grid for the solvers. Its properties are computed at first use.
 
-    grid          cells of the domain, with the area of all their images
-    domain        window, or reduced domain on which all fields are
-    gap           undeformed gap of the domain (nx, ny) [length]
-    convolutions  counter shared by all operators of this model and its coarser ones
+    grid          cells of the domain; their area includes the mirror images
+    domain        symmetry reduction: domain of all fields
+    gap           undeformed gap on the domain (nx, ny) [length]
+    convolutions  counter shared by all operators of this model and its coarser models
     """
 
     def __init__(
@@ -42,9 +42,9 @@ class ContactModel:
     def of(
         cls, scene: Scene, window: SurfaceGrid, symmetry: ReducedDomain = WINDOW
     ) -> "ContactModel":
-        """Build the model of a scene, its gap taken at the cell centres.
+        """Build the model of a scene, with the gap at the cell centres.
 
-        symmetry  domain by the plan; with a cell on a plane, the model is on the window
+        symmetry  domain of the plan; the full window if cells lie on a mirror plane
         raises    ValueError if the gap is not even about the mirror planes
         """
         domain = symmetry if window.even else WINDOW
@@ -53,16 +53,17 @@ class ContactModel:
         return cls(scene, ReducedGrid(window, domain), domain.restrict(gap), Convolutions())
 
     def friction_limit(self, pressure: Field, first: Pair = (0, 0)) -> Field:
-        """Compute the friction limit under a pressure on the domain, or on a box of its cells that
-        begins with cell `first` [force/length^2]."""
+        """Compute the friction limit under a pressure on the domain, or on a box of cells that
+        begins at cell `first` [force/length^2]."""
         return self.friction.limit(pressure, self._of_window(first, pressure.shape))
 
     def friction_slope(self, pressure: Field, first: Pair = (0, 0)) -> Field:
-        """Compute the derivative of the friction limit with respect to the pressure, there [1]."""
+        """Compute the derivative of the friction limit with respect to the pressure, on the same
+        cells [1]."""
         return self.friction.slope(pressure, self._of_window(first, pressure.shape))
 
     def _of_window(self, first: Pair, shape: tuple[int, ...]) -> tuple[slice, slice]:
-        """Cells of the window that a box of cells of the domain is on."""
+        """Return the index of a box of cells of the domain in arrays on the window."""
         cells = zip(self.window.cells, self.grid.cells, first, strict=True)
         begins = (whole - n + i for whole, n, i in cells)
         x, y = (slice(i, i + count) for i, count in zip(begins, shape, strict=True))
@@ -70,17 +71,19 @@ class ContactModel:
 
     @cached_property
     def friction(self) -> CoulombFriction:
-        """Friction law, with a coefficient for every cell of the window where it varies; raises
-        UnsupportedScene for a map that does not cover the window."""
+        """Friction law, with one coefficient per cell of the window if it varies.
+
+        Raises UnsupportedScene for a map that does not cover the window.
+        """
         friction = self.scene.friction or FRICTIONLESS
         try:
             return friction.on(self.window.cells, self.window.spacing)
         except ValueError as error:
-            raise UnsupportedScene(f"of the coefficient of friction {error}") from None
+            raise UnsupportedScene(f"coefficient of friction: {error}") from None
 
     @cached_property
     def coefficients(self) -> InfluenceCoefficients:
-        """Influence coefficients at all offsets that an operator on this grid reads."""
+        """Influence coefficients at all offsets required on this grid."""
         offsets = offsets_for(self.window.cells)
         scene = self.scene
         return influence_coefficients(
@@ -89,20 +92,20 @@ class ContactModel:
 
     @property
     def springs(self) -> tuple[float, float]:
-        """Displacement by the springs of a rig along the normal and along the surface, per sum of
-        the tractions on the domain [length^3/force]."""
+        """Displacement of the normal and tangential springs of a rig per sum of the tractions on
+        the domain [length^3/force]."""
         down, along = compliances(self.scene.rig)
         return down * self.grid.cell_area, along * self.grid.cell_area
 
     @cached_property
     def arms(self) -> Field:
-        """(y, x) of the cells (2, nx, ny): closure of the gap by unit tilts [length]."""
+        """Arms (y, x) of the cells (2, nx, ny): closure of the gap by unit tilts [length]."""
         x, y = self.grid.coordinates()
         return np.stack([y, x])
 
     @cached_property
     def rotation(self) -> Field:
-        """(-y, x) of the cells (2, nx, ny): displacement by a unit twist [length]."""
+        """Field (-y, x) of the cells (2, nx, ny): displacement by a unit twist [length]."""
         x, y = self.grid.coordinates()
         return np.stack([-y, x])
 
@@ -113,15 +116,18 @@ class ContactModel:
 
     @property
     def bearing_modulus(self) -> float:
-        """E* for a contact half as wide as the window [force/length^2]."""
+        """Effective modulus E* for a contact of half the width of the window [force/length^2]."""
         nx, ny = self.window.cells
         spring = self.springs[0] / self.domain.images
         zz = self.coefficients.zz[: nx // 4 + 1, : ny // 4 + 1] - spring
         return modulus_of(zz, self.grid.spacing)
 
     def operator(self, shape: Pair) -> DisplacementOperator:
-        """Return the operator on a box of cells. Those on the domain and on one more shape are
-        stored: a contact that grows hardly ever returns to an earlier shape."""
+        """Return the operator on a box of cells.
+
+        Operators on the domain and on one other shape are stored: growing contacts rarely return to
+        an earlier shape.
+        """
         if shape not in self._operators:
             if shape != self.grid.cells:
                 for other in self._operators.keys() - {self.grid.cells}:
@@ -133,7 +139,7 @@ class ContactModel:
 
     @cached_property
     def on_window(self) -> "ContactModel":
-        """The same cells on the full window, with the same coefficients."""
+        """Model of the same cells on the full window, with the same coefficients."""
         if self.domain == WINDOW:
             return self
         gap = self.domain.extend(self.gap)
@@ -143,7 +149,8 @@ class ContactModel:
 
     @cached_property
     def coarse(self) -> "ContactModel | None":
-        """The same domain with half the cells; None where that is impossible or not worthwhile."""
+        """Model on the same domain with half the cells per side; None if impossible or not
+        worthwhile."""
         if any(n % 2 for n in self.grid.cells) or min(self.window.cells) <= COARSEST:
             return None
         grid = ReducedGrid(self.window.coarsened(), self.domain)
@@ -151,12 +158,12 @@ class ContactModel:
 
 
 def halved(values: Field) -> Field:
-    """Means over two by two cells, (..., nx, ny) to (..., nx/2, ny/2)."""
-    # In pairs: means of mirror images are mirror images to the last bit.
+    """Average over two by two cells, (..., nx, ny) to (..., nx/2, ny/2)."""
+    # Sums of pairs: means of mirror images are bitwise mirror images.
     along = values[..., ::2, :] + values[..., 1::2, :]
     return np.asarray((along[..., ::2] + along[..., 1::2]) / 4)
 
 
 def doubled(values: Field) -> Field:
-    """Every value four times, (..., nx, ny) to (..., 2 nx, 2 ny)."""
+    """Repeat each value on two by two cells, (..., nx, ny) to (..., 2 nx, 2 ny)."""
     return np.repeat(np.repeat(values, 2, axis=-2), 2, axis=-1)

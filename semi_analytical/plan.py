@@ -1,4 +1,4 @@
-"""Which effects a scene calls for: the only place that asks what kind of scene this is."""
+"""Decision on the effects that a scene requires. No other module examines the kind of a scene."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -22,42 +22,43 @@ from semi_analytical.increment_counts import (
 )
 from semi_analytical.operator.domain import QUARTER, WINDOW, ReducedDomain
 
-# Of the shear moduli within a body: beyond, its influence coefficients lose the softest part.
+# Largest ratio of shear moduli within a body: beyond it the contribution of the softest material to
+# the influence coefficients is below round-off.
 MAX_CONTRAST = 1e12
 
-# Names of the effects of a reduced domain and of edges inside the cells.
+# Names of the effects of symmetry reduction and edge correction.
 MIRROR_PLANES = "mirror planes"
 EDGES = "edge correction"
 # Cost of the edge correction, on 64² to 256² cells.
 EDGE_COST = "10 to 100 convolutions each time"
 
-# Names of the effects that can be computed where they vanish.
+# Names of the effects that can also be computed if they vanish.
 COMPUTED = ("tangential load", "tilt", "torsion", COUPLING)
 
 
 class Coupling(StrEnum):
-    """Which of the two problems feels the tractions of the other."""
+    """Coupling of the normal and the tangential problem."""
 
     NONE = "none"
-    # Pressure moves the surfaces sideways, shear does not open or close the gap (Goodman 1962).
+    # Pressure displaces the surfaces tangentially, shear does not change the gap (Goodman 1962).
     ONE_WAY = "one way"
     FULL = "full"
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What is computed for a scene. Effects that are off cost nothing downstream.
+    """Effects to compute for a scene. Effects that are off cause no cost.
 
-    shear       whether shear tractions are solved for
-    tilt        whether the indenter tilts, by its moments or as it is led
-    torsion     whether it turns about z
-    coupling    whether and how pressure and shear act on each other's problem
-    path        how many increments each loading step takes, and why
-    edge        at the end of which increments edges are put inside the cells
-    couples     whether edges of contact and stick are those of bodies that couple, not only
-                computed as if they did
-    symmetry    the domain that tractions are solved on
-    effects     every effect with its reason, as shown to people
+    shear     whether shear tractions are solved for
+    tilt      whether the indenter tilts, by prescribed moments or tilts
+    torsion   whether the indenter rotates about z
+    coupling  coupling of the normal and the tangential problem
+    path      number of increments of each load step, with reasons
+    effects   every effect with its reason, as displayed
+    edge      increments at whose end the edge correction is applied
+    symmetry  domain of the solution
+    couples   whether the edge correction is that of coupled bodies; False for uncoupled bodies with
+              forced coupling
     """
 
     shear: bool
@@ -72,27 +73,28 @@ class Plan:
 
     @property
     def increments(self) -> tuple[int, ...]:
-        """How many increments each loading step takes."""
+        """Number of increments of each load step."""
         return tuple(step.count for step in self.path)
 
     def cut_into(self, increments: Sequence[int]) -> "Plan":
-        """The same effects with these many increments in each step."""
+        """Return the plan with these numbers of increments."""
         path = zip(self.path, increments, strict=True)
         return replace(self, path=tuple(replace(step, count=count) for step, count in path))
 
 
 def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrection = "off") -> Plan:
-    """Decide the effects of a scene; raises UnsupportedScene for a layer on next to nothing.
+    """Decide the effects of a scene.
 
-    path_accuracy  error of the shear that finite increments may leave, relative to Σµp
-    edge           at the end of which increments edges shall be put inside the cells
+    path_accuracy  allowed increment error of the shear, relative to Σµp
+    edge           increments at whose end the edge correction is requested
+    raises         UnsupportedScene for a ratio of shear moduli above MAX_CONTRAST
     """
     scene = normal_form(scene)
     refuse_equator(scene)
     refuse_contrast(
         scene,
         MAX_CONTRAST,
-        f"; stiffer than {MAX_CONTRAST:.0e} times the softest, a layer is as good as free or rigid",
+        f"; above a modulus ratio of {MAX_CONTRAST:.0e} a layer is as good as free or rigid",
     )
     friction = scene.friction is not None
     loaded = _tangentially_loaded(scene)
@@ -137,20 +139,20 @@ def _why_shear(friction: bool, loaded: bool) -> str:
     if not friction:
         return "without friction the surfaces carry no shear"
     if not loaded:
-        return "no step pushes sideways or twists"
-    return "a step names a tangential force or shift, a torque or a twist"
+        return "no load step prescribes a tangential load or torsion"
+    return "a load step prescribes a tangential force or shift, a torque or a twist"
 
 
 def _why_tilt(tilt: bool) -> str:
     if tilt:
-        return "a step names a moment or a tilt"
-    return "no step names a moment or a tilt: the indenter is held upright"
+        return "a load step prescribes a moment or a tilt"
+    return "no load step prescribes a moment or a tilt: the indenter does not tilt"
 
 
 def _symmetry(
     scene: Scene, shear: bool, coupled: bool, tilt: bool, torsion: bool
 ) -> tuple[ReducedDomain, str]:
-    """Choose the domain, and state why.
+    """Choose the domain, and state the reason.
 
     A plane is a mirror plane if it preserves the shear of all loads, or reverses that of all.
     """
@@ -166,7 +168,7 @@ def _symmetry(
     ramps = list(scene.load_path())
     pushed = {axis for ramp in ramps for axis in (0, 1) if ramp.tangential.end[axis]}
     if torsion and pushed:
-        return WINDOW, "the indenter twists and is pushed"
+        return WINDOW, "tangential load and torsion act together"
     signs = {(-1, 1) if axis == 0 else (1, -1) for axis in pushed}
     strains = [ramp.stretch[1] for ramp in ramps if ramp.stretch]
     signs |= {(-1, -1)} if torsion or any(xy for *_, xy in strains) else set()
@@ -183,26 +185,26 @@ def _why_torsion(friction: bool, torsion: bool) -> str:
     if not friction:
         return "without friction the surfaces carry no torque"
     if torsion:
-        return "a step names a torque or a twist"
-    return "no step names a torque or a twist: the indenter is held from turning"
+        return "a load step prescribes a torque or a twist"
+    return "no load step prescribes a torque or a twist: the indenter does not rotate"
 
 
 def _edges(scene: Scene, asked: EdgeCorrection, torsion: bool) -> tuple[bool, str]:
-    """Whether edges are put inside the cells, and why (not)."""
+    """Decide on the edge correction, and state the reason."""
     if asked == "off":
-        return False, "not asked for: tractions are constant on cells up to their edges"
+        return False, "not requested: tractions are constant on every cell"
     if scene.indenter.rim is not None:
-        return False, "below the rim of a flat punch the pressure rises to its edge"
+        return False, "the pressure of a flat punch is singular at its rim"
     if torsion:
-        return False, "not known of contacts that twist"
+        return False, "not available with torsion"
     if scene.friction is not None and scene.friction.uniform is None:
-        return False, "the friction limit is not the same multiple of the pressure everywhere"
-    when = "increment" if asked == "all" else "step"
-    return True, f"at the end of each {when} tractions fall to zero inside the cells: {EDGE_COST}"
+        return False, "the friction limit is not a constant multiple of the pressure"
+    when = "increment" if asked == "all" else "load step"
+    return True, f"tractions vanish within edge cells at the end of each {when}: {EDGE_COST}"
 
 
 def all_effects(plan: Plan) -> Plan:
-    """Everything computed, called for or not: the answer is the same, the cost is not."""
+    """Return a plan that computes all effects: equal results at a higher cost."""
     return replace(
         plan,
         shear=True,
@@ -215,15 +217,16 @@ def all_effects(plan: Plan) -> Plan:
 
 
 def one_way(plan: Plan) -> Plan:
-    """Pressure moves the surfaces sideways, shear does not act on the pressure (Goodman 1962).
+    """Return a plan with one-way coupling: shear does not act on the pressure (Goodman 1962).
 
-    An approximation of bodies that couple; others it leaves as they are, at a higher cost.
+    This is an approximation for coupled bodies. For uncoupled bodies it has equal results at a
+    higher cost.
     """
-    why = "asked for: pressure acts on the shear problem, shear not on the pressure problem"
+    why = "requested: pressure acts on the tangential problem, shear not on the normal problem"
     effects = [replace(e, on=True, why=why) if e.name == COUPLING else e for e in plan.effects]
     edge = plan.edge
     if plan.couples:
-        unknown = "not known of bodies of which one way of coupling is left out"
+        unknown = "not available with one-way coupling"
         effects = [replace(e, on=False, why=unknown) if e.name == EDGES else e for e in effects]
         edge = "off"
     return replace(
@@ -238,9 +241,9 @@ def one_way(plan: Plan) -> Plan:
 
 
 def _forced(effect: Effect) -> Effect:
-    """An effect that is computed although it is off says so, and what is not made use of, too."""
+    """Mark a forced effect as on, and an unused symmetry as off."""
     if effect.name == MIRROR_PLANES and effect.on:
-        return replace(effect, on=False, why=f"not made use of, though {effect.why}")
+        return replace(effect, on=False, why=f"not used, although {effect.why}")
     if effect.name not in COMPUTED or effect.on:
         return effect
-    return replace(effect, on=True, why=f"forced on, though {effect.why}")
+    return replace(effect, on=True, why=f"forced on, although {effect.why}")

@@ -1,6 +1,6 @@
-"""What the cells resolve of a result: contact, stick zone, layers and heights, counted in cells.
+"""Resolution of a result: contact, stick zone, layers and surface heights in numbers of cells.
 
-Residuals do not see it: a contact of one cell fulfils its equations as well as one of a thousand.
+Residuals do not measure resolution: a contact of one cell fulfils the equations of the grid.
 """
 
 from dataclasses import dataclass
@@ -15,22 +15,22 @@ from contact_scene.solver_errors import ContactNotResolved, SolverError
 from semi_analytical.default_grid import fitted_window
 from semi_analytical.fields import Increment, Result
 
-# Cells per contact radius from which peak pressure and approach can be trusted.
+# Cells per contact radius from which peak pressure and approach are meaningful.
 ENOUGH = 8
-SQUARE = np.ones((3, 3), dtype=bool)  # cells that touch at a corner are of one patch
+SQUARE = np.ones((3, 3), dtype=bool)  # cells that share a corner belong to one patch
 
 
 @dataclass(frozen=True)
 class Resolution:
-    """Lengths at the end of a loading step, in cells; None for what is not there.
+    """Lengths at the end of a load step in cells; None for features that do not exist.
 
-    contact  smaller semi-axis of the contact; of several patches the mean, weighted by their loads.
-             Half of that where no cell has four neighbours in contact: so few cells carry the load
-             of however small a contact; 0 without contact
-    stick    the same of the stick zone, 0 where nothing sticks; None without shear
-    annulus  width of what slips around it, `contact` − `stick`; None where nothing slips
-    layer    thickness of the thinnest layer, of those that hardly differ together
-    wave     of a height map, the mean wavelength of the heights about the contact
+    contact  smaller semi-axis of the contact; for several patches the mean weighted by their loads.
+             Patches without a cell that has four neighbours in contact count half, as so few cells
+             may carry the load of a much smaller contact. 0 without contact
+    stick    smaller semi-axis of the stick zone likewise, 0 in gross slip; None without shear
+    annulus  width of the slip zone around it, `contact` - `stick`; None in full stick
+    layer    thickness of the thinnest layer; layers of nearly equal material count as one
+    wave     mean wavelength of the heights of a height map around the contact
     """
 
     contact: float
@@ -41,7 +41,7 @@ class Resolution:
 
 
 def resolution(result: Result) -> tuple[Resolution, ...]:
-    """What is resolved at the end of every loading step."""
+    """Measure the resolution at the end of every load step."""
     return tuple(_at(result, end) for end in result.steps)
 
 
@@ -68,33 +68,34 @@ def refuse_unresolved(result: Result) -> None:
     raise ContactNotResolved(
         f"the contact is smaller than the cells: at its largest, at the end of step {end.step}, "
         f"{np.count_nonzero(end.in_contact)} of them carry the load, so that its size and pressure "
-        f"are those of the cells; {_remedy(result, found)}"
+        f"are determined by the cells. {_remedy(result, found)}"
     )
 
 
 def _remedy(result: Result, found: float) -> str:
-    """Settings that would resolve the contact."""
+    """Return settings that would resolve the contact."""
     (nx, ny), (L_x, L_y) = result.grid.cells, result.grid.window
     more = int(np.ceil(ENOUGH / max(found, 0.5)))
     cells = f"--set semi_analytical.cells=[{more * nx},{more * ny}]"
     if isinstance(result.scene.indenter, HeightMap):
-        return f"try {cells}, and heights measured as closely: what is between them is interpolated"
+        return f"Use {cells} and a map of this spacing (heights in between are interpolated)"
     try:
         window = fitted_window(result.scene)
     except SolverError:
         window = L_x / more, L_y / more
     if max(window[0] / L_x, window[1] / L_y) > 0.5:
-        return f"try {cells}"
+        return f"Use {cells}"
     sides = ",".join(f"{1.005 * side:.3g}" for side in window)
-    return f"try --set semi_analytical.window=[{sides}], or leave the window out to have it chosen"
+    return f"Use --set semi_analytical.window=[{sides}], or omit the window to have it chosen"
 
 
 def _semi_axis(marked: Mask, load: Field, area: float) -> float:
-    """The smaller semi-axis of the patches that are marked.
+    """Compute the smaller semi-axis of the marked patches, averaged with their loads as weights.
 
-    load  what they carry, by cell
-    area  of all of them, with sub-cell accuracy
-    A patch counts as the ellipse of its area and of the ratio of its second moments.
+    A patch is replaced by the ellipse of its area and of the ratio of its second moments.
+
+    load  load by cell
+    area  of all patches, with sub-cell accuracy
     """
     patches, number = ndimage.label(marked, SQUARE)
     if number == 0:
@@ -103,7 +104,7 @@ def _semi_axis(marked: Mask, load: Field, area: float) -> float:
     of = patches[i, j] - 1
     count = np.bincount(of)
     x, y = (at - (np.bincount(of, at) / count)[of] for at in (i, j))
-    # A cell is itself 1/12 wide.
+    # 1/12 is the second moment of a cell.
     xx, yy = (np.bincount(of, at**2) / count + 1 / 12 for at in (x, y))
     mean, apart = (xx + yy) / 2, np.hypot((xx - yy) / 2, np.bincount(of, x * y) / count)
     flattening = np.sqrt((mean - apart) / (mean + apart))
@@ -119,14 +120,17 @@ def _layer(result: Result) -> float | None:
 
 
 def _wave(result: Result, touched: Mask) -> float | None:
-    """2π √(m₂/m₄), m₂ and m₄ the mean squares of slope and curvature of the heights in the
-    rectangle about the contact (Longuet-Higgins 1957): of a sine its wavelength."""
+    """Compute the mean wavelength 2π √(m₂/m₄) of the heights (Longuet-Higgins 1957).
+
+    m₂ and m₄ are mean squares of slope and curvature in the bounding rectangle of the contact. The
+    result is the wavelength for a sine.
+    """
     indenter = result.scene.indenter
     if not isinstance(indenter, HeightMap) or not np.any(touched):
         return None
     gap = indenter.initial_gap(*result.grid.coordinates())
     about = ndimage.find_objects(touched.astype(int))[0]
-    # Not gradients of gradients, which do not see a wave of two cells.
+    # Gradients of gradients would vanish for a wavelength of two cells.
     bends = [ndimage.correlate1d(gap, [1.0, -2.0, 1.0], axis)[about] for axis in (0, 1)]
     slopes = [np.gradient(gap, axis=axis) for axis in (0, 1)]
     twist = np.gradient(slopes[0], axis=1)[about]

@@ -1,4 +1,4 @@
-"""Solve a scene: plan, model, march."""
+"""Solution of a scene: plan, model, load stepping."""
 
 from collections.abc import Callable, Sequence
 
@@ -28,7 +28,7 @@ from semi_analytical.resolution import refuse_unresolved
 Progress = Callable[[Increment], None]
 
 MAX_ENLARGEMENTS = 5
-# Increments of a history from which on the largest contact is computed first.
+# Least number of increments of a history for which the largest contact is computed in advance.
 FORESEEN = 4
 
 
@@ -41,37 +41,33 @@ def solve(
     plan: Plan | None = None,
     store: CheckpointStore | None = None,
 ) -> Result:
-    """Contact of a scene on a grid, every increment of its load history.
+    """Solve a scene on a grid for every increment of its load history.
 
-    Parameters
-    ----------
-    scene
-        What is solved.
+    Parameters ---------- scene
+        Scene to solve.
     grid
         Cells and window; all tractions are constant on a cell.
     tolerance
-        Bound of every dimensionless residual at the end of every increment.
+        Limit of every dimensionless residual at the end of every increment.
     progress
-        Called with each increment once it has converged, or is known to have.
+        Called with each increment, stored ones included.
     plan
-        Which effects are computed; those that the scene calls for if absent.
+        Effects to compute; None for those that the scene requires.
     store
-        Of this very solve: what it has kept is not computed again.
+        Checkpoints of the same solution: stored increments are not computed again.
 
-    Raises
-    ------
-    UnsupportedScene
-        The scene asks for physics that is not here.
+    Raises ------ UnsupportedScene
+        The scene has features that are not implemented.
     ContactAtWindowEdge
         The contact reaches the border of the window.
     ContactNotResolved
-        The cells are so large that none touches.
+        No cell comes into contact: the cells are too large.
     GrossSliding
         A tangential force exceeds the friction limit.
     NotConverged
-        An increment stopped above the tolerance; `last_state` holds the last good one.
+        A residual remains above the tolerance; `last_state` is the last converged increment.
     ResourceRefused
-        The grid needs more memory than there is.
+        The grid needs more memory than is available.
     """
     scene = normal_form(scene)
     decided = plan_of(scene) if plan is None else plan
@@ -99,11 +95,11 @@ def solve_discretised(
     plan: Plan | None = None,
     store: CheckpointStore | None = None,
 ) -> Result:
-    """Solve a scene on the grid that its file asks for.
+    """Solve a scene on the grid of its discretisation.
 
-    A window that is not given is fitted to the contact, and enlarged if the contact of some
-    increment reaches its edge after all; the window of a height map is all of it. Raises what
-    `solve` raises, and ContactNotResolved where only a few cells carry the load.
+    A window that is not prescribed is fitted to the contact, and enlarged if the contact of an
+    increment reaches its border; for a height map it is the whole map. Raises the errors of
+    `solve`, and ContactNotResolved where only a few cells carry the load.
     """
     scene, decided = normal_form(scene), plan
     if decided is None:
@@ -113,7 +109,7 @@ def solve_discretised(
     if discretisation.window is None and scene.indenter.extent is None:
         for _ in range(MAX_ENLARGEMENTS):
             larger = enlarged(scene, discretisation, grids[-1])
-            if larger == grids[-1]:  # all that a map of friction covers
+            if larger == grids[-1]:  # the whole friction map
                 break
             grids.append(larger)
     kept = store is not None and store.last() is not None
@@ -135,10 +131,10 @@ def solve_within(
 ) -> Result:
     """Solve a scene on the first of several grids whose window contains the contact.
 
-    Raises what `solve` raises.
+    Raises the errors of `solve`.
     """
     last = store.last() if store else None
-    if last and last.extent in grids:  # the smaller ones have been outgrown
+    if last and last.extent in grids:  # smaller windows do not contain the contact
         grids = grids[grids.index(last.extent) :]
     for grid in grids[:-1]:
         try:

@@ -1,4 +1,4 @@
-"""The largest tension along the surface in a load cycle, for Ruiz's second parameter."""
+"""Largest tensile stress along the surface in a load cycle, for Ruiz's second parameter."""
 
 from collections.abc import Sequence
 
@@ -10,23 +10,25 @@ from contact_scene.bulk_strain import stress_by
 from semi_analytical.fields import Increment, Result
 from semi_analytical.stress import subsurface
 
-# Changes of the tangential force below this part of Σ|q| Δ are round-off and have no direction.
+# Changes of the tangential force below this fraction of Σ|q| Δ are round-off without direction.
 ROUND_OFF = 1e-9
 
 
 class SurfaceTension:
-    """Of a result; the stress at the end of a step that several cycles share is computed once."""
+    """Surface tensile stress of a result; load steps shared by cycles are evaluated once."""
 
     def __init__(self, result: Result) -> None:
         self._result = result
         self._stresses: dict[int, Field] = {}
 
     def within(self, path: Sequence[Increment]) -> Field | None:
-        """σ_T (nx, ny): largest stress of the surface along the direction in which the tangential
-        force changes, at the ends of the steps of a cycle, tension positive [force/length^2]. None
-        if the force is constant.
+        """Compute σ_T (nx, ny), the largest tensile stress at the ends of the load steps of a cycle
+        [force/length^2].
 
-        path  the increments of the cycle; cycles in the order in which they begin
+        The stress is that of the surface along the direction in which the tangential force changes.
+        None if the force is constant.
+
+        path  the increments of the cycle; cycles in the order of their start
         """
         direction = _direction(path, self._result.grid.cell_area)
         if direction is None:
@@ -40,7 +42,7 @@ class SurfaceTension:
 
 
 def _in_plane_stress(result: Result, end: Increment) -> Field:
-    """σ_xx, σ_yy, σ_xy (3, nx, ny) at z = 0, tension positive."""
+    """Compute σ_xx, σ_yy, σ_xy (3, nx, ny) at z = 0, tensile stress positive."""
     body, indenter, shear = result.scene.body, result.scene.indenter, end.shear
     if not body.deforms:
         body = Body(material=indenter.material, layers=indenter.layers)
@@ -53,7 +55,8 @@ def _in_plane_stress(result: Result, end: Increment) -> Field:
 
 
 def _direction(path: Sequence[Increment], cell_area: float) -> Vector | None:
-    """Unit vector along the largest change of the tangential force since the cycle began."""
+    """Return the unit vector along the largest change of the tangential force since the cycle
+    began."""
     force = np.array([increment.tangential_force for increment in path])
     changes = force - force[0]
     sizes = np.hypot(changes[:, 0], changes[:, 1])
@@ -64,6 +67,6 @@ def _direction(path: Sequence[Increment], cell_area: float) -> Vector | None:
 
 
 def _along(direction: Vector, stress: Field) -> Field:
-    """n·σ n."""
+    """Compute the normal stress n·σ n."""
     (x, y), (xx, yy, xy) = direction, stress
     return np.asarray(x * x * xx + y * y * yy + 2 * x * y * xy)

@@ -276,9 +276,9 @@ def test_default_depths_reach_both_sides_of_every_interface():
         (COATED, -0.1, "expected a finite length >= 0"),
         (COATED, float("nan"), "expected a finite length >= 0"),
         (Stack([(1.0, 0.3, 0.5)]), 0.6, "rigid base"),
-        (COATED, Level(0.1, 2), "not in that layer"),
-        (COATED, Level(0.1, 3), "not there"),
-        (Stack([(1.0, 0.3, 0.5)]), Level(0.5, 1), "not there"),
+        (COATED, Level(0.1, 2), "outside of its layer"),
+        (COATED, Level(0.1, 3), "does not exist"),
+        (Stack([(1.0, 0.3, 0.5)]), Level(0.5, 1), "does not exist"),
         (Stack(), 0.1, "the body is rigid"),
     ],
 )
