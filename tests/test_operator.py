@@ -399,7 +399,7 @@ COUPLED_PRESS = dict(PRESS, increments=1)
 ON_THE_WINDOW = {
     "oblique": (scene(PRESS, push(0.3, 0.2)), "no mirror plane in common"),
     "x, then y": (scene(PRESS, push(0.3), push(0, 0.2)), "no mirror plane in common"),
-    "pushed and twisted": (scene(PRESS, {**push(0.3), "twist": 1e-4}), "twists and is pushed"),
+    "pushed and twisted": (scene(PRESS, {**push(0.3), "twist": 1e-4}), "torsion act together"),
     "coupled, twisted": (
         coupled_scenes.scene(COUPLED_PRESS, {"twist": 1e-4}), "no mirror plane in common",
     ),
