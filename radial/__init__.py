@@ -1,8 +1,7 @@
-"""Contact of bodies of revolution in one dimension: functions of the radius, without grid or mesh.
+"""Contact of bodies of revolution: axisymmetric geometry, fields over rings, no mesh.
 
-It shares `semi_analytical.frf`, the response of layers to one wavenumber, with the semi-analytical
-solver, and no other numerics with either solver. A plan needs neither, so they are imported by the
-first solve.
+The only numerics shared with another solver are the responses of layers to one wavenumber
+(`semi_analytical.frf`). The package imports numpy and scipy with the first solve, not with a plan.
 """
 
 from typing import TYPE_CHECKING, Any

@@ -1,8 +1,7 @@
-"""Angles on a ring, and the harmonics that are known by values at them.
+"""Angular grid of a ring, and the transform from values at its angles to harmonics.
 
-Harmonics come in two families. In one p and q_r go as cos mθ and q_θ as sin mθ: mirror images
-about θ = 0 are alike. The other is the same turned by a quarter of a wave, sin mθ and -cos mθ; of
-m = 0 it is torsion, which has q_θ alone.
+The symmetric family of harmonics has p and q_r ∝ cos mθ and q_θ ∝ sin mθ. The antisymmetric family
+has p and q_r ∝ sin mθ and q_θ ∝ -cos mθ. Its harmonic 0 is torsion: q_θ alone.
 """
 
 from __future__ import annotations
@@ -15,33 +14,36 @@ from contact_scene.array_types import Array
 
 
 class Circle(Enum):
-    """How much of a circle tells all of a field."""
+    """Angles that represent a field by its symmetry."""
 
     ONE = "one angle"
     HALF = "half the circle"
     WHOLE = "the whole circle"
 
     def angles(self, highest: int) -> Array:
-        """θ_j = π(j + ½)/J by which harmonics up to J = highest are known."""
+        """Return θ_j = π(j + ½)/J, the angles that resolve harmonics up to J = highest."""
         if self is Circle.ONE:
             return np.zeros(1)
         count = highest if self is Circle.HALF else 2 * highest
         return np.pi * (np.arange(count) + 0.5) / highest
 
     def shown(self, highest: int) -> Array:
-        """πj/J: the half circle with both ends, or the whole with its beginning alone."""
+        """Return the angles of output πj/J: 0 … π for a half circle, [0, 2π) for a whole one."""
         count = highest + 1 if self is Circle.HALF else 2 * highest
         return np.pi * np.arange(count) / highest
 
     def families(self, highest: int) -> tuple[Array, ...]:
-        """Harmonics 0 … J of q_r, q_θ and p by values at the angles (3, J + 1, angles), family by
-        family; of the half circle that of its mirror image."""
+        """Return matrices from values at the angles to harmonics 0 … J of q_r, q_θ and p.
+
+        Each family has one matrix of shape (3, J + 1, angles). A half circle has the symmetric
+        family only.
+        """
         angles = self.angles(highest)
         at = np.multiply.outer(np.arange(highest + 1), angles)
         cosines, sines = 2 * np.cos(at) / len(angles), 2 * np.sin(at) / len(angles)
         cosines[0] /= 2
         if highest:
-            # Of the highest harmonic values at these angles know the sine alone.
+            # The cosine of the highest harmonic is zero at all these angles.
             cosines[-1], sines[-1] = 0.0, sines[-1] / 2
         alike = np.stack([cosines, sines, cosines])
         if self is Circle.HALF:

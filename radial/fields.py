@@ -1,4 +1,4 @@
-"""What a solve returns: fields over the radius, with the names and signs of CONVENTIONS."""
+"""Result of a solve: fields over the radius, with the names and signs of CONVENTIONS."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from radial.plan import Plan
 
 @dataclass(frozen=True, kw_only=True)
 class Increment(RingIncrement):
-    """The converged state at the end of one increment of the load history.
+    """Converged state at the end of one increment of the load history.
 
-    Fields are values at the rings. Where the pressure is infinite, below a tip or at a rim, there
-    is no ring, and `peak_pressure` is that of the ring next to it.
+    Fields are values at the rings. No ring lies where the pressure is infinite (below a tip, at a
+    rim). There `peak_pressure` is the pressure at the adjacent ring.
 
-    iterations  contact radii that were tried
+    iterations  number of contact radii tried, or of Newton steps with a tangential load or torsion
     """
 
 
 @dataclass(frozen=True)
 class Result:
-    """All increments of a load history, with what was asked for and decided."""
+    """Result of a solve: scene, discretisation, plan and all increments."""
 
     scene: Scene
     fineness: RadialDiscretisation
@@ -33,10 +33,10 @@ class Result:
 
     @property
     def tolerance(self) -> float:
-        """Bound of every residual at the end of every increment."""
+        """Return the limit of every residual at the end of every increment."""
         return self.fineness.tolerance
 
     @property
     def steps(self) -> tuple[Increment, ...]:
-        """The last increment of every loading step."""
+        """Return the last increment of each load step."""
         return tuple(i for i in self.increments if i.index == i.increments_in_step)

@@ -1,4 +1,4 @@
-"""Solve a scene: plan, rings, and march through its loads."""
+"""Solve a scene: plan, rings and load stepping."""
 
 from __future__ import annotations
 
@@ -56,28 +56,30 @@ def solve(
     plan: Plan | None = None,
     store: CheckpointStore | None = None,
 ) -> Result:
-    """Contact of a scene of revolution, every increment of its load history.
+    """Solve the contact of a scene of revolution for all increments of its load history.
 
     Parameters
     ----------
     scene
-        What is solved.
+        The contact problem.
     discretisation
-        Where fields are told, and the tolerance of every residual.
+        Number of output rings and tolerance of every residual. Default: `RadialDiscretisation()`.
     progress
-        Called with each increment once it is solved.
+        Called with each increment after its solve.
     plan
-        What is computed; what the scene calls for if absent.
+        Result of `plan(scene)`, which is computed if absent.
     store
-        Of this very solve: what it has kept is not computed again.
+        Checkpoints of an earlier run of the same solve. The solve resumes after the last one.
 
     Raises
     ------
     UnsupportedScene
-        The scene is not of revolution, or asks for more than pressure, by name; or its surfaces
-        part within the contact.
+        The scene is not of revolution or has an effect that this solver lacks, or the surfaces
+        separate within the contact.
+    ResourceRefused
+        The estimated memory exceeds the available memory.
     NotConverged
-        An increment stopped above the tolerance; `last_state` holds the last good one.
+        An increment did not reach the tolerance. `last_state` is the last converged increment.
     """
     asked = discretisation or RadialDiscretisation()
     scene = normal_form(scene)
@@ -97,7 +99,7 @@ def solve(
 def _marched(
     scene: Scene, solver: Any, plan: Plan, store: CheckpointStore | None
 ) -> Iterator[Increment]:
-    """All increments, those first that are kept."""
+    """Yield all increments: first those of the last checkpoint, then newly solved ones."""
     last = store.last() if store else None
     increments = [*last.increments] if last else []
     yield from increments
@@ -111,7 +113,10 @@ def _marched(
 def _extrapolated(
     scene: Scene, solver: Any, plan: Plan, progress: Progress | None, store: CheckpointStore | None
 ) -> tuple[Increment, ...]:
-    """Those of the limit of fine increments; what is kept is of the finer history."""
+    """Return increments extrapolated to the limit of fine increments.
+
+    The checkpoints are those of the finer history.
+    """
     from radial.richardson import (
         doubled,
         extrapolated,
@@ -148,11 +153,11 @@ def _solver(scene: Scene, asked: RadialDiscretisation, plan: Plan) -> Any:
 
 @dataclass(frozen=True)
 class _Solver:
-    """Pressing as the march sees it: no increment needs the one before.
+    """Load stepping of the frictionless contact. No increment depends on the previous one.
 
-    fineness  of orders and points
+    fineness  multiple of the numbers of orders and points
     radii     of the rings [length]
-    largest   contacts that were solved to lay them out
+    largest   contacts solved to place the rings
     """
 
     scene: Scene
@@ -173,13 +178,13 @@ class _Solver:
         return cls(scene, bodies, asked.tolerance, fineness, rings, largest)
 
     def spent(self) -> float:
-        """Nothing that halves would save."""
+        """Return 0: work does not limit the bisection."""
         return 0.0
 
     def advance(
         self, ramp: LoadRamp, start: Pressed | None, before: Pressed | None, fraction: float
     ) -> Pressed:
-        """The contact at a fraction of the ramp."""
+        """Return the contact at a fraction of the ramp."""
         reached = (start.normal_force, start.approach) if start else (0.0, 0.0)
         led = target(self.scene, *ramp.normal.led(fraction, reached))
         for found in self.largest:
@@ -188,12 +193,14 @@ class _Solver:
         return pressed(self.bodies, self.scene.indenter, led, self.fineness)
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Array:
-        """See `contact_scene.stepping.load_stepping.Solver`."""
+        """Return the gap without tractions at the rings of an increment [length]."""
         return undeformed_gap(self.scene, last)
 
     def report(self, reached: Reached[Pressed], last: Increment | None) -> Increment:
-        """The contact at the rings; raises UnsupportedScene where it is no disc, NotConverged above
-        the tolerance."""
+        """Return the increment with its fields at the rings.
+
+        Raises UnsupportedScene if the contact area is no disc, NotConverged above the tolerance.
+        """
         state = reached.state
         contact, x = state.contact, self.radii / state.contact.radius
         refuse_round_off(contact, self.tolerance)

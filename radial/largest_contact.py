@@ -1,5 +1,4 @@
-"""How large the largest contact of a scene is and how many wavenumbers it calls for, before it is
-solved."""
+"""Estimate of the radius and the number of wavenumbers of the largest contact of a scene."""
 
 from __future__ import annotations
 
@@ -20,15 +19,15 @@ from radial.output_points import largest_targets
 from radial.response.bodies import Bodies
 from radial.response.wavenumbers import POINTS
 
-# The radius is good to a percent by so few polynomials.
+# This number of orders gives the radius to about 1 %.
 FEW_ORDERS, TRIED, NEAR = 16, 12, 0.02
 
 
 @lru_cache(maxsize=8)
 def wavenumbers(scene: Scene) -> int:
-    """None without layers.
+    """Return the number of wavenumbers for the largest contact, 0 without layers.
 
-    Raises UnsupportedScene for contacts too large on too thin layers.
+    Raises UnsupportedScene for contacts too large for the thickness of their layers.
     """
     bodies, indenter = Bodies.of(scene), scene.indenter
     if not bodies.layered:
@@ -40,13 +39,13 @@ def wavenumbers(scene: Scene) -> int:
 
 
 def expected_radius(scene: Scene) -> float:
-    """Of the largest contact without friction, nearly [length]."""
+    """Estimate the radius of the largest frictionless contact of the history [length]."""
     bodies = Bodies.of(scene)
     return max(_radius(bodies, scene, target) for target in largest_targets(scene))
 
 
 def _radius(bodies: Bodies, scene: Scene, target: Target) -> float:
-    """Of the contact without friction, nearly [length]."""
+    """Estimate the radius of the frictionless contact at a target [length]."""
     if scene.indenter.rim is not None:
         return scene.indenter.rim
 

@@ -1,5 +1,8 @@
-"""Memory of a run, estimated before anything is allocated: it goes with the wavenumbers that the
-thinnest outermost layer calls for in the largest contact."""
+"""Memory of a run, estimated before any allocation.
+
+It is proportional to the number of wavenumbers that the largest contact needs for the thinnest
+outermost layer.
+"""
 
 from __future__ import annotations
 
@@ -9,23 +12,23 @@ from contact_scene.solver_errors import ResourceRefused
 from radial.angular_grid import Circle
 from radial.plan import Plan
 
-# Measured of whole runs, the solve beside them and figures included, of layers from a third to a
-# four-hundredth of the contact radius.
+# Measured with whole runs, which include the coarse solve and figures, with layers from 1/3 to
+# 1/400 of the contact radius.
 LIBRARIES = 168 << 20
 LIGHT = 4500  # bytes of an increment without its fields
-PER_WAVE = 11_300  # bytes; most of it where figures show the stress
-# With friction: rings, and what is kept of contacts of many radii until there is no more room.
+PER_WAVE = 11_300  # bytes, mostly for the stress in figures
+# With friction: fields on rings, and the cache of responses up to its limit.
 PER_WAVE_RUBBING, RINGS = 8_600, 36_000_000
 PER_WAVE_KEPT, MAX_KEPT = 8_300, 39_000_000
-# Of contacts at points, whose rings and angles are always as many: figures are drawn when what the
-# solve has taken is free again.
+# Contacts at points have a fixed number of rings and angles. Figures are drawn after the memory of
+# the solve is free again.
 PUSHED, WHOLE, PER_WAVE_PUSHED, DRAWN = 133 << 20, 246 << 20, 8_600, 181 << 20
 
 
 def estimated_bytes(scene: Scene, plan: Plan) -> int:
-    """Largest memory of a process that runs, the solve beside it and figures included [byte].
+    """Estimate the largest memory of a run, with coarse solve and figures [byte].
 
-    Raises UnsupportedScene for contacts too large on too thin layers.
+    Raises UnsupportedScene for contacts too large for the thickness of their layers.
     """
     told = LIGHT * sum(plan.increments)
     libraries = LIBRARIES + told
@@ -40,18 +43,18 @@ def estimated_bytes(scene: Scene, plan: Plan) -> int:
 
 
 def refuse_if_too_large(scene: Scene, plan: Plan) -> None:
-    """Raise ResourceRefused if the solve would not fit."""
+    """Raise ResourceRefused if the estimated memory exceeds the available memory."""
     needed, available = estimated_bytes(scene, plan), available_bytes()
     if needed > available:
         raise ResourceRefused(
-            f"a layer as thin as this in so large a contact, and {sum(plan.increments)} "
-            f"increments, need about {needed / 2**30:.1f} GiB, {available / 2**30:.1f} GiB are "
-            "available; choose a smaller load or fewer increments"
+            f"the solve needs about {needed / 2**30:.1f} GiB for its layers and "
+            f"{sum(plan.increments)} increments, and {available / 2**30:.1f} GiB are available. "
+            "Use a smaller load or fewer increments"
         )
 
 
 def _wavenumbers(scene: Scene) -> int:
-    """Of the largest contact; none without layers, whose response is then nobody's concern."""
+    """Return the number of wavenumbers of the largest contact, 0 without layers."""
     if not scene.body.layers and not scene.indenter.layers:
         return 0
     from radial.largest_contact import wavenumbers

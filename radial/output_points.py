@@ -1,4 +1,4 @@
-"""Where fields are told: rings over the largest contact of a history; and what no disc is."""
+"""Output radii over the largest contact, targets of the history, and checks of the contact area."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from radial.normal.pressing import (
 )
 from radial.plan import ELSEWHERE
 
-# Rings outside over those inside, out to so many radii of the largest contact.
+# Ratio of rings inside to rings outside, and outermost radius over that of the largest contact.
 OUTSIDE, REACH = 4, 2.0
-# Of the largest pressure, or of the approach: less tension or overlap is round-off.
+# Limit for round-off in p over the largest pressure, and in the gap over the approach.
 NO_DISC = 1e-9
 
 
 def largest_targets(scene: Scene) -> Iterator[Target]:
-    """The largest force and the largest approach that steps of the history end with."""
+    """Return the largest force and the largest approach prescribed at the end of a load step."""
     for kind in ControlKind:
         ends = [ramp.normal.end for ramp in scene.load_path() if ramp.normal.kind is kind]
         if any(ends):
@@ -35,7 +35,7 @@ def largest_targets(scene: Scene) -> Iterator[Target]:
 
 
 def targets(scene: Scene) -> Iterator[Target]:
-    """What the steps of a history press to."""
+    """Return the normal force or approach prescribed at the end of each load step."""
     for ramp in scene.load_path():
         force = ramp.normal.kind is ControlKind.FORCE
         if ramp.normal.end:
@@ -44,13 +44,16 @@ def targets(scene: Scene) -> Iterator[Target]:
 
 
 def target(scene: Scene, force: float | None, approach: float | None) -> Target:
-    """What a scene prescribes: a force, or an approach with the normal spring of its rig."""
+    """Return a target in the scene's rig: a force, or an approach of the far end of its spring."""
     return Target(force, approach, compliances(scene.rig)[0])
 
 
 def shown_radii(count: int, largest: Sequence[Pressed], rim: float | None) -> Array:
-    """Radii, denser towards the edge of the widest contact and out to twice its radius; none where
-    the pressure is infinite [length]."""
+    """Return output radii, denser towards the edge of the largest contact, up to twice its radius
+    [length].
+
+    Radii of infinite pressure (an apex, a rim) are omitted.
+    """
     widest = max((found.contact for found in largest), key=lambda contact: contact.radius)
     inside = np.sin(0.5 * np.pi * np.arange(count + 1) / count)
     inside = inside[1 if widest.profile.apex else 0 : None if rim is None else -1]
@@ -59,34 +62,37 @@ def shown_radii(count: int, largest: Sequence[Pressed], rim: float | None) -> Ar
 
 
 def undeformed_gap(scene: Scene, last: Increment) -> Array:
-    """Return the gap without tractions at the rings, and angles, of an increment [length]."""
+    """Return the gap without tractions at the rings and angles of an increment [length]."""
     gap = np.asarray(scene.indenter.initial_gap(last.radii, 0.0))
     return np.array(np.broadcast_to(gap, last.gap.T.shape).T)
 
 
 def refuse_no_disc(radii: Array, p: Array, gap: Array) -> None:
-    """Raise UnsupportedScene where the surfaces part within the contact or meet again outside.
+    """Raise UnsupportedScene if the surfaces separate within the contact or touch outside.
 
-    gap  over the approach
+    gap  divided by the approach
     """
     for wrong, what in (
-        (p < -NO_DISC * np.max(p), "part within the contact"),
+        (p < -NO_DISC * np.max(p), "separate within the contact"),
         (gap < -NO_DISC, "touch again outside the contact"),
     ):
         if np.any(wrong):
             raise UnsupportedScene(
-                f"the surfaces {what}, {radii[np.argmax(wrong)]:.4g} m from the axis, and this "
-                f"solver takes contacts on one disc; {ELSEWHERE}"
+                f"the surfaces {what}, {radii[np.argmax(wrong)]:.4g} m from the axis. This solver "
+                f"requires one circular contact area; {ELSEWHERE}"
             )
 
 
 def refuse_round_off(contact: Disc, tolerance: float) -> None:
-    """Raise UnsupportedScene where round-off leaves more of the approach than the tolerance: no
-    number of polynomials has made it less."""
+    """Raise UnsupportedScene if the error of the contact equation exceeds the tolerance.
+
+    The error is due to round-off: `disc` has increased the number of polynomials until it
+    stagnates.
+    """
     if contact.missed > tolerance:
         enough = 10.0 ** ceil(log10(contact.missed))
         raise UnsupportedScene(
-            f"layers as thin and unlike as these leave {contact.missed:.1g} of the approach to "
-            f"round-off, and the tolerance is {tolerance:.1g}; ask for [radial] tolerance = "
-            f"{enough:.0e}, or {ELSEWHERE}"
+            f"round-off limits the accuracy for these thin layers of different stiffness: the "
+            f"error is {contact.missed:.1g} of the approach and the tolerance is "
+            f"{tolerance:.1g}. Use [radial] tolerance = {enough:.0e}, or {ELSEWHERE}"
         )

@@ -1,4 +1,4 @@
-"""What is computed for a scene, and what is refused by name before any work."""
+"""Effects computed for a scene, and checks that refuse unsupported scenes before the solve."""
 
 from __future__ import annotations
 
@@ -20,34 +20,35 @@ from contact_scene.solver_errors import UnsupportedScene
 from contact_scene.stepping.load_path import along_one_line
 from radial.angular_grid import Circle
 
-# Of the shear moduli within a body: beyond, round-off is felt in the numbers.
+# Largest ratio of shear moduli within a body. Above it round-off affects the results.
 MAX_CONTRAST = 1e8
-# Of a step whose path matters: the shear is then right to some 1e-4 of its limit.
+# Increments of a path-dependent load step. The error of the shear is then about 1e-4 of its limit.
 PATH_INCREMENTS = 64
-# Of a step of a pushed contact: pressing, and by its share of the friction limit pushing.
+# Increments of a step of a contact with tangential load: number with a changing normal load or
+# twist, and largest change of the tangential force over the friction limit else.
 PUSHED_INCREMENTS = 20
 LARGEST_SHARE = 0.05
 ROUND_OFF = 1e-9
-# Of a contact at points: rings, and angles on a half circle; rings where one angle tells all.
+# Rings and angles of a half circle for contacts at points, and rings of axisymmetric ones.
 RINGS, ANGLES, ROUND_RINGS = 24, 9, 64
 ELSEWHERE = "solve it with the semi-analytical solver"
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What is computed for a scene: pressure, and the shear of friction, torsion or a push.
+    """Effects computed for a scene: pressure, and shear by friction, torsion or a tangential load.
 
-    coupled     whether pressure moves the surfaces past each other against friction
-    twists      whether there is torsion
-    pushed      whether there is a tangential load
-    increments  how many each loading step takes
-    effects     every effect with its reason, as shown to people
-    direction   unit vector of the first tangential load, (1, 0) without
-    still       steps before the contact is pushed
-    circle      how much of a circle tells all, where contact and friction are solved together at
-                points; None where the pressure or its shear is known without
-    fineness    multiple of the orders and points that the solver chooses, with friction of the
-                rings and angles
+    coupled     true if friction acts without a tangential load or torsion, because pressure or
+                strain displaces the surfaces relative to each other
+    twists      true with torsion
+    pushed      true with a tangential load
+    increments  number of increments of each load step
+    effects     all effects with reasons, for output
+    direction   unit vector of the first tangential load, (1, 0) without one
+    still       number of load steps before the first tangential load
+    circle      angles of the contact at points (rings × angles), which solves contact and friction
+                together; None if no such solve is necessary
+    fineness    multiple of the numbers of orders and points; with friction, of rings and angles
     """
 
     coupled: bool
@@ -62,32 +63,33 @@ class Plan:
 
     @property
     def rings(self) -> int:
-        """Over a contact at points."""
+        """Return the number of rings over a contact at points."""
         return round(self.fineness * (ROUND_RINGS if self.circle is Circle.ONE else RINGS))
 
     @property
     def highest(self) -> int:
-        """Highest angular harmonic of a contact at points."""
+        """Return the highest angular harmonic of a contact at points."""
         return round(self.fineness * ANGLES)
 
     @property
     def angles(self) -> int:
-        """Of the points on a ring."""
+        """Return the number of angles of a ring."""
         return 0 if self.circle is None else len(self.circle.angles(self.highest))
 
     @property
     def turned(self) -> int:
-        """Increments in which the contact is pushed."""
+        """Return the number of increments from the first tangential load on."""
         return sum(self.increments[self.still :])
 
     @property
     def sheared(self) -> bool:
-        """Whether there is shear beside the pressure."""
+        """Return true if the surfaces carry shear."""
         return self.coupled or self.twists or self.pushed
 
 
 def plan(scene: Scene) -> Plan:
-    """Whether a scene is one of pressure on a disc; raises UnsupportedScene where it is not."""
+    """Determine the effects of a scene; raise UnsupportedScene if the solver does not support
+    it."""
     scene = normal_form(scene)
     refuse_equator(scene)
     _refuse_shape(scene)
@@ -129,7 +131,8 @@ def plan(scene: Scene) -> Plan:
 
 
 def _twists(ramp: LoadRamp, turns: bool) -> bool:
-    """Whether a step twists, or leaves a contact free to turn that is not its own mirror image."""
+    """Return true if a step prescribes torsion, or if a curved tangential path leaves the twist
+    free."""
     return bool(ramp.twisting.end) or (turns and ramp.twisting.kind is ControlKind.FORCE)
 
 
@@ -138,7 +141,7 @@ def _circle(scene: Scene, rubs: bool, twists: bool, pushed: bool, turns: bool) -
         return Circle.WHOLE if twists or turns else Circle.HALF
     if not twists:
         return None
-    # In closed form the shear of torsion is known where the limit is µp and the pressure stays.
+    # The shear of torsion has a closed form if the limit is µp and the pressure is constant.
     proportional = scene.friction is not None and scene.friction.uniform is not None
     closed = proportional and not rubs and not _presses_while_twisted(scene.load_path())
     return None if closed else Circle.ONE
@@ -154,7 +157,7 @@ def _presses_while_twisted(ramps: tuple[LoadRamp, ...]) -> bool:
 
 
 def _direction(ramps: tuple[LoadRamp, ...]) -> tuple[float, float]:
-    """Of the first tangential load that is not zero: so positive loads come first."""
+    """Return the unit vector of the first nonzero tangential load."""
     for ramp in ramps:
         x, y = ramp.tangential.end
         if x or y:
@@ -163,7 +166,7 @@ def _direction(ramps: tuple[LoadRamp, ...]) -> tuple[float, float]:
 
 
 def _pushed_increments(scene: Scene, circle: Circle) -> tuple[int, ...]:
-    """As asked for; else as many as the path of pressure, push and twist takes."""
+    """Return the increments of each load step of a contact at points: requested, or by its path."""
     ramps = scene.load_path()
     return tuple(
         ramp.increments or max(of_loop, _on_path(scene, ramp, circle))
@@ -188,7 +191,7 @@ def _on_path(scene: Scene, ramp: LoadRamp, circle: Circle) -> int:
 
 
 def _increments(scene: Scene, rubs: bool) -> tuple[int, ...]:
-    """As asked for; else one wherever the end of the step does not depend on its path."""
+    """Return the increments of each load step: requested, or more than 1 only if path-dependent."""
     return tuple(
         ramp.increments or (PATH_INCREMENTS if rubs and _moves(ramp) else 1)
         for ramp in scene.load_path()
@@ -196,7 +199,7 @@ def _increments(scene: Scene, rubs: bool) -> tuple[int, ...]:
 
 
 def _moves(ramp: LoadRamp) -> bool:
-    """Whether the surfaces move past each other without a push."""
+    """Return true if a change of the normal load or strain can cause slip."""
     return ramp.normal.start != ramp.normal.end or ramp.strains
 
 
@@ -204,8 +207,8 @@ def _refuse_shape(scene: Scene) -> None:
     indenter = scene.indenter
     if not indenter.is_of_revolution:
         raise UnsupportedScene(
-            f"the indenter is not the same all around ({shape_text(indenter)}), and this solver "
-            f"takes bodies of revolution; {ELSEWHERE}"
+            f"the indenter is not axisymmetric ({shape_text(indenter)}), and this solver requires "
+            f"bodies of revolution; {ELSEWHERE}"
         )
 
 
@@ -213,24 +216,24 @@ def _refuse_map(scene: Scene) -> None:
     assert scene.friction is not None
     if scene.friction.varying is not None:
         raise UnsupportedScene(
-            "friction is given as a map, and this solver takes one coefficient; name one number, "
-            f"or {ELSEWHERE}"
+            "the coefficient of friction is a map, and this solver requires one number. Give one "
+            f"number, or {ELSEWHERE}"
         )
 
 
 def _refuse_rubbing(scene: Scene, circle: Circle | None) -> None:
-    """What pressing without friction can do and with friction cannot."""
+    """Raise UnsupportedScene for friction maps, rims, and tangential loads without friction."""
     _refuse_map(scene)
     assert scene.friction is not None
     if scene.indenter.rim is not None:
         raise UnsupportedScene(
-            "there is friction below an indenter with a rim, where tractions are infinite, and "
-            f"this solver takes smooth edges; leave [friction] out, or {ELSEWHERE}"
+            "the scene has friction below an indenter with a rim, where tractions are infinite, "
+            f"and this solver requires a smooth edge. Remove [friction], or {ELSEWHERE}"
         )
     if circle and scene.friction.largest == 0:
         raise UnsupportedScene(
-            "a step names a tangential load or a torsion and the coefficient of friction is zero, "
-            "so that nothing carries it; give a coefficient, or leave the load out"
+            "a step has a tangential load or a torsion, and the coefficient of friction is zero. "
+            "Use a positive coefficient, or remove the load"
         )
 
 
@@ -238,6 +241,6 @@ def _refuse_loads(scene: Scene) -> None:
     ramps = scene.load_path()
     if any(any(ramp.tilting.end) or ramp.tilting.kind is ControlKind.FORCE for ramp in ramps):
         raise UnsupportedScene(
-            "a step names a moment or a tilt, and this solver keeps the indenter upright; leave it "
-            f"out, or {ELSEWHERE}"
+            "a step has a moment or a tilt, and this solver does not tilt the indenter. Remove it, "
+            f"or {ELSEWHERE}"
         )

@@ -1,10 +1,9 @@
-"""The limit of fine increments, from a history and the same in half as many (Richardson 1911).
+"""Richardson extrapolation (Richardson 1911) of a load history to the limit of fine increments.
 
-What finite increments leave of a pushed contact goes with their length: twice the numbers of the
-finer history less those of the coarser have it no more. The work of the loads, by trapezoids, falls
-faster and is that of the finer history, and what is left of the balance of energies follows. Fields
-are those of the finer history, too, and so are the peak of the pressure and the stick radius, which
-goes from ring to ring.
+The increment error of a contact with a tangential load is of first order in the length of the
+increments, so the limit is twice the value of the finer history minus that of the coarser one. The
+work of the loads (trapezoidal rule) converges faster and is taken from the finer history. Fields,
+peak pressure and stick radius are also those of the finer history.
 """
 
 from __future__ import annotations
@@ -15,7 +14,7 @@ from typing import Any
 from radial.fields import Increment
 from radial.plan import Plan
 
-# What a history leads to; what was prescribed is the same in both.
+# Extrapolated scalars. Prescribed values are equal in both histories.
 LED_TO = (
     *("normal_force", "approach", "contact_radius", "tangential_force", "tangential_shift"),
     *("torque", "twist", "dissipated_energy", "elastic_energy"),
@@ -24,15 +23,15 @@ LED_TO = (
 
 
 def doubled(plan: Plan) -> Plan:
-    """With twice the increments."""
+    """Return the plan with twice the increments."""
     return replace(plan, increments=tuple(2 * count for count in plan.increments))
 
 
 def extrapolated(coarse: Increment, fine: Increment) -> Increment:
-    """An increment of the limit, from those of both histories at the same loads."""
+    """Return the extrapolated increment from those of both histories at the same loads."""
     values = {name: _limit(getattr(coarse, name), getattr(fine, name)) for name in LED_TO}
     for energy in ("elastic_energy", "dissipated_energy"):
-        values[energy] = max(values[energy], 0.0)  # few increments extrapolate beyond zero
+        values[energy] = max(values[energy], 0.0)  # extrapolation can give negative energies
     stored, lost = values["elastic_energy"], values["dissipated_energy"]
     assert fine.trapezoidal_work is not None
     assert fine.dissipated_energy is not None

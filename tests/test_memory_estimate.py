@@ -199,5 +199,5 @@ def test_plan_says_how_much_and_refuses_what_no_polynomials_resolve(tmp_path: Pa
     assert "memory      about 2" in ended.stdout
     path.write_text(radial_scene(1e-7), encoding="utf-8")
     described = read_scene_file(path).scene
-    with pytest.raises(UnsupportedScene, match="times as large as the outermost layer is thick"):
+    with pytest.raises(UnsupportedScene, match="times the thickness of the outermost"):
         radial_estimated_bytes(described, radial.plan(described))

@@ -182,7 +182,7 @@ REFUSED = {
     "not the same all around": {"indenter": Ellipsoid(radii=(1e-2, 2e-2), material=RIGID)},
     "moment or a tilt": {"loading": (LoadStep(normal_force=1e3, moment=(1e-3, 0)),)},
     "rim": {"indenter": FlatPunch(radius=1e-3, material=RIGID), "friction": RUB},
-    "part within the contact": {
+    "separate within the contact": {
         "indenter": FlatPunch(radius=1e-3, material=RIGID),
         "body": coated(1e3, 5e-5),
         "loading": (LoadStep(normal_force=1e-6),),

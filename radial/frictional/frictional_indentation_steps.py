@@ -203,7 +203,7 @@ class Rubbing:
         raise NotConverged("the contact radius", MAX_TRIED, nearest, ROUND_OFF)
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Array:
-        """See `contact_scene.stepping.load_stepping.Solver`."""
+        """Return the gap without tractions at the rings of an increment [length]."""
         return undeformed_gap(self.scene, last)
 
     def report(self, reached: Reached[FrictionalState], last: Increment | None) -> Increment:

@@ -1,1 +1,1 @@
-"""The normal problem: pressure on a disc, as a polynomial."""
+"""Normal problem of a frictionless contact on a disc, solved with polynomials."""

@@ -5,12 +5,13 @@ Ufliand 1958; for layers, Perriot and Barthel 2004), with s = a t and κ = k a,
 
     G(t) = δ - S(t) + C(t),    C(t) = -(2/π) ∫₀^∞ (X - 1) cos κt G~ dκ,   G~ = ∫₀¹ G(t) cos κt dt,
 
-δ the approach and S of the profile. C, which layers change, is even and entire whatever the
-profile: its coefficients c_n of P_2n(t) fall geometrically, and by Galerkin's method
+where δ is the approach and S depends on the profile. C is zero without layers. It is even and
+entire for every profile, so its coefficients c_n of P_2n(t) decrease geometrically. By Galerkin's
+method,
 
     c_n/(4n+1) = -(2/π) ∫₀^∞ (X - 1) B_n G~ dκ,    G~ = δ B_0 - S~ + Σ c_m B_m
 
-with B_n the transform of P_2n. What a profile has of corners is in S, in closed form.
+with B_n the transform of P_2n. S contains the corners of a profile in closed form.
 """
 
 from __future__ import annotations
@@ -46,26 +47,27 @@ if TYPE_CHECKING:
     from contact_scene.geometry import ShapedBody
 
 
-# Of what is added up in the equation: by less nobody can miss it.
+# Error of the equation over the sum of its terms, below which more orders gain nothing.
 ROUND_OFF = 1e-12
-SMOOTH = 1e-9  # of the approach: less at an edge is round-off
+SMOOTH = 1e-9  # of the approach: a smaller G at the edge is round-off
 ELSEWHERE = "solve it with the semi-analytical solver"
 FEWEST_ORDERS, MAX_ORDERS = 8, 256
 AT_ONCE = 8192  # wavenumbers
-PLACES = 40  # at which the equation is judged, none of them a node of the method
+# points between the nodes of the method, at which the error of the equation is evaluated
+PLACES = 40
 
 
 @dataclass(frozen=True)
 class Disc:
-    """A contact.
+    """Frictionless contact on a disc.
 
-    bodies    what is pressed together
-    profile   the gap over it
+    bodies    both bodies
+    profile   undeformed gap over the contact
     radius    a [length]
-    approach  δ since first touch [length]
+    approach  δ since first contact [length]
     layers    c_n [length]
-    missed    largest misfit of the equation over the approach [1]; the gap that it leaves within
-              the contact is nowhere larger
+    missed    largest error of the equation over the approach [1], a bound of the gap that remains
+              within the contact over the approach
     """
 
     bodies: Bodies
@@ -77,47 +79,46 @@ class Disc:
 
     @property
     def load(self) -> float:
-        """W = 2 E* a ∫₀¹ G dt [force]."""
+        """Return W = 2 E* a ∫₀¹ G dt [force]."""
         mean = self.approach - self.profile.abel[0] + self.layers[0]
         return float(2 * self.bodies.modulus * self.radius * mean)
 
     @property
     def elastic_energy(self) -> float:
-        """½ ∫ p u_z dA = E* a ∫₀¹ G (δ - S) dt, stored in both bodies [force length]."""
+        """Return ½ ∫ p u_z dA = E* a ∫₀¹ G (δ - S) dt of both bodies [force length]."""
         t, weights = unit_gauss(len(self.profile.abel) + len(self.layers))
         moved = self.approach - self.profile.at(t)
         return float(self.bodies.modulus * self.radius * (weights @ (self.transform(t) * moved)))
 
     @property
     def edge(self) -> float:
-        """G(1), which makes the pressure infinite at a rim; exactly 0 where it ends smoothly
-        [length]."""
+        """Return G(1) [length], which makes the pressure singular at a rim; 0 at a smooth edge."""
         value = float(self.transform(np.ones(1))[0])
         return value if abs(value) > SMOOTH * self.approach else 0.0
 
     def transform(self, t: Array) -> Array:
-        """G at s = a t [length]."""
+        """Return G at s = a t [length]."""
         changed = legendre.legval(t, every_order(self.layers))
         return np.asarray(self.approach - self.profile.at(t) + changed)
 
     def rate(self, t: Array) -> Array:
-        """dG/dt [length]."""
+        """Return dG/dt [length]."""
         changed = legendre.legval(t, legendre.legder(every_order(self.layers)))
         return np.asarray(changed - shifted(self.profile.rate, t))
 
     def wave_transform(self, waves: Waves) -> Array:
-        """G~ at every κ (n,) [length]: the pressure's Hankel transform is (E* a/π) G~."""
+        """Return G~ at every κ (n,) [length]; (E* a/π) G~ is the transform of the pressure."""
         bases = waves.even_transforms(len(self.layers))
         by_profile = waves.shifted_transform(self.profile.abel)
         return np.asarray(self.approach * bases[0] - by_profile + self.layers @ bases)
 
 
 class _Galerkin:
-    """The equation for one contact radius.
+    """Galerkin equations for one contact radius.
 
     waves   κ
-    count   how many orders
-    excess  X - 1 at every κ, times the weight of each
+    count   number of orders
+    excess  X - 1 at every κ, times the quadrature weight
     """
 
     def __init__(self, waves: Waves, count: int, excess: Array) -> None:
@@ -127,7 +128,7 @@ class _Galerkin:
 
     @cached_property
     def factor(self) -> Any:
-        """Of the matrix, symmetric and positive definite because X is positive."""
+        """Return the Cholesky factor of the matrix, which is positive definite because X > 0."""
         kernel = np.zeros((self.count, self.count))
         for first in range(0, len(self.excess), AT_ONCE):
             some = slice(first, first + AT_ONCE)
@@ -136,12 +137,12 @@ class _Galerkin:
         return cho_factor(matrix, lower=True, overwrite_a=True, check_finite=False)
 
     def changed(self, transform: Array) -> Array:
-        """c_n for G = f + C, from the transform of f."""
+        """Return c_n for G = f + C, from the transform of f."""
         right = -2 / pi * self.scale * (self.bases @ (self.excess * transform))
         return np.asarray(self.scale * cho_solve(self.factor, right, check_finite=False))
 
     def missed(self, layers: Array, transform: Array) -> float:
-        """Largest misfit of c_n for that f [length]."""
+        """Return the largest error of the equation for c_n and the transform of f [length]."""
         polynomials, cosines = _judged(self.waves, self.count)
         exact = -2 / pi * (cosines @ (self.excess * (transform + layers @ self.bases)))
         return float(np.max(np.abs(polynomials @ layers - exact)))
@@ -149,7 +150,7 @@ class _Galerkin:
 
 @kept_within(MAX_KEPT)
 def _judged(waves: Waves, count: int) -> tuple[Array, Array]:
-    """P_2n and cos κt at the places where the equation is judged."""
+    """Return P_2n and cos κt at the points where the error of the equation is evaluated."""
     t = (np.arange(PLACES) + 0.5) / PLACES
     polynomials = np.asarray(legendre.legvander(t, 2 * count - 2)[:, ::2], dtype=float)
     return polynomials, np.cos(np.multiply.outer(t, waves.rule[0]))
@@ -163,12 +164,14 @@ def disc(
     fineness: int = 1,
     most: int | None = None,
 ) -> Disc:
-    """The contact of this radius [length]: at the approach [length] where it has a rim, else at
-    the one for which its pressure ends smoothly.
+    """Solve the contact of a given radius [length].
 
-    fineness  how many times as many points and orders as it takes
-    most      orders at most, for what has to be right to a few percent alone
-    raises    NotConverged where the equation cannot be solved to round-off, and what `profile` does
+    The approach [length] is prescribed at a rim. Otherwise it follows from a smooth end of the
+    pressure, G(1) = 0.
+
+    fineness  multiple of the numbers of points and orders
+    most      largest number of orders, for estimates with an error of a few percent
+    raises    NotConverged if the equation cannot be solved to round-off, and errors of `profile`
     """
     shape = profile(indenter, radius, fineness)
     if not bodies.layered:
@@ -200,18 +203,20 @@ def disc(
 
 
 def orders(thickness: float, apex: bool) -> int:
-    """How many the images of the edge, and of an apex, in the underside of a layer call for: C has
-    its singularities at t = ±1 ± 2ih/a and at ± 2ih/a. A multiple of eight.
+    """Return the number of orders, a multiple of 8.
+
+    C has singularities at t = ±1 ± 2ih/a (images of the edge in the underside of the layer) and,
+    with an apex, at ± 2ih/a. Their distance determines the convergence.
 
     thickness  of the layer over the contact radius
-    raises     UnsupportedScene for too many
+    raises     UnsupportedScene above `MAX_ORDERS`
     """
     image = (0 if apex else 1) + 2j * thickness
     ellipse = abs(image + (image - 1) ** 0.5 * (image + 1) ** 0.5)
     count = FEWEST_ORDERS * ceil(-log(ROUND_OFF) / (2 * log(ellipse)) / FEWEST_ORDERS)
     if count > MAX_ORDERS:
         raise UnsupportedScene(
-            f"the contact is {1 / thickness:.3g} times as large as the outermost layer is thick, "
-            f"beyond what {MAX_ORDERS} polynomials resolve; {ELSEWHERE}"
+            f"the contact radius is {1 / thickness:.3g} times the thickness of the outermost "
+            f"layer, more than {MAX_ORDERS} polynomials resolve; {ELSEWHERE}"
         )
     return count

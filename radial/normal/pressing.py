@@ -1,4 +1,4 @@
-"""The contact under a force or at an approach: its radius is the unknown."""
+"""Frictionless contact under a prescribed force or approach. The contact radius is the unknown."""
 
 from __future__ import annotations
 
@@ -17,17 +17,18 @@ if TYPE_CHECKING:
     from contact_scene.geometry import ShapedBody
 
 MAX_TRIED = 60
-# Of force or approach: as near as the radius can be found.
+# Smallest relative error of the force or approach that the iteration can reach.
 ROUND_OFF = 1e-13
-# Where more of the same does not bring it nearer, unlike materials have left round-off.
+# Relative error at which the iteration may stop without progress, due to round-off with unlike
+# materials.
 NEAR = 1e-9
 LARGEST_STEP = 0.7  # of the logarithm of the radius
 LEAST_RADIUS = 1e-12  # [m]
-LEAST_POWER = 0.5  # of the radius, with which force and approach rise
+LEAST_POWER = 0.5  # least exponent of the power law of force or approach in the radius
 
 
 class Loaded(Protocol):
-    """What a contact has of its radius [length], load [force] and approach [length]."""
+    """Contact with its radius [length], load [force] and approach [length]."""
 
     @property
     def radius(self) -> float: ...
@@ -41,9 +42,10 @@ class Loaded(Protocol):
 
 @dataclass(frozen=True)
 class Target:
-    """Either the normal force [force] or the approach [length].
+    """Prescribed normal force [force] or approach [length].
 
-    spring  compliance of a rig's normal spring, of whose other end the approach is [length/force]
+    spring  compliance of the normal spring of a rig [length/force]; the approach is that of its far
+            end
     """
 
     force: float | None
@@ -51,34 +53,38 @@ class Target:
     spring: float = 0.0
 
     def missed(self, contact: Loaded) -> float:
-        """Logarithm of what a contact has over what is asked; raises UnsupportedScene where a
-        contact of this radius would pull: beyond the end of the shape."""
+        """Return log(value of the contact / prescribed value).
+
+        Raises UnsupportedScene for a contact beyond the end of the shape, whose load is not
+        positive.
+        """
         has, asked = contact.load, self.force
         if asked is None:
             assert self.approach is not None
             has, asked = self.moved(contact), self.approach
         if not (has > 0 and isfinite(has)):
             raise UnsupportedScene(
-                f"no contact of radius {contact.radius:.3g} m carries the load: it goes on to the "
-                "end of the shape (a sphere pressed to its equator); ask for less force or approach"
+                f"no contact of radius {contact.radius:.3g} m carries the load: the contact "
+                "reaches the end of the shape (the equator of a sphere). Use "
+                "a smaller force or approach"
             )
         return log(has / asked)
 
     def is_beyond(self, contact: Disc) -> bool:
-        """Whether more is asked than a contact has."""
+        """Return true if the prescribed value exceeds that of the contact."""
         if self.force is not None:
             return self.force > contact.load
         assert self.approach is not None
         return self.approach > self.moved(contact)
 
     def moved(self, contact: Loaded) -> float:
-        """Approach of the far end of the spring [length]."""
+        """Return the approach of the far end of the spring [length]."""
         return contact.approach + self.spring * contact.load
 
 
 @dataclass(frozen=True)
 class Pressed:
-    """A contact, what was asked of it, and how many radii were tried for it."""
+    """Contact at a target, and the number of contact radii tried."""
 
     contact: Disc
     target: Target
@@ -86,21 +92,22 @@ class Pressed:
 
     @property
     def normal_force(self) -> float:
-        """As it was asked for, or what came out [force]."""
+        """Return the prescribed or computed normal force [force]."""
         return self.contact.load if self.target.force is None else self.target.force
 
     @property
     def approach(self) -> float:
-        """As it was asked for, or what came out [length]."""
+        """Return the prescribed or computed approach [length]."""
         asked = self.target.approach
         return self.target.moved(self.contact) if asked is None else asked
 
 
 def pressed(bodies: Bodies, indenter: ShapedBody, target: Target, fineness: int = 1) -> Pressed:
-    """The contact at a target; raises NotConverged, and UnsupportedScene for a gap that is not
-    smooth.
+    """Solve the contact at a target by the secant method for the radius.
 
-    fineness  of orders and points, as for `disc`
+    Raises NotConverged, and UnsupportedScene for a gap that is not smooth.
+
+    fineness  multiple of the numbers of orders and points
     """
     if indenter.rim is not None:
         whole = disc(bodies, indenter, indenter.rim, fineness=fineness)
@@ -128,9 +135,9 @@ def pressed(bodies: Bodies, indenter: ShapedBody, target: Target, fineness: int 
 def _to_the_rim(
     bodies: Bodies, indenter: ShapedBody, target: Target, whole: Disc, fineness: int
 ) -> Disc:
-    """The contact that a rim bounds: its load is linear in the approach.
+    """Return the contact bounded by a rim. Its load is linear in the approach.
 
-    whole  as it just reaches the rim
+    whole  contact that just reaches the rim
     """
     if target.force is not None:
         missing = target.force - whole.load
@@ -146,8 +153,11 @@ def _to_the_rim(
 
 
 def first_radius(bodies: Bodies, indenter: ShapedBody, target: Target) -> float:
-    """Where the gap is the approach, or E* r f(r) the force, with the modulus of the stiffest part:
-    rather too small than too large, where layers cost more [length]."""
+    """Return a lower estimate of the contact radius as a starting value [length].
+
+    It is the radius at which the gap equals the approach, or at which E* r f(r) equals the force
+    with the largest modulus. Larger radii are more expensive with layers.
+    """
     modulus = bodies.stiffest
 
     def short(r: float) -> bool:

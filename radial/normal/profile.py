@@ -1,4 +1,4 @@
-"""The undeformed gap of a body of revolution below a contact, and its Abel transform."""
+"""Undeformed gap of a body of revolution over a contact, and its Abel transform."""
 
 from __future__ import annotations
 
@@ -20,44 +20,44 @@ if TYPE_CHECKING:
     from contact_scene.geometry import ShapedBody
 
 
-FEWEST, MOST = 16, 2048  # points at which a gap is taken
-# Of the largest coefficient, per point: what is below is round-off.
+FEWEST, MOST = 16, 2048  # numbers of points at which the gap is evaluated
+# Round-off of a coefficient over the largest coefficient, per point.
 ROUND_OFF = 1e-15
 ANGLES = 16
 
 
 @dataclass(frozen=True)
 class Profile:
-    """The gap f of an indenter over r < a, lengths in units of a.
+    """Gap f of an indenter over r < a, lengths in units of a.
 
-    abel  Legendre coefficients in 2t - 1 of S(t) = t ∫₀^(π/2) f'(t sin φ) dφ [length]: pressed in
-          by δ, half-spaces take p~(k) = (E*/π) ∫₀ᵃ (δ - S(s)) cos ks ds (Sneddon 1965)
-    apex  whether the gap rises from the axis at an angle: the pressure is infinite there
+    abel  Legendre coefficients in 2t - 1 of S(t) = t ∫₀^(π/2) f'(t sin φ) dφ [length]. At the
+          approach δ half-spaces have p~(k) = (E*/π) ∫₀ᵃ (δ - S(s)) cos ks ds (Sneddon 1965)
+    apex  true if the gap has a nonzero slope at the axis, where the pressure is infinite
     """
 
     abel: Array
     apex: bool
 
     def at(self, t: Array) -> Array:
-        """S at s = a t [length]."""
+        """Return S at s = a t [length]."""
         return shifted(self.abel, t)
 
     @property
     def at_edge(self) -> float:
-        """S(1): the approach at which the pressure of half-spaces ends smoothly at a [length]."""
+        """Return S(1), the approach at which the pressure of half-spaces is zero at a [length]."""
         return float(np.sum(self.abel))
 
     @cached_property
     def rate(self) -> Array:
-        """Legendre coefficients of dS/dt in 2t - 1 [length]."""
+        """Return Legendre coefficients of dS/dt in 2t - 1 [length]."""
         return np.asarray(2 * legendre.legder(self.abel))
 
 
 def profile(indenter: ShapedBody, radius: float, fineness: int = 1) -> Profile:
-    """Of an indenter below a contact of this radius [length], from its gap alone.
+    """Return the profile of an indenter over a contact of this radius [length].
 
-    fineness  how many times as many points as it takes
-    raises    UnsupportedScene for a gap that is no smooth function of the radius
+    fineness  multiple of the number of points
+    raises    UnsupportedScene if the gap is no smooth function of the radius
     """
     count = FEWEST
     while True:
@@ -70,8 +70,8 @@ def profile(indenter: ShapedBody, radius: float, fineness: int = 1) -> Profile:
         count *= 2
         if count > MOST:
             raise UnsupportedScene(
-                f"the gap over a contact of radius {radius:.4g} m is no smooth function of the "
-                "distance from the axis, and this solver takes it for one; solve it with the "
+                f"the gap over a contact of radius {radius:.4g} m is not a smooth function of the "
+                "distance from the axis, as this solver requires; solve it with the "
                 "semi-analytical solver"
             )
     if fineness > 1:
@@ -84,14 +84,14 @@ def profile(indenter: ShapedBody, radius: float, fineness: int = 1) -> Profile:
 
 
 def _coefficients(indenter: ShapedBody, radius: float, count: int) -> Array:
-    """Chebyshev's, in 2x - 1."""
+    """Return the Chebyshev coefficients of the gap in 2x - 1."""
     places, fit = _fit(count)
     return np.asarray(fit @ indenter.initial_gap(radius * places, 0.0))
 
 
 @cache
 def _fit(count: int) -> tuple[Array, Array]:
-    """Chebyshev's points on 0 < x < 1, and the matrix from values there to coefficients."""
+    """Return Chebyshev points on 0 < x < 1, and the matrix from values there to coefficients."""
     points = chebyshev.chebpts1(count)
     fit = chebyshev.chebvander(points, count - 1).T * (2.0 / count)
     fit[0] /= 2
@@ -100,7 +100,10 @@ def _fit(count: int) -> tuple[Array, Array]:
 
 @cache
 def _abel(count: int, fineness: int) -> Array:
-    """From Chebyshev coefficients of a slope to Legendre coefficients of S (count, count + 1)."""
+    """Return the map from Chebyshev coefficients of a slope to Legendre coefficients of S.
+
+    Its shape is (count, count + 1).
+    """
     t, weights = unit_gauss(count + 1)
     angles, shares = unit_gauss((ANGLES + count) * fineness)
     places = np.multiply.outer(t, np.sin(np.pi / 2 * angles))

@@ -1,4 +1,4 @@
-"""Pressure and gap of a contact on a disc, at any radius."""
+"""Pressure and displacement of a contact on a disc, at any radius."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from radial.response.quadrature import (
 
 POINTS = 48
 AT_ONCE = 8192  # wavenumbers
-PLACE = 1e-9  # of the contact radius, to which a largest value is found
+PLACE = 1e-9  # error of the position of a maximum over the contact radius
 
 
 def pressure(contact: Disc, x: Array) -> Array:
-    """p at r = a x (n,) [force/length²], zero outside; infinite at an apex and at a rim.
+    """Return p at r = a x (n,) [force/length²], 0 outside and infinite at an apex or a rim.
 
-    p = (E*/π a) [G(1)/√(1-x²) - ∫ₓ¹ G'(t)/√(t²-x²) dt], with t² = x² + (1-x²) v² for what layers
-    change and t = x cosh y for the profile, where either integrand is smooth.
+    p = (E*/π a) [G(1)/√(1-x²) - ∫ₓ¹ G'(t)/√(t²-x²) dt]. The substitutions t² = x² + (1-x²) v² for
+    the contribution of layers and t = x cosh y for the profile make both integrands smooth.
     """
     found = np.zeros_like(x)
     inside = x < 1
@@ -40,7 +40,7 @@ def pressure(contact: Disc, x: Array) -> Array:
 
 
 def _of_layers(contact: Disc, rho: Array, chord: Array) -> Array:
-    """∫ₓ¹ C'(t)/√(t²-x²) dt; C'/t is a polynomial."""
+    """Return ∫ₓ¹ C'(t)/√(t²-x²) dt; C'/t is a polynomial."""
     rate = legendre.legder(every_order(contact.layers))
     v, weights = unit_gauss(len(contact.layers) + 1)
     t = np.hypot(rho[:, None], chord[:, None] * v)
@@ -48,7 +48,7 @@ def _of_layers(contact: Disc, rho: Array, chord: Array) -> Array:
 
 
 def _of_profile(contact: Disc, rho: Array, chord: Array) -> Array:
-    """∫ₓ¹ S'(t)/√(t²-x²) dt."""
+    """Return ∫ₓ¹ S'(t)/√(t²-x²) dt."""
     shape = contact.profile
     v, weights = unit_gauss(POINTS + len(shape.abel))
     axis = rho == 0
@@ -60,8 +60,10 @@ def _of_profile(contact: Disc, rho: Array, chord: Array) -> Array:
 
 
 def largest_pressure(contact: Disc, x: Array, p: Array) -> float:
-    """The largest pressure at any radius, from that at rings x [force/length²]; of one that is
-    infinite the largest at a ring."""
+    """Return the largest pressure over the contact, refined from values at rings [force/length²].
+
+    If the pressure is infinite somewhere, return the largest value at a ring.
+    """
     at = int(np.argmax(p))
     if at == 0 or contact.edge:
         return float(p[at])
@@ -75,14 +77,16 @@ def largest_pressure(contact: Disc, x: Array, p: Array) -> float:
 
 
 def displacement(contact: Disc, x: Array) -> Array:
-    """u_z at r = a x, outside the contact (n,) [length]:
-    (2/π) [∫₀¹ G(t)/√(x²-t²) dt + ∫₀^∞ (X - 1) G~ J₀(κx) dκ]."""
+    """Return u_z at r = a x outside the contact (n,) [length].
+
+    u_z = (2/π) [∫₀¹ G(t)/√(x²-t²) dt + ∫₀^∞ (X - 1) G~ J₀(κx) dκ].
+    """
     v, weights = unit_gauss(POINTS + len(contact.layers))
     angle = np.arcsin(1 / x)
     direct = angle * (contact.transform(x[:, None] * np.sin(angle[:, None] * v)) @ weights)
     if not contact.bodies.layered:
         return np.asarray(2 / pi * direct)
-    reach = 2.0 ** np.ceil(np.log2(np.max(x)))  # few lengths, which contacts have in common
+    reach = 2.0 ** np.ceil(np.log2(np.max(x)))  # few values, shared by contacts
     waves = contact.bodies.waves(contact.radius, float(reach))
     places, weights = waves.rule
     felt = weights * contact.bodies.excess(waves, contact.radius)

@@ -1,5 +1,7 @@
-"""Arrays that contacts have in common, kept as long as there is room: their size goes with the
-number of wavenumbers, and a thin film takes a hundred thousand."""
+"""Cache of arrays, limited in bytes.
+
+The size of these arrays is proportional to the number of wavenumbers, about 1e5 for a thin film.
+"""
 
 from __future__ import annotations
 
@@ -15,9 +17,9 @@ MAX_KEPT = 24 << 20  # bytes of the results of one function
 
 
 def kept_within(most: int) -> Callable[[Callable[P, R]], Callable[P, R]]:
-    """Remember what a function of hashable arguments has returned, an array or a tuple of them.
+    """Store the results of a function of hashable arguments: an array or a tuple of arrays.
 
-    most  bytes beyond which the least recently used go before another is computed
+    most  bytes; above it the least recently used results are removed before a new one is computed
     """
 
     def of(compute: Callable[P, R]) -> Callable[P, R]:

@@ -1,4 +1,4 @@
-"""Both bodies as pressure feels them: outermost materials, and what layers add to them."""
+"""Normal response of both bodies: their outermost materials, and the contribution of layers."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from semi_analytical.frf.surface import SurfaceScalars, remainder_scalars
 
 # exp(-2 k h) (k h)² is below 1e-17 from here on.
 REACH = 24.0
-# Of the wavenumber at which the softest part of the layers begins to be felt.
+# Ratio of the smallest wavenumber to the one where the softest layer has an effect.
 LONGEST_WAVE = 1e-2
-# Radii whose layers are kept: pressure, shear and gap of a contact all ask for them.
+# Number of cached layer responses: pressure, shear and gap of a contact use the same one.
 KEPT = 4
 
 
@@ -30,8 +30,8 @@ KEPT = 4
 class Bodies:
     """Lower body and indenter.
 
-    layered  those that are not one half-space
-    modulus  E* of their outermost materials [force/length²]
+    layered  bodies with layers
+    modulus  E* of the outermost materials [force/length²]
     """
 
     layered: Sequence[Stack]
@@ -39,50 +39,56 @@ class Bodies:
 
     @classmethod
     def of(cls, scene: Scene) -> Bodies:
-        """Those of a scene."""
+        """Return the bodies of a scene."""
         stacks = (stack_of(scene.body), stack_of(scene.indenter))
         return cls([stack for stack in stacks if stack.layers], contact_modulus(scene))
 
     @property
     def stiffest(self) -> float:
-        """A modulus beyond which nothing is that is layered, by order of magnitude
+        """Return an upper bound of the modulus of all materials, by order of magnitude
         [force/length²]."""
         moduli = (4 * modulus for stack in self.layered for modulus in _moduli(stack))
         return max([self.modulus, *moduli])
 
     @property
     def thickness(self) -> float:
-        """Of the thinner outermost layer; infinite without [length]."""
+        """Return the thickness of the thinner outermost layer, infinite without layers [length]."""
         return min((stack.layers[0].thickness for stack in self.layered), default=np.inf)
 
     def waves(self, radius: float, reach: float = 1.0, fineness: int = 1) -> Waves:
-        """All wavenumbers of which layers are felt in a contact of this radius [length], for places
-        within `reach` radii."""
+        """Return the wavenumbers at which layers contribute to a contact of this radius [length].
+
+        reach  largest distance from the axis over the radius
+        """
         least = LONGEST_WAVE * min(longest(stack, radius) for stack in self.layered)
         return waves(REACH * radius / self.thickness, least, reach, fineness)
 
     def excess(self, waves: Waves, radius: float) -> Array:
-        """X - 1 with X = k E* F_zz / 2 at wavenumbers k = κ/radius: what the layers add to the
-        half-spaces of the outermost materials, relative to that [1]."""
+        """Return X - 1 with X = k E* F_zz / 2 at wavenumbers k = κ/radius [1].
+
+        X - 1 is the contribution of layers over the response of the outermost materials.
+        """
         added = np.sum([added_by(stack, waves, radius).c22 for stack in self.layered], axis=0)
         return np.asarray(0.5 * self.modulus * (waves.rule[0] / radius) * added)
 
 
 @lru_cache(maxsize=KEPT)
 def added_by(stack: Stack, waves: Waves, radius: float) -> SurfaceScalars:
-    """What the layers of a body add to a half-space of its outermost material, at wavenumbers
-    κ/radius (κ,) [length²/force · length]."""
+    """Return the surface response of a body minus that of a half-space of its outermost material.
+
+    Wavenumbers are κ/radius (κ,) [length²/force · length].
+    """
     return remainder_scalars(stack, waves.rule[0] / radius)
 
 
 def longest(stack: Stack, radius: float) -> float:
-    """κ below which layers act as if they were not there, by order of magnitude."""
+    """Return the order of magnitude of κ below which layers have no effect."""
     moduli = _moduli(stack)
     total = sum(film.thickness for film in stack.layers)
     return radius / (radius + total) * min(moduli) / max(moduli)
 
 
 def _moduli(stack: Stack) -> list[float]:
-    """Shear moduli of all that deforms [force/length²]."""
+    """Return the shear moduli of layers and base, without a rigid base [force/length²]."""
     films = [film.shear_modulus for film in stack.layers]
     return films if stack.base is None else [*films, stack.base.shear_modulus]

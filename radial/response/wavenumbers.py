@@ -1,7 +1,7 @@
-"""Gauss's rule over wavenumbers, in units of the inverse contact radius: κ = k a.
+"""Gauss quadrature over wavenumbers κ = k a, in units of the inverse contact radius.
 
-Its panels do not depend on the contact, only how many of them are taken does, so that contacts of
-all radii have the transforms on them in common.
+The positions of the panels do not depend on the contact, only their number does. Contacts of
+different radii therefore share cached transforms.
 """
 
 from __future__ import annotations
@@ -21,19 +21,19 @@ from radial.response.array_cache import (
 from radial.response.quadrature import unit_gauss
 
 POINTS = 16
-# What oscillates by so much over a panel is integrated to 1e-14 by 16 points.
+# Change of phase over a panel: 16 points integrate it to 1e-14.
 PHASE = 6.0
-# Width of a panel over its distance from zero, where the response varies and not the transforms.
+# Ratio of the ends of a panel near zero, where only the response varies.
 GROWTH = 3.0
-# Contacts whose radii differ by less have their panels in common.
+# Contacts with radii within this ratio share their panels.
 SHARED = 1.25
-# What fits into the processor's cache of a few contacts; a solve needs two of each.
+# Number of cached quadratures. A solve needs two; more than a few contacts exceed the processor
+# cache.
 KEPT = 8
 
 
 class Waves(NamedTuple):
-    """Which panels: the first ends at GROWTH^first, none is wider than `widest`, and there are
-    `equal` of that width."""
+    """Panels: the first ends at GROWTH^first, `equal` panels have the largest width `widest`."""
 
     first: int
     widest: float
@@ -41,24 +41,26 @@ class Waves(NamedTuple):
 
     @property
     def rule(self) -> tuple[Array, Array]:
-        """Points (n,) and weights."""
+        """Return points (n,) and weights."""
         return _rule(self)
 
     def even_transforms(self, count: int) -> Array:
-        """∫₀¹ P_2n(t) cos κt dt = (-1)ⁿ j_2n(κ) for n < count, shape (count, n)
-        (Abramowitz and Stegun 10.1.14)."""
+        """Return ∫₀¹ P_2n(t) cos κt dt = (-1)ⁿ j_2n(κ) for n < count, shape (count, n) (Abramowitz
+        and Stegun 10.1.14)."""
         return _even_transforms(self, count)
 
     def shifted_transform(self, coefficients: Array) -> Array:
-        """∫₀¹ f(t) cos κt dt (n,) of f = Σ c_l P_l(2t - 1): Σ c_l Re iˡ exp(iκ/2) j_l(κ/2)."""
+        """Return ∫₀¹ f(t) cos κt dt = Σ c_l Re iˡ exp(iκ/2) j_l(κ/2) of f = Σ c_l P_l(2t - 1),
+        shape (n,)."""
         count = 8 * ceil(len(coefficients) / 8)
         return np.asarray(coefficients @ _shifted_transforms(self, count)[: len(coefficients)])
 
 
 def waves(shortest: float, longest: float, reach: float, fineness: int = 1) -> Waves:
-    """Panels for all that varies between two wavenumbers, over places within `reach` radii.
+    """Return panels between two wavenumbers, for positions within `reach` radii.
 
-    fineness  how many times as many points as it takes
+    shortest, longest  κ of the shortest and the longest wave
+    fineness           multiple of the number of points
     """
     widest = PHASE / (1 + reach) / fineness
     first = floor(log(min(longest, widest)) / log(GROWTH))
@@ -84,7 +86,7 @@ def _even_transforms(chosen: Waves, count: int) -> Array:
     for order in range(count):
         found[order, near] = spherical_jn(2 * order, places[near])
     far = places[~near]
-    # Upward recurrence, which is stable as long as the order is below the argument.
+    # The upward recurrence is stable for orders below the argument.
     last, now = spherical_jn(0, far), spherical_jn(1, far)
     for order in range(count):
         found[order, ~near] = last

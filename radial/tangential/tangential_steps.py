@@ -225,7 +225,7 @@ class Pushing:
             )
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Array:
-        """See `contact_scene.stepping.load_stepping.Solver`."""
+        """Return the gap without tractions at the rings of an increment [length]."""
         return undeformed_gap(self.scene, last)
 
     def report(self, reached: Reached[Pushed], last: Increment | None) -> Increment:

@@ -96,7 +96,7 @@ class Twisting:
         return Twisted(pressed, path.to_twist(twist), (ControlKind.DISPLACEMENT, twist))
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Array:
-        """See `contact_scene.stepping.load_stepping.Solver`."""
+        """Return the gap without tractions at the rings of an increment [length]."""
         return undeformed_gap(self.scene, last)
 
     def report(self, reached: Reached[Twisted], last: Increment | None) -> Increment:
