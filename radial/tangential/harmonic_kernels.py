@@ -1,7 +1,8 @@
-"""What rings of tractions of harmonic m do to each other on a half-space, in closed form.
+"""Kernels between rings of tractions of harmonic m on a half-space, in closed form.
 
 G_m(r, s) = ∫₀^∞ J_m(kr) J_m(ks) dk = Q_{m-½}(χ)/(π√(rs)), χ = (r² + s²)/(2rs) (Watson, Bessel
-Functions 13.22), logarithmic at r = s, by the recurrence of Q in its stable direction. With it
+Functions 13.22), is logarithmic at r = s. It is computed with the recurrence of Q in its stable
+direction. Two other integrals follow:
 
     ∫₀^∞ J_{m-1}(kr) J_{m+1}(ks) dk = (2m-1) G_{m-1} - 2m (r/s) G_m
     ∫₀^∞ J_m(kr) J_{m+1}(ks) dk     = r^m / s^{m+1} for r < s, else 0
@@ -17,15 +18,15 @@ from scipy.special import ellipe, ellipkm1
 
 from contact_scene.array_types import Array
 
-# Where the highest order times arccosh χ is below, the recurrence upwards loses some 1e-13; down
-# from where it goes on to fall below round-off it loses nothing.
+# The upward recurrence loses about 1e-13 if the highest order times arccosh χ is below UPWARDS. The
+# downward recurrence starts at an order where Q is below round-off.
 UPWARDS, ROUND_OFF = 3.0, 18.0
 
 
 def alike(highest: int, r: Array, s: Array, apart: Array) -> Array:
-    """G_m for m = 0 … highest, r > 0 and s > 0, shape (highest + 1, …) [1/length].
+    """Return G_m for m = 0 … highest, r > 0 and s > 0, shape (highest + 1, …) [1/length].
 
-    apart  |r - s|, which must not be formed from r and s where they are near
+    apart  |r - s|, given separately to avoid cancellation
     """
     total = r + s
     small = (apart / total) ** 2
@@ -58,7 +59,7 @@ def _upwards(
     whole: Array,
     small: Array,
 ) -> None:
-    """Fills G_m, m ≥ 1, where r and s are near: (m+½) Q_{m+½} = 2mχ Q_{m-½} - (m-½) Q_{m-3/2}."""
+    """Compute G_m, m ≥ 1, for r near s: (m+½) Q_{m+½} = 2mχ Q_{m-½} - (m-½) Q_{m-3/2}."""
     if len(found) > 1:
         once = 2 * chi * moment / total * whole - total * ellipe(1 - small)
         found[1, near] = once / (np.pi * moment)

@@ -1,4 +1,4 @@
-"""How much of loads friction carries until all slides."""
+"""Limit load of a contact under tangential force and torque."""
 
 from __future__ import annotations
 
@@ -14,15 +14,17 @@ DIGITS = 1e-9
 
 
 def carried_times(points: Points, limit: Array, given: Array, free: NDArray[np.bool_]) -> float:
-    """By what the given loads are multiplied when all slides: the least that a rigid slip on which
-    they do unit work loses to friction (upper bound theorem; Goyal, Ruina and Papadopoulos 1991).
+    """Return the factor of the given loads at gross slip.
+
+    It is the least dissipation of a rigid slip on which the given loads do unit work (upper bound
+    theorem; Goyal, Ruina and Papadopoulos 1991).
 
     limit  µp at the points (N,)
     given  T along and across, and M, not all zero (3,)
-    free   which of the motions they go with is not prescribed (3,)
+    free   true for motions that are not prescribed (3,)
     """
     free = free & np.any(points.ways, axis=1)
-    # A turn as what it moves at the last ring, so that all are alike.
+    # Scale the twist by its displacement at the last ring, so that all motions have equal units.
     units = np.array([1.0, 1.0, 1 / points.radii[-1]])[free]
     loads, ways = units * given[free], units[:, None] * points.ways[free]
     loads_size = np.linalg.norm(loads)

@@ -1,13 +1,13 @@
-"""Energies of tractions of every harmonic on rings, of both bodies and all their layers.
+"""Galerkin matrices of tractions on rings for every harmonic, with both bodies and their layers.
 
-p and q_r go as cos mθ, q_θ as sin mθ, of m = 0 as torsion. P = q_r - q_θ is transformed by J_{m-1},
-Q = q_r + q_θ by J_{m+1}, p by J_m; in these the half-space is that of `ring_energies`, and layers
-add
+p and q_r are ∝ cos mθ, q_θ ∝ sin mθ; for m = 0, q_θ is torsion. P = q_r - q_θ is transformed by
+J_{m-1}, Q = q_r + q_θ by J_{m+1}, p by J_m. `ring_energies` has the integrals of the half-space in
+these variables. Layers add
 
     ∫ k dk ¼[(F_11 + F_sh)(P² + Q²) + 2 (F_sh - F_11) P Q] + ½ C (P - Q) p + F_22 p²
 
-with every letter for its transform. The closed forms and the combination are this project's;
-Weber–Schafheitlin integrals (DLMF 10.22.56) check them.
+where letters denote transforms. The closed forms and their combination originate here.
+Weber–Schafheitlin integrals (DLMF 10.22.56) verify them.
 """
 
 from __future__ import annotations
@@ -26,9 +26,11 @@ from radial.tangential.ring_energies import (
 def ring_compliance(
     coupling: Coupling, nodes: tuple[float, ...], radius: float, highest: int
 ) -> Array:
-    """Energies of hats (M + 1, 3, 3, n + 1, n + 1) [length^6/force], symmetric: displacement along
-    the row's direction, weighted with its hat and r dr, by the column's traction. Directions are r,
-    θ, z; of harmonic 0 torsion, by q_θ, is on its own.
+    """Compute the Galerkin matrices of hat functions, symmetric.
+
+    Their shape is (M + 1, 3, 3, n + 1, n + 1) [length^6/force]: displacement along the row's
+    direction, integrated with its hat and r dr, by the column's traction. The directions are r, θ,
+    z. Harmonic 0 of q_θ is torsion, which is not coupled to r and z.
 
     nodes    x = r/radius, from 0 on
     highest  M
@@ -45,7 +47,7 @@ def ring_compliance(
         below = abs(m - 1)
         pp, qq = mean * unit.alike[below], mean * unit.alike[m + 1]
         pq, zz = difference * unit.shifted[m], coupling.direct * unit.alike[m]
-        # Of m = 0 only J_{-1} = -J_1 is left to P.
+        # For m = 0 the transform of P has the order -1: J_{-1} = -J_1.
         zp = crossed * unit.stepped[below].T if m else -crossed * unit.stepped[0]
         zq = -crossed * unit.stepped[m]
         if added is not None:
@@ -60,8 +62,10 @@ def ring_compliance(
 
 
 def _of_layers(coupling: Coupling, nodes: tuple[float, ...], radius: float, highest: int) -> Array:
-    """What layers add to the energies PP, QQ, PQ, zz, zP and zQ (M + 1, 6, n + 1, n + 1), in units
-    of the radius."""
+    """Return the contribution of layers to PP, QQ, PQ, zz, zP and zQ (M + 1, 6, n + 1, n + 1).
+
+    Lengths are in units of the radius.
+    """
     found = np.zeros((highest + 1, 6, len(nodes), len(nodes)))
     waves = coupling.bodies.waves(radius, max(1.0, nodes[-1]))
     kappa = waves.rule[0]
@@ -71,7 +75,7 @@ def _of_layers(coupling: Coupling, nodes: tuple[float, ...], radius: float, high
         along, c12, c22, across = scalars[:, some]
         mean, apart, half = (along + across) / 4, (across - along) / 4, c12 / 2
         for m, total in enumerate(found):
-            # Of m = 0 only J_{-1} = -J_1 is there.
+            # For m = 0 the order -1 is J_{-1} = -J_1.
             p, q, z = (1 if m else -1) * fields[abs(m - 1)], fields[m + 1], fields[m]
             raised = z.T * half
             total += (

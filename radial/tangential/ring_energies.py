@@ -1,8 +1,8 @@
-"""Energies of hats on rings in each other's fields, harmonic by harmonic, on a unit half-space.
+"""Galerkin integrals of hat functions on rings, for each harmonic, on a unit half-space.
 
-Galerkin's integrals ∬ φ_i K φ_j r s dr ds for hats φ that are linear between nodes x = r/a, over
-pairs of elements with r < s: Duffy's triangles where they share a node, Gauss's rule elsewhere.
-To 1e-10 while neighbours' widths differ by less than a factor 2.5.
+The integrals ∬ φ_i K φ_j r s dr ds have hats φ that are linear between nodes x = r/a. Pairs of
+elements with a common node use Duffy's triangles, other pairs Gauss quadrature. The error is below
+1e-10 if the widths of adjacent elements differ by less than a factor of 2.5.
 """
 
 from __future__ import annotations
@@ -20,23 +20,23 @@ from radial.response.quadrature import unit_gauss
 from radial.tangential.harmonic_kernels import alike
 
 Numbers = NDArray[np.int64]
-# Points of r and s between the numbers of r, s and r's distance s - r, and their weights.
+# Element of r, element of s, r, s, s - r and weights of pairs of points.
 Pairs = tuple[Numbers, Numbers, Array, Array, Array, Array]
 
 SAME, TOUCHING = 26, (14, 12)
-APART = ((2, 4, 11), (4, 9, 7))  # elements between which there are 2 … 3, 4 … 8, and points each
+APART = ((2, 4, 11), (4, 9, 7))  # range of the distance of two elements, and number of points
 FAR, FAR_POINTS = 9, 5
 WAVE_POINTS = 6
 KEPT = 8
-BEYOND = 32  # orders above the highest, where ratios of neighbours begin: J is nothing there
+BEYOND = 32  # orders above the highest, where the downward recurrence starts; J is negligible there
 MAX_AT_ONCE = 1 << 21  # numbers: 16 MiB
 
 
 class Unit(NamedTuple):
-    """Energies of hats i and j (harmonics, n + 1, n + 1) of lengths in units of the radius.
+    """Galerkin integrals of hats i and j (harmonics, n + 1, n + 1), lengths in units of the radius.
 
     alike    of G_m, m = 0 … M + 1
-    shifted  of ∫ J_{m-1}(kr_i) J_{m+1}(ks_j) dk, m = 1 … M; m = 0 is -alike[1]
+    shifted  of ∫ J_{m-1}(kr_i) J_{m+1}(ks_j) dk, m = 1 … M; for m = 0 it is -alike[1]
     stepped  of ∫ J_m(kr_i) J_{m+1}(ks_j) dk, m = 0 … M
     """
 
@@ -47,7 +47,7 @@ class Unit(NamedTuple):
 
 @lru_cache(maxsize=KEPT)
 def unit_energies(nodes: tuple[float, ...], highest: int) -> Unit:
-    """Of hats at nodes 0 = x_0 < … < x_n, harmonics 0 … M = highest."""
+    """Compute the integrals for nodes 0 = x_0 < … < x_n and harmonics 0 … M = highest."""
     x = np.array(nodes)
     size = (len(x), len(x))
     products = np.zeros((highest + 2, *size))
@@ -72,13 +72,13 @@ def unit_energies(nodes: tuple[float, ...], highest: int) -> Unit:
 
 
 def _shapes(x: Array, element: Numbers, r: Array) -> tuple[Array, Array]:
-    """Hats of an element's inner and outer node at points (elements, points)."""
+    """Return the hats of an element's inner and outer node at points (elements, points)."""
     inner, outer = x[element, None], x[element + 1, None]
     return (outer - r) / (outer - inner), (r - inner) / (outer - inner)
 
 
 def _pairs(x: Array) -> Iterator[Pairs]:
-    """All pairs of points r < s: elements (k,) of each, and r, s, s - r, weights (k, points)."""
+    """Yield pairs of points r < s: elements (k,) of each, and r, s, s - r, weights (k, points)."""
     count = len(x) - 1
     length = np.diff(x)
     each = np.arange(count)
@@ -86,7 +86,7 @@ def _pairs(x: Array) -> Iterator[Pairs]:
     v, u, weights = v**2, u**4, weights * 2 * v * 4 * u**3
     off = length[:, None] * v
     s, apart = x[:-1, None] + off, off * u
-    # What is left of s - x[e] and x[e] is added rather than taken from s: r > 0 for all u < 1.
+    # r is a sum of positive terms instead of s - off u: r > 0 for all u < 1.
     yield each, each, x[:-1, None] + off * (1 - u), s, apart, weights * length[:, None] * off
     t, y, weights = _square(*TOUCHING)
     t, weights = t**3, weights * 3 * t**5
@@ -107,14 +107,14 @@ def _pairs(x: Array) -> Iterator[Pairs]:
 
 
 def _square(first: int, second: int) -> tuple[Array, Array, Array]:
-    """Gauss's points and weights on the unit square, one after another."""
+    """Return Gauss points and weights of the unit square, flattened."""
     v, of_v = unit_gauss(first)
     u, of_u = unit_gauss(second)
     return np.repeat(v, second), np.tile(u, first), np.outer(of_v, of_u).ravel()
 
 
 def transforms(nodes: tuple[float, ...], highest: int, kappa: Array) -> Array:
-    """∫ φ J_m(κx) x dx for m = 0 … M + 1, shape (M + 2, κ, n + 1)."""
+    """Compute ∫ φ J_m(κx) x dx for m = 0 … M + 1, shape (M + 2, κ, n + 1)."""
     x = np.array(nodes)
     length = np.diff(x)[:, None]
     v, weights = unit_gauss(WAVE_POINTS)
@@ -129,8 +129,11 @@ def transforms(nodes: tuple[float, ...], highest: int, kappa: Array) -> Array:
 
 
 def bessel_functions(highest: int, at: Array) -> Iterator[Array]:
-    """J_0 … J_highest: by the recurrence upwards as long as the order is below the argument, from
-    there on by the ratios of neighbours, which the recurrence downwards tells (Gautschi 1967)."""
+    """Yield J_0 … J_highest.
+
+    The upward recurrence is used for orders below the argument. Above, ratios of adjacent orders
+    follow from the downward recurrence (Gautschi 1967).
+    """
     last, now = j0(at), j1(at)
     yield last
     if highest:
@@ -149,7 +152,7 @@ def bessel_functions(highest: int, at: Array) -> Iterator[Array]:
 
 
 def blocks(kappa: Array, nodes: int, highest: int) -> Iterator[slice]:
-    """Of wavenumbers whose transforms fit into little memory."""
+    """Yield blocks of wavenumbers that limit the memory of the transforms."""
     points = WAVE_POINTS * nodes + (highest + 2) * nodes
     step = max(MAX_AT_ONCE // points, 1)
     for start in range(0, len(kappa), step):

@@ -1,13 +1,12 @@
-"""Pressure and shear of one increment under Coulomb's law at points (r, θ).
+"""Pressure and shear of one increment under Coulomb's law at points (r, θ), by semismooth Newton.
 
-The law holds in the mean over the hat of every node,
+The laws apply to means over the hat function of every node,
 
     p = max(p - g/d, 0),    q = P(q - Δs/d),
 
-with P the nearest vector no longer than µ max(p - g/d, 0); its zero is found by Newton's method,
-for one in which all that is projected is projected as it is now (Alart and Curnier 1991). Of its
-equations those remain that nobody can do without: no traction where there is a gap, and where a
-point slips along w, w·q = µp, so that q across w is left.
+with P the projection onto vectors not longer than µ max(p - g/d, 0) (Alart and Curnier 1991). Each
+Newton step has fixed active sets: open points have no traction, and points that slip along w
+satisfy w·q = µp and the linearised law across w.
 """
 
 from __future__ import annotations
@@ -35,12 +34,13 @@ from radial.tangential.ring_state import (
 )
 
 MAX_STEPS = 60
-SHORTEST = 2.0**-6  # of a step of Newton's method
-FURTHEST = 4.0  # that a load moves in a step, over what slips and what gives way to friction
-# Of the largest limit: a point nearer to its limit is at the onset of slip, or slipped before and
-# has come back to it, and counts as one that slips. Newton's method leaves a hundredth of it.
+SHORTEST = 2.0**-6  # least fraction of a step of Newton's method
+# largest change of rigid motion in a step, over the largest slip plus µ times the approach
+FURTHEST = 4.0
+# Difference to the limit over the largest limit, within which a point counts as slipping: it begins
+# to slip, or slipped before. The tolerance of Newton's method is 100 times smaller.
 TIE = 1e-9
-AT_ONCE = 12  # steps that are taken whole: what slips is found sooner than by shorter ones
+AT_ONCE = 12  # first steps without line search: full steps find the slip zone sooner
 
 
 def held(
@@ -51,12 +51,13 @@ def held(
     tolerance: float,
     smooth: Array | None = None,
 ) -> Held:
-    """The state under loads.
+    """Solve the state under loads.
 
-    before  the state from which surfaces slip; None: they have not touched
-    smooth  tractions and motion without friction, where they are known, to begin from then
-    raises  NotConverged; GrossSliding where friction carries no more than T, or than T and M as it
-            carries of the pressure without them; ContactAtZoneEdge at the last ring
+    before     state at the start of the increment; None before first contact
+    tolerance  of the residual relative to the largest pressure, limit and loads
+    smooth     tractions and motion without friction, as an initial guess; None if unknown
+    raises     NotConverged; GrossSliding if T reaches the friction limit, or if T and M exceed the
+               limit load of the contact without them; ContactAtZoneEdge at the last ring
     """
     drag, W = float(np.hypot(*_given(loads)[:2])), loads.forces[DOWN]
     most = None if W is None else friction.carried(W)
@@ -68,7 +69,7 @@ def held(
         for step in range(MAX_STEPS):
             if at.worst <= tolerance:
                 return _ended(laws, at, before, step)
-            # Where nothing carries the force steps grow without end, until a number is none.
+            # A singular iteration diverges to infinite numbers.
             with np.errstate(over="ignore", invalid="ignore"):
                 aim = aimed(laws, at)
                 if aim is None:
@@ -83,8 +84,10 @@ def held(
 def _starts(
     laws: Laws, before: Held | None, tolerance: float, smooth: Array | None
 ) -> Iterator[Array]:
-    """Tractions and motion to begin from: after those of the laws, where all of them slip on the
-    way and nothing tells how far a load moves them, those of a contact whose motion rests."""
+    """Yield initial guesses: those of `Laws.starts`, then a state with the previous rigid motion.
+
+    The last one helps if all points slip during the iteration, so that the motion is undetermined.
+    """
     if before is None:
         if smooth is not None:
             yield smooth
@@ -99,14 +102,14 @@ def _starts(
 
 
 def _given(loads: Loads) -> Array:
-    """T along and across, and M, that lead (3,); zero where motions do."""
+    """Return the prescribed T along and across, and M (3,); 0 for prescribed motions."""
     return np.array([force or 0.0 for force in loads.forces[:DOWN]])
 
 
 def _refuse_sliding(
     points: Points, friction: CoulombFriction, loads: Loads, before: Held | None, tolerance: float
 ) -> None:
-    """Raises GrossSliding where the pressure without T and M carries no such ones."""
+    """Raise GrossSliding if T and M exceed the limit load of the contact without them."""
     pressed = held(points, friction, loads.without_shear, before, tolerance)
     given = _given(loads)
     limit = friction.limit(np.maximum(pressed.pressure, 0.0))
@@ -119,18 +122,20 @@ def _refuse_sliding(
         raise _slides(drag, times * drag)
     if not drag:
         raise GrossSliding(
-            f"torque {torque:.6g} N m, but friction carries less than {times * torque:.6g} N m; "
-            "reduce it, or prescribe the twist"
+            f"torque {torque:.6g} N m, but friction carries less than {times * torque:.6g} N m. "
+            "Reduce it, or prescribe the twist"
         )
     raise GrossSliding(
-        f"friction carries {times:.4g} times T = {drag:g} N with a torque of {torque:g} N m: the "
-        "indenter slides and turns; reduce them, or prescribe shift and twist"
+        f"friction carries {times:.4g} times T = {drag:g} N with a torque of {torque:g} N m: "
+        "the indenter slides and rotates. Reduce them, or prescribe shift and twist"
     )
 
 
 def _within_reach(laws: Laws, at: At, aim: Array) -> Array:
-    """The aim, or as far on the way to it as what slips tells: where all does, a load leads further
-    the less of it is left, without end."""
+    """Shorten the step of rigid motions to the range in which the slip zone is representative.
+
+    If nearly all points slip, the step under a prescribed force grows without bound.
+    """
     points, inside = laws.points, at.z > 0
     led = np.array([force is not None for force in laws.loads.forces[:DOWN]])
     if not np.any(led) or not np.any(inside):
@@ -144,7 +149,7 @@ def _within_reach(laws: Laws, at: At, aim: Array) -> Array:
 
 
 def _nearer(laws: Laws, at: At, aim: Array, shortest: float) -> At:
-    """At the aim, or on the way to it, where less is left."""
+    """Halve the step until the residual decreases or the step is shortest."""
     moved = laws.points.compliance @ aim[:-4]
     size, length = np.linalg.norm(at.missed), 1.0
     tried = laws.at(aim, moved)
@@ -156,14 +161,17 @@ def _nearer(laws: Laws, at: At, aim: Array, shortest: float) -> At:
 
 def _slides(drag: float, carried: float) -> GrossSliding:
     return GrossSliding(
-        f"T = {drag:g} N is not below the friction limit {carried:g} N: the indenter slides"
+        f"T = {drag:g} N is not below the friction limit {carried:g} N: the indenter slides. "
+        "Reduce it, or prescribe the shift"
     )
 
 
 def _ended(laws: Laws, at: At, before: Held | None, steps: int) -> Held:
     points, size = laws.points, len(at.z)
     if np.any(at.limit.reshape(-1, points.count)[-1] > 0):
-        raise ContactAtZoneEdge("the contact reaches the last ring; lay rings further out")
+        raise ContactAtZoneEdge(
+            "the contact reaches the last ring; solve it with the semi-analytical solver"
+        )
     inside = at.z > 0
     length = np.hypot(*at.y)
     bears = at.limit > 0

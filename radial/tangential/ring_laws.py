@@ -1,4 +1,4 @@
-"""The laws of one increment at points as equations."""
+"""Contact and friction laws of one increment at points, as equations."""
 
 from __future__ import annotations
 
@@ -19,15 +19,19 @@ from radial.tangential.ring_state import (
     carried,
 )
 
-LEAST_FRICTION = 1e-4  # of which the limit is more than round-off of the pressure
-# Of loads that go on as in the last increment: what is round-off of them, how many times as far
-# they go at most (more than twice, so that round-off does not decide about twice), and how much of
-# it aside.
+# Least divisor of the error of shear: with less friction the limit is round-off of the pressure.
+LEAST_FRICTION = 1e-4
+# Predictor from the last increment: relative change that counts as round-off, largest ratio of
+# increments (above 2, so that round-off does not decide at 2), and largest relative deviation from
+# the direction of the last increment.
 REST, FURTHEST, ASIDE = 1e-6, 2.1, 0.5
 
 
 class At(NamedTuple):
-    """Tractions and motion x; what is left of the laws; and what is projected."""
+    """Iterate: tractions and motion x, residuals, trial tractions z and y, limit, displacements u.
+
+    worst  largest dimensionless residual
+    """
 
     x: Array
     missed: Array
@@ -40,9 +44,9 @@ class At(NamedTuple):
 
 @dataclass(frozen=True)
 class Laws:
-    """The laws of an increment as equations.
+    """Contact and friction laws of an increment as equations.
 
-    moved, motion  of the state before
+    moved, motion  displacements times areas and rigid motion at the start of the increment
     """
 
     points: Points
@@ -60,7 +64,8 @@ class Laws:
         return cls(points, friction, loads, before.moved, before.motion)
 
     def closed(self) -> Array:
-        """Tractions and motion so deep that what a load may press is closed."""
+        """Return an initial guess whose approach closes the gap wherever the load may cause
+        contact."""
         points, size, loads = self.points, len(self.points.areas), self.loads
         depth = points.bare / points.areas
         force, approach = loads.forces[DOWN], loads.motions[DOWN]
@@ -74,8 +79,10 @@ class Laws:
         return np.append(t, [0.0, 0.0, 0.0, np.max(open_by)])
 
     def starts(self, before: Held) -> list[Array]:
-        """Tractions and motion gone on from the state before as in its increment, where the loads
-        do so, and those of that state."""
+        """Return initial guesses: the extrapolated last increment, and the previous state.
+
+        The last increment is extrapolated only if the loads continue in its direction.
+        """
         leads = [force is not None for force in self.loads.forces]
         ends = zip(self.loads.forces, self.loads.motions, strict=True)
         led = np.array([motion if force is None else force for force, motion in ends], dtype=float)
@@ -97,7 +104,7 @@ class Laws:
         return [x + share * before.changed, x]
 
     def at(self, x: Array, u: Array) -> At:
-        """What is left of the laws.
+        """Evaluate the laws at x.
 
         u  displacements times areas by the tractions of x
         """
@@ -110,7 +117,7 @@ class Laws:
         y = (q - slipped / points.softness[: 2 * size]).reshape(2, -1)
         limit = self.friction.limit(np.maximum(z, 0.0))
         missed = np.concatenate([q - (_shortened(y, limit) * y).ravel(), p - np.maximum(z, 0.0)])
-        # Shear is to be as near to its limit as pressure to itself.
+        # The error of shear is relative to the limit, that of pressure relative to the pressure.
         beyond = np.max(np.abs(missed[: 2 * size])) / max(self.friction.largest, LEAST_FRICTION)
         peak = np.max(np.abs(p))
         worst = max(beyond, np.max(np.abs(missed[2 * size :]))) / peak if peak > 0 else np.inf
@@ -130,13 +137,13 @@ class Laws:
         return At(x, missed, z, y, limit, u, float(worst))
 
     def slipped(self, u: Array, motion: Array) -> Array:
-        """Δs of the increment times area (2 N,) [length³]."""
+        """Return Δs of the increment times area (2 N,) [length³]."""
         beside = motion[:DOWN] - self.motion[:DOWN]
         return u[: 2 * len(self.points.areas)] - self.moved - beside @ self.points.ways
 
 
 def _shortened(y: Array, limit: Array) -> Array:
-    """By what vectors (2, …) are multiplied to be no longer than the limit."""
+    """Return factors that shorten vectors (2, …) to the limit."""
     length = np.hypot(*y)
     longer = length > limit
     return np.where(longer, limit / np.where(longer, length, 1.0), 1.0)

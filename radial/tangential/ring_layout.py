@@ -1,4 +1,4 @@
-"""Rings for a contact whose edge stays about one radius, and the points on them."""
+"""Layout of rings for a contact with a nearly constant edge, and its points."""
 
 from __future__ import annotations
 
@@ -15,19 +15,20 @@ from radial.response.quadrature import unit_gauss
 from radial.tangential.ring_compliance import ring_compliance
 from radial.tangential.ring_points import Points
 
-GRADED = 4  # rings towards the edge from either side, each half as wide as the one before
-LEAST = 0.75  # of the width of a ring: even ones that are nearer to an edge give way
-GROWTH = 1.4  # of rings outside
-REACH, BY_FRICTION = 1.15, 0.5  # how far they reach, in radii: pushed contacts move with friction
-POINTS = 6  # Gauss's of an element
+GRADED = 4  # rings towards the edge on either side, each half as wide as the previous one
+LEAST = 0.75  # least distance of an even ring from an edge, in widths of a ring
+GROWTH = 1.4  # ratio of the widths of rings outside
+# Outermost radius over the contact radius, and its increase by friction, which shifts the edge.
+REACH, BY_FRICTION = 1.15, 0.5
+POINTS = 6  # Gauss points of an element
 
 
 def places(count: int, reach: float, edges: Sequence[float]) -> tuple[float, ...]:
-    """Nodes over the radius of the largest contact: even inside, dense about edges.
+    """Return nodes over the radius of the largest contact: even inside, dense at edges.
 
-    count  inside, apart from those about edges
-    reach  at least as far as they go
-    edges  of smaller contacts, over the largest
+    count  inside, apart from those at edges
+    reach  least radius of the last node
+    edges  radii of smaller contacts over the largest
     """
     near = 0.5 ** np.arange(1, GRADED + 1) / count
     outside = [1 / count]
@@ -35,10 +36,10 @@ def places(count: int, reach: float, edges: Sequence[float]) -> tuple[float, ...
         outside.append(GROWTH * outside[-1] + 1 / count)
     dense: list[float] = []
     for edge in (1.0, *edges):
-        # Near to one that is dense already nothing is gained.
+        # An edge within a dense region needs no further nodes.
         if all(abs(edge - other) > min(1 / count, edge, other) for other in dense):
             dense.append(edge)
-    # Within the first ring they are dense over the radius of the edge itself.
+    # Within the first ring the distances are relative to the radius of the edge itself.
     about = [edge + off * min(1.0, edge * count) for edge in dense for off in (*-near, 0.0, *near)]
     even = [*np.arange(1, count) / count, *(1 + np.array(outside))]
     kept = [x for x in even if all(abs(x - edge) > LEAST / count for edge in dense)]
@@ -56,12 +57,12 @@ def laid(
     friction: float,
     rig: Rig | None = None,
 ) -> Points:
-    """Points for contacts of these radii [length].
+    """Create points for contacts of these radii [length].
 
-    count    of rings inside the largest
-    highest  harmonic, and angles on a half circle
+    count     rings inside the largest contact
+    highest   harmonic, and number of angles of a half circle
     friction  µ
-    rig       springs that displace all points alike
+    rig       springs, which displace all points equally
     """
     edge = max(edges)
     over = places(count, REACH + BY_FRICTION * friction, [other / edge for other in edges])
@@ -73,7 +74,7 @@ def laid(
     r = radii[:-1, None] + length * v
 
     def integral(field: Array) -> Array:
-        """∫ φ field dr."""
+        """Return ∫ φ field dr."""
         part = field * length * weights
         return np.append(part @ (1 - v), 0.0) + np.append(0.0, part @ v)
 

@@ -1,9 +1,9 @@
-"""Where the laws of an increment at points would hold if they went on as they are: Newton's method.
+"""Newton step of the contact and friction laws of an increment at points.
 
-Unknown are the displacements that nothing holds, of points that slip and of open ones, and rigid
-motions; tractions follow from displacements, harmonic by harmonic (`Points.tractions`), in whose
-units small rings beside large ones are alike. All is told from the state here on, so that round-off
-goes with what is left of the way.
+Unknowns are the displacements of slipping and open points, and the rigid motions. Tractions follow
+from displacements harmonic by harmonic (`Points.tractions`), scaled so that small and large rings
+have entries of equal magnitude. All quantities are differences from the current iterate, so that
+round-off is proportional to the remaining step.
 """
 
 from __future__ import annotations
@@ -26,16 +26,16 @@ Numbers = NDArray[np.int64]
 
 
 class _Free(NamedTuple):
-    """Points that slip or are open.
+    """Slipping and open points.
 
-    points  their numbers (n,)
-    slips   which of them slip, others are open (n,)
-    c, s    cosine and sine of the way w of the shear, from outward (n, 1)
-    share   of its limit over what would be without one (n, 1)
-    slopes  of the limit, in units of the tractions (n, 1)
-    rests   limit less slope times pressure, likewise (n, 1)
+    points  indices (n,)
+    slips   true for slipping, false for open points (n,)
+    c, s    cosine and sine of the angle of the shear direction w from r (n, 1)
+    share   limit over the length of the trial shear (n, 1)
+    slopes  of the limit, scaled as the tractions (n, 1)
+    rests   limit minus slope times pressure, scaled likewise (n, 1)
 
-    Share, slopes and rests are zero of open points.
+    Share, slopes and rests of open points are zero.
     """
 
     points: Numbers
@@ -47,8 +47,8 @@ class _Free(NamedTuple):
     rests: Array
 
     def displacements(self, m: int) -> Numbers:
-        """Numbers of those that nothing holds, of m points: outward and around the axis of all,
-        down of the open ones."""
+        """Return the indices of the free displacements among 3 m: r and θ of all, z of open
+        points."""
         apart = self.points[~self.slips]
         return np.concatenate([self.points, m + self.points, 2 * m + apart])
 
@@ -70,11 +70,15 @@ def _free(at: At, m: int, friction: CoulombFriction, units: Array) -> _Free:
 
 
 def aimed(laws: Laws, at: At) -> Array | None:
-    """Tractions and motion where the laws would hold; None where nowhere."""
+    """Return tractions and motion after one step.
+
+    Return None if the system is singular, or if the normal force is prescribed and all points are
+    open.
+    """
     points, size = laws.points, len(at.z)
     if laws.loads.forces[DOWN] is not None and not np.any(at.z > 0):
         return None
-    # No ring further out carries anything.
+    # Rings outside the last closed one carry no traction.
     rings = int(np.max(np.flatnonzero(at.z > 0), initial=0)) // points.count + 1
     K, m = points.tractions(rings), rings * points.count
     units = np.sqrt(points.of_rings(points.softness, rings))
@@ -84,8 +88,8 @@ def aimed(laws: Laws, at: At) -> Array | None:
     led = _led(laws, at, rings, t) / units[:, None]
     missed = led[own, 4]
     led[own, 4] = 0.0
-    # What motions carry, and what is carried already: of every displacement, and on the way of
-    # the motions themselves.
+    # Forces of the rigid motions, and of the current tractions, at every displacement and in the
+    # directions of the motions.
     carried = K @ led
     by_motion = led.T @ carried
     carried[:, 4] += t * units
@@ -105,8 +109,8 @@ def aimed(laws: Laws, at: At) -> Array | None:
 
 
 def _led(laws: Laws, at: At, rings: int, t: Array) -> Array:
-    """Displacements times areas that every motion leads, and those that tractions t here miss
-    (3 m, 5)."""
+    """Return displacements times areas by unit rigid motions, and the misfit of tractions t (3 m,
+    5)."""
     points, m = laws.points, rings * laws.points.count
     whole = np.zeros((3, len(at.z)))
     whole[:, :m] = t.reshape(3, m)
@@ -123,11 +127,12 @@ def _led(laws: Laws, at: At, rings: int, t: Array) -> Array:
 def _whole(
     laws: Laws, at: At, free: _Free, K: Array, carried: Array, missed: Array
 ) -> tuple[Array, Array]:
-    """Laws of what is free, as rows of the unknowns and what is left of them: the limit along w,
-    across it what the law leaves, nothing of what is open.
+    """Return the laws of free points as a matrix of the unknowns, and their residuals.
 
-    carried  by motions, and here
-    missed   by the displacements that are free
+    Slipping points have the limit along w and the law across w. Open points have zero pressure.
+
+    carried  tractions by unit rigid motions, and at the iterate
+    missed   misfit of the free displacements
     """
     n, m = len(free.points), len(K) // 3
     c, s, share = free.c, free.s, free.share
@@ -135,7 +140,7 @@ def _whole(
     every = np.concatenate([own[: 2 * n], 2 * m + free.points])
     across = np.arange(n, 2 * n)
     found = []
-    # K is symmetric: its rows are near to each other.
+    # K is symmetric: its rows are contiguous.
     for by in (K.take(every, axis=0).take(own, axis=1), carried[every]):
         outward, around, down = by[:n], by[n : 2 * n], by[2 * n :]
         found.append(np.concatenate([
@@ -152,11 +157,11 @@ def _whole(
 
 
 def _loads(laws: Laws, at: At, carried: Array, by_motion: Array) -> Array:
-    """Loads and motions that are prescribed, as rows of the unknowns and what is left of them."""
+    """Return prescribed loads and motions as rows of the unknowns, with their residuals."""
     rows = np.concatenate([carried, by_motion]).T[:4]
     ends = zip(laws.loads.forces, laws.loads.motions, strict=True)
     for i, (force, motion) in enumerate(ends):
-        # Of what a load leads the row is its equilibrium, else its motion.
+        # A prescribed force gives an equilibrium row, a prescribed motion its value.
         if force is None:
             rows[i], rows[i, i - 5], rows[i, -1] = 0.0, -1.0, motion
             rows[i, -1] -= at.x[i - 4]
@@ -166,13 +171,13 @@ def _loads(laws: Laws, at: At, carried: Array, by_motion: Array) -> Array:
 
 
 def _solved(laws: tuple[Array, Array], loads: Array) -> Array | None:
-    """The unknowns; None where nothing solves for them."""
+    """Return the unknowns; None if the system is singular."""
     rows, left = laws
     n = len(rows)
     whole = np.empty((n + 4, n + 4))
     whole[:n, :n], whole[:n, n:], whole[n:] = rows, left[:, :4], loads[:, :-1]
     right = np.append(left[:, 4], loads[:, -1])
-    # Column by column it is the transpose.
+    # LAPACK expects columns, so it factorises the transpose.
     LU, places, failed = lapack.dgetrf(whole.T, overwrite_a=True)
     if failed:
         return None

@@ -1,4 +1,4 @@
-"""Points where nodes of rings meet angles, and what tractions at them move."""
+"""Points of a contact: nodes of rings times angles, and their compliance."""
 
 from __future__ import annotations
 
@@ -13,28 +13,29 @@ from contact_scene.array_types import Array
 from radial.angular_grid import Circle
 from radial.tangential.stick_border import stick_area
 
-FINER = 16  # places per element, where a front is looked for
-# Nodes that tell an edge: so far from the last one with pressure, over its radius, and how many.
+FINER = 16  # subdivisions of an element, to find a front
+# Nodes for the fit of an edge: largest distance from the last node with pressure over its radius,
+# and least number.
 BESIDE_EDGE, FITTED = 0.15, 4
-FEWEST = 2  # rings of a contact whose edge they tell
-# Inverses that are kept, for contacts whose last ring comes and goes: so many, and as long as there
-# is room [byte]; of ways that angles lack.
+FEWEST = 2  # rings within a contact that resolve its edge
+# Cache of inverses for contacts with a changing number of rings: least number and size [byte].
+# Relative norm below which the angles cannot represent a component of a harmonic.
 INVERSES, ROOM, ROUND_OFF = 3, 1 << 23, 1e-12
 
 
 @dataclass(frozen=True, eq=False)
 class Points:
-    """Nodes of rings times angles, and what tractions at them do.
+    """Nodes of rings times angles, and the compliance of both bodies at these points.
 
     radii     of the nodes (n,) [length]
-    energies  of `ring_compliance` up to harmonic J, of the bodies (J + 1, 3, 3, n, n)
+    energies  Galerkin matrices of `ring_compliance` up to harmonic J (J + 1, 3, 3, n, n)
     weights   ∫ φ r dr (n,) [length²]
     arms      ∫ φ r² dr (n,) [length³]
-    gap       ∫ φ f r dr at first touch (n,) [length³]
-    circle    what of it the angles cover
+    gap       ∫ φ f r dr at first contact (n,) [length³]
+    circle    angles of a ring
 
-    Fields of points are (n count,), angle by angle within a node; vectors (3 n count,), r, θ, z
-    outermost.
+    Fields of points have the shape (n count,), with the angle as the fast index. Vectors have the
+    shape (3 n count,), with the components r, θ, z as the slow index.
     """
 
     radii: Array
@@ -46,7 +47,7 @@ class Points:
 
     @property
     def count(self) -> int:
-        """Of angles."""
+        """Number of angles of a ring."""
         return len(self.angles)
 
     @property
@@ -56,22 +57,22 @@ class Points:
 
     @cached_property
     def angles(self) -> Array:
-        """Of the points on a ring."""
+        """Angles of the points on a ring."""
         return self.circle.angles(self.highest)
 
     @cached_property
     def areas(self) -> Array:
-        """Of every point, with those that it stands for."""
+        """Area of every point, including its symmetric counterparts."""
         return self._at_points(self.weights)
 
     @cached_property
     def bare(self) -> Array:
-        """f times the area of a point."""
+        """f times the area of every point."""
         return self._at_points(self.gap)
 
     @cached_property
     def levers(self) -> Array:
-        """r times the area of a point."""
+        """r times the area of every point."""
         return self._at_points(self.arms)
 
     def _at_points(self, of_nodes: Array) -> Array:
@@ -79,8 +80,11 @@ class Points:
 
     @cached_property
     def ways(self) -> Array:
-        """Areas times what rigid motions move, in r and θ (3, 2 n count): along θ = 0, across it,
-        and by a turn about the axis; zero where symmetry has none."""
+        """Areas times the displacement (r, θ) by unit rigid motions (3, 2 n count).
+
+        The motions are a shift along θ = 0, a shift across, and a twist. Rows excluded by symmetry
+        are 0.
+        """
         nodes, nothing = len(self.weights), np.zeros_like(self.areas)
         cos, sin = np.tile(np.cos(self.angles), nodes), np.tile(np.sin(self.angles), nodes)
         found = np.zeros((3, 2 * len(nothing)))
@@ -94,31 +98,36 @@ class Points:
 
     @cached_property
     def compliance(self) -> Array:
-        """Displacements times areas by tractions (3 n count,) * 2 [length^5/force]."""
+        """Matrix from tractions to displacements times areas (3 n count,) * 2 [length^5/force]."""
         return self._over_harmonics(self._ways, self._energies_of_ways)
 
     @cached_property
     def softness(self) -> Array:
-        """Of every traction what it moves where it acts (3 n count,) [length^5/force]; of those
-        along the surface, which turn into each other, the mean."""
+        """Diagonal of the compliance (3 n count,) [length^5/force].
+
+        Both components of shear have their mean, which does not depend on the direction.
+        """
         outward, around, down = np.diagonal(self.compliance).reshape(3, -1)
         beside = (outward + around) / 2
         return np.concatenate([beside, beside, down])
 
     def of_rings(self, field: Array, rings: int) -> Array:
-        """Of a vector (3 n count,) what it is on a number of rings about the axis."""
+        """Restrict a vector (3 n count,) to the innermost rings."""
         return np.ascontiguousarray(field.reshape(3, -1)[:, : rings * self.count]).ravel()
 
     @cached_property
     def tractions(self) -> Callable[[int], Array]:
-        """Of a number of rings about the axis, tractions at their points by displacements times
-        areas (3 rings count,) * 2 where no other point carries any, in units in which `softness` is
-        1 [1]."""
+        """Function of a number of rings that returns the inverse of the compliance on the innermost
+        rings.
+
+        The inverse (3 rings count,) * 2 maps displacements times areas to tractions, if no other
+        ring carries any. It is scaled by √`softness` on both sides [1].
+        """
         kept = max(INVERSES, ROOM // self.compliance.nbytes)
         return lru_cache(maxsize=kept)(self._tractions)
 
     def _tractions(self, rings: int) -> Array:
-        """Harmonics do not know of each other: each is inverted alone."""
+        """Invert the compliance harmonic by harmonic. Harmonics are not coupled."""
         back = np.zeros_like(self._ways)
         norms = np.sum(self._ways**2, axis=2)
         has = norms > ROUND_OFF * np.max(norms)
@@ -140,12 +149,12 @@ class Points:
 
     @cached_property
     def _ways(self) -> Array:
-        """Harmonics by values at the angles (3, ways, count): one family after the other."""
+        """Matrices from values at the angles to harmonics (3, families × (J + 1), count)."""
         return np.concatenate(self.circle.families(self.highest), axis=1)
 
     @cached_property
     def _energies_of_ways(self) -> Array:
-        """Energies of `_ways`, with their norms (ways, 3, 3, n, n)."""
+        """Energies of the harmonics of `_ways`, times their norms (…, 3, 3, n, n)."""
         norms = np.full(len(self.energies), np.pi)
         norms[[0, -1]] = 2 * np.pi
         families = self._ways.shape[1] // len(norms)
@@ -153,7 +162,7 @@ class Points:
 
     @staticmethod
     def _over_harmonics(ways: Array, of_ways: Array) -> Array:
-        """Of points, what is known of every harmonic."""
+        """Assemble a matrix between points from the matrices of all harmonics."""
         (_, count, angles), nodes = ways.shape, of_ways.shape[-1]
         whole = np.empty((3, nodes, angles, 3, nodes, angles))
         for a, b in np.ndindex(3, 3):
@@ -164,21 +173,27 @@ class Points:
 
     @cached_property
     def round(self) -> Points:
-        """The same nodes, for what is the same all around."""
+        """Points with the same nodes and one angle, for axisymmetric fields."""
         return replace(self, energies=self.energies[:1], circle=Circle.ONE)
 
     def every_angle(self, field: Array) -> Array:
-        """Of the points, from one (…, n) of `round`; what is times the area still is so."""
+        """Repeat a field (…, n) of `round` at all angles.
+
+        Divide quantities that are multiplied by the area of a point by the number of angles
+        afterwards.
+        """
         return np.repeat(field, self.count, axis=-1)
 
     def tells(self, pressure: Array) -> bool:
-        """Whether the contact is so many rings large that they tell its edge and what sticks."""
+        """Return true if the contact has enough rings to resolve its edge and stick zone."""
         return bool(np.any(pressure[FEWEST * self.count :] > 0))
 
     def contact_area(self, pressure: Array) -> float:
-        """Within the edge at which p² would end [length²]: linear in r² between the last two nodes,
-        which stand close where the contact is the same all around; one that is pushed has its edge
-        elsewhere, and the parabola in r² that is nearest to all nodes next to it tells where."""
+        """Return the contact area within the edge, where p² extrapolates to zero [length²].
+
+        An axisymmetric contact has dense nodes at its edge: p² is linear in r² through the last two
+        nodes. Otherwise p² is a parabola in r², fitted to the nodes near the edge of every ray.
+        """
         p, r = pressure.reshape(-1, self.count), self.radii
         area = 0.0
         for ray in p.T:
@@ -198,8 +213,10 @@ class Points:
         return area / self.count
 
     def _fitted_edge(self, ray: Array, last: int) -> float:
-        """r² of the edge on a ray whose last node with pressure is given; that node where too few
-        have any, or where the pressure does not fall to zero near it [length²]."""
+        """Return r² of the edge on a ray with its last node with pressure [length²].
+
+        Return r² of this node if too few nodes have pressure, or if the fit has no zero near it.
+        """
         r = self.radii
         first = min(int(np.searchsorted(r, (1 - BESIDE_EDGE) * r[last])), last + 1 - FITTED)
         if first < 0:
@@ -213,10 +230,12 @@ class Points:
         return float(np.min(beyond) if len(beyond) else r[last] ** 2)
 
     def stick_area(self, share: Array, shear: Array, bound: Array) -> float:
-        """Where nothing slips [length²]: no count of points. What is the same all around ends where
-        the share of the limit, linear in r, is 1; of what is pushed see `stick_border`.
+        """Return the area of the stick zone, resolved below the distance of points [length²].
 
-        share  of the limit, as `Held` has it
+        The stick zone of an axisymmetric contact ends where the share of the limit, linear in r, is
+        1. See `stick_border` for other contacts.
+
+        share  |q - Δs/d| over the limit, see `Held`
         shear  q_r and q_θ (2, n count)
         bound  µp
         """
@@ -236,24 +255,25 @@ class Points:
         return stick_area(self.radii, q, p, sticks)
 
     def shown(self, field: Array, sense: float) -> Array:
-        """A field at the angles of `shown_angles` (n, angles), by a spline in θ.
+        """Interpolate a field to `shown_angles` by a periodic spline in θ (n, angles).
 
-        sense  1 for what a mirror image has alike, -1 for what it has opposite
+        sense  1 for a field that is even about θ = 0, -1 for an odd one
         """
         return self._around(field.reshape(-1, self.count), sense, self.shown_angles)
 
     @property
     def shown_angles(self) -> Array:
-        """With the line along the load."""
+        """Output angles; they include the direction of the load."""
         return self.circle.shown(self.highest)
 
     def _around(self, field: Array, sense: float, angles: Array) -> Array:
-        """A field (n, count) at other angles."""
+        """Interpolate a field (n, count) to other angles."""
         return field @ self._spline(sense, tuple(angles))
 
     @cached_property
     def _spline(self) -> Callable[[float, tuple[float, ...]], Array]:
-        """What values at other angles take of those at `angles` (count, …)."""
+        """Function that returns the interpolation matrix from `angles` to other angles (count,
+        …)."""
 
         @lru_cache
         def weights(sense: float, others: tuple[float, ...]) -> Array:

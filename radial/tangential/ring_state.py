@@ -1,4 +1,4 @@
-"""The loads of an increment of a contact at points, and the state at its end."""
+"""Loads of an increment of a contact at points, and the state at its end."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ import numpy as np
 from contact_scene.array_types import Array
 from radial.tangential.ring_points import Points
 
-# Of rigid motions and what does work on them: T along and across, M about the axis, W.
+# Rigid motions and the loads that work on them: T along and across, M about the axis, W.
 ALONG, ACROSS, ABOUT, DOWN = range(4)
 Led = tuple[float | None, ...]
 
 
 @dataclass(frozen=True)
 class Loads:
-    """What an increment ends with, of every pair the one that is prescribed, the other None.
+    """Prescribed loads and motions at the end of an increment. One of each pair is None.
 
     forces   T along θ = 0 and across it, M about the axis, W [force, force length]
     motions  in the same order: shifts, twist, approach [length, radian]
@@ -27,12 +27,12 @@ class Loads:
 
     @property
     def without_shear(self) -> Loads:
-        """The same with what led T and M at zero."""
+        """Loads with prescribed T and M replaced by zero."""
         beside = (None if force is None else 0.0 for force in self.forces[:DOWN])
         return Loads((*beside, self.forces[DOWN]), self.motions)
 
     def resting(self, motion: Array) -> Loads:
-        """The same with what T and M lead at rest where it was."""
+        """Return loads with prescribed T and M replaced by the motion given."""
         led = zip(self.forces[:DOWN], self.motions[:DOWN], motion, strict=False)
         beside = (float(was) if force is not None else now for force, now, was in led)
         return Loads((*(None,) * DOWN, self.forces[DOWN]), (*beside, self.motions[DOWN]))
@@ -40,16 +40,16 @@ class Loads:
 
 @dataclass(frozen=True)
 class Held:
-    """The state at the end of an increment. N points.
+    """State at the end of an increment. N points.
 
     tractions  q_r, q_θ, p (3 N,) [force/length²]
     moved      u_r, u_θ times area (2 N,) [length³]
     slipped    Δs of the increment times area (2 N,) [length³]
     motion     shifts along and across, twist, approach (4,) [length, radian]
-    changed    by the increment, tractions and motion (3 N + 4,)
-    share      of the limit: |q - Δs/d| over it, ≤ 1 where a point sticks, infinite out of contact
+    changed    change of tractions and motion in the increment (3 N + 4,)
+    share      |q - Δs/d| over the limit: ≤ 1 at sticking points, infinite outside of contact
     energy     ½ ∫ (p u_z + q·u) dA [force length]
-    missed     of the laws, over the largest pressure, limit and load
+    missed     residual of the laws over the largest pressure, limit and load
     steps      of Newton's method
     """
 
@@ -65,25 +65,25 @@ class Held:
 
     @property
     def pressure(self) -> Array:
-        """p (N,)."""
+        """p (N,) [force/length²]."""
         return self.tractions[2 * len(self.share) :]
 
     @property
     def shear(self) -> Array:
-        """q_r and q_θ (2, N)."""
+        """q_r and q_θ (2, N) [force/length²]."""
         return self.tractions[: 2 * len(self.share)].reshape(2, -1)
 
     @property
     def approach(self) -> float:
-        """[length]."""
+        """Approach [length]."""
         return float(self.motion[DOWN])
 
     def forces(self, points: Points) -> Array:
-        """T along and across, M and W that the tractions carry (4,)."""
+        """Return T along and across, M and W of the tractions (4,)."""
         return carried(points, self.tractions)
 
     def every_angle(self, points: Points) -> Held:
-        """The same at points, of a state that is the same all around."""
+        """Extend an axisymmetric state to all angles of points."""
 
         def parts(field: Array, count: int) -> Array:
             return points.every_angle(field.reshape(count, -1)).ravel()
@@ -99,6 +99,6 @@ class Held:
 
 
 def carried(points: Points, tractions: Array) -> Array:
-    """T along and across, M and W (4,)."""
+    """Return T along and across, M and W of tractions (4,)."""
     q, p = np.split(tractions, [2 * len(points.areas)])
     return np.append(points.ways @ q, points.areas @ p)

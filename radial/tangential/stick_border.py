@@ -1,11 +1,11 @@
-"""Area of the stick zone of a contact that is pushed, from its border between the points.
+"""Area of the stick zone of a contact with tangential load, with its border between the points.
 
-What is missing from full slip, d = µp - q·n with n the way that slip beyond takes, vanishes at the
-border. Where slip spreads it goes with the root of the distance (Cattaneo 1938), where stick
-spreads with its power of 3/2. On points the values beside the border are decided by where between
-them it lies: how, follows from plane contact of a parabola on the same hats (Johnson 1985, section
-4.2) and of a wave on the same harmonics (Westergaard 1939). So the border is known where it crosses
-rings and rays, and straight between.
+The distance from full slip, d = µp - q·n with n the direction of slip outside, is zero at the
+border. It is proportional to the root of the distance where slip spreads (Cattaneo 1938), and to
+its power of 3/2 where stick spreads. The ratio of d at the last points determines the position of
+the border between two points: from plane contact of a parabola with the same hats (Johnson 1985,
+section 4.2), and of a wave with the same harmonics (Westergaard 1939). The border is interpolated
+on rings and rays, and is straight between them.
 """
 
 from __future__ import annotations
@@ -15,24 +15,25 @@ from numpy.typing import NDArray
 
 from contact_scene.array_types import Array, Mask
 
-# Distance of the border beyond the last point that sticks, in distances of points, by powers of the
-# ratio of the last two values: on hats within 2e-5, on points of harmonics within 1.3e-3.
+# Distance of the border from the last sticking point over the distance of points, as a polynomial
+# in the ratio of the last two values. Errors: 2e-5 for hats, 1.3e-3 for harmonics.
 ON_HATS = (0.02807, 1.00215, 0.12215, 0.01960)
 ON_HARMONICS = (-0.1913, 1.0209, 0.3219, 0.3288)
-# Power 3/2 is told from 1/2 by the two values before: at most .54 of one another against at least
-# .7. The last value has reached this part of the one before when the border reaches the next point.
+# The previous two values distinguish the powers: their ratio is at most 0.54 for 3/2 and at least
+# 0.7 for 1/2. For 3/2, the ratio of the last two values is AT_NEXT if the border is at the next
+# point.
 GAINING, AT_NEXT = 0.66, 0.3
-DEEP = 3  # see `_borders`: around
-UNTOLD = 0.5  # where it lies between points that do not
+DEEP = 3  # see `deep` of `_borders`
+UNTOLD = 0.5  # position between points without sufficient data
 
 
 def stick_area(radii: Array, shear: Array, bound: Array, sticks: Mask) -> float:
-    """Area that sticks [length²].
+    """Compute the area of the stick zone [length²].
 
     radii   of the rings, from the axis (n,) [length]
-    shear   q_r and q_θ at angles that go evenly all around (2, n, J)
-    bound   µp (n, J), zero out of contact
-    sticks  which points do (n, J)
+    shear   q_r and q_θ at equidistant angles of the full circle (2, n, J)
+    bound   µp (n, J), zero outside of contact
+    sticks  true for sticking points (n, J)
     """
     turn = sticks.shape[1]
     angles = 2 * np.pi * np.arange(turn) / turn
@@ -44,7 +45,7 @@ def stick_area(radii: Array, shear: Array, bound: Array, sticks: Mask) -> float:
     along_rings = along_rings[turn : 2 * turn].T
     inner, outer = radii[:-1, None], radii[1:, None]
     across = along_rays * (outer - inner)
-    # In r² areas are those of a plane.
+    # Shares are linear in r², so that they are shares of area.
     along_rays = across * (2 * inner + across) / ((outer - inner) * (outer + inner))
     areas = np.pi / turn * (outer - inner) * (outer + inner)
     return float(np.sum(areas * _shares(sticks, along_rays, along_rings)))
@@ -59,14 +60,17 @@ def _borders(
     places: Array,
     deep: int,
 ) -> Array:
-    """Where between a point and the next along the first axis the border lies, from 0 to 1
-    (n - 1, …); of no meaning where both stick or neither does.
+    """Return the position of the border between adjacent points of the first axis, 0 to 1 (n - 1,
+    …).
+
+    It has no meaning where both points stick or both do not.
 
     ways    angles of the shear
     size    of the shear
+    table   polynomial of the distance
     places  of the points along the axis (n,)
-    deep    so many points before the last have to stick, too, where powers are told: a zone has a
-            mirror image, and in a narrow one what is missing falls again to its other side
+    deep    number of further sticking points required to distinguish the powers. In a narrow zone d
+            decreases towards its other side
     """
     found = np.full((len(bound) - 1, *bound.shape[1:]), UNTOLD)
     slips = (bound > 0) & ~sticks
@@ -94,7 +98,7 @@ def _missing(
     j: NDArray[np.intp],
     way: Array,
 ) -> Array:
-    """d of points (near, j) along angles; no number where nothing sticks there."""
+    """Return d of points (near, j) along angles, NaN where no point sticks."""
     known = (near >= 0) & (near < len(bound))
     near = np.clip(near, 0, len(bound) - 1)
     d = bound[near, j] - size[near, j] * np.cos(ways[near, j] - way)
@@ -104,12 +108,13 @@ def _missing(
 def _off(
     last: Array, before: Array, further: Array, deep: Mask, even: Array, table: tuple[float, ...]
 ) -> Array:
-    """How far beyond the last of three points the border is, over the distance to the next.
+    """Return the distance of the border from the last sticking point over that of the next point.
 
-    deep  whether powers can be told
-    even  that distance over the one to the point before
+    last, before, further  d of the last three sticking points
+    deep                   true where the powers can be distinguished
+    even                   distance to the next point over that to the previous point
     """
-    # As far from the last as the next one is; roots have squares that are linear.
+    # Values at equal distances: squares of roots are linear.
     before = np.sqrt(last**2 + np.maximum(before**2 - last**2, 0.0) * even)
     with np.errstate(invalid="ignore"):
         ratio = np.minimum(last / before, 1.0)
@@ -120,7 +125,7 @@ def _off(
 
 
 def _evenness(places: Array, at: NDArray[np.intp], step: int) -> Array:
-    """Distance from points to those next to them over that to those before; 1 at an end."""
+    """Return the distance to the next point over that to the previous one; 1 at an end."""
     before = at - step
     known = (before >= 0) & (before < len(places))
     behind = np.where(known, places[at] - places[np.clip(before, 0, len(places) - 1)], 1.0)
@@ -130,8 +135,10 @@ def _evenness(places: Array, at: NDArray[np.intp], step: int) -> Array:
 def _way(
     ways: Array, slips: Mask, at: NDArray[np.intp], step: int, j: NDArray[np.intp]
 ) -> tuple[Array, Array]:
-    """Angle of the shear of the points beyond borders, and by how much it goes on turning from
-    point to point; that of the last that sticks where what is beyond does not slip."""
+    """Return the angle of the shear of points beyond borders, and its change per point.
+
+    If the point beyond does not slip, return the angle of the last sticking point.
+    """
     one, two = at + step, at + 2 * step
     within = (two >= 0) & (two < len(slips))
     two = np.clip(two, 0, len(slips) - 1)
@@ -142,8 +149,10 @@ def _way(
 
 
 def _shares(sticks: Mask, along_rays: Array, along_rings: Array) -> Array:
-    """Parts of the cells between rings and rays that stick (n - 1, J): polygons between the corners
-    that do and the border on the sides."""
+    """Return the sticking fractions of the cells between rings and rays (n - 1, J).
+
+    They are polygons of the sticking corners and the border on the sides.
+    """
     low, high = along_rays, np.roll(along_rays, -1, axis=1)
     left, right = along_rings[:-1], along_rings[1:]
     near, far = sticks[:-1], sticks[1:]
@@ -153,7 +162,7 @@ def _shares(sticks: Mask, along_rays: Array, along_rings: Array) -> Array:
     some = np.sum(np.where(held, cut, 0.0), axis=0)
     but_some = 1 - np.sum(np.where(held, 0.0, cut), axis=0)
     across, along = (left + right) / 2, (low + high) / 2
-    # Two that are opposite are apart.
+    # Two opposite corners are two separate zones.
     two = np.select(
         [held[0] & held[1], held[2] & held[3], held[0] & held[2], held[1] & held[3]],
         [across, 1 - across, along, 1 - along],

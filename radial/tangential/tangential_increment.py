@@ -1,4 +1,4 @@
-"""What an increment of a contact at points leaves: slip, the stick area, energies, residuals."""
+"""Slip, stick area, energies and residuals of an increment of a contact at points."""
 
 from __future__ import annotations
 
@@ -32,22 +32,22 @@ REST = 1e-11  # of the approach: less slip is round-off
 
 @dataclass(frozen=True)
 class Pushed:
-    """A contact at the end of an increment. Forces and motions in the order of `Loads`.
+    """Contact at the end of an increment. Forces and motions have the order of `Loads`.
 
-    held    tractions and motion
-    circle  what of it tells all
-    asked   loads as they were prescribed
-    radius  of the circle of the contact area; of a contact of so few rings that they do not tell
-            it, that without friction [length]
-    begun   the same at the start of the increment [length]
-    through  of the circle of what sticks through the increment; None where rings do not tell it
-             [length]
-    stuck   of the circle of the stick area at its end; None where rings do not tell it [length]
-    slip    since particles touched (2, points) [length]
-    carried  forces that the tractions carry
-    worked  work of the loads since the start of the history [force length]
-    lost    energy dissipated since the start of the history [force length]
-    uncertain  by how much finite increments leave that uncertain [force length]
+    held       tractions and motion
+    circle     angles of a ring
+    asked      prescribed loads
+    radius     of the circle of equal contact area; without friction if the rings do not resolve the
+               contact [length]
+    begun      contact radius at the start of the increment [length]
+    through    radius of the circle of the area that sticks in the increment; None if unresolved
+               [length]
+    stuck      radius of the circle of the stick area at the end; None if unresolved [length]
+    slip       since first contact of the particles (2, points) [length]
+    carried    loads of the tractions
+    worked     work of the loads since the start of the history [force length]
+    lost       energy dissipated since the start of the history [force length]
+    uncertain  uncertainty of `lost` by finite increments [force length]
     """
 
     held: Held
@@ -65,17 +65,17 @@ class Pushed:
 
     @property
     def forces(self) -> tuple[float, ...]:
-        """As they were asked for, or came out [force, force length]."""
+        """Prescribed or computed loads [force, force length]."""
         return _either(self.asked.forces, self.carried)
 
     @property
     def motions(self) -> tuple[float, ...]:
-        """As they were asked for, or came out [length, radian]."""
+        """Prescribed or computed motions [length, radian]."""
         return _either(self.asked.motions, self.held.motion)
 
     @property
     def status(self) -> ContactStatus:
-        """Whether all, some or nothing sticks; where rings do not tell it, none says nothing."""
+        """Full stick, partial slip or gross slip. An unresolved contact without sticking points has partial slip."""
         share = self.held.share[np.isfinite(self.held.share)]
         if np.all(share <= 1):
             return ContactStatus.FULL_STICK
@@ -95,11 +95,11 @@ def pushed(
     points: Points, friction: CoulombFriction, end: Held, last: Held | None, slip: Array,
     asked: Loads, before: Pushed | None, smooth: float | None,
 ) -> Pushed:  # fmt: skip
-    """What an increment leaves.
+    """Compute slip, stick area and energies of an increment.
 
     last, slip  tractions and motion at its start, and slip until then, at the points
-    before      the contact at its start
-    smooth      radius without friction, where rings do not tell that of the contact [length]
+    before      contact at its start
+    smooth      radius without friction if the rings do not resolve the contact, else None [length]
     """
     areas, nothing = points.areas, np.zeros(len(points.areas))
     radius = sqrt(points.contact_area(end.pressure) / pi) if smooth is None else smooth
@@ -129,7 +129,7 @@ def pushed(
 
 
 def residuals_of(points: Points, friction: CoulombFriction, state: Pushed) -> Residuals:
-    """What a contact misses."""
+    """Compute the residuals of a contact."""
     end, asked = state.held, state.asked.forces
     W, force = float(state.carried[DOWN]), asked[DOWN]
     limit = friction.limit(end.pressure)

@@ -1,4 +1,5 @@
-"""Contact and friction at points as the march sees them: pressed, pushed and twisted."""
+"""Load stepping of a contact at points (rings × angles) with normal load, tangential load and
+torsion."""
 
 from __future__ import annotations
 
@@ -50,21 +51,23 @@ from radial.tangential.tangential_increment import (
 
 Pair = tuple[float, float]
 
-SETTLING, SETTLED = 8, 2  # increments, and layouts, after which the radius of the contact is known
-NARROW = 2.0  # rings: so far apart are those that tell an edge
-PROJECTIONS = 30  # of reported shear; its force then differs by 2e-6 of the friction limit
-EXACT = 0.1  # of the tolerance: what Newton's method is to reach
+# increments per load step, and layouts of rings, to find the contact radii
+SETTLING, SETTLED = 8, 2
+NARROW = 2.0  # rings: smaller contacts get dense rings of their edge
+# of output shear onto its limit; they change its force by 2e-6 of the friction limit
+PROJECTIONS = 30
+EXACT = 0.1  # residual of Newton's method over the tolerance
 NOTHING = (0.0, 0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
 class Pushing:
-    """See `contact_scene.stepping.load_stepping.Solver`.
+    """Solver of the increments of a contact at points.
 
-    direction  along which angles are 0, unit vector
-    twists     whether torque and twist are told
+    direction  unit vector of the angle 0
+    twists     true if torque and twist are output
     points     laid out for the largest contact of the history
-    taken      steps of Newton's method, solve by solve
+    taken      steps of Newton's method of every solve
     """
 
     scene: Scene
@@ -84,9 +87,9 @@ class Pushing:
         plan: Plan,
         around: float = 1.0,
     ) -> Pushing:
-        """That of a scene.
+        """Return the solver of a scene, with its points laid out.
 
-        around  how many times as many angles as the plan has
+        around  multiple of the number of angles
         """
         assert scene.friction is not None
         assert plan.circle is not None
@@ -95,11 +98,11 @@ class Pushing:
         both = Coupling.of(scene)
 
         def smooth(led: Target) -> float:
-            """The radius without friction."""
+            """Return the contact radius without friction."""
             return pressed(both.bodies, scene.indenter, led).contact.radius
 
         largest = max(map(smooth, largest_targets(scene)))
-        # Contacts within the first ring would have no radius at all.
+        # Contacts within the first ring would not be resolved.
         ends = {smooth(led) for led in set(targets(scene))}
         edges = [largest, *(edge for edge in sorted(ends) if edge * count < NARROW * largest)]
 
@@ -115,7 +118,7 @@ class Pushing:
         return at(circle)
 
     def _radii(self) -> list[float]:
-        """Of the contact that is only pressed, with few increments, at the ends of the steps."""
+        """Return contact radii at the ends of the load steps, under the normal load alone."""
         state: Pushed | None = None
         found = []
         for ramp in self.scene.load_path():
@@ -137,19 +140,22 @@ class Pushing:
     def _normal(
         ramp: LoadRamp, start: Pushed | None, fraction: float
     ) -> tuple[float | None, float | None]:
-        """W or the approach of a ramp."""
+        """Return the normal force or the approach at a fraction of a ramp; the other one is
+        None."""
         reached = (start.forces[DOWN], start.motions[DOWN]) if start else (0.0, 0.0)
         return ramp.normal.led(fraction, reached)
 
     def spent(self) -> float:
-        """Steps of Newton's method."""
+        """Return the number of steps of Newton's method."""
         return float(sum(self.taken))
 
     def advance(
         self, ramp: LoadRamp, start: Pushed | None, before: Pushed | None, fraction: float
     ) -> Pushed:
-        """The contact at a fraction of the ramp; raises NotConverged, GrossSliding and
-        ContactAtZoneEdge."""
+        """Return the contact at a fraction of the ramp.
+
+        Raises NotConverged, GrossSliding and ContactAtZoneEdge.
+        """
         begun = (start.forces, start.motions) if start else (NOTHING, NOTHING)
         since = self._vector(begun[0]), self._vector(begun[1])
         beside = [self._from(vector) for vector in ramp.tangential.led(fraction, since)]
@@ -161,19 +167,19 @@ class Pushing:
         return self._at(Loads(forces, motions), before)
 
     def _vector(self, parts: tuple[float, ...]) -> Pair:
-        """In x and y, of what is along and across the direction."""
+        """Return the components along x and y from those along and across the direction."""
         (x, y), (along, across, *_) = self.direction, parts
         return along * x - across * y, along * y + across * x
 
     def _from(self, vector: Pair | None) -> tuple[float | None, float | None]:
-        """Along and across the direction."""
+        """Return the components along and across the direction, or None for each."""
         if vector is None:
             return None, None
         (x, y), (of_x, of_y) = self.direction, vector
         return of_x * x + of_y * y, of_y * x - of_x * y
 
     def _at(self, loads: Loads, before: Pushed | None) -> Pushed:
-        """The contact under loads."""
+        """Solve the contact under loads."""
         if before is not None and before.asked == loads:
             return before
         beside = (*loads.forces[:ABOUT], *loads.motions[:ABOUT])
@@ -197,17 +203,19 @@ class Pushing:
         return pushed(points, self.friction, end, last, slip, loads, before, smooth)
 
     def _smooth_radius(self, loads: Loads) -> float:
-        """Without friction [length]."""
+        """Return the contact radius without friction [length]."""
         return self._pressed(loads).contact.radius
 
     def _pressed(self, loads: Loads) -> Pressed:
-        """The contact without friction."""
+        """Solve the contact without friction."""
         led = target(self.scene, loads.forces[DOWN], loads.motions[DOWN])
         return pressed(Bodies.of(self.scene), self.scene.indenter, led)
 
     def _without_friction(self, points: Points, loads: Loads) -> Array:
-        """Tractions and motion without friction: far fewer steps lead on from them than from a
-        contact that is closed as far as rings go."""
+        """Return tractions and motion without friction, as an initial guess.
+
+        Newton's method needs far fewer steps from this guess than from that of `Laws.closed`.
+        """
         found = self._pressed(loads)
         p = pressure(found.contact, points.radii / found.contact.radius)
         p[~np.isfinite(p)] = p[1]
@@ -215,13 +223,13 @@ class Pushing:
         return np.concatenate([beside, np.repeat(p, points.count), [0.0, 0.0, 0.0, found.approach]])
 
     def _refuse_within_first(self, points: Points, approach: float | None) -> None:
-        """Raises UnsupportedScene for an approach at which no ring touches in the mean."""
+        """Raise UnsupportedScene for an approach smaller than the mean gap of every ring."""
         depth = float(np.min(points.bare / points.areas))
         if approach is not None and approach <= depth:
             raise UnsupportedScene(
-                f"at an approach of {approach:.3g} m the contact is within the first of the "
-                "rings, laid out for the largest contact, of which none touches below "
-                f"{depth:.3g} m; take fewer increments, or prescribe the normal force"
+                f"an approach of {approach:.3g} m is too small for the rings, which are laid out "
+                f"for the largest contact and require more than {depth:.3g} m. Use fewer "
+                "increments, or prescribe the normal force"
             )
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Array:
@@ -229,7 +237,7 @@ class Pushing:
         return undeformed_gap(self.scene, last)
 
     def report(self, reached: Reached[Pushed], last: Increment | None) -> Increment:
-        """The contact on rings and angles; raises NotConverged above the tolerance."""
+        """Return the increment on rings and angles; raise NotConverged above the tolerance."""
         state, end = reached.state, reached.state.held
         turned = state.circle is not Circle.ONE
         points = self.points if turned else self.points.round
@@ -286,21 +294,25 @@ class Pushing:
         return of_contact(increment, self.scene.rig)
 
     def _refuse_narrow(self, state: Pushed, step: int) -> None:
-        """Raises UnsupportedScene where pressing leaves an annulus of slip that rings do not see:
-        next to it tractions rise beyond what they carry, and the edge with them."""
+        """Raise UnsupportedScene if the slip annulus after normal loading is narrower than a ring.
+
+        Tractions at the border of this annulus and at the edge would be inaccurate.
+        """
         sticks = state.status is ContactStatus.FULL_STICK
         if sticks and step == 1 and state.circle is Circle.ONE and coupling(self.scene)[0]:
             raise UnsupportedScene(
-                f"with a coefficient of friction of {self.friction.largest:g} the annulus that "
-                "slips at the edge is narrower than a ring, and this solver does not tell the "
-                f"edge beside it; give a smaller coefficient, or {ELSEWHERE}"
+                f"with a coefficient of friction of {self.friction.largest:g} the slip annulus at "
+                "the contact edge is narrower than a ring and cannot be resolved. Use a smaller "
+                f"coefficient, or {ELSEWHERE}"
             )
 
     @staticmethod
     def _admissible(points: Points, shear: Array, limit: Array) -> Array:
-        """Return the shear (2, n, angles) within its limit that is next to an interpolated one and
-        carries the same force and torque on every ring. Interpolation exceeds the limit beside the
-        border of stick."""
+        """Project interpolated shear (2, n, angles) onto its limit, at equal force and torque of
+        every ring.
+
+        Interpolation exceeds the limit near the border of the stick zone.
+        """
         angles = points.shown_angles
         cos, sin, one = np.cos(angles), np.sin(angles), np.ones_like(angles)
         ways = np.stack([[cos, -sin], [sin, cos], [0 * one, one]])
@@ -317,7 +329,7 @@ class Pushing:
 
     @staticmethod
     def _scalar(points: Points, field: Array) -> Array:
-        """At the angles that are shown; the axis has one value."""
+        """Interpolate a scalar to the output angles. The axis has one value."""
         if points.count == 1:
             return field
         shown = points.shown(field, 1.0)
@@ -326,7 +338,7 @@ class Pushing:
 
     @staticmethod
     def _vectors(points: Points, vector: Array) -> tuple[Array, Array]:
-        """Outward and around the axis at the angles that are shown."""
+        """Interpolate radial and circumferential components to the output angles."""
         if points.count == 1:
             # The axis has no direction.
             outward, around = vector * (points.radii > 0)
@@ -335,7 +347,7 @@ class Pushing:
         q_r, q_t = vector[:, : points.count]
         cos, sin = np.cos(points.angles), np.sin(points.angles)
         along = np.mean(q_r * cos - q_t * sin)
-        # Of a half circle the mirror image takes it back.
+        # On a half circle the component across is zero by symmetry.
         across = np.mean(q_r * sin + q_t * cos) if points.circle is Circle.WHOLE else 0.0
         cos, sin = np.cos(points.shown_angles), np.sin(points.shown_angles)
         outward[0], around[0] = along * cos + across * sin, across * cos - along * sin
@@ -343,7 +355,7 @@ class Pushing:
 
 
 def _moving(points: Points, loads: Loads) -> Loads:
-    """Without loads on motions that symmetry has not; these rest."""
+    """Replace loads on motions that symmetry excludes by a prescribed zero motion."""
     has = [*np.any(points.ways, axis=1), True]
     forces, motions = (
         tuple(value if moves else rest for moves, value in zip(has, led, strict=True))
