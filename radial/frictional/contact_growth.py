@@ -8,8 +8,9 @@ from contact_scene.array_types import Array
 
 
 def touched(r: Array, begun: float, radius: float) -> Array:
-    """Share of the increment through which points at these radii touch: particles that the contact
-    grows over slip from the passage of the edge on.
+    """Return the fraction of an increment in which points at these radii are in contact.
+
+    Particles that a growing contact reaches slip from the passage of the edge on.
 
     begun, radius  of the contact at start and end of the increment [length]
     """
@@ -21,13 +22,13 @@ def touched(r: Array, begun: float, radius: float) -> Array:
 
 
 def front(radius: float, begun: float, through: float, first: float, before: float) -> float:
-    """Stick radius at the end of an increment [length].
+    """Return the stick radius at the end of an increment [length].
 
-    The disc that sticks through an increment is that of its middle. Half an increment later the
-    radius lies on the line through this disc and the one of the preceding increment, unless the
-    load reversed between them.
+    The disc that sticks throughout an increment is that of its middle. The radius half an increment
+    later is extrapolated linearly from this disc and the preceding one. After a load reversal it is
+    the radius of this disc.
 
-    through, before  of the discs that stick through this and the preceding increment [length]
+    through, before  of the discs that stick throughout this and the preceding increment [length]
     first, begun     radius of the contact at the start of the preceding and of this one [length]
     """
     half, last = 0.5 * (radius - begun), 0.5 * (begun - first)

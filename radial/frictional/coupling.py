@@ -1,4 +1,4 @@
-"""Both bodies as pressure and radial shear together feel them, at any radius of the contact."""
+"""Response of both bodies to pressure and radial shear, for any contact radius."""
 
 from __future__ import annotations
 
@@ -24,10 +24,11 @@ POINTS = 40
 
 
 class Response(NamedTuple):
-    """Displacement at the rows of rings by tractions at their columns [length^3/force].
+    """Compliance between rings: displacement at the rows by tractions at the columns
+    [length^3/force].
 
-    zz, zr  of the surface into the body, by pressure and by radial shear
-    rz, rr  outward
+    zz, zr  displacement into the body, by pressure and by radial shear
+    rz, rr  radial displacement, by pressure and by radial shear
     """
 
     zz: Array
@@ -38,13 +39,13 @@ class Response(NamedTuple):
 
 @dataclass(frozen=True)
 class Coupling:
-    """Lower body and indenter: responses add, but those that couple subtract.
+    """Lower body and indenter. Direct responses add, coupling responses subtract.
 
-    bodies   as pressure alone feels them
-    stacks   of the lower body and the indenter, each with its sign in what couples
+    bodies   their normal response
+    stacks   of the lower body and the indenter, with the sign of their coupling response
     direct   Σ (1-ν)/G of the outermost materials [length²/force]
-    across   Σ 1/G
-    crossed  Σ ± (1-2ν)/2G
+    across   Σ 1/G [length²/force]
+    crossed  Σ ± (1-2ν)/2G [length²/force]
     """
 
     bodies: Bodies
@@ -55,7 +56,7 @@ class Coupling:
 
     @classmethod
     def of(cls, scene: Scene) -> Coupling:
-        """That of a scene."""
+        """Return the response of a scene."""
         stacks = ((stack_of(scene.body), 1.0), (stack_of(scene.indenter), -1.0))
         outer = [(stack.outer, sign) for stack, sign in stacks if not stack.is_rigid]
         return cls(
@@ -67,8 +68,10 @@ class Coupling:
         )
 
     def response(self, rings: Rings, radius: float, fineness: int = 1) -> Response:
-        """To tractions on rings in a contact of this radius [length]: in closed form for the
-        outermost materials, u = ∫ k F t~ J dk for what layers add."""
+        """Compute the response to tractions on rings in a contact of this radius [length].
+
+        The outermost materials have closed forms; layers add u = ∫ k F t~ J dk.
+        """
         by_pressure, by_shear = rings.logarithmic
         shear_lifts, pressure_draws = rings.sideways
         direct, crossed = self.direct * radius, -self.crossed * radius
@@ -83,7 +86,7 @@ class Coupling:
         return Response(zz, zr, rz, rr)
 
     def drawn(self, contact: Disc, rings: Rings, fineness: int = 1) -> Array:
-        """u_r by the pressure of a contact without friction, at the rows [length]."""
+        """Return u_r by the pressure of a frictionless contact, at the rows [length]."""
         a, x = contact.radius, rings.places
         found = -self.crossed * a * np.divide(_carried(contact, x), x, where=x > 0, out=0 * x)
         if self.bodies.layered:
@@ -94,7 +97,8 @@ class Coupling:
         return np.asarray(found)
 
     def added(self, waves: Waves, radius: float) -> Array:
-        """k times c11, c12, c22 and csh that layers add to half-spaces (4, κ) [length²/force]."""
+        """Return k times c11, c12, c22 and csh that layers add to half-spaces (4, κ)
+        [length²/force]."""
         k = waves.rule[0] / radius
         total = np.zeros((4, len(k)))
         for stack, sign in self.stacks:
@@ -105,8 +109,11 @@ class Coupling:
 
 
 def _carried(contact: Disc, x: Array) -> Array:
-    """∫₀ˣ p x dx [force/length²]: of the mean pressure without what acts outside of x,
-    (E*/π a) [G(1) √(1-x²) - ∫ₓ¹ G'(t) √(t²-x²) dt]."""
+    """Return ∫₀ˣ p x dx [force/length²].
+
+    It is the load over 2πa² minus the part outside of x: (E*/π a) [G(1) √(1-x²) - ∫ₓ¹ G'(t)
+    √(t²-x²) dt].
+    """
     inside = np.minimum(x, 1.0)[:, None]
     chord = np.sqrt((1 - inside) * (1 + inside))
     v, weights = unit_gauss(POINTS + len(contact.layers))

@@ -1,4 +1,4 @@
-"""What an increment of pressing with friction leaves: slip, the front of the stick, energies."""
+"""Slip, stick radius and energies of an increment of normal loading with friction."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ from radial.normal.pressing import Target
 
 @dataclass(frozen=True)
 class FrictionalState:
-    """A contact with friction at the end of an increment.
+    """Contact with friction at the end of an increment.
 
-    end        the contact, with what slipped in the increment
-    target     what was asked of it
-    slip       since two particles touched, at the radii of the report: these are the same in all
-               increments, so that sticking particles keep their slip exactly [length]
-    begun      contact radius at the start of the increment; 0 from first touch [length]
-    middling   stick radius of the increment as a whole, which is that half way [length]
+    end        the contact, with the slip of the increment
+    target     prescribed normal force or approach
+    slip       since first contact of two particles, at the output radii, which are equal in all
+               increments: sticking particles keep their slip exactly [length]
+    begun      contact radius at the start of the increment; 0 for the first one [length]
+    middling   stick radius of the increment as a whole, which is that in its middle [length]
     front      stick radius at the end [length]
     worked     work of the load since the start of the history [force length]
     lost       energy dissipated since the start of the history [force length]
-    uncertain  by how much finite increments leave that uncertain [force length]
-    power      of the radius with which what is asked for rises
-    tried      contact radii
-    strain     of the lower body since first touch, the same all around
+    uncertain  uncertainty of `lost` by finite increments [force length]
+    power      exponent of the prescribed quantity as a power of the contact radius
+    tried      number of contact radii
+    strain     of the lower body since first contact, equal in all directions
     """
 
     end: Rubbed
@@ -51,17 +51,17 @@ class FrictionalState:
 
     @property
     def normal_force(self) -> float:
-        """As it was asked for, or what came out [force]."""
+        """Prescribed or computed normal force [force]."""
         return self.end.load if self.target.force is None else self.target.force
 
     @property
     def approach(self) -> float:
-        """As it was asked for, or what came out [length]."""
+        """Prescribed or computed approach [length]."""
         asked = self.target.approach
         return self.target.moved(self.end) if asked is None else asked
 
     def at(self, field: Array, r: Array) -> Array:
-        """A field of the nodes at radii r, zero outside of the contact."""
+        """Interpolate a field of the nodes to radii r, zero outside of the contact."""
         return np.asarray(np.interp(r, self.end.radius * self.end.rings.x, field, right=0.0))
 
 
@@ -75,9 +75,10 @@ def sheared(
     tried: int,
     strain: float,
 ) -> FrictionalState:
-    """Slip, front and energies after an increment.
+    """Compute slip, stick radius and energies of an increment.
 
-    radii  of the report [length]
+    radii         of the output [length]
+    power, tried  see `FrictionalState`
     """
     x, a = end.rings.x, end.radius
     begun, force, depth = 0.0, 0.0, 0.0
@@ -97,7 +98,7 @@ def sheared(
     stuck = middling = stick_share(end) * a
     if before is not None:
         stuck = front(a, begun, middling, before.begun, before.middling)
-    # The strain moves the lower body, against which its shear works.
+    # The strain displaces the lower body against its shear.
     more = strain - (before.strain if before else 0.0)
     work = 0.5 * (force + end.load) * (end.approach - depth)
     work -= 0.5 * more * end.over((shear + end.shear) * r)
@@ -113,8 +114,10 @@ def sheared(
 
 
 def stick_share(end: Rubbed) -> float:
-    """Radius of the circle of what sticks over that of the contact [1]. Slip rises from the front
-    as a power of three halves."""
+    """Return the radius of the circle of the stick area over the contact radius [1].
+
+    Slip is proportional to the power 3/2 of the distance from the border of the stick zone.
+    """
     x, slides = end.rings.x, end.sliding != 0
     slides[0] = False
     if not slides[1:-1].any():
@@ -132,6 +135,6 @@ def stick_share(end: Rubbed) -> float:
 
 
 def finite_pressure(end: Rubbed) -> Array:
-    """The pressure, on an apex that of the next node."""
+    """Return the pressure, at an apex that of the next node."""
     p = end.pressure
     return p if np.isfinite(p[0]) else np.concatenate([p[1:2], p[1:]])

@@ -1,4 +1,5 @@
-"""Pressing with friction as the march sees it: every increment from the one before."""
+"""Load stepping of a contact with friction under normal load. Each increment needs the previous
+one."""
 
 from __future__ import annotations
 
@@ -58,21 +59,21 @@ from radial.output_points import (
 )
 from radial.output_points import target as target_of
 
-COUNT = 64  # rings, apart from those about the front and at the ends
+COUNT = 64  # rings, apart from those at the front and at the ends
 MAX_TRIED = 40
-# How much a contact grows or shrinks at once at most, and from what part of the first radius on.
+# Largest ratio of the contact radii of two solves, and first radius over that of the first
+# increment.
 GROWTH, FIRST = 1.1, 0.03
-MAX_LAID = 3  # times that rings are laid anew for a front that has moved
-REST = 1e-11  # of the approach: less slip is round-off
-MIDDLE = 0.5  # of the radius: where a front is sought first
+MAX_LAID = 3  # layouts of rings for a front that moves
+REST = 1e-11  # slip over the approach that is round-off
+MIDDLE = 0.5  # first guess of the front over the contact radius
 
 
 @dataclass(frozen=True)
 class Rubbing:
-    """See `contact_scene.stepping.load_stepping.Solver`.
+    """Solver of the increments of normal loading with friction.
 
-    largest  contacts without friction that were solved to lay out the rings at which fields are
-             told
+    largest  contacts without friction, solved to place the output rings
     """
 
     scene: Scene
@@ -86,9 +87,9 @@ class Rubbing:
 
     @classmethod
     def of(cls, scene: Scene, asked: RadialDiscretisation, fineness: float) -> Rubbing:
-        """That of a scene.
+        """Return the solver of a scene.
 
-        fineness  how many times as many rings, and radii on the way, as it takes
+        fineness  multiple of the number of rings, and of the solves within an increment
         """
         coupling = Coupling.of(scene)
         largest = tuple(
@@ -99,7 +100,7 @@ class Rubbing:
         return cls(scene, coupling, scene.friction, asked.tolerance, fineness, radii, largest)
 
     def spent(self) -> float:
-        """Nothing that halves would save."""
+        """Return 0: work does not limit the bisection."""
         return 0.0
 
     def advance(
@@ -109,7 +110,7 @@ class Rubbing:
         before: FrictionalState | None,
         fraction: float,
     ) -> FrictionalState:
-        """The contact at a fraction of the ramp; raises NotConverged."""
+        """Return the contact at a fraction of the ramp; raise NotConverged."""
         reached = (start.normal_force, start.approach) if start else (0.0, 0.0)
         target = target_of(self.scene, *ramp.normal.led(fraction, reached))
         radius, tried = self._first_radius(target, before)
@@ -136,7 +137,7 @@ class Rubbing:
     def _passed(
         self, radius: float, before: FrictionalState | None, strain: float
     ) -> FrictionalState:
-        """The contact of this radius, on the way to the end of an increment."""
+        """Solve an intermediate contact of an increment, at this radius."""
         share = before.middling / before.end.radius if before else MIDDLE
         like = before.end if before else None
         end = self._at(radius, rings_about(share, self._count), _moved(before, strain), like)
@@ -147,10 +148,10 @@ class Rubbing:
     def _at(
         self, radius: float, rings: Rings, moved: Callable[[Array], Array], like: Rubbed | None
     ) -> Rubbed:
-        """The contact of this radius.
+        """Solve the contact of this radius.
 
-        moved  u_r of the state before, by radius
-        like   a contact in which much the same slides
+        moved  u_r of the preceding state, as a function of the radius
+        like   contact with a similar slip zone, as an initial guess
         """
         return rubbed(
             self.coupling, self.scene.indenter, radius, rings, self.friction,
@@ -158,7 +159,11 @@ class Rubbing:
         )  # fmt: skip
 
     def _first_radius(self, target: Target, before: FrictionalState | None) -> tuple[float, int]:
-        """Near that of the target, from the contact before or from that without friction."""
+        """Estimate the radius of the target, and return the number of radii tried.
+
+        The estimate is extrapolated from the previous contact, or it is the radius without
+        friction.
+        """
         if before is None:
             found = pressed(self.coupling.bodies, self.scene.indenter, target)
             return found.contact.radius, found.tried
@@ -167,7 +172,7 @@ class Rubbing:
 
     @staticmethod
     def _power(target: Target, before: FrictionalState | None) -> float:
-        """Of the radius, with which force or approach rises."""
+        """Return the exponent of force or approach as a power of the radius."""
         if before is not None and (before.target.force is None) == (target.force is None):
             return before.power
         return 3.0 if target.approach is None else 2.0
@@ -180,8 +185,11 @@ class Rubbing:
         before: FrictionalState | None,
         strain: float,
     ) -> tuple[Rubbed, int, float]:
-        """The contact at the target by the secant method on the radius, how many were tried, and
-        the power of the radius."""
+        """Find the contact at the target by the secant method for the radius.
+
+        Return the contact, the number of radii tried, and the exponent of the power law in the
+        radius.
+        """
         moved = _moved(before, strain)
         like = before.end if before else None
         x, power = log(radius), self._power(target, before)
@@ -207,8 +215,10 @@ class Rubbing:
         return undeformed_gap(self.scene, last)
 
     def report(self, reached: Reached[FrictionalState], last: Increment | None) -> Increment:
-        """The contact at the rings; raises UnsupportedScene where it is no disc, NotConverged above
-        the tolerance."""
+        """Return the increment with its fields at the rings.
+
+        Raises UnsupportedScene if the contact area is no disc, NotConverged above the tolerance.
+        """
         state = reached.state
         end, indenter, r = state.end, self.scene.indenter, self.radii
         refuse_round_off(end.contact, self.tolerance)
@@ -268,7 +278,10 @@ class Rubbing:
         return of_contact(increment, self.scene.rig)
 
     def _shear(self, state: FrictionalState, p: Array, r: Array) -> Array:
-        """At the rings: where it is the limit, that of the pressure there, which hats cut short."""
+        """Return the shear at the rings. In the slip zone it is the limit of the pressure there.
+
+        Interpolation of the shear itself would be less accurate.
+        """
         end = state.end
         share = end.shear[1:-1] / self.friction.limit(end.pressure[1:-1])
         share = np.concatenate([[0.0], share, share[-1:]])
@@ -276,7 +289,8 @@ class Rubbing:
 
 
 def _moved(before: FrictionalState | None, strain: float) -> Callable[[Array], Array]:
-    """u_r by which nothing slips, by radius: that of the state before, less the strain since."""
+    """Return u_r without slip, as a function of the radius: that of the state before, minus the
+    strain."""
     if before is None:
         return lambda radii: -strain * radii
     end, more = before.end, strain - before.strain
@@ -285,7 +299,7 @@ def _moved(before: FrictionalState | None, strain: float) -> Callable[[Array], A
 
 
 def _beyond(r: Array, field: Array, limit: float) -> Callable[[Array], Array]:
-    """A field of the rows at any radius: far away it goes to its limit as 1/r."""
+    """Return a function of the radius for a field of the rows. It decays to `limit` as 1/r."""
     spline, last = CubicSpline(r, field), r[-1]
 
     def at(radii: Array) -> Array:
@@ -296,24 +310,23 @@ def _beyond(r: Array, field: Array, limit: float) -> Callable[[Array], Array]:
 
 
 def _on_the_way(begun: float, end: float, growth: float) -> Array:
-    """Radii between those at the start of an increment and at its end, as what sticks remembers
-    them.
+    """Return radii between the start and the end of an increment. The stick zone depends on them.
 
-    growth  largest ratio of neighbours
+    growth  largest ratio of adjacent radii
     """
     steps = max(ceil(abs(log(end / begun)) / log(growth)), 1)
     return np.geomspace(begun, end, steps + 1)[1:-1]
 
 
 def _sliding(was: Rubbed | None, rings: Rings) -> Signs:
-    """What slid at the same share of the radius."""
+    """Return the signs of slip at the same fractions of the radius."""
     if was is None:
         return np.zeros(len(rings.x), dtype=np.int64)
     return np.rint(np.interp(rings.x, was.rings.x, was.sliding)).astype(np.int64)
 
 
 def _against(end: Rubbed, friction: CoulombFriction) -> float:
-    """∫(b|Δs| + q Δs) dA / ∫b|Δs| dA with the limit b, over what slides by more than round-off."""
+    """Return ∫(b|Δs| + q Δs) dA / ∫b|Δs| dA, b the limit, for slip above round-off."""
     slipped = end.slipped * (end.sliding != 0) * (np.abs(end.slipped) > REST * end.approach)
     most = end.over(friction.limit(finite_pressure(end)) * np.abs(slipped))
     return abs(most + end.over(end.shear * slipped)) / most if most > 0 else 0.0

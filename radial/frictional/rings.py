@@ -1,9 +1,8 @@
-"""Tractions on rings and what half-spaces answer them: hat functions in x = r/a, times √(1-x²), as
-which tractions end at the edge.
+"""Tractions on rings and the response of half-spaces: hat functions in x = r/a times √(1-x²).
 
-Rings are dense where tractions have corners: at the front between stick and slip, at the edge and
-at the axis. Of half-spaces the response to a hat is integrated in closed form or by
-Gauss's rule, lengths in units of the contact radius, tractions in units that the materials give.
+The factor is the behaviour of tractions at the edge. Rings are dense where tractions have kinks: at
+the border of the stick zone, at the edge and at the axis. The response of half-spaces to a hat has
+a closed form or uses Gauss quadrature. Lengths are in units of the contact radius.
 """
 
 from __future__ import annotations
@@ -24,39 +23,40 @@ from radial.response.array_cache import (
 from radial.response.quadrature import unit_gauss
 from radial.response.wavenumbers import Waves
 
-# Fronts that lie nearer to each other than this share their rings: of log(c/(a - c)).
+# Fronts within this interval of log(c/(a - c)) share their rings.
 SHARED = 0.08
-NEAREST = 6.0  # of log(c/(a - c)), to the axis and to the edge
-GRADED, TOWARDS, FINEST = 0.5, 0.6, 9  # ratio of rings to the ends, to the front, and how many
+NEAREST = 6.0  # largest |log(c/(a - c))|: distance of a front from axis and edge
+# ratio of rings towards the ends and towards the front, and their number
+GRADED, TOWARDS, FINEST = 0.5, 0.6, 9
 AT_AXIS, AT_EDGE = 4, 6
-POINTS, WAVE_POINTS = 14, 6  # Gauss's of an element
+POINTS, WAVE_POINTS = 14, 6  # Gauss points of an element
 KEPT = 64
 MAX_AT_ONCE = 1 << 18  # numbers: 2 MiB
-# Radii outside of the contact at which displacements are known.
+# Radii outside of the contact with displacements.
 OUTSIDE = 1 + np.array([0.01, 0.03, 0.08, 0.2, 0.4, 0.7, 1.1, 1.6, 2.5, 4.0])
 
 
 @dataclass(frozen=True, eq=False)
 class Rings:
-    """Rings and the response of half-spaces to hats on them; made by `rings_about`.
+    """Rings and the response of half-spaces to hats on them; created by `rings_about`.
 
     x  of the n + 1 nodes, from 0 to 1
 
-    Rows are the places, of the nodes and then outside of the contact. Columns are values at nodes:
-    of the pressure 0 to n - 1, for it ends with zero; of the radial shear 1 to n - 1. In the last
-    element tractions are multiples of √(1-x²).
+    Rows are positions: the nodes, then points outside of the contact. Columns are nodal values: of
+    the pressure 0 to n - 1, because it ends with zero, and of the radial shear 1 to n - 1. In the
+    last element tractions are multiples of √(1-x²).
     """
 
     x: Array
 
     @property
     def count(self) -> int:
-        """n, the number of elements."""
+        """Number n of elements."""
         return len(self.x) - 1
 
     @cached_property
     def places(self) -> Array:
-        """Of the rows."""
+        """Positions of the rows (n + 1 + outside,)."""
         return np.concatenate([self.x, OUTSIDE])
 
     @cached_property
@@ -65,17 +65,21 @@ class Rings:
         return self._on_nodes(*self._integrals(1))
 
     def at(self, field: Array, x: Array) -> Array:
-        """A traction of the nodes (n + 1,), at any place; zero outside."""
+        """Interpolate nodal tractions (n + 1,) to positions x, zero outside."""
         share = field[:-1] / _root(self.x[:-1])
         return np.asarray(np.interp(x, self.x[:-1], share) * _root(np.minimum(x, 1.0)))
 
     @cached_property
     def logarithmic(self) -> tuple[Array, Array]:
-        """∫ G₀ φ s ds of the pressure and ∫ G₁ φ s ds of the shear, G_m = ∫₀^∞ J_m(kx) J_m(ks) dk
-        by complete elliptic integrals (Gradshteyn and Ryzhik 6.512.1 and 8.1)."""
+        """∫ G₀ φ s ds for the pressure and ∫ G₁ φ s ds for the shear (rows, columns).
+
+        G_m = ∫₀^∞ J_m(kx) J_m(ks) dk has complete elliptic integrals (Gradshteyn and Ryzhik
+        6.512.1, 8.1).
+        """
         inner, length = self.x[:-1], np.diff(self.x)
         v, weights = unit_gauss(POINTS)
-        v, weights = v**3, 3 * v**2 * weights  # towards the place, where there is a logarithm
+        # dense towards the position, where the kernel is logarithmic
+        v, weights = v**3, 3 * v**2 * weights
         x = self.places[:, None]
         before = x <= inner
         off = length[:, None] * v
@@ -97,8 +101,10 @@ class Rings:
 
     @cached_property
     def sideways(self) -> tuple[Array, Array]:
-        """∫ₓ¹ φ ds of the shear and (1/x) ∫₀ˣ φ s ds of the pressure: ∫₀^∞ J₀(kr) J₁(ks) dk is 1/s
-        for r < s, else zero (Gradshteyn and Ryzhik 6.512.3)."""
+        """∫ₓ¹ φ ds for the shear and (1/x) ∫₀ˣ φ s ds for the pressure (rows, columns).
+
+        ∫₀^∞ J₀(kr) J₁(ks) dk is 1/s for r < s, else 0 (Gradshteyn and Ryzhik 6.512.3).
+        """
         inner, outer = self.x[:-1], self.x[1:]
         x = self.places[:, None]
         beyond, within = inner >= x, outer <= x
@@ -110,7 +116,7 @@ class Rings:
         return by_shear[:, 1:-1], (by_pressure / reach)[:, :-1]
 
     def _integrals(self, power: int) -> tuple[Array, Array]:
-        """∫ φ xᵐ dx over every element, of the hats of its inner and outer end."""
+        """Return ∫ φ xᵐ dx over every element, for the hats of its inner and outer end."""
         v, weights = unit_gauss(POINTS)
         inner, length = self.x[:-1, None], np.diff(self.x)[:, None]
         s = inner + length * v
@@ -118,9 +124,10 @@ class Rings:
         return left.sum(-1), right.sum(-1)
 
     def _shapes(self, s: Array, share: Array, weights: Array) -> tuple[Array, Array]:
-        """Hats of the inner and outer ends of the elements at points s (…, n, points), weighted.
+        """Return the hats of the inner and outer ends of elements at points s (…, n, points),
+        weighted.
 
-        share  of the element that lies before a point
+        share  fraction of the element inside of a point
         """
         root = _root(self.x)
         known = _root(s) * weights
@@ -132,15 +139,18 @@ class Rings:
 
     @staticmethod
     def _on_nodes(left: Array, right: Array) -> Array:
-        """Sums at nodes (…, n + 1) from parts at the ends of the elements (…, n)."""
+        """Add contributions of the ends of the elements (…, n) at the nodes (…, n + 1)."""
         total = np.zeros((*left.shape[:-1], left.shape[-1] + 1))
         total[..., :-1] += left
         total[..., 1:] += right
         return total
 
     def transforms(self, waves: Waves) -> tuple[Array, Array, Array, Array]:
-        """∫ φ J₀(κs) s ds of the pressure and ∫ φ J₁(κs) s ds of the shear (κ, columns); J₀(κx) and
-        J₁(κx) at the rows (rows, κ)."""
+        """Return transforms of the hats and Bessel functions at the rows.
+
+        ∫ φ J₀(κs) s ds for the pressure and ∫ φ J₁(κs) s ds for the shear (κ, columns); J₀(κx) and
+        J₁(κx) (rows, κ).
+        """
         return _transforms(self, waves)
 
 
@@ -171,15 +181,16 @@ def _transforms(rings: Rings, waves: Waves) -> Transforms:
 
 
 def place_of(front: float) -> int:
-    """Number of the rings for a front at this share of the contact radius."""
+    """Return the number of the layout of rings for a front at this fraction of the contact
+    radius."""
     c = min(max(front, 1e-9), 1 - 1e-9)
     return round(min(max(log(c / (1 - c)), -NEAREST), NEAREST) / SHARED)
 
 
 def rings_about(front: float, count: int) -> Rings:
-    """Rings for a front between stick and slip at this share of the contact radius.
+    """Return rings for a border of the stick zone at this fraction of the contact radius.
 
-    count  about how many, apart from those that are dense
+    count  approximate number, without the rings of dense regions
     """
     return _rings(place_of(front), count)
 

@@ -1,9 +1,9 @@
-"""Pressure and radial shear on a disc under Coulomb's law, at a given radius of the contact.
+"""Pressure and radial shear on a disc under Coulomb's law, for a given contact radius.
 
-To the pressure of the contact without friction, which is exact, comes what shear changes: Δp on
-rings, with the gap closed at every node and the pressure zero at the edge. A node sticks, u_r as
-it was, or slips, q = ∓b(p) with the friction limit b; which of them is found by Newton's method for
-|q - γ Δu_r| < b (Alart and Curnier 1991).
+The pressure is that of the frictionless contact, which is exact, plus a change Δp on rings by the
+shear. The gap is closed at every node and the pressure is zero at the edge. A sticking node keeps
+u_r. A slipping node has q = ∓b(p) with the friction limit b. The condition |q - γ Δu_r| < b
+determines the sticking nodes, by semismooth Newton (Alart and Curnier 1991).
 """
 
 from __future__ import annotations
@@ -36,26 +36,29 @@ if TYPE_CHECKING:
 
 Signs = NDArray[np.int64]
 
-MAX_STEPS = 200  # a few per ring: what all but sticks changes one ring at a time
-TIE = 1e-9  # of the largest limit
-EXACT = 1e-12  # of the largest limit: by so much a limit linear in Δp may miss that of the law
-AT_EDGE = 0.95  # of the radius: where rings are all that slips beyond, there is next to no slip
-ALL_AT_ONCE = 8  # steps of Newton's method; then the node that is most in the wrong changes alone
+MAX_STEPS = 200  # a few per ring: near full stick only one ring changes per step
+TIE = 1e-9  # Distance from the limit over the largest limit.
+EXACT = 1e-12  # Largest error of the limit linearised in Δp, over the largest limit.
+# Fraction of the radius: if rings slip only outside, the slip zone is too narrow for the rings.
+AT_EDGE = 0.95
+# first steps that change all nodes; then only the node with the largest error changes
+ALL_AT_ONCE = 8
 
 
 @dataclass(frozen=True)
 class Rubbed:
-    """A contact with friction. Fields are (n + 1,) at the nodes of the rings but where it says so.
+    """Contact with friction. Fields are (n + 1,) at the nodes of the rings unless stated otherwise.
 
-    contact   the one of the same radius without friction
-    changed   Δp [force/length²]
-    shear     q, outward on the lower body [force/length²]
-    deeper    approach less that of `contact` [length]
-    raised    u_z by Δp and q, at the rows [length]
-    moved     u_r, at the rows [length]
-    slipped   Δu_r since the state before [length]
-    sliding   0 where a node sticks, else the sign of q
-    missed    of the equations of the gap, over the approach [1]
+    contact  frictionless contact of the same radius
+    rings    nodes
+    changed  Δp [force/length²]
+    shear    q, outward on the lower body [force/length²]
+    deeper   approach minus that of `contact` [length]
+    raised   u_z by Δp and q, at the rows [length]
+    moved    u_r, at the rows [length]
+    slipped  Δu_r since the previous state [length]
+    sliding  0 at a sticking node, else the sign of q
+    missed   residual of the gap over the approach [1]
     """
 
     contact: Disc
@@ -71,30 +74,30 @@ class Rubbed:
 
     @property
     def radius(self) -> float:
-        """a [length]."""
+        """Radius a [length]."""
         return self.contact.radius
 
     @property
     def approach(self) -> float:
-        """δ since first touch [length]."""
+        """Approach δ since first contact [length]."""
         return self.contact.approach + self.deeper
 
     @property
     def load(self) -> float:
-        """W [force]."""
+        """Load W [force]."""
         return self.contact.load + self.over(self.changed)
 
     @cached_property
     def pressure(self) -> Array:
-        """p; infinite on an apex [force/length²]."""
+        """Pressure p, infinite at an apex [force/length²]."""
         return pressure(self.contact, self.rings.x) + self.changed
 
     def over(self, field: Array) -> float:
-        """∫ f dA of a field that is linear between the nodes."""
+        """Return ∫ f dA of a field given at the nodes."""
         return float(2 * pi * self.radius**2 * (self.rings.weights @ field))
 
     def elastic_energy(self, gap: Array) -> float:
-        """½ ∫ (p u_z + q u_r) dA, with u_z = δ - f within the contact [force length].
+        """Return ½ ∫ (p u_z + q u_r) dA, with u_z = δ - f within the contact [force length].
 
         gap  f at the nodes [length]
         """
@@ -114,11 +117,11 @@ def rubbed(
     guess: Signs,
     fineness: int = 1,
 ) -> Rubbed:
-    """The contact of this radius [length].
+    """Solve the contact of this radius [length].
 
-    before    u_r of the state before, at the rows [length]
-    guess     of `limit_load`
-    raises    NotConverged where no set of sticking nodes is found, and what `disc` raises
+    before  u_r of the previous state, at the rows [length]
+    guess   signs of the shear of slipping nodes, 0 for sticking nodes (n + 1,)
+    raises  NotConverged if the sticking nodes cannot be determined, and errors of `disc`
     """
     contact = disc(coupling.bodies, indenter, radius, fineness=fineness)
     answer = coupling.response(rings, radius, fineness)
@@ -151,10 +154,10 @@ def _newton(
     answer: Response, n: int, friction: CoulombFriction, smooth: Array, stuck: Array, guess: Signs,
     places: Array,
 ) -> tuple[Array, Signs]:  # fmt: skip
-    """Δp, q and what the approach changes by, and which nodes slide.
+    """Return Δp, q and the change of the approach, and the signs of slipping nodes.
 
-    smooth  the pressure without friction, at the nodes between axis and edge
-    stuck   u_r by Δp and q of what sticks, there
+    smooth  pressure without friction, at the nodes between axis and edge
+    stuck   u_r by Δp and q that stick requires, at the same nodes
     """
     own = np.abs(np.diag(answer.rr[1:n]))
     size = 2 * n
@@ -180,7 +183,7 @@ def _newton(
         pressure = np.maximum(smooth + found[1:n], 0.0)
         slip = sticking @ found - stuck
         tried = found[n:-1] - slip / own
-        # Who rests at the limit, as under a held load, stays what it is.
+        # A node at the limit, as under a constant load, keeps its state.
         least = most + np.where(sliding == 0, TIE, -TIE) * np.max(most)
         wrong = np.where(np.abs(tried) < least, 0, np.where(tried > 0, 1, -1)).astype(np.int64)
         contradicting = float(np.mean(wrong != sliding))
@@ -196,11 +199,11 @@ def _newton(
             one = int(np.argmax(by))
             wrong = np.where(np.arange(n - 1) == one, wrong, sliding)
         sliding = wrong
-    problem = "which rings stick (residual: share of them that contradict their tractions)"
+    problem = "the stick zone (residual: fraction of rings in contradiction with their tractions)"
     if first > AT_EDGE:
         problem += (
-            f", of which a coefficient of friction of {friction.largest:g} lets none slip but in "
-            f"the last {1 - first:.1g} of the radius, narrower than they tell: give a smaller "
-            "coefficient,"
+            f". With a coefficient of friction of {friction.largest:g} only the last "
+            f"{1 - first:.1g} of the radius slips, which the rings do not resolve. Use a smaller "
+            "coefficient."
         )
     raise NotConverged(problem, step + 1, contradicting, 0.0)

@@ -1,8 +1,8 @@
-"""The circle that carries given tractions, and what they are over the root in which they end.
+"""Fit of a circle to given tractions, with their smooth factor: tractions over √(1-η²).
 
-Round contacts are known at their rings, and so is their edge. Those that are pushed are known by
-hats on rings that do not end where the contact does: p² is smooth there, so that by least squares
-over the outer rings its zeros tell the circle, and what p is beside it.
+Fields and edge of an axisymmetric contact are known at rings. With a tangential load, hats on rings
+do not end at the contact edge. p² is smooth there: a least-squares fit of p² over the outer rings
+has its zeros on the circle, and its values replace p near the edge.
 """
 
 from __future__ import annotations
@@ -19,21 +19,21 @@ from contact_scene.solver_errors import UnsupportedScene
 from radial.plan import ELSEWHERE
 from radial.stress.loaded_circle import LoadedCircle
 
-RADII, ANGLES = 241, 360  # of a circle: linear between them to some 1e-5
-FEWEST = 4  # rings that tell the edge
+RADII, ANGLES = 241, 360  # of a circle; the error of linear interpolation is about 1e-5
+FEWEST = 4  # rings that determine the edge
 HARMONICS = 3
-STEPS = 20  # of Newton's method, to the zeros of p²
-PERIOD = 4  # angles beyond a turn that stand for it
+STEPS = 20  # of Newton's method, for the zeros of p²
+PERIOD = 4  # angles beyond a full turn that are repeated
 
 
 class Fit(NamedTuple):
-    """Where p² is taken for smooth.
+    """Region in which p² is fitted.
 
-    begins  in radii of the outermost ring that is loaded
-    over    of the largest pressure: nodes that hang over the edge have less
+    begins  smallest radius over that of the outermost loaded ring
+    over    smallest pressure over the largest: nodes beyond the edge have less
     powers  of 1 - r²/a²
-    beside  from where on the fit is believed rather than p, in radii of the circle
-    last    up to where the way of the shear is
+    beside  radius over that of the circle, from which the fit replaces p
+    last    radius over that of the circle, up to which the direction of the shear is used
     """
 
     begins: float = 0.7
@@ -44,14 +44,14 @@ class Fit(NamedTuple):
 
 
 USUAL = Fit()
-# As good a one: how far they are apart says how well either tells the edge.
+# Second fit of equal quality. The difference of both is an error estimate.
 ANOTHER = Fit(begins=0.6, over=0.3, powers=3, beside=0.87)
 
 
 def round_circle(
     radii: Array, radius: float, outward: Array, around: Array, p: Array
 ) -> LoadedCircle:
-    """Of q_r, q_θ and p (n,) at rings.
+    """Return the circle of q_r, q_θ and p (n,) at rings of an axisymmetric contact.
 
     radius  of the contact [length]
     """
@@ -68,8 +68,10 @@ def round_circle(
 def pushed_circle(
     radii: Array, angles: Array, outward: Array, around: Array, p: Array, fit: Fit = USUAL
 ) -> LoadedCircle:
-    """Of q_r, q_θ and p at nodes (n, J + 1) of hats, at angles from 0 to π; the other half is the
-    mirror image. It carries the load of the hats."""
+    """Return the circle of q_r, q_θ and p at nodes of hats (n, J + 1), at angles from 0 to π.
+
+    The other half is the mirror image. The circle carries the load of the hats.
+    """
     size = float(radii[np.flatnonzero(np.max(p, axis=1) > 0)[-1]])
     weights = np.gradient(radii)[:, None] * radii[:, None] * np.ones_like(angles)
     r, theta = np.broadcast_arrays(radii[:, None] / size, angles)
@@ -81,7 +83,7 @@ def pushed_circle(
     x, y = r * cos, r * sin
     rho, turned = np.hypot(x - centre, y) / radius, np.arctan2(y, x - centre)
     beside = 1 - rho**2
-    # p² over what is zero at the edge, weighted as p² is.
+    # p² is fitted as a multiple of 1 - ρ², with weights (1 - ρ²)².
     weights = np.where(told & (beside > 0), weights * beside**2, 0.0)
     factor = _least_squares(
         beside, turned, p * p / np.where(beside, beside, 1), weights, fit.powers
@@ -109,15 +111,15 @@ def pushed_circle(
 def _refuse_few(rings: int) -> None:
     if rings < FEWEST:
         raise UnsupportedScene(
-            f"{rings} rings tell the edge of the contact, and the stress below it takes {FEWEST}; "
-            f"ask for a step with a larger contact, or {ELSEWHERE}"
+            f"{rings} rings resolve the edge of the contact, and the stress below the surface "
+            f"requires {FEWEST}. Use a step with a larger contact, or {ELSEWHERE}"
         )
 
 
 def _least_squares(
     s: Array, angles: Array, values: Array, weights: Array, powers: int
 ) -> Callable[[Array, Array], Array]:
-    """Σ c_mk cos mθ s^k that is nearest to values where they have weight."""
+    """Return the weighted least-squares fit Σ c_mk cos mθ s^k."""
 
     def terms(s: Array, angle: Array) -> Array:
         return np.stack([
@@ -133,7 +135,8 @@ def _least_squares(
 
 
 def _zeros(squared: Callable[[Array, Array], Array], angles: Array) -> tuple[float, float]:
-    """Centre and radius of the circle through the zeros of a function of 1 - r² and the angle."""
+    """Return centre and radius of the circle through the zeros of a function of 1 - r² and the
+    angle."""
     s, step = np.zeros_like(angles), 1e-6
     for _ in range(STEPS):
         slope = (squared(s + step, angles) - squared(s - step, angles)) / (2 * step)
@@ -146,7 +149,7 @@ def _zeros(squared: Callable[[Array, Array], Array], angles: Array) -> tuple[flo
 
 
 def _continued(ratio: Array, known: Mask) -> Array:
-    """Further out along every ray as at the last place where it is known."""
+    """Replace unknown values of every ray by its last known value."""
     last = len(known) - 1 - np.argmax(known[::-1], axis=0)
     kept = np.minimum(np.arange(len(known))[:, None], last)
     return np.asarray(np.take_along_axis(ratio, kept, axis=0))
@@ -155,9 +158,9 @@ def _continued(ratio: Array, known: Mask) -> Array:
 def _all_around(
     field: Array, r: Array, angles: Array, sense: int, degree: int
 ) -> RectBivariateSpline:
-    """Between nodes and their mirror images.
+    """Return a spline through nodes and their mirror images.
 
-    sense   1 for what these have alike, -1 for what they have opposite
+    sense   1 for a field that is even about θ = 0, -1 for an odd one
     degree  in r
     """
     whole = np.hstack([sense * field[:, :0:-1], field])
@@ -169,7 +172,7 @@ def _all_around(
 
 
 def _load(radii: Array, angles: Array, p: Array) -> float:
-    """∫ p dA of hats [force]."""
+    """Return ∫ p dA of hats [force]."""
     rings = 2 * np.asarray(np.trapezoid(p, angles, axis=1))
     inner, outer = radii[:-1], radii[1:]
     parts = (2 * inner + outer) * rings[:-1] + (inner + 2 * outer) * rings[1:]

@@ -1,9 +1,9 @@
 """Displacement and stress in a half-space below the pressure of a disc.
 
-Every wave exp(-kz) cos ks of the pressure is summed over k in closed form: with c = z + is and
-R² = r² + c², ∫ exp(-kc) J₀(kr) dk = 1/R and ∫ exp(-kc) J₁(kr) dk = r/(R (R + c)); what is left is
-one integral over the transform G. Powers of k are taken by parts, as derivatives of G, so that
-nothing cancels towards the surface. Lengths are in units of the contact radius.
+The waves exp(-kz) cos ks of the pressure are integrated over k in closed form: with c = z + is and
+R² = r² + c², ∫ exp(-kc) J₀(kr) dk = 1/R and ∫ exp(-kc) J₁(kr) dk = r/(R (R + c)). One integral over
+the transform G remains. Powers of k are integrated by parts, as derivatives of G, to avoid
+cancellation near the surface. Lengths are in units of the contact radius.
 """
 
 from __future__ import annotations
@@ -22,15 +22,18 @@ from semi_analytical.frf.stack import HalfSpace
 Complex = NDArray[np.complex128]
 
 POINTS = 16
-WIDTH = 1.5  # of a panel of the stretched place
-SURFACE = 1e-16  # nothing is told apart from what lies less deep
-# An axis is seen from so near that no digit tells.
+WIDTH = 1.5  # of a panel of the transformed coordinate
+SURFACE = 1e-16  # depths below are the surface
+# Smallest radius over the contact radius, without effect on any digit.
 AXIS = 1e-7
 
 
 def below_pressure(contact: Disc, material: HalfSpace, x: Array, depth: float) -> Array:
-    """u_r, u_z [length], σ_rr, σ_θθ, σ_zz, σ_rz [force/length²], shape (6, n), at r = a x and at a
-    depth z = a·depth >= 0 in a half-space of the material."""
+    """Return u_r, u_z [length], σ_rr, σ_θθ, σ_zz, σ_rz [force/length²], shape (6, n).
+
+    x      radii over the contact radius (n,)
+    depth  over the contact radius, >= 0
+    """
     true, x = x, np.maximum(x, AXIS)
     G, nu = material
     modulus = contact.bodies.modulus / pi
@@ -42,7 +45,7 @@ def below_pressure(contact: Disc, material: HalfSpace, x: Array, depth: float) -
         return np.stack([out / (2 * G), (1 - nu) * down / G, *stress])
     level, once, twice, outward, steep, steeper = _waves(contact, x, depth)
     moved, unit = modulus / (2 * G), modulus / contact.radius
-    # Over r: u_r is this times r, and σ_θθ = 2G u_r/r - 2ν ∫ p~ exp(-kz) J₀ k dk.
+    # Quantities over r: u_r is r times `spread`, and σ_θθ = 2G u_r/r - 2ν ∫ p~ exp(-kz) J₀ k dk.
     spread = -(1 - 2 * nu) * outward + depth * steep
     hoop = spread - 2 * nu * once
     return np.stack(
@@ -58,7 +61,7 @@ def below_pressure(contact: Disc, material: HalfSpace, x: Array, depth: float) -
 
 
 def _waves(contact: Disc, x: Array, depth: float) -> tuple[Array, ...]:
-    """∫ G~ exp(-κz) f dκ of f = J₀, κ J₀, κ² J₀, J₁/x, κ J₁/x and κ² J₁/x."""
+    """Return ∫ G~ exp(-κz) f dκ for f = J₀, κ J₀, κ² J₀, J₁/x, κ J₁/x and κ² J₁/x."""
     beside, weights = _places(contact, x, depth)
     t = x[:, None] + beside
     c, R = _distance(x[:, None], depth, beside)
@@ -80,8 +83,10 @@ def _waves(contact: Disc, x: Array, depth: float) -> tuple[Array, ...]:
 
 
 def _places(contact: Disc, x: Array, depth: float) -> tuple[Array, Array]:
-    """Points t - x and weights (n, points) for 0 < t < 1: t = x + z sinh y takes the root at
-    t = x ± iz out of 1/R."""
+    """Return points t - x and weights (n, points) for 0 < t < 1.
+
+    The substitution t = x + z sinh y removes the root at t = x ± iz from 1/R.
+    """
     first, last = np.arcsinh(-x / depth), np.arcsinh((1 - x) / depth)
     count = ceil(2 * asinh(max(1.0, float(np.max(x))) / depth) / WIDTH)
     v, shares = unit_gauss(POINTS + len(contact.layers))
@@ -92,14 +97,14 @@ def _places(contact: Disc, x: Array, depth: float) -> tuple[Array, Array]:
 
 
 def _distance(x: Array, depth: float, beside: Array) -> tuple[Complex, Complex]:
-    """c and R at t = x + beside."""
+    """Return c and R at t = x + beside."""
     t = x + beside
     c = np.asarray(depth + 1j * t, dtype=np.complex128)
     return c, np.asarray(np.sqrt(depth**2 - beside * (x + t) + 2j * depth * t))
 
 
 def _mean(contact: Disc, x: Array) -> Array:
-    """Half the mean pressure within x, in units of E*/πa."""
+    """Return half the mean pressure within x, in units of E*/πa."""
     found = np.empty_like(x)
     inside = x < 1
     beyond = x[~inside]
@@ -118,7 +123,7 @@ def _mean(contact: Disc, x: Array) -> Array:
 
 
 def _settled(contact: Disc, x: Array) -> Array:
-    """∫ G~ J₀ dκ = ∫ G(t)/√(x²-t²) dt over t < x, 1."""
+    """Return ∫ G~ J₀ dκ = ∫ G(t)/√(x²-t²) dt over t < x, 1."""
     v, weights = unit_gauss(2 * POINTS + len(contact.profile.abel) + len(contact.layers))
     angle = np.arcsin(np.minimum(1 / x, 1.0))
     return np.asarray(

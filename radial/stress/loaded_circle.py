@@ -1,6 +1,6 @@
-"""Tractions on a circle at whose edge they end like a root, at any place.
+"""Tractions on a circle that are proportional to a root at its edge.
 
-Pushed contacts move: their edge is a circle about a centre beside the axis.
+With a tangential load the centre of the circle is displaced from the axis.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from radial.response.quadrature import unit_gauss
 
 Complex = NDArray[np.complex128]
 
-# Points of a panel of Gauss's rule, and for the load; and for that harmonics that may alias.
+# Gauss points of a panel and of the load, and the highest harmonic of the load, against aliasing.
 PANEL, LOAD_POINTS, HARMONICS = 16, 128, 15
 
 
@@ -24,9 +24,9 @@ class LoadedCircle:
     """Pressure and shear on the lower body.
 
     radius  of the circle [length]
-    centre  its x; y is 0 [length]
-    smooth  q_x, q_y, p over √(1-η²) at η = k/(n-1) from the centre and angles 2πj/J, or of one
-            angle q_r, q_θ, p, the same all around (3, n, J) [force/length²]
+    centre  x of the centre; y is 0 [length]
+    smooth  q_x, q_y, p over √(1-η²) at η = k/(n-1) from the centre and angles 2πj/J (3, n, J); for
+            J = 1 axisymmetric q_r, q_θ, p [force/length²]
     """
 
     radius: float
@@ -35,7 +35,7 @@ class LoadedCircle:
 
     @property
     def is_round(self) -> bool:
-        """Whether all is the same all around."""
+        """True for axisymmetric tractions."""
         return self.smooth.shape[2] == 1
 
     @property
@@ -46,8 +46,8 @@ class LoadedCircle:
 
     @staticmethod
     def disc_rule(count: int) -> tuple[Array, Array]:
-        """Places η and weights η dη, in panels of Gauss's rule in which η = sin α takes the root
-        out of the edge."""
+        """Return positions η and weights η dη of Gauss panels; η = sin α removes the root at the
+        edge."""
         panels = -(-count // PANEL)
         v, weights = unit_gauss(PANEL)
         angle = ((np.arange(panels)[:, None] + v) / panels).ravel() * (np.pi / 2)
@@ -55,11 +55,11 @@ class LoadedCircle:
         return eta, np.tile(weights, panels) / panels * (np.pi / 2) * np.cos(angle) * eta
 
     def reversed(self) -> LoadedCircle:
-        """What the upper body carries, z up into it."""
+        """Return the tractions on the upper body, with z into it."""
         return replace(self, smooth=self.smooth * np.array([-1.0, -1.0, 1.0])[:, None, None])
 
     def at(self, x: Array, y: Array) -> Array:
-        """q_x, q_y and p (3, …) at places about the centre, in radii; zero outside."""
+        """Return q_x, q_y and p (3, …) at positions from the centre, in radii; 0 outside."""
         eta = np.hypot(x, y)
         root = np.sqrt(np.maximum((1 - eta) * (1 + eta), 0.0))
         _, n, angles = self.smooth.shape
@@ -82,8 +82,11 @@ class LoadedCircle:
         return np.asarray(root * (inner * (1 - off) + outer * off))
 
     def harmonics(self, eta: Array, highest: int) -> tuple[Complex, Complex, Complex]:
-        """Amplitudes of exp(imθ) of q_r + i q_θ, q_r - i q_θ and p, m = 0 … highest, twice those of
-        the sum over all m but for m = 0 (highest + 1, n)."""
+        """Return the amplitudes of exp(imθ) of q_r + i q_θ, q_r - i q_θ and p, m = 0 … highest.
+
+        Their shape is (highest + 1, n). Except for m = 0 they are doubled, as sums over m ≥ 0
+        require.
+        """
         count = 2 * highest + 2
         theta = 2 * np.pi * np.arange(count) / count
         cos, sin = np.cos(theta), np.sin(theta)

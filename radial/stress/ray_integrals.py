@@ -1,9 +1,9 @@
-"""Displacement and stress in a half-space below a loaded circle, as integrals over rays.
+"""Displacement and stress in a half-space below a loaded circle, as integrals along rays.
 
-Boussinesq's and Cerruti's solutions (Johnson 1985, sections 3.2 and 3.6) are summed over the circle
-in polar coordinates about the place above which is asked, where their d⁻² loses one power; at the
-surface what is left of the other has no mean over the angle, so that ∫ t/d is its finite part.
-Lengths are in units of the circle's radius.
+The solutions of Boussinesq and Cerruti (Johnson 1985, sections 3.2 and 3.6) are integrated over the
+circle in polar coordinates about the point of evaluation. The Jacobian reduces their d⁻² by one
+power. At the surface the mean over the angle of the remaining singular term is zero, so ∫ t/d is a
+finite part. Lengths are in units of the circle's radius.
 """
 
 from __future__ import annotations
@@ -18,24 +18,24 @@ from radial.stress.loaded_circle import LoadedCircle
 from semi_analytical.frf.stack import HalfSpace
 
 SURFACE = 1e-8  # depths below are the surface
-ANGLES, POINTS = 8, 6  # Gauss's of a panel of angles and of a ray
-WIDER = 4.0  # than the panel before, at most
-LEAST = 1e-7  # panels of a ray, and of angles
+ANGLES, POINTS = 8, 6  # Gauss points of a panel of angles and of a ray
+WIDER = 4.0  # largest ratio of adjacent panels
+LEAST = 1e-7  # smallest panel of a ray, and of angles
 MAX_AT_ONCE = 1 << 18  # points
 
 
 def below_circle(
     circle: LoadedCircle, material: HalfSpace, x: Array, y: Array, depth: float, fineness: int = 1
 ) -> Array:
-    """u_x, u_y, u_z [length] and σ_xx, yy, zz, yz, xz, xy [force/length²] (9, n) at places x, y
-    from the circle's centre and a depth, all in its radii.
+    """Return u_x, u_y, u_z [length] and σ_xx, yy, zz, yz, xz, xy [force/length²] (9, n).
 
-    fineness  how many times as many points as it takes
+    x, y, depth  from the circle's centre, over its radius
+    fineness     multiple of the number of points
     """
     found = np.empty((9, len(x)))
     r = np.hypot(x, y)
     depth = 0.0 if depth < SURFACE else depth
-    # Alike are places that take panels alike.
+    # Points with the same panels are evaluated together.
     apart = np.sqrt(np.abs((1 - r) * (1 + r)))
     widths = np.ceil(_panels(np.where(r < 1, np.maximum(apart, LEAST), 1.0)))
     nearest = np.maximum(np.hypot(np.where(r < 1, 0.0, r - 1), depth), LEAST)
@@ -56,13 +56,15 @@ def below_circle(
 
 
 def _panels(smallest: Array) -> Array:
-    """How many it takes to grow from the smallest to one."""
+    """Return the number of panels that grow from the smallest to 1."""
     return np.asarray(1 - np.log(smallest) / np.log(WIDER))
 
 
 def _of_angles(r: Array, count: int, fineness: int) -> tuple[Array, Array]:
-    """Angles from the way outward and weights (n, rays), for places inside: dense where rays begin
-    to run along the edge."""
+    """Return angles from the outward direction and weights (n, rays), for points inside.
+
+    Rays are dense where they are nearly tangential to the edge.
+    """
     width = np.sqrt((1 - r) * (1 + r))
     v, weights = unit_gauss(ANGLES * fineness)
     edges = _graded(np.clip(width, LEAST, 1.0), count) * (pi / 2)
@@ -74,7 +76,7 @@ def _of_angles(r: Array, count: int, fineness: int) -> tuple[Array, Array]:
 
 
 def _graded(smallest: Array, count: int) -> Array:
-    """0, smallest, …, 1 in equal ratios (…, count + 1)."""
+    """Return 0, smallest, …, 1 in equal ratios (…, count + 1)."""
     powers = np.arange(count - 1, -1, -1) / max(count - 1, 1)
     grown = smallest[..., None] ** powers
     return np.concatenate([np.zeros_like(grown[..., :1]), grown], axis=-1)
@@ -84,15 +86,15 @@ def _summed(
     circle: LoadedCircle, material: HalfSpace, x: Array, y: Array, depth: float,
     angles: tuple[Array, Array] | None, count: int, fineness: int,
 ) -> Array:  # fmt: skip
-    """As `subsurface_circle`, for places that are alike.
+    """Return the result of `below_circle` for points with the same panels.
 
-    angles  of the rays, from the way outward; None outside
+    angles  of the rays, from the outward direction; None outside
     """
     r = np.hypot(x, y)[:, None]
     outward = np.arctan2(y, x)[:, None]
     if angles is None:
         v, weights = unit_gauss(2 * ANGLES * fineness)
-        # Rays that touch the edge: the sine goes from -1 to 1.
+        # Between rays tangential to the edge the sine varies from -1 to 1.
         widest = np.arcsin(np.minimum(1 / r, 1.0))
         turned = widest * (2 * v - 1)
         half = np.sqrt(np.maximum(1 - (r * np.sin(turned)) ** 2, 0.0))
@@ -103,7 +105,7 @@ def _summed(
     else:
         turned, weight = angles
         along, half = r * np.cos(turned), np.sqrt(np.maximum(1 - (r * np.sin(turned)) ** 2, 0.0))
-        # The longer part of a chord is a sum, the shorter one what is left of the product.
+        # The longer part of a chord is a sum; the shorter one follows from the product of both.
         product = (1 - r) * (1 + r)
         longer = np.abs(along) + half
         ahead = np.where(along < 0, longer, product / longer)
@@ -130,8 +132,10 @@ def _summed(
 
 
 def _on_rays(scale: Array, count: int, fineness: int) -> tuple[Array, Array]:
-    """Places between 0 and 1 and weights (…, points): dense towards 0, roots taken out of both
-    ends."""
+    """Return positions between 0 and 1 and weights (…, points), dense towards 0.
+
+    Substitutions remove roots at both ends.
+    """
     edges = _graded(scale, count)
     v, weights = unit_gauss(POINTS * fineness)
     lengths = np.diff(edges, axis=-1)[..., None]
@@ -146,13 +150,16 @@ def _on_rays(scale: Array, count: int, fineness: int) -> tuple[Array, Array]:
 
 
 def _kernels(material: HalfSpace, d: Array, depth: float) -> tuple[Array, ...]:
-    """Times d: what p, q along the ray and q across it at a distance d do, u_s, u_z, σ_ss, σ_tt,
-    σ_zz, σ_sz of the first two and u_t, σ_st of the third, with s towards the traction."""
+    """Return d times the kernels of p, of q along the ray and of q across it, at a distance d.
+
+    They are u_s, u_z, σ_ss, σ_tt, σ_zz, σ_sz for p and for q along the ray, and u_t, σ_st for q
+    across, with s towards the traction.
+    """
     G, nu = material
     g, z = 1 - 2 * nu, depth
     R = np.hypot(d, z)
     sum_ = R + z
-    # With z = 0 and d = 0 nothing is asked.
+    # Points have d > 0 if z = 0.
     move, unit = d / (4 * pi * G), d / (2 * pi)
     by_p = (
         -move * (d * z / R**3 - g * d / (R * sum_)),
@@ -181,7 +188,7 @@ def _kernels(material: HalfSpace, d: Array, depth: float) -> tuple[Array, ...]:
 def _by_rays(
     material: HalfSpace, t: Array, d: Array, weight: Array, depth: float, cos: Array, sin: Array
 ) -> Array:
-    """u_s, u_t, u_z, σ_ss, σ_tt, σ_zz, σ_sz, σ_st of every ray (8, n, rays)."""
+    """Return u_s, u_t, u_z, σ_ss, σ_tt, σ_zz, σ_sz, σ_st of every ray (8, n, rays)."""
     pu, pw, pss, ptt, pzz, psz, su, sw, sss, stt, szz, ssz, tu, tst = _kernels(material, d, depth)
     q_x, q_y, p = t * weight
 
@@ -200,7 +207,10 @@ def _by_rays(
 def _finite_part(
     material: HalfSpace, here: Array, d: Array, weight: Array, length: Array, cos: Array, sin: Array
 ) -> Array:
-    """What makes ∫ t/d by points its finite part: of the traction here, ln R less the points."""
+    """Return the correction of ∫ t/d by quadrature to its finite part.
+
+    For the traction at the point it is ln R minus the quadrature.
+    """
     left = np.log(length) - np.sum(weight / d, axis=-1)
     unit, g, nu = 1 / (2 * pi), 1 - 2 * material.poisson_ratio, material.poisson_ratio
     q_x, q_y, p = here[..., None]
@@ -214,7 +224,7 @@ def _finite_part(
 
 
 def _turned(rays: Array, cos: Array, sin: Array, weight: Array) -> Array:
-    """Sums over the rays, in x and y (9, n)."""
+    """Return sums over the rays, in x and y (9, n)."""
     u_s, u_t, u_z, ss, tt, zz, sz, st = rays * weight
     c2, s2, cs = cos * cos, sin * sin, cos * sin
     each = (

@@ -1,10 +1,10 @@
 """Displacement and stress in a layered body below the tractions of a circle.
 
-In the outermost layer they are those of a half-space (`ray_integrals`), plus what the layers add,
-which like images no nearer than 2h - z needs few wavenumbers; below it everything comes from no
-nearer than z. These are Hankel integrals of every harmonic: with A = H_{m+1}(q_r + i q_θ) and
-B = H_{m-1}(q_r - i q_θ) the waves that go as exp(imψ) have the tractions (B - A)/2 along them and
--(A + B)/2 across.
+In the outermost layer they are those of a half-space (`ray_integrals`) plus the contribution of the
+layers. This contribution has the images of the surface at a distance of at least 2h - z, and needs
+few wavenumbers. Below the outermost layer all contributions have a distance of at least z. The
+Hankel integrals are evaluated for every harmonic: with A = H_{m+1}(q_r + i q_θ) and B = H_{m-1}(q_r
+- i q_θ), waves ∝ exp(imψ) have the tractions (B - A)/2 along the wave vector and -(A + B)/2 across.
 """
 
 from __future__ import annotations
@@ -29,20 +29,20 @@ from semi_analytical.frf.stack import Stack
 
 Complex = NDArray[np.complex128]
 
-# exp(-κ d) (κ d)² is below 1e-12 from here on: tractions are not known better.
+# exp(-κ d) (κ d)² is below 1e-12 for larger κ d, which is the accuracy of the tractions.
 DIED_OUT = 36.0
 LEAST_POINTS = 64  # over the radius
 MAX_AT_ONCE = 1 << 21  # numbers
 
 
 class BelowCircle:
-    """The fields of one body.
+    """Fields of one body below a loaded circle.
 
-    circle    what loads it
-    stack     the body, layers or not
-    reach     radii from the centre up to which there are places
+    circle    tractions
+    stack     the body, with or without layers
+    reach     largest distance of points from the centre over the radius
     highest   harmonic
-    fineness  how many times as many points and wavenumbers as it takes
+    fineness  multiple of the numbers of points and wavenumbers
     """
 
     def __init__(
@@ -58,7 +58,7 @@ class BelowCircle:
             self._sources = self._transforms() * (weights * self._kappa)
 
     def _transforms(self) -> Complex:
-        """A, B and the transform of p (3, M + 1, κ), of tractions in units of the radius."""
+        """Return A, B and the transform of p (3, M + 1, κ), lengths in units of the radius."""
         count = ceil(max(LEAST_POINTS, self._kappa[-1]) * self.fineness)
         eta, area = self.circle.disc_rule(count)
         outward, inward, p = self.circle.harmonics(eta, self.highest)
@@ -71,18 +71,23 @@ class BelowCircle:
         return found
 
     def _orders(self, at: Array) -> list[Array]:
-        """J_0 … J_{M+2}."""
+        """Return J_0 … J_{M+2}."""
         return list(bessel_functions(self.highest + 2, at))
 
     def _blocks(self, beside: int) -> list[slice]:
-        """Of wavenumbers whose Bessel functions at so many places fit into little memory."""
+        """Return blocks of wavenumbers that limit the memory of the Bessel functions.
+
+        beside  number of points
+        """
         step = max(MAX_AT_ONCE // (beside * (self.highest + 3)), 1)
         return [slice(k, k + step) for k in range(0, len(self._kappa), step)]
 
     def at(self, levels: Sequence[Level], x: Array, y: Array) -> Array:
-        """u_x, u_y, u_z [length] and σ_xx, yy, zz, yz, xz, xy [force/length²] at places (n,) in the
-        scene's axes [length] of every level, shape (levels, 9, n); raises ValueError for a level in
-        a rigid base."""
+        """Return u_x, u_y, u_z [length] and σ_xx, yy, zz, yz, xz, xy [force/length²].
+
+        The shape is (levels, 9, n), for points (n,) in the scene's axes [length]. Raises ValueError
+        for a level in a rigid base.
+        """
         a = self.circle.radius
         found = np.zeros((len(levels), 9, len(x)))
         x, y = (x - self.circle.centre) / a, y / a
@@ -114,7 +119,7 @@ class BelowCircle:
 
 
 def _order(orders: Sequence[Array], m: int) -> Array:
-    """J_m, of negative orders, too."""
+    """Return J_m for any sign of m."""
     return orders[m] if m >= 0 else (-1) ** m * orders[-m]
 
 
@@ -122,7 +127,7 @@ def _transformed(
     descent: Descent, level: Level, sources: Complex, orders: Sequence[Array], turns: Complex,
     felt: int,
 ) -> Array:  # fmt: skip
-    """u_r, u_θ, u_z, σ_rr, θθ, zz, θz, rz, rθ (9, n): the sum over harmonics."""
+    """Return u_r, u_θ, u_z, σ_rr, θθ, zz, θz, rz, rθ (9, n), summed over harmonics."""
     fields = descent.remainder(level)
     plane = in_plane(fields, material_at(descent.stack, level), descent.alpha)
     total = np.zeros((9, turns.shape[1]))
@@ -156,7 +161,7 @@ def _transformed(
 
 
 def _turned(polar: Array, cos: Array, sin: Array) -> Array:
-    """From outward and around to x and y (levels, 9, n)."""
+    """Transform radial and circumferential components to x and y (levels, 9, n)."""
     u_r, u_t, u_z, rr, tt, zz, tz, rz, rt = np.moveaxis(polar, 1, 0)
     mean, half = (rr + tt) / 2, (rr - tt) / 2
     c2, s2 = cos * cos - sin * sin, 2 * sin * cos

@@ -19,21 +19,22 @@ from radial.stress.half_space import below_pressure
 from semi_analytical.frf.depth import Descent, Level, in_plane, material_at
 from semi_analytical.frf.stack import Stack
 
-# exp(-κ d) (κ d)² is below 1e-17 from here on.
+# exp(-κ d) (κ d)² is below 1e-17 for larger κ d.
 DIED_OUT = 48.0
-BLOCK = 4096  # wavenumbers whose Bessel functions are held at a time
+BLOCK = 4096  # wavenumbers per block of Bessel functions
 
 
 class Below:
-    """The fields of one body.
+    """Fields of one body below a contact on a disc.
 
-    In the outermost layer they are those of a half-space of its material (`half_space`), plus what
-    the layers add, which like images no nearer than 2h - z needs few wavenumbers; below it
-    everything comes from no nearer than z.
+    In the outermost layer they are those of a half-space (`half_space`) plus the contribution of
+    the layers. This contribution has the images of the surface at a distance of at least 2h - z,
+    and needs few wavenumbers. Below the outermost layer all contributions have a distance of at
+    least z.
 
-    stack     the body, layers or not
-    reach     radii up to which there are places, over that of the contact
-    fineness  how many times as many wavenumbers as it takes
+    stack     the body, with or without layers
+    reach     largest radius of points over the contact radius
+    fineness  multiple of the number of wavenumbers
     """
 
     def __init__(self, contact: Disc, stack: Stack, reach: float, fineness: int = 1) -> None:
@@ -48,8 +49,12 @@ class Below:
         self._sources = scale * weights * self._places * contact.wave_transform(chosen)
 
     def at(self, levels: Sequence[Level], r: Array) -> Array:
-        """u_r, u_z [length], σ_rr, σ_θθ, σ_zz, σ_rz [force/length²] at radii r (n,) [length] of
-        every level, shape (levels, 6, n); raises ValueError for a level in a rigid base."""
+        """Return u_r, u_z [length], σ_rr, σ_θθ, σ_zz, σ_rz [force/length²], shape (levels, 6, n).
+
+        Raises ValueError for a level in a rigid base.
+
+        r  radii (n,) [length]
+        """
         found = np.zeros((len(levels), 6, len(r)))
         x = r / self.contact.radius
         for n, level in enumerate(levels):
@@ -82,8 +87,11 @@ class Below:
 
 
 def _scalars(descent: Descent, level: Level) -> Array:
-    """What the Hankel transforms are taken of, by pressure: U, W, s, n of `frf.depth`, and half the
-    sum and half the difference of the stresses along and across (6, wavenumbers)."""
+    """Return the transforms by pressure (6, wavenumbers).
+
+    They are U, W, s, n of `frf.depth`, and half the sum and half the difference of the stresses
+    along and across the wave vector.
+    """
     fields = descent.remainder(level)
     plane = in_plane(fields, material_at(descent.stack, level), descent.alpha)
     (U, W), (s, n) = fields.displacement[:, 1], fields.traction[:, 1]

@@ -75,7 +75,7 @@ class Pushed:
 
     @property
     def status(self) -> ContactStatus:
-        """Full stick, partial slip or gross slip. An unresolved contact without sticking points has partial slip."""
+        """Full stick, partial slip or gross slip; partial slip if the rings do not resolve it."""
         share = self.held.share[np.isfinite(self.held.share)]
         if np.all(share <= 1):
             return ContactStatus.FULL_STICK

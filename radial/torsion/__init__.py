@@ -1,1 +1,1 @@
-"""Torsion: shear along the circles of a contact that is twisted."""
+"""Torsion: circumferential shear of a twisted contact."""

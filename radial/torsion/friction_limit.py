@@ -1,7 +1,7 @@
-"""The shear µp of a contact that slips everywhere, as torsion sees it.
+"""Transform of the friction limit µp of a contact, for torsion.
 
-Circumferential shear whose Hankel transform of order one is ∫₀ᵃ h(s) sin ks ds has h, by Abel's
-transform, and is had from it, with s = a t and r = a x, by
+Circumferential shear q with the Hankel transform ∫₀ᵃ h(s) sin ks ds of order 1 and its h are
+related by Abel transforms, with s = a t and r = a x,
 
     h = (2/π) s ∫ₛᵃ q/√(r²-s²) dr,    q = -d/dr ∫ᵣᵃ h/√(s²-r²) ds.
 
@@ -9,7 +9,7 @@ For µp, p = (E*/πa) [G(1)/√(1-x²) - ∫ₓ¹ G'(t)/√(t²-x²) dt], the in
 
     h = (2µE*/π²) t m,    m = G(1) K'(t) - ∫ₜ¹ G'(τ) K'(t/τ) dτ/τ,    K'(t) = K(√(1-t²)).
 
-m has a logarithm at t = 0 and is kept on panels that halve towards there.
+m is logarithmic at t = 0. It is expanded on panels whose widths halve towards t = 0.
 """
 
 from __future__ import annotations
@@ -27,15 +27,16 @@ from radial.normal.disc import Disc
 from radial.response.quadrature import unit_gauss
 
 POINTS = 48
-PANELS, NODES = 26, 26  # down to 2^-26; with Chebyshev's points 1e-16 is left of a panel
+# Panels down to 2^-26. The error of the Chebyshev interpolation of a panel is 1e-16.
+PANELS, NODES = 26, 26
 
 
 @dataclass(frozen=True)
 class FrictionLimit:
-    """h/t of a contact's pressure at 2^-26 < t <= 1.
+    """Transform h/t of a contact's pressure at 2^-26 < t <= 1.
 
     slopes  Chebyshev coefficients on 2^-(n+1) < t < 2^-n (panels, nodes) [force/length]
-    rates   of its derivative times 2^-n
+    rates   those of its derivative, times 2^-n
     """
 
     slopes: Array
@@ -43,7 +44,7 @@ class FrictionLimit:
 
     @classmethod
     def of(cls, contact: Disc) -> FrictionLimit:
-        """Of a pressure that slips with a coefficient of friction of one."""
+        """Compute the transform for a coefficient of friction of 1."""
         count = NODES + len(contact.layers)
         points = chebyshev.chebpts1(count)
         t = (3 + points) / 4 * 0.5 ** np.arange(PANELS)[:, None]
@@ -54,18 +55,18 @@ class FrictionLimit:
         return cls(slopes, rates)
 
     def slope(self, t: Array) -> Array:
-        """h/t (…)."""
+        """Return h/t (…)."""
         panel, place = _place(t)
         return _summed(self.slopes, panel, place)
 
     def slope_rate(self, t: Array) -> Array:
-        """d(h/t)/dt (…)."""
+        """Return d(h/t)/dt (…)."""
         panel, place = _place(t)
         return np.asarray(_summed(self.rates, panel, place) * 2.0**panel)
 
 
 def _place(t: Array) -> tuple[NDArray[np.int64], Array]:
-    """Panel, and where in it from -1 to 1."""
+    """Return the panel and the position in it, from -1 to 1."""
     panel = np.clip(np.floor(-np.log2(t)), 0, PANELS - 1).astype(np.int64)
     return panel, np.asarray(4 * t * 2.0**panel - 3)
 
@@ -78,7 +79,7 @@ def _summed(coefficients: Array, panel: NDArray[np.int64], place: Array) -> Arra
 
 
 def _slope(contact: Disc, t: Array) -> Array:
-    """m (…) as it is defined, with τ = t exp(y), times 2E*/π²."""
+    """Return 2E*/π² times m (…), integrated with τ = t exp(y)."""
     v, weights = unit_gauss(POINTS + len(contact.profile.abel) + 2 * len(contact.layers))
     furthest = -np.log(t)[..., None]
     y = furthest * v
@@ -88,5 +89,5 @@ def _slope(contact: Disc, t: Array) -> Array:
 
 
 def _complete(t: Array) -> Array:
-    """K'(t)."""
+    """Return K'(t)."""
     return np.asarray(ellipkm1(t**2))

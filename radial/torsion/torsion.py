@@ -1,13 +1,13 @@
-"""A contact twisted monotonically from zero: a disc r < c turns with the indenter, the rest slips.
+"""Monotonic torsion of a contact: the stick disc r < c rotates with the indenter, the rest slips.
 
-With h of `friction_limit` over G a, G the torsional modulus, N(t) = h/(G a) is what µp gives beyond
-t = c, and within (Lubkin 1951; with layers as in the pressure's equation, `disc`)
+With h of `friction_limit` and the torsional modulus G, N(t) = h/(G a) is that of µp for t > c. In
+the stick disc it is (Lubkin 1951; with layers analogous to the pressure, see `disc`)
 
     N = (4/π) φ t - D(t),    D = (2/π) ∫₀^∞ (Y - 1) sin κt N~ dκ,    N~ = ∫₀¹ N sin κt dt,
 
-Y = k G F with F the displacement per unit shear across the waves. D, which layers change, is odd
-and entire: by Galerkin's method from Legendre polynomials P_2n+1(t/c). The shear is finite at c if
-N is continuous, which gives the twist φ.
+with Y = k G F and F the displacement per unit shear perpendicular to the wave vector. D is zero
+without layers. It is odd and entire, and is expanded in Legendre polynomials P_2n+1(t/c) by
+Galerkin's method. The shear is finite at c if N is continuous; this condition gives the twist φ.
 """
 
 from __future__ import annotations
@@ -37,19 +37,19 @@ from radial.torsion.friction_limit import FrictionLimit
 from semi_analytical.frf.stack import Stack, stack_of
 
 POINTS = 24
-NO_STICK = 1e-6  # of the stick radius over that of the contact: less is none
-AXIS = 1e-7  # over the radius: an axis is seen from so near that no digit tells
+NO_STICK = 1e-6  # least stick radius over the contact radius
+AXIS = 1e-7  # smallest radius over the contact radius in integrals, without effect on any digit
 
 
 @dataclass(frozen=True)
 class Torsion:
-    """A contact that may be twisted.
+    """Contact for torsion.
 
-    contact   its pressure
-    layered   bodies that are not one half-space
+    contact   frictionless contact
+    layered   bodies with layers
     modulus   G: reciprocal of the sum of 1/G of the outermost materials [force/length²]
     friction  µ
-    fineness  how many times as many orders and points as it takes
+    fineness  multiple of the numbers of orders and points
     """
 
     contact: Disc
@@ -60,7 +60,7 @@ class Torsion:
 
     @classmethod
     def of(cls, scene: Scene, contact: Disc, friction: float, fineness: int = 1) -> Torsion:
-        """Of the bodies of a scene."""
+        """Return the contact between the bodies of a scene."""
         stacks = [stack_of(body) for body in (scene.body, scene.indenter)]
         outer = [stack.outer.shear_modulus for stack in stacks if not stack.is_rigid]
         modulus = 1 / sum(1 / shear for shear in outer)
@@ -68,17 +68,17 @@ class Torsion:
         return cls(contact, layered, modulus, friction, fineness)
 
     def points(self, width: float) -> int:
-        """That carry N, and its waves, over a part of 0 < t < 1."""
+        """Return the number of points that resolve N and its waves over a part of 0 < t < 1."""
         places, _ = self.waves
         waves = ceil(places[-1] * width / 2) if len(places) else 0
         return self.fineness * (POINTS + len(self.contact.layers) + waves)
 
     def limit(self, t: Array) -> Array:
-        """N/t of µp."""
+        """Return N/t of µp."""
         return np.asarray(self._scale * self._limit.slope(t))
 
     def limit_rate(self, t: Array) -> Array:
-        """d(N/t)/dt of µp."""
+        """Return d(N/t)/dt of µp."""
         return np.asarray(self._scale * self._limit.slope_rate(t))
 
     @cached_property
@@ -91,22 +91,22 @@ class Torsion:
 
     @cached_property
     def whole(self) -> Slipped:
-        """The last state in which all sticks."""
+        """State of incipient slip at the edge: the contact sticks."""
         return self.slipped(1.0)
 
     @cached_property
     def none(self) -> Slipped:
-        """The last state in which anything sticks that counts."""
+        """State with the smallest stick radius considered."""
         return self.slipped(NO_STICK)
 
     @cached_property
     def largest(self) -> float:
-        """The torque at which all slips [force length]."""
+        """Torque of gross slip [force length]."""
         return self.slipped(0.0).torque
 
     @cached_property
     def waves(self) -> tuple[Array, Array]:
-        """κ and weights times Y - 1; none without layers."""
+        """κ, and weights times Y - 1; empty without layers."""
         if not self.layered:
             return np.zeros(0), np.zeros(0)
         a = self.contact.radius
@@ -117,7 +117,8 @@ class Torsion:
         return places, np.asarray(weights * self.modulus * places / a * added)
 
     def slipped(self, stick: float) -> Slipped:
-        """The state whose stick disc has a radius of `stick` contact radii, 0 <= stick <= 1."""
+        """Return the state whose stick disc has a radius of `stick` contact radii, 0 <= stick <=
+        1."""
         panels = self._panels(max(stick, AXIS))
         if stick == 0:
             return Slipped(self, 0.0, np.inf, np.zeros(1), panels)
@@ -140,7 +141,7 @@ class Torsion:
         return Slipped(self, stick, float(twist), layers, panels)
 
     def _panels(self, stick: float) -> list[Panel]:
-        """The annulus, each panel no wider than it is far from the axis."""
+        """Return panels of the slip annulus, not wider than their distance from the axis."""
         if stick >= 1:
             return []
         edges = np.geomspace(stick, 1.0, ceil(log2(1 / stick)) + 1)
@@ -154,21 +155,21 @@ class Torsion:
 
 @dataclass(frozen=True)
 class Panel:
-    """N on low < t < high by its values at Gauss's points."""
+    """N on low < t < high by its values at Gauss points."""
 
     low: float
     high: float
     values: Array
 
     def integral(self, power: int, factor: int = 1) -> float:
-        """∫ N^factor t^power dt."""
+        """Return ∫ N^factor t^power dt."""
         v, weights = unit_gauss(len(self.values))
         width = self.high - self.low
         t = self.low + width * v
         return float(width * np.sum(weights * self.values**factor * t**power))
 
     def transform(self, places: Array) -> Array:
-        """∫ N sin κt dt."""
+        """Return ∫ N sin κt dt."""
         v, weights = unit_gauss(len(self.values))
         width = self.high - self.low
         waves = np.sin(np.multiply.outer(self.low + width * v, places))
@@ -177,13 +178,13 @@ class Panel:
 
 @dataclass(frozen=True)
 class Slipped:
-    """A state of partial slip.
+    """State of partial slip.
 
     of      the contact
     stick   c/a
     twist   φ [radian]
     layers  coefficients of D
-    panels  N of the slipping annulus
+    panels  N of the slip annulus
     """
 
     of: Torsion
@@ -193,7 +194,7 @@ class Slipped:
     panels: Sequence[Panel]
 
     def inside(self, t: Array) -> Array:
-        """N where it sticks."""
+        """Return N in the stick disc."""
         every = np.zeros(2 * len(self.layers))
         every[1::2] = self.layers
         return np.asarray(4 / pi * self.twist * t - legendre.legval(t / self.stick, every))
@@ -207,7 +208,7 @@ class Slipped:
 
     @cached_property
     def torque(self) -> float:
-        """4π G a³ ∫ N t dt [force length]."""
+        """Torque 4π G a³ ∫ N t dt [force length]."""
         total = sum(panel.integral(1) for panel in (*self._disc, *self.panels))
         return 4 * pi * self.of.modulus * self.of.contact.radius**3 * total
 
@@ -220,7 +221,7 @@ class Slipped:
 
     @cached_property
     def elastic_energy(self) -> float:
-        """π G a³ [(π/2) ∫ N² dt + ∫ (Y - 1) N~² dκ]: ½ ∫ q u dA [force length]."""
+        """½ ∫ q u dA = π G a³ [(π/2) ∫ N² dt + ∫ (Y - 1) N~² dκ] [force length]."""
         squares = sum(panel.integral(0, 2) for panel in (*self._disc, *self.panels))
         _, felt = self.of.waves
         by_layers = float(np.sum(felt * self.transform**2)) if len(felt) else 0.0
@@ -229,16 +230,17 @@ class Slipped:
 
     @property
     def work(self) -> float:
-        """∫ M dφ since the twist began [force length]."""
+        """∫ M dφ since the start of the twist [force length]."""
         return self.twist * self.torque - self.elastic_energy
 
     @property
     def dissipated(self) -> float:
-        """2π ∫ µp |s| r dr: in the annulus µp acts from the beginning of slip [force length]."""
+        """2π ∫ µp |s| r dr: points of the annulus carry µp from the start of their slip [force
+        length]."""
         return self.twist * self.torque - 2 * self.elastic_energy
 
     def shear(self, x: Array, limit: Array) -> Array:
-        """q_θ at r = a x (n,) [force/length²]; `limit` is µp there."""
+        """Return q_θ at r = a x (n,) [force/length²], with `limit` = µp."""
         found = limit.copy()
         sticks = x < min(self.stick, 1.0)
         if not np.any(sticks):
@@ -262,7 +264,7 @@ class Slipped:
         return found
 
     def _layers_rate(self, t: Array) -> Array:
-        """d(-D/t)/dt."""
+        """Return d(-D/t)/dt."""
         every = np.zeros(2 * len(self.layers))
         every[1::2] = self.layers
         x = t / self.stick
@@ -270,7 +272,7 @@ class Slipped:
         return np.asarray((changed / x - rate) / (x * self.stick**2))
 
     def slip(self, x: Array) -> Array:
-        """u_θ - φ r at r = a x (n,) within the contact [length]; zero where it sticks."""
+        """Return u_θ - φ r at r = a x (n,) within the contact, 0 in the stick disc [length]."""
         found = np.zeros_like(x)
         slips = (x > self.stick) & (x <= 1)
         if not np.any(slips):

@@ -1,4 +1,4 @@
-"""Pressing and then twisting as the march sees it."""
+"""Load stepping of normal load and torsion. The normal load is constant during torsion."""
 
 from __future__ import annotations
 
@@ -22,17 +22,17 @@ from radial.plan import ELSEWHERE
 from radial.torsion.torsion import Torsion
 from radial.torsion.twist_path import TwistPath
 
-# Of the largest friction limit: what exceeds it by less is round-off.
+# Largest excess of the friction limit by round-off, over the largest limit.
 NO_ANNULUS = 1e-9
 
 
 @dataclass(frozen=True)
 class Twisted:
-    """A contact at the end of an increment.
+    """Contact at the end of an increment.
 
-    pressed  its pressure
-    path     of its twists
-    asked    torque [force length] or twist [radian] as it was prescribed, by kind
+    pressed  frictionless contact
+    path     state of torsion
+    asked    kind of control, with the prescribed torque [force length] or twist [radian]
     """
 
     pressed: Pressed
@@ -41,24 +41,24 @@ class Twisted:
 
     @property
     def torque(self) -> float:
-        """As it was asked for, or what came out [force length]."""
+        """Prescribed or computed torque [force length]."""
         kind, value = self.asked
         return value if kind is ControlKind.FORCE else self.path.torque
 
     @property
     def twist(self) -> float:
-        """As it was asked for, or what came out [radian]."""
+        """Prescribed or computed twist [radian]."""
         kind, value = self.asked
         return self.path.twist if kind is ControlKind.FORCE else value
 
 
 @dataclass(frozen=True)
 class Twisting:
-    """See `contact_scene.stepping.load_stepping.Solver`.
+    """Solver of the increments of normal load and torsion.
 
-    pressing   what solves the pressure, which no twist changes
+    pressing   solver of the normal problem, which does not depend on the twist
     friction   µ
-    fineness   of orders and points
+    fineness   multiple of the numbers of orders and points
     tolerance  of every residual
     """
 
@@ -70,13 +70,13 @@ class Twisting:
     most_spent: float = 0.0
 
     def spent(self) -> float:
-        """Nothing that halves would save."""
+        """Return 0: work does not limit the bisection."""
         return 0.0
 
     def advance(
         self, ramp: LoadRamp, start: Twisted | None, before: Twisted | None, fraction: float
     ) -> Twisted:
-        """The contact at a fraction of the ramp; raises GrossSliding."""
+        """Return the contact at a fraction of the ramp; raise GrossSliding."""
         begun = start.pressed if start else None
         held = before is not None and ramp.normal.start == ramp.normal.end
         if held and before is not None:
@@ -100,7 +100,11 @@ class Twisting:
         return undeformed_gap(self.scene, last)
 
     def report(self, reached: Reached[Twisted], last: Increment | None) -> Increment:
-        """The contact at the rings; raises UnsupportedScene where it slips first within."""
+        """Return the increment with its fields at the rings.
+
+        Raises UnsupportedScene if slip does not begin at the edge, NotConverged above the
+        tolerance.
+        """
         state, before = reached.state, reached.before
         pressed = Reached(
             reached.place,
@@ -126,7 +130,7 @@ class Twisting:
             at = made.radii[int(np.argmax(np.abs(shear) - self.friction * made.pressure))]
             raise UnsupportedScene(
                 f"the twisted contact slips first within, {at:.4g} m from the axis, and this "
-                f"solver takes slip that spreads from the edge; {ELSEWHERE}"
+                f"solver requires slip that begins at the edge; {ELSEWHERE}"
             )
         residuals = replace(
             made.residuals,
@@ -153,7 +157,7 @@ class Twisting:
         )
 
     def _fields(self, path: TwistPath, x: Array, pressure: Array) -> tuple[Array, Array]:
-        """q_θ [force/length²] and slip [length] at r = a x."""
+        """Return q_θ [force/length²] and slip [length] at r = a x."""
         shear, slip = np.zeros_like(x), np.zeros_like(x)
         inside = x < 1
         for branch in path.branches:

@@ -1,9 +1,9 @@
-"""Twisting to and fro under constant pressure: what has slipped back, and what not yet.
+"""Load cycles of torsion under a constant normal load.
 
-After a reversal the change of the shear is that of a first twist with 2µ in the place of µ, so that
-with f of the first twist M - M_r = ± 2 f(|φ - φ_r|/2) (Mindlin and Deresiewicz 1953; for torsion
-Deresiewicz 1954). A branch that has gone as far as the one before it closes a loop with that, and
-the one before both goes on. Layers change f and nothing else.
+After a reversal the change of the shear is that of a first twist with 2µ instead of µ. With the
+torque f of the first twist, M - M_r = ± 2 f(|φ - φ_r|/2) (Mindlin and Deresiewicz 1953; for torsion
+Deresiewicz 1954). A branch as long as the preceding one closes a loop with it, and the branch
+before both continues. Layers change f only.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from radial.torsion.torsion import (
     Torsion,
 )
 
-# Of the largest torque: closer to it all slips, and the twist is undefined.
+# Distance from the largest torque, over this torque, in which the twist is undetermined.
 AT_LIMIT = 1e-12
 
 Named = Literal["twist", "torque"]
@@ -28,11 +28,11 @@ Named = Literal["twist", "torque"]
 
 @dataclass(frozen=True)
 class Branch:
-    """A way from a reversal, or from rest.
+    """Change of the twist since a load reversal, or since the first twist.
 
     sense   +1 or -1
-    weight  1 from rest, 2 after a reversal
-    state   of the first twist that it repeats; None at its beginning
+    weight  1 for the first twist, 2 after a reversal
+    state   of the equivalent first twist; None at the start of the branch
     """
 
     sense: float
@@ -40,18 +40,18 @@ class Branch:
     state: Slipped | None = None
 
     def size(self, of: str) -> float:
-        """Twist, torque or dissipated energy of the first twist that it repeats."""
+        """Return twist, torque, work or dissipated energy of the equivalent first twist."""
         return 0.0 if self.state is None else float(getattr(self.state, of))
 
 
 @dataclass(frozen=True)
 class TwistPath:
-    """Where a history of twists stands.
+    """State of torsion after a history of twists.
 
     of          the contact
-    branches    that have not been closed, the current one last; none before the first twist
-    dissipated  since the beginning [force length]
-    work        of the torque since the beginning [force length]
+    branches    that are not closed, the current one last; empty before the first twist
+    dissipated  energy since the start [force length]
+    work        of the torque since the start [force length]
     """
 
     of: Torsion
@@ -61,30 +61,30 @@ class TwistPath:
 
     @property
     def twist(self) -> float:
-        """φ [radian]."""
+        """Twist φ [radian]."""
         return _sum(self.branches, "twist")
 
     @property
     def torque(self) -> float:
-        """M [force length]."""
+        """Torque M [force length]."""
         return _sum(self.branches, "torque")
 
     @property
     def stick(self) -> float:
-        """Radius of what sticks while the current branch goes on, over that of the contact."""
+        """Stick radius of the current branch over the contact radius."""
         last = self.branches[-1].state if self.branches else None
         return 1.0 if last is None else last.stick
 
     def to_twist(self, twist: float) -> TwistPath:
-        """On to a twist [radian]."""
+        """Continue to a twist [radian]."""
         return self._on("twist", twist)
 
     def to_torque(self, torque: float) -> TwistPath:
-        """On to a torque [force length]; raises GrossSliding where friction carries no more."""
+        """Continue to a torque [force length]; raise GrossSliding above the friction limit."""
         if abs(torque) >= self.of.largest * (1 - AT_LIMIT):
             raise GrossSliding(
                 f"torque {torque:.6g} N m, but friction carries less than {self.of.largest:.6g} "
-                "N m; reduce it, or prescribe the twist"
+                "N m. Reduce it, or prescribe the twist"
             )
         return self._on("torque", torque)
 
@@ -115,15 +115,17 @@ def _sum(branches: list[Branch] | tuple[Branch, ...], of: str) -> float:
 
 
 def _work(others: list[Branch], branch: Branch) -> float:
-    """∫ M dφ along a branch [force length]."""
+    """Return ∫ M dφ along a branch [force length]."""
     held = branch.sense * branch.weight * branch.size("twist") * _sum(others, "torque")
     return held + branch.weight**2 * branch.size("work")
 
 
 def reached(torsion: Torsion, of: Named, needed: float, since: Slipped | None = None) -> Slipped:
-    """The state of the first twist whose twist [radian] or torque [force length] is `needed` > 0.
+    """Return the state of the first twist whose twist [radian] or torque [force length] is
+    `needed`.
 
-    since  an earlier state, if one is known
+    needed  > 0
+    since   an earlier state as a bound of the stick radius; None if there is none
     """
     whole, none = torsion.whole, torsion.none
     if needed <= getattr(whole, of):
