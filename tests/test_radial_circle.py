@@ -179,7 +179,7 @@ def test_friction_carries_less_of_a_push_beside_torsion() -> None:
     ("steps", "words"),
     [
         ((twist(1.2, 2),), "prescribe the twist"),
-        ((twist(0.8), push(0.8, 0.0)), "slides and turns"),
+        ((twist(0.8), push(0.8, 0.0)), "slides and rotates"),
         (
             (push(0.6, 0.0), push(0.6, 0.6), LoadStep(approach=0.5 * RADIUS**2, increments=1)),
             "not below the friction limit",

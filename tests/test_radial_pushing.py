@@ -255,7 +255,8 @@ def test_shear_is_within_its_limit_and_energy_is_lost_whatever_the_load_does(
         assert np.all(np.abs(end.shear_radial) <= limit + 1e-9 * end.peak_pressure)
         slides = end.in_contact & ~end.in_stick
         missed = np.abs(np.abs(end.shear_radial[slides]) / limit[slides] - 1) > 1e-6
-        assert np.sum(missed) <= 2  # between rings there are fronts
+        # A ring between a sticking and a slipping node counts as slipping.
+        assert np.sum(missed) <= np.count_nonzero(np.diff(end.in_stick[end.in_contact]))
         assert end.dissipated_energy >= lost
         assert np.all(end.gap >= 0)
         assert end.status is ContactStatus.PARTIAL_SLIP
@@ -289,7 +290,7 @@ def test_slip_that_is_narrower_than_rings_is_told_by_its_name() -> None:
         friction=CoulombFriction(coefficient=5.0),
         loading=(LoadStep(normal_force=1e3, increments=4),),
     )
-    with pytest.raises(NotConverged, match="coefficient of friction of 5 lets none slip but in"):
+    with pytest.raises(NotConverged, match="coefficient of friction of 5 only the last"):
         radial.solve(asked)
     weaker = asked.model_copy(update={"friction": CoulombFriction(coefficient=2.0)})
     assert radial.solve(weaker).steps[0].stick_radius is not None

@@ -199,11 +199,11 @@ def _newton(
             one = int(np.argmax(by))
             wrong = np.where(np.arange(n - 1) == one, wrong, sliding)
         sliding = wrong
-    problem = "the stick zone (residual: fraction of rings in contradiction with their tractions)"
+    problem = "the stick zone (residual: fraction of rings in contradiction with their tractions"
     if first > AT_EDGE:
         problem += (
-            f". With a coefficient of friction of {friction.largest:g} only the last "
-            f"{1 - first:.1g} of the radius slips, which the rings do not resolve. Use a smaller "
-            "coefficient."
+            f"; with a coefficient of friction of {friction.largest:g} only the last "
+            f"{1 - first:.1g} of the radius slips, which the rings do not resolve: use a smaller "
+            "coefficient"
         )
-    raise NotConverged(problem, step + 1, contradicting, 0.0)
+    raise NotConverged(f"{problem})", step + 1, contradicting, 0.0)
