@@ -1,5 +1,5 @@
-"""Verification cases: a problem with a known answer, what is measured, and how far it may be off.
+"""Verification cases: problems with known answers, measured quantities and tolerances.
 
-`case` says what a case is, `catalogue` lists them by level, `judgement` solves and judges one.
-The remaining files hold one case each.
+`catalogue` lists the cases and imports the module of a case on demand. `verification.judging`
+defines and judges a case.
 """

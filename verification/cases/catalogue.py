@@ -1,4 +1,4 @@
-"""All cases by name; the module of a case is imported when the case is asked for."""
+"""Catalogue of all cases by name; the module of a case is imported on demand."""
 
 from __future__ import annotations
 
@@ -122,7 +122,7 @@ MODULE_OF = {name: module for module, names in MODULES.items() for name in names
 
 
 def case_of(name: str, level: Level) -> Case:
-    """The case of this name, made by the function of its name.
+    """Build the case of a name by the function of this name.
 
     Raises KeyError for a name that is not in the catalogue.
     """
@@ -134,7 +134,7 @@ def case_of(name: str, level: Level) -> Case:
 
 
 def choose(level: Level, names: Collection[str] = ()) -> tuple[Case, ...]:
-    """The named cases, or all if none is named, in the order of the catalogue.
+    """Build the named cases, or all cases without names, in the order of the catalogue.
 
     Raises KeyError with the first name that is not in the catalogue.
     """
@@ -152,7 +152,7 @@ _before: str | None = None
 
 
 class JudgedCase(Description):
-    """What came out of a case, and the wall seconds it took."""
+    """Outcome of a case, and its duration in seconds of wall time."""
 
     outcome: CaseOutcome
     seconds: float
@@ -160,7 +160,7 @@ class JudgedCase(Description):
 
 @dataclass(frozen=True)
 class CaseToJudge:
-    """A case by its name and level: what it consists of cannot be sent to another process.
+    """Name and level of a case; the case itself cannot be sent to another process.
 
     level  by name, in capitals
     """
@@ -169,8 +169,7 @@ class CaseToJudge:
     level: str
 
     def compute(self) -> JudgedCase:
-        """Solve and judge it. What is kept on disk is left alone: what is judged must be what the
-        code computes now, not what it computed before somebody changed it."""
+        """Solve and judge the case without the disk cache, so that the present code is judged."""
         from verification.judging.case import Level
         from verification.judging.judgement import judge
 
@@ -182,7 +181,7 @@ class CaseToJudge:
 
 
 def lost(case: Case, reason: str) -> CaseOutcome:
-    """The outcome of a case that has no record: one failed verdict."""
+    """Return the outcome of a case without a record: one failed verdict."""
     return CaseOutcome(
         name=case.name,
         title=case.title,
@@ -198,7 +197,8 @@ def lost(case: Case, reason: str) -> CaseOutcome:
 
 @contextmanager
 def _no_cache_on_disk() -> Iterator[None]:
-    """For all threads of this process: a worker of a cluster may judge several cases at a time."""
+    """Disable the disk cache for all threads of the process: a worker may judge several cases at
+    once."""
     global _inside, _before
     with _lock:
         if not _inside:

@@ -94,7 +94,7 @@ STUDIED = 2.0  # E1/E2 of the row whose convergence is studied
 COATINGS = {row["E1_over_E2"]: coated_ball(row) for row in ROWS}
 EXACT = solved_here(COATINGS[STUDIED])
 NAMES = [f"E1/E2 = {row['E1_over_E2']:g}, h = {row['h_over_aH']:g} a_H" for row in ROWS]
-ON_128 = "asked of coated bodies on 128 x 128 cells, as in coated_paraboloid"
+ON_128 = "accuracy target of coated bodies on 128 x 128 cells, as in coated_paraboloid"
 ON_MESHES = (
     Within(APPROACH, asked(1e-4, 2), because(2)),
     Within(CENTRAL_PRESSURE, asked(1e-4, 2), because(2)),
@@ -103,17 +103,17 @@ ON_MESHES = (
 
 
 def _error_ratio(what: Observable, result: Any, other: Any) -> float:
-    """Error of a coated contact over that of the uncoated one, less 1."""
+    """Compute the error of a coated contact over that of the uncoated contact, less 1."""
     return abs(abs(what.error(EXACT)(result) / what.error(BARE)(other)) - 1)
 
 
 def coated_paraboloid(
     level: Level = Level.QUICK, cells: Sequence[int] = (), required: Sequence[int] = (128, 256)
 ) -> Case:
-    """The paper's coatings under a rigid paraboloid, without friction.
+    """Build the case of the paper's coatings under a rigid paraboloid, without friction.
 
     cells     per side, of the studied coating, instead of those of the level; without shifted grids
-    required  for all coatings, where figures are asked
+    required  numbers of cells of the accuracy targets, for all coatings
     """
     most = {Level.QUICK: 256, Level.STANDARD: 512, Level.FULL: 1024}[level]
     # On coarser grids no figure is asked: for errors by fineness.
@@ -152,11 +152,11 @@ def coated_paraboloid(
     return case(
         "coated_paraboloid",
         "Rigid ball on coated half-spaces",
-        "A rigid paraboloid of the paper's radius under 1 kN on a coated half-space (210 GPa, "
-        "ν = 0.3), coatings from a quarter to ten times as stiff, without friction, on windows "
-        "of three contact radii. The references come from an axisymmetric integral equation "
-        "that shares nothing with the surface grid. Under the stiffest coating the largest "
-        "pressure is not at the centre; the centre's is compared.",
+        "A rigid paraboloid of the paper's radius is pressed by 1 kN without friction on a "
+        "coated half-space (210 GPa, ν = 0.3), with coatings of 0.25 to 10 times its modulus, on "
+        "windows of three contact radii. The references are solutions of an axisymmetric "
+        "integral equation that shares nothing with the surface grid. Under the stiffest coating "
+        "the largest pressure is not at the centre; the pressure at the centre is compared.",
         *(judged(one, rows) for one in ladders.values()),
         judged(study, of_study),
         judged(followed, orders),
@@ -171,8 +171,8 @@ def coated_paraboloid(
                 f"constant_of_{row.what.name}",
                 f"{row.what.label}: error over that of the uncoated body, less 1",
                 (study.levels[-1], bare.levels[-1]), partial(_error_ratio, row.what), 0.3,
-                "the same scheme must have the same constant, up to what the shape of the "
-                "pressure does to it", "errors on equal grids per contact radius",
+                "the same scheme must have the same error constant, apart from the effect of the "
+                "pressure profile", "errors on equal grids per contact radius",
             )
             for row in (*orders, mean)
         ),
@@ -180,15 +180,15 @@ def coated_paraboloid(
             profile(
                 followed, "coated_profile",
                 "Pressure next to y = 0 under a coating of E1/E2 = 2",
-                f"Computed pressure on {cells_label(cells[-1])} cells over the semi-closed one, "
+                f"Computed pressure on {cells_label(cells[-1])} cells, the semi-closed solution, "
                 "and their difference, in units of the peak pressure without coating.",
                 "p / p_H", HERTZ.peak_pressure, PRESSURE,
             ),
             convergence(
                 followed, orders, "coated_convergence",
-                "Convergence of the coated contact beside the uncoated one",
+                "Convergence of the coated and the uncoated contact",
                 "Relative errors against cell side, for the coating of E1/E2 = 2 and for the "
-                "homogeneous body: the same orders and nearly the same constants, because the "
+                "homogeneous body. Orders are equal and constants nearly equal, because the "
                 "coefficients of the coated body are as exact as the closed form.",
                 also=(APPROACH,), beside={"uncoated": bare},
             ),
@@ -197,11 +197,10 @@ def coated_paraboloid(
 
 
 def unlike_ratios(film: float, substrate: float) -> Problem:
-    """The ball on a layer of one Poisson's ratio on a body of another: one Young's modulus
-    throughout, so that only the ratios tell them apart.
+    """Pose the ball on a layer with another Poisson's ratio than the substrate.
 
-    The answer is of constants that are written down here once more: a stack that were made of the
-    scene would share its mistakes.
+    Young's modulus is uniform, so that only the ratios differ. The reference takes constants that
+    are written here again: a stack made from the scene would share the errors of the product.
     """
     modulus, thickness = 210e9, 0.5 * HERTZ.contact_radius
     material, film_material = (
@@ -219,7 +218,7 @@ def unlike_ratios(film: float, substrate: float) -> Problem:
 
 
 def _normal(stack: Stack, k: Field) -> Field:
-    """Normal displacement of the surface per unit pressure of a wavenumber."""
+    """Return the normal surface displacement per unit pressure of a wavenumber."""
     return np.asarray(scalars(stack, k).c22)
 
 
@@ -231,7 +230,7 @@ def _semi_closed(scene: Any, exact: LayeredIndentation) -> Problem:
 
 
 def coated_unlike_ratios(level: Level = Level.QUICK) -> Case:
-    """A coating whose Poisson's ratio is not its substrate's, by cells and elements."""
+    """Build the case of a coating with another Poisson's ratio than its substrate."""
     n = finest(level)
     on_grid = (
         Within(APPROACH, 2e-4, ON_128),
@@ -244,10 +243,10 @@ def coated_unlike_ratios(level: Level = Level.QUICK) -> Case:
     }
     return case(
         "coated_unlike_ratios",
-        "Coatings of another Poisson's ratio",
-        "The paper's ball, rigid, under 1 kN on a layer of half a Hertz radius that has the "
+        "Coatings with another Poisson's ratio",
+        "The paper's ball, rigid, is pressed by 1 kN on a layer of half a Hertz radius with the "
         "Young's modulus of its substrate and another Poisson's ratio. The other coated cases "
-        "have one ratio throughout, and would not see the two exchanged.",
+        "have a uniform ratio and would not detect an exchange of the two ratios.",
         *(judged(on_cells(pair, (128,), of=name), on_grid) for name, pair in pairs.items()),
         *(
             judged(named(f"{name}, {n} elements", on_elements(pair, (n,), of=name)), ON_MESHES)
@@ -258,7 +257,7 @@ def coated_unlike_ratios(level: Level = Level.QUICK) -> Case:
 
 
 def pressure_difference(one: Any, other: Any) -> float:
-    """Largest difference of the pressures over the largest pressure."""
+    """Compute the largest difference of the pressures over the largest pressure."""
     p, q = one.steps[-1].pressure, other.steps[-1].pressure
     return float(np.max(np.abs(p - q)) / np.max(q))
 
@@ -269,7 +268,8 @@ NEARLY = 1 + 1e-9
 
 
 def layered_identities(level: Level = Level.QUICK, cells: int = 128) -> Case:
-    """One coated contact said in several ways, and coated bodies that are homogeneous ones."""
+    """Build the case of equivalent descriptions of a coated contact, and of homogeneous coated
+    bodies."""
     coating = film(2.0, 1.0)
     hard = IsotropicMaterial(young_modulus=300e9, poisson_ratio=0.25)
 
@@ -324,11 +324,11 @@ def layered_identities(level: Level = Level.QUICK, cells: int = 128) -> Case:
     first, *others = same
     return case(
         "layered_identities",
-        "Coatings on either body, cut or made of the substrate",
-        "A contact does not know which body carries the coating, whether it is one layer or "
-        "three of the same material, or whether the substrate begins as a layer; and a layer "
-        "of the substrate's material is none. Pairs of elastic, both coated bodies are "
-        "compared with the semi-closed solution for the sum of their responses.",
+        "Coatings on either body, divided or made of the substrate",
+        "A contact does not depend on which body carries the coating, on the division of the "
+        "coating into layers of one material, or on a layer of the substrate's material. Pairs "
+        "of elastic bodies, both coated, are compared with the semi-closed solution for the sum "
+        "of their responses.",
         *(
             judged(one, of_pairs if name in pairs else of_hertz if name in homogeneous else ())
             for name, one in grids.items()
@@ -337,7 +337,7 @@ def layered_identities(level: Level = Level.QUICK, cells: int = 128) -> Case:
             Comparison(
                 "same_pressure", "largest difference of the pressure over the largest pressure",
                 (other, first), pressure_difference, 1e-7, "the solver's tolerance, times ten",
-                "the same bodies in other words",
+                "equivalent descriptions of the same bodies",
             )
             for other in others
         ),
@@ -347,9 +347,9 @@ def layered_identities(level: Level = Level.QUICK, cells: int = 128) -> Case:
 
 @dataclass(frozen=True)
 class ThinLayer:
-    """A layer of a/h contact radii per thickness, under the ball; with its exact load ratio.
+    """Layer under the ball with a/h contact radii per thickness, and the exact load ratio.
 
-    load_ratio  load over the leading term for a >> h, from outside
+    load_ratio  load over the leading term for a >> h, computed outside this program
     """
 
     poisson_ratio: float
@@ -360,7 +360,7 @@ class ThinLayer:
 
     @property
     def name(self) -> str:
-        """For labels."""
+        """Label of the runs."""
         return f"ν = {self.poisson_ratio:g}, a/h = {self.a_over_h:g}"
 
     @property
@@ -377,7 +377,7 @@ class ThinLayer:
 
     @property
     def problem(self) -> Problem:
-        """Led to the approach of that solution."""
+        """Problem with the approach of the semi-closed solution prescribed."""
         step = LoadStep(approach=self.exact.approach)
         title = f"Rigid ball on a thin layer on a rigid base, {self.name}"
         return _semi_closed(pressed(title, rigid_ball(), self.body, step), self.exact)
@@ -394,10 +394,10 @@ class ThinLayer:
 
     @property
     def rows(self) -> tuple[Row, ...]:
-        """What is judged of it."""
+        """Rows of judged quantities."""
         why = (
-            "twice what is required of coatings at 128 x 128: layer and contact have scales of "
-            "their own"
+            "twice the accuracy target of coatings at 128 x 128 cells: layer and contact have "
+            "different length scales"
         )
         over_leading_term = error_norm(
             "load_over_leading_term", "load over the leading term for a >> h",
@@ -412,14 +412,14 @@ class ThinLayer:
 
     @property
     def check(self) -> Check:
-        """The semi-closed load against a printed one."""
+        """Check of the semi-closed load against a printed value."""
         digits = 1e-6
         return Check(
             "semi_closed_load", "load over the leading term, from the semi-closed solution", "",
             self.name, lambda: self.exact.load / self.leading_load,
             Reference(
                 self.load_ratio, ReferenceKind.SEMI_CLOSED,
-                "computed apart from this program: two settings agree to the digits given",
+                "computed outside this program: two settings agree to the digits given",
                 0.5 * digits,
             ),
             Required(digits, "the digits that are given"),
@@ -427,7 +427,8 @@ class ThinLayer:
 
 
 def thin_layer(level: Level = Level.QUICK, cells: int = 0) -> Case:
-    """Thin layers on a rigid base: a foundation of springs, and an incompressible film.
+    """Build the case of thin layers on a rigid base: an elastic foundation and an incompressible
+    film.
 
     cells  per side, instead of those of the level
     """
@@ -440,11 +441,11 @@ def thin_layer(level: Level = Level.QUICK, cells: int = 0) -> Case:
     return case(
         "thin_layer",
         "Thin layers on a rigid base",
-        "A rigid ball on a layer much thinner than the contact, on a rigid base, pressed by "
-        "the approach that belongs to a given contact radius. A compressible layer becomes a "
-        "foundation of springs, an incompressible one lets nothing but flow along the base "
-        "give way: its response vanishes as the square of the wavenumber, and ν = ½ is exact. "
-        "Both limits are approached slowly, so the loads of the full solution are compared.",
+        "A rigid ball is pressed by a prescribed approach on a layer much thinner than the "
+        "contact, on a rigid base. A compressible layer becomes an elastic foundation. An "
+        "incompressible layer yields only by flow along the base: its compliance vanishes with "
+        "the square of the wavenumber, and ν = ½ is exact. Both limits are approached slowly, so "
+        "that the loads of the full solution are compared.",
         *(
             judged(named(one.name, on_cells(one.problem, (cells,), 2.2)), one.rows)
             for one in layers
@@ -459,18 +460,18 @@ def thin_layer(level: Level = Level.QUICK, cells: int = 0) -> Case:
 
 
 def stiffness(depth: float, shear_modulus: float, poisson_ratio: float) -> float:
-    """Load per approach of a punch of unit radius on a film on a substrate of G = 1."""
+    """Compute the load per approach of a punch of unit radius on a film on a substrate of G = 1."""
     stack = Stack([Film(shear_modulus, poisson_ratio, depth)], HalfSpace(1.0, 0.3))
     contact_modulus = 2 * shear_modulus / (1 - poisson_ratio)
     return flat_punch(LayeredSurface(partial(_normal, stack), contact_modulus, depth), 1.0).load
 
 
 def film_stiffness(level: Level = Level.QUICK) -> Case:
-    """What a film adds to the stiffness of a flat punch, to first order."""
+    """Build the case of the first-order effect of a film on the stiffness of a flat punch."""
     nu, step = 0.3, 1e-4
     leaves = Required(
         2e-8,
-        "three times what differences of 1e-4 leave; the project's accuracy targets require 1e-5",
+        "three times the error of differences of 1e-4; the project's accuracy targets require 1e-5",
     )
 
     def by_modulus(depth: float) -> float:
@@ -488,11 +489,11 @@ def film_stiffness(level: Level = Level.QUICK) -> Case:
     return case(
         "film_stiffness",
         "Flat punch on a film: first-order stiffness",
-        "The contact stiffness of a flat punch on a film that differs little from its "
-        "substrate, differentiated by the film's shear modulus and Poisson's ratio. Gao, Chiu "
+        "The contact stiffness of a flat punch on a film that differs little from its substrate, "
+        "differentiated with respect to the film's shear modulus and Poisson's ratio. Gao, Chiu "
         "and Lee give the derivatives in closed form from the homogeneous stress field alone. "
-        "Here they are central differences of the stiffness from our layered response, by the "
-        "semi-closed integral equation.",
+        "The computed derivatives are central differences of the stiffness with the layered "
+        "response of this program and the semi-closed integral equation.",
         checks=tuple(
             Check(
                 name, meaning, "", f"h/a = {depth:g}", partial(measure, depth),
@@ -519,8 +520,10 @@ def fem_coated(
     rows: Sequence[Any] | None = None,
     elements: Sequence[int] = (),
 ) -> Case:
-    """The paper's coatings by finite elements: soft and stiff ones, all above the quick level. On
-    coarser meshes errors are followed, not judged; meshes are fitted to the contact by the solver.
+    """Build the case of the paper's coatings by finite elements.
+
+    The quick level has one soft and one stiff coating. Errors on coarser meshes are followed, not
+    judged. The solver fits the meshes to the contact.
 
     rows      of the reference, and elements per radius, instead of those of the level
     """
@@ -540,21 +543,22 @@ def fem_coated(
     return case(
         "fem_coated",
         "Finite elements: coated bodies without friction",
-        "The paper's ball, rigid, on coated half-spaces under 1 kN, as in coated_paraboloid, "
-        "by finite elements. The interface is a line of the mesh; beyond the section the "
-        "substrate alone answers, which costs the approach up to 1e-4 below stiff coatings.",
+        "The paper's ball, rigid, is pressed by 1 kN on coated half-spaces, as in "
+        "coated_paraboloid, by finite elements. The interface is a line of the mesh. The far "
+        "field is that of the substrate alone, which changes the approach by up to 1e-4 below "
+        "stiff coatings.",
         *(judged(one, judged_rows) for one in ladders),
         charts=tuple(
             profile(
                 one, f"fem_coated_{number}", f"Pressure over the radius, {name}",
-                "Pressure by finite elements over the semi-closed solution, and their difference.",
+                "Pressure by finite elements, the semi-closed solution, and their difference.",
                 "p / p_H", HERTZ.peak_pressure,
                 PRESSURE,
             )
             for number, (row, name, one) in enumerate(zip(rows, names, ladders, strict=True), 1)
         ),
-        no_order="the solver fits its meshes to the contact, which ends anywhere in an element; "
-        "fem_hertz judges orders with the edge at given places",
+        no_order="the solver fits its meshes to the contact, whose edge has any position in an "
+        "element; fem_hertz judges orders with prescribed positions of the edge",
     )  # fmt: skip
 
 
@@ -562,7 +566,7 @@ WITHIN = 0.995  # radii up to which pressures are compared: at the edge they hav
 
 
 def _pressure_error(result: Any, _: int, problem: Problem) -> float:
-    """At the rings, or at the radii of a table."""
+    """Compute the largest error of the pressure at the rings, or at the radii of a table."""
     end, exact = result.steps[-1], problem.ends[0]
     scale = problem.scales.get(OVER_PEAK) or mean_pressure(problem)
     r, found = end.radii, end.pressure
@@ -577,9 +581,11 @@ def _pressure_error(result: Any, _: int, problem: Problem) -> float:
 
 
 def radial_pressing(level: Level = Level.QUICK) -> Case:
-    """The radial solver against closed forms, and against integral equations where there are
-    layers; above the quick level also with twice the orders and points."""
-    why = "both are right to rounding, of which forty times are allowed; 1e-10 was asked"
+    """Build the case of the radial solver against closed forms, and for layers integral equations.
+
+    Above the quick level the orders and points are doubled as well.
+    """
+    why = "both have rounding errors, of which forty times are allowed; 1e-10 was the target"
     of_pressure = error_norm(
         "pressure",
         f"largest error of the pressure up to {WITHIN:g} a, or at the radii of a table",
@@ -592,14 +598,15 @@ def radial_pressing(level: Level = Level.QUICK) -> Case:
     )
     return case(
         "radial_pressing",
-        "Pressing in one dimension",
-        "The paper's ball, a cone and a flat punch on half-spaces, and the ball, rigid, on "
-        f"{len(ROWS)} coatings, under 1 kN without friction, by the radial solver. It has the "
-        "response of layers to a wavenumber in common with the semi-analytical solver; the "
-        "references have neither that nor its polynomials.",
+        "Radial solver: indentation",
+        "The paper's ball, a cone and a flat punch on half-spaces, and the rigid ball on "
+        f"{len(ROWS)} coatings are pressed by 1 kN without friction, by the radial solver. This "
+        "solver shares the response of layers to a wavenumber with the semi-analytical solver; "
+        "the references share neither that response nor the polynomials.",
         *(
             judged(on_radii(problem, name, (1,) if level is Level.QUICK else (2, 1)), rows)
             for name, problem in problems.items()
         ),
-        no_order="polynomials converge faster than any power: all counts are exact to rounding",
+        no_order="polynomials converge faster than any power: all numbers of terms are exact to "
+        "rounding",
     )

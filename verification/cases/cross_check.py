@@ -1,10 +1,10 @@
-"""Three solvers on the same coated contacts, pressed with and without friction, and pushed.
+"""Comparison of three solvers on coated contacts with and without friction, and under shear.
 
-Solvers are not compared near the axis, near the edge, and at kinks of the shear. Cells that stick
-keep the differences of shear that they had when they began to stick. An edge of stick that moves
-outward steadily leaves no more than the ripple of its increments. An edge that comes back and
-turns outward again, or that lay still when the load turned, leaves a kink until slip passes over
-it. Cells and elements round a kink, each in its way.
+The solvers are not compared near the axis, near the edge, and at kinks of the shear. Cells that
+stick keep the error of the shear at the onset of stick. A stick edge that moves outward steadily
+leaves only the ripple of its increments. A stick edge that recedes and moves outward again leaves a
+kink until slip passes over it, and so does an edge that is stationary when the load turns. Cells
+and elements smooth a kink in different ways.
 """
 
 from __future__ import annotations
@@ -69,9 +69,9 @@ DIRECTIONS = 16
 # finer cells or elements only show it more sharply.
 INCREMENTS = {0.0: 1, 0.1: 20, 0.3: 80}
 OWN, OTHER = ReferenceKind.OWN_REFINEMENT, ReferenceKind.OTHER_SOLVER
-ASKED = "asked of two solvers that share nothing but the scene"
+ASKED = "accuracy target of two solvers that share only the scene"
 SOURCE = "the other solver, on the same increments"
-HAND = "set by hand: twice what both leave on the coarsest meshes here"
+HAND = "set by hand: twice the errors of both on the coarsest meshes here"
 # What pressed contacts are compared in: allowed, and in words.
 COMPARED = {
     "pressure": (5e-3, "pressure, r < 0.9 a, over p₀"),
@@ -81,11 +81,13 @@ COMPARED = {
 
 
 def kept_edges(stick_radii: Sequence[float], resolution: float) -> tuple[float, ...]:
-    """Radii at which shear has a kink after these increments: where the edge of stick turned
-    outward and never came back, and last where it is now.
+    """Return the radii of the kinks of the shear after a sequence of increments.
+
+    A kink remains where the stick edge turned outward and did not return later. The last radius is
+    that of the present edge.
 
     stick_radii  after every increment
-    resolution   coming back by less is none
+    resolution   smaller returns of the edge are ignored
     """
     c = np.asarray(stick_radii)
     least_later = np.minimum.accumulate(c[::-1])[::-1][1:]
@@ -100,13 +102,14 @@ def kept_edges(stick_radii: Sequence[float], resolution: float) -> tuple[float, 
 
 
 def kept_fronts(x: Field, stuck: Mask, turns: Sequence[int]) -> list[float]:
-    """Places on a line at which shear has a kink after these increments: where stick began or ended
-    when the load turned, if both sides have stuck ever since.
+    """Return the positions of the kinks of the shear on a line after a sequence of increments.
 
-    x      places of the solution on the line [length]
-    stuck  (increments, places)
-    turns  increments after which the load turned; the last is not later than the last of `stuck`,
-           where fronts are as they are now
+    A kink remains at a stick boundary at which the load turned, if both sides have stuck since.
+
+    x      positions of the solution on the line [length]
+    stuck  (increments, positions)
+    turns  increments after which the load turned; the last entry is at most the last of `stuck`,
+           whose boundaries are the present ones
     """
     middles, fronts = 0.5 * (x[1:] + x[:-1]), []
     for turn in turns:
@@ -125,7 +128,7 @@ class Pressed:
     friction         µ
     cells, elements  of the finer run, even: along each side of the window, and over the contact
                      radius
-    refined          cells and elements are also compared with half as many of them
+    refined          compare cells and elements with half of their number as well
     """
 
     modulus_ratio: float
@@ -137,12 +140,12 @@ class Pressed:
 
     @property
     def name(self) -> str:
-        """For people."""
+        """Label for reports."""
         return f"E1/E2 = {self.modulus_ratio:g}, h = {self.thickness:g} a_H, µ = {self.friction:g}"
 
     @property
     def scene(self) -> Scene:
-        """The scene that all solvers solve."""
+        """Scene of all solvers."""
         return pressed(
             f"Rigid ball on a coated half-space, {self.name}",
             rigid_ball(),
@@ -153,12 +156,12 @@ class Pressed:
 
     @property
     def frictionless(self) -> LayeredIndentation:
-        """Semi-closed solution without friction, whose radius and peak pressure are the scales."""
+        """Semi-closed solution without friction; its radius and peak pressure are the scales."""
         return exact_contact(coated(film(self.modulus_ratio, self.thickness)))
 
     @property
     def on_cells(self) -> tuple[Run, Run]:
-        """Coarse and fine."""
+        """Coarse and fine run on cells."""
         half = MARGIN * self.frictionless.contact_radius
         coarse, fine = (
             Run(f"{self.name}, {n} x {n} cells", self.scene, paper.square_grid(n, half))
@@ -168,8 +171,11 @@ class Pressed:
 
     @property
     def on_elements(self) -> tuple[SectionRun, SectionRun]:
-        """Coarse and fine; elements are counted over the contact radius without friction, so that
-        the finer mesh keeps the rings of the coarser."""
+        """Coarse and fine run on elements.
+
+        Elements are counted over the contact radius without friction, so that the finer mesh
+        contains the rings of the coarser mesh.
+        """
         coarse, fine = (
             SectionRun(
                 f"{self.name}, {n} elements",
@@ -186,25 +192,28 @@ class Pressed:
 
     @property
     def on_radii(self) -> RadiiRun:
-        """By the radial solver."""
+        """Run by the radial solver."""
         return RadiiRun(f"{self.name}, on radii", self.scene)
 
     @property
     def runs(self) -> tuple[AnyRun, ...]:
-        """Of all solvers."""
+        """Runs of all solvers."""
         fine = self.on_cells[1], self.on_elements[1]
         own = (*self.on_cells, *self.on_elements) if self.refined else fine
         return (*own, self.on_radii)
 
     @property
     def resolution(self) -> float:
-        """Of the coarser of the fine runs, over the contact radius."""
+        """Resolution of the coarser of the fine runs, over the contact radius."""
         return max(2 * MARGIN / self.cells, 1 / self.elements)
 
     def radii(self, *results: Any) -> Field:
-        """Rings of the coarser mesh at which results are compared, over the contact radius: off the
-        axis, and within 0.9 a; of two meshes, where the ripple of the coarser at the edge does not
-        reach, and beyond the first rings."""
+        """Return the rings of the coarser mesh at which results are compared, over the contact
+        radius.
+
+        The rings are away from the axis and within 0.9 a. Two meshes are compared beyond the first
+        rings and out of reach of the edge ripple of the coarser mesh.
+        """
         n, within = self.elements // 2, JUDGED_WITHIN
         meshes = all(isinstance(result, fem_reference.Result) for result in results)
         if meshes:
@@ -215,14 +224,17 @@ class Pressed:
         return np.asarray(rings[kept & (rings >= FEW / n)] if meshes else rings[kept])
 
     def kinks(self, result: Any) -> tuple[float, ...]:
-        """Radii of kinks of the shear of a result, over the contact radius."""
+        """Return the radii of kinks of the shear of a result, over the contact radius."""
         a = self.frictionless.contact_radius
         radii = [i.stick_radius / a for i in result.increments if i.stick_radius is not None]
         return kept_edges(radii, self.resolution) if radii else ()
 
     def tractions(self, result: Any, radii: Field) -> tuple[Field, Field]:
-        """Pressure over p₀ and outward shear over µp₀: values of the rings, linear between radii,
-        means over the directions by cubic splines between cells."""
+        """Return the pressure over p₀ and the outward shear over µp₀ at some radii.
+
+        Elements give the values of their rings. The radial solver is interpolated linearly. Cells
+        are interpolated by cubic splines and averaged over the directions.
+        """
         end, unit = result.steps[-1], float(self.frictionless.pressure(0.0))
         r, grid = radii * self.frictionless.contact_radius, getattr(result, "grid", None)
         limit = (self.friction or 1.0) * unit
@@ -236,12 +248,18 @@ class Pressed:
             ) / limit
         found = np.rint(r / (end.radii[1] - end.radii[0])).astype(int)
         if not np.allclose(end.radii[found], r, rtol=EVEN, atol=0.0):
-            raise ValueError("the rings of the result are not at the radii that are asked for")
+            raise ValueError(
+                "the rings of the result are not at the requested radii. Request "
+                "radii of the coarser mesh"
+            )
         return end.pressure[found] / unit, shear[found] / limit
 
     def apart(self, name: str, one: Any, other: Any) -> float:
-        """Largest difference of two results in the pressure, in the shear away from its kinks, or
-        relative difference in the approach."""
+        """Compute the largest difference of two results.
+
+        The difference is that of the pressure, of the shear away from its kinks, or of the approach
+        (relative).
+        """
         if name == "approach":
             return abs(float(one.steps[-1].approach / other.steps[-1].approach) - 1)
         at = self.radii(one, other)
@@ -254,13 +272,14 @@ class Pressed:
         return float(np.max(np.abs(q - q_other), where=away, initial=0.0))
 
     def comparisons(self) -> tuple[Comparison, ...]:
-        """Own errors of cells and elements first, then differences of every two solvers."""
+        """List the comparisons: errors of cells and elements first, then differences of every two
+        solvers."""
         cells, elements, rings = self.on_cells, self.on_elements, self.on_radii
         own = (
-            "what is asked of the difference means something only if each side's own error is "
+            "the tolerance of the difference is meaningful only if the error of each solver is "
             "below it"
         )
-        half, other = "the same solver on half as many cells or elements", "between the solvers"
+        half, other = "the same solver on half of the cells or elements", "between the solvers"
         pairs: tuple[tuple[str, str, tuple[AnyRun, AnyRun]], ...] = (
             ("own_error_of_cells", "change from half the cells", cells),
             ("own_error_of_elements", "change from half the elements", elements),
@@ -282,10 +301,10 @@ class Pressed:
         )  # fmt: skip
 
     def findings(self) -> tuple[Finding, ...]:
-        """Stick radius and energy lost, by cells and elements."""
+        """List stick radius and dissipated energy on cells and elements."""
         numbers: dict[str, tuple[str, Callable[[Any], float]]] = {
             "stick_radius": ("stick radius over contact radius", _stick_ratio),
-            "dissipated_energy": ("energy lost to friction over W δ", _energy_ratio),
+            "dissipated_energy": ("energy dissipated by friction over W δ", _energy_ratio),
         }
         return tuple(
             Finding(
@@ -297,9 +316,12 @@ class Pressed:
         )  # fmt: skip
 
     def stress_apart(self, one: Any, other: Any) -> float:
-        """Largest difference of a component of the stress, over p₀: on the axis from 0.1 to 3
-        contact radii, and on both sides of the interface up to 1.5 of them. Elements take the
-        tractions of their result on a mesh of its own, cells a window half as wide again."""
+        """Compute the largest difference of a stress component, over p₀.
+
+        Points are on the axis from 0.1 to 3 contact radii, and on both sides of the interface up to
+        1.5 contact radii. The stress by elements takes the tractions of the result on a separate
+        mesh; the stress by cells takes a window of 1.5 times the width.
+        """
         a, body = self.frictionless.contact_radius, self.scene.body
         depth, end, grid = body.layers[0].thickness, one.steps[-1], one.grid
         mesh = FiniteElementDiscretisation(elements_per_radius=32)
@@ -330,7 +352,7 @@ class Pressed:
         return float(np.max(apart) / float(self.frictionless.pressure(0.0)))
 
     def panels(self, results: Results) -> tuple[Panel, Panel]:
-        """Tractions over the radius, elements in grey and cells on top of them."""
+        """Draw the tractions over the radius: elements in grey below cells."""
         cells, elements = results[self.on_cells[1].label], results[self.on_elements[1].label]
         at = self.radii(cells, elements)
         pressure, shear = (
@@ -353,7 +375,7 @@ class Pressed:
 
 
 def _around(field: Field, grid: SurfaceGrid, r: Field) -> Field:
-    """Means of a field over the directions at distances r from the axis."""
+    """Compute the mean of a field over the directions at distances r from the axis."""
     angle = (np.arange(DIRECTIONS) + 0.5) * 2 * np.pi / DIRECTIONS
     x, y = np.outer(r, np.cos(angle)), np.outer(r, np.sin(angle))
     at = [(x - grid.x[0]) / grid.spacing[0], (y - grid.y[0]) / grid.spacing[1]]
@@ -376,13 +398,14 @@ EDGE = 0.82  # contact radius over a_H, about
 
 @dataclass(frozen=True)
 class Pushed:
-    """The paper's figure 4: the ball, rigid, on a coating as thick as the Hertz radius, pressed in
-    20 increments and then pushed in 6 per step.
+    """Contact of the paper's figure 4: a rigid ball on a coating as thick as the Hertz radius.
+
+    The ball is pressed in 20 increments, then loaded tangentially in 6 increments per step.
 
     modulus_ratio  E1 / E2, coating over substrate
     cells          per side, an odd number so that a row lies on y = 0
     elements       per contact radius
-    harmonics      of the angle, of the elements
+    harmonics      highest harmonic of the angle, for the elements
     """
 
     modulus_ratio: float
@@ -392,7 +415,7 @@ class Pushed:
 
     @property
     def scene(self) -> Scene:
-        """The scene that all solvers solve."""
+        """Scene of all solvers."""
         return pressed(
             "Coated body under a rigid ball, sheared, "
             f"E1/E2 = {self.modulus_ratio:g} (paper, figure 4)",
@@ -408,7 +431,7 @@ class Pushed:
 
     @property
     def on_elements(self) -> PointsRun:
-        """By finite elements with harmonics of the angle."""
+        """Run by finite elements with harmonics of the angle."""
         mesh = FiniteElementDiscretisation(
             elements_per_radius=self.elements,
             contact_radius=EDGE * HERTZ.contact_radius,
@@ -419,33 +442,34 @@ class Pushed:
 
     @property
     def on_cells(self) -> Run:
-        """By cells."""
+        """Run on cells."""
         grid = paper.square_grid(self.cells, 1.16 * EDGE * HERTZ.contact_radius)
         return Run(self._label(cells_label(self.cells)), self.scene, grid)
 
     @property
     def on_radii(self) -> RadiiRun:
-        """By the radial solver on rings and angles."""
+        """Run by the radial solver on rings and angles."""
         return RadiiRun(self._label("on radii"), self.scene, laws=OVER_ANGLES)
 
     @property
     def fewer(self) -> PointsRun:
-        """Half as many harmonics."""
+        """Run by finite elements with half the harmonics."""
         return replace(self, harmonics=self.harmonics // 2).on_elements
 
     @property
     def runs(self) -> tuple[AnyRun, ...]:
-        """Of all solvers."""
+        """Runs of all solvers."""
         return (self.on_elements, self.fewer, self.on_cells, self.on_radii)
 
     def comparisons(self) -> tuple[Comparison, ...]:
-        """At the end of every step; the shear on the line of the load by cells and elements."""
+        """List the comparisons at the end of every step; on the line of the load, of cells and
+        elements."""
         direct = self.on_elements.label, self.on_cells.label
         rings = [(self.on_radii.label, other) for other in direct]
         on_line: dict[str, tuple[str, Callable[[int, Any, Any], float], float, str]] = {
             "shear": (
-                "largest difference of q_x on y = 0, over µp_H, away from axis, edge and borders "
-                "of stick,",
+                "largest difference of q_x on y = 0, over µp_H, away from axis, edge and stick "
+                "boundaries,",
                 lambda step, fem, sam: float(np.max(Line(fem, sam, step).shear_judged)),
                 5e-2, ASKED,
             ),
@@ -482,14 +506,15 @@ class Pushed:
                 if part or name != "shift"
             ),
             Comparison(
-                "harmonics", "shift at 0.9 µW by half as many harmonics, relative",
+                "harmonics", "shift at 0.9 µW with half of the harmonics, relative",
                 (self.fewer.label, self.on_elements.label), partial(shift_apart, len(PARTS)), 6e-3,
-                "set by hand: harmonics 0 … 4 leave 4e-3, more leave less", "the same solver", OWN,
+                "set by hand: the error is 4e-3 with harmonics 0 … 4, and smaller with more",
+                "the same solver", OWN,
             ),
         )  # fmt: skip
 
     def findings(self) -> tuple[Finding, ...]:
-        """Stick area over contact area, by every solver."""
+        """List the stick area over the contact area by every solver."""
         return tuple(
             Finding(
                 f"stick_part_at_{part:g}", f"stick area over contact area at {part:g} µW", "",
@@ -500,7 +525,7 @@ class Pushed:
         )  # fmt: skip
 
     def lines(self, results: Results) -> dict[float, Line]:
-        """By part of µW."""
+        """Map each fraction of µW to the results on the line of the load."""
         fem, sam = results[self.on_elements.label], results[self.on_cells.label]
         return {part: Line(fem, sam, step) for step, part in enumerate(PARTS, 1)}
 
@@ -523,13 +548,13 @@ def _approach_apart(step: int, one: Any, other: Any) -> float:
 
 
 def shift_apart(step: int, one: Any, other: Any) -> float:
-    """Relative difference of the shifts of two results at the end of a step."""
+    """Compute the relative difference of the shifts of two results at the end of a step."""
     return float(abs(shift_along_x(_end(step, one)) / shift_along_x(_end(step, other)) - 1))
 
 
 @dataclass(frozen=True)
 class Line:
-    """Elements and cells at the centres of the cells on y = 0, at the end of a step."""
+    """Results of elements and cells at the cell centres on y = 0, at the end of a step."""
 
     fem: Any
     sam: Any
@@ -555,7 +580,7 @@ class Line:
 
     @property
     def shear_judged(self) -> Field:
-        """The same where it is judged."""
+        """|Δq_x| / µp_H at the positions that are judged."""
         return np.asarray(self.shear_apart[~np.any(list(self.left_out.values()), axis=0)])
 
     @property
@@ -568,7 +593,7 @@ class Line:
 
     @property
     def left_out(self) -> dict[str, Mask]:
-        """Where shear is not judged, by the reason."""
+        """Positions at which the shear is not judged, by the reason."""
         width = float(max(self.fem.steps[0].radii[1], self.sam.grid.spacing[0]))
         within = judged_within(self.fem.discretisation.elements_per_radius)
         reach = within * _end(self.step, self.fem).contact_radius
@@ -582,8 +607,8 @@ class Line:
         }
 
     def fronts(self) -> list[float]:
-        """Places where stick begins or ends in either solution, or did when the load turned and no
-        slip has passed since [length]."""
+        """Return the positions of stick boundaries and of remaining kinks in either solution
+        [length]."""
         sam, fem = (
             [one for one in result.increments if one.step <= self.step]
             for result in (self.sam, self.fem)
@@ -598,7 +623,7 @@ class Line:
 
 
 def everywhere(lines: Mapping[float, Line]) -> Table:
-    """Differences of the shear also where they are not compared, by load."""
+    """Tabulate the differences of the shear by load, including positions that are not compared."""
     rows, left = [], []
     for part, line in lines.items():
         apart, out = line.shear_apart, line.left_out
@@ -611,20 +636,20 @@ def everywhere(lines: Mapping[float, Line]) -> Table:
         left.append(apart[at])
     load, _, most, place, why = rows[int(np.argmax(left))]
     return Table(
-        title="Both solvers everywhere, also where they are not compared",
+        title="Both solvers at all positions, including those that are not compared",
         columns=(
             "load", "largest difference of q_x on y = 0 over µp_H, compared", "left out",
             "at x / a_H", "left out, since it is",
         ),
         rows=tuple(rows),
-        note=f"Left out of the comparison of q_x on y = 0 is what lies {', '.join(out)}. There "
-        f"both are apart by up to {most} µp_H: {why}, at x = {place} a_H, at {load}.",
+        note=f"Omitted from the comparison of q_x on y = 0 are positions {', '.join(out)}. There "
+        f"the largest difference is {most} µp_H: {why}, at x = {place} a_H, at {load}.",
         units=NONE,
     )  # fmt: skip
 
 
 def _chart(lines: Mapping[float, Line]) -> Chart:
-    """The shear of a pushed contact on the line of the load."""
+    """Draw the shear of a tangentially loaded contact on the line of the load."""
     above, below = [], []
     for series, (part, line) in enumerate(lines.items()):
         x, (elements, cells) = line.x / HERTZ.contact_radius, line.shears
@@ -635,8 +660,8 @@ def _chart(lines: Mapping[float, Line]) -> Chart:
         name="cross_check_tangential_shear",
         title="Shear on y = 0 by both solvers",
         caption="Shear along the load on the line y = 0 at four tangential forces, by finite "
-        "elements in colour over that on cells in grey, and their difference: it sits where stick "
-        "begins and at the edge.",
+        "elements in colour and on cells in grey, and their difference, which is largest at the "
+        "stick boundary and at the edge.",
         rows=(
             (Panel(x_label="", y_label="q_x / µp_H", curves=tuple(above), height=2.6),),
             (Panel(x_label="x / a_H", y_label="Δq_x / µp_H", curves=tuple(below)),),
@@ -657,8 +682,10 @@ EVERY_CONTACT = tuple(
 
 
 def contacts(level: Level) -> tuple[tuple[Pressed, ...], tuple[Pushed, ...]]:
-    """The contacts that a level compares; the full one every combination of modulus ratio,
-    thickness and friction."""
+    """Return the contacts of a level.
+
+    The full level has every combination of modulus ratio, thickness and friction.
+    """
     if level is Level.QUICK:
         return tuple(Pressed(*of, 96, 64) for of in FEW_CONTACTS), (Pushed(2.0, 65, 32, 8),)
     fine, pushed = (192, 64), Pushed(2.0, 129, 64, 12)
@@ -673,7 +700,8 @@ def cross_check(
     level: Level = Level.QUICK,
     given: tuple[tuple[Pressed, ...], tuple[Pushed, ...]] | None = None,
 ) -> Case:
-    """Three solvers on the same contacts; the stress is compared below the first.
+    """Build the case of three solvers on equal contacts; the stress is compared for the first
+    contact.
 
     given  contacts, instead of those of the level
     """
@@ -683,12 +711,13 @@ def cross_check(
         name="cross_check",
         title="Three solvers on coated contacts",
         problem=(
-            "A rigid ball pressed on coated half-spaces by cells with Fourier transforms, by "
-            "axisymmetric finite elements and by the radial solver, with the same increments; and "
-            "on a coating twice as stiff as its base, pressed by 1 kN and then pushed to 0.3, 0.6 "
-            "and 0.9 of µW. Cells and elements are first held against themselves on half as many "
-            "cells or elements, then every two solvers against each other. Cells and the radial "
-            "solver share how layers answer one wavenumber; else the three share the scene alone."
+            "A rigid ball is pressed on coated half-spaces with equal increments by three "
+            "solvers: cells with Fourier transforms, axisymmetric finite elements, and the "
+            "radial solver. On a coating twice as stiff as its base the ball is pressed by 1 kN "
+            "and then loaded tangentially to 0.3, 0.6 and 0.9 of µW. Cells and elements are "
+            "compared with half of their number first, then every two solvers with each other. "
+            "Cells and the radial solver share the response of layers to one wavenumber; "
+            "otherwise the three solvers share only the scene."
         ),
         runs=(
             *(run for one in of_press for run in one.runs),
@@ -702,8 +731,8 @@ def cross_check(
                 "largest difference of a component of the stress over p₀: on the axis from 0.1 "
                 "to 3 contact radii, above the interface and below it",
                 (first.on_cells[1].label, first.on_elements[1].label), first.stress_apart, 5e-3,
-                "set by hand: five times what the recovery of the elements leaves of Huber's "
-                "stress on as fine a mesh", SOURCE, OTHER,
+                "set by hand: five times the error of the stress recovery of elements, against "
+                "Huber's stress on an equally fine mesh", SOURCE, OTHER,
             ),
             *(comparison for one in of_push for comparison in one.comparisons()),
         ),
@@ -715,25 +744,27 @@ def cross_check(
             Chart(
                 name="cross_check_profiles",
                 title="Tractions by both solvers",
-                caption="Pressure (left) and outward shear (right) over the radius: finite "
-                "elements in grey, cells on top of them, for the first contacts of the case.",
+                caption="Pressure (left) and outward shear (right) over the radius for the first "
+                "contacts of the case: finite elements in grey below cells.",
                 rows=tuple(one.panels(results) for one in of_press[:4]),
             ),
             *(_chart(one.lines(results)) for one in of_push),
         ),
         tables=lambda results: tuple(everywhere(one.lines(results)) for one in of_push),
         limits=(
-            "All take the same increments: what finite increments cost is not seen here.",
-            "The shear is left out at the edge of stick and where that turned outward after it had "
-            "come back, and all is at the axis: two cells or two elements to each side.",
-            "On the line of the push both solvers round a cusp where stick begins or ends, each in "
-            "its way. The push makes all behind the disc of stick that pressing left stick at "
-            "once, so that its cusp is kept: it is left out, too, until slip passes over it.",
+            "All solvers take equal increments, so that the increment error is not visible.",
+            "Pressure and shear are not compared within two cells or elements of the axis. The "
+            "shear is not compared either within this distance of the stick edge, and of radii "
+            "at which a receding stick edge turned outward.",
+            "On the line of the load both solvers smooth the cusp at a stick boundary in "
+            "different ways. At the start of the tangential load the contact behind the stick "
+            "disc of indentation sticks at once, so that the cusp remains; it is omitted until "
+            "slip passes over it.",
         ),
         equations=(
             r"\mathbf{u} = \mathbf{C} * (\mathbf{q}, p),\quad p \ge 0,\ g \ge 0,\ p g = 0,\quad "
             r"|\mathbf{q}| \le \mu p,\ \mu p \, \dot{\mathbf{s}} = -|\dot{\mathbf{s}}| \mathbf{q}",
         ),
-        no_order="own errors are changes from half as many cells or elements; orders are judged "
-        "where the answer is known",
+        no_order="own errors are changes from half of the cells or elements; orders are judged "
+        "in cases with a known solution",
     )  # fmt: skip

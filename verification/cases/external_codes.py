@@ -1,4 +1,4 @@
-"""Coated bodies pressed with and without friction, against CalculiX on the same scenes."""
+"""Comparison with CalculiX on equal scenes: coated bodies with and without friction."""
 
 from __future__ import annotations
 
@@ -44,14 +44,14 @@ MOVED_GAP = (1 - 2 * RATIO) * (1 + RATIO) * RECORDED_BALL.peak_pressure / (2 * M
 
 
 class Certain(NamedTuple):
-    """A number, and its standard uncertainty."""
+    """Number and its standard uncertainty."""
 
     value: float
     uncertainty: float
 
 
 class Profile(NamedTuple):
-    """A traction over p_H at some radii over a_H, and its standard uncertainty, the same at all."""
+    """Traction over p_H at radii over a_H, with one standard uncertainty for all radii."""
 
     radii: Field
     values: Field
@@ -60,22 +60,25 @@ class Profile(NamedTuple):
 
 @dataclass(frozen=True)
 class Recorded:
-    """One scene's record: coarse, fine, and the fine mesh with half the stiffness."""
+    """Record of one scene: coarse mesh, fine mesh, and the fine mesh with half the stiffness."""
 
     record: Mapping[str, Any]
 
     def __post_init__(self) -> None:
-        """Raises ValueError if the runs are not those three."""
+        """Raise ValueError if the runs are not those three."""
         coarse, fine, soft = self.record["runs"]
         if not (
             fine["elements"] == soft["elements"] == 2 * coarse["elements"]
             and fine["stiffness"] == coarse["stiffness"] == 2 * soft["stiffness"]
         ):
-            raise ValueError("expected runs: coarse, twice as fine, and that half as stiff")
+            raise ValueError(
+                "the record must hold three runs: coarse, twice as fine, and the "
+                "fine mesh with half the stiffness. Restore the file of the reference"
+            )
 
     @property
     def normal_force(self) -> Certain:
-        """Over the nominal force."""
+        """Normal force over the nominal force."""
         coarse, fine, soft = (float(run["normal_force"]) for run in self.record["runs"])
         correction, refinement = fine - soft, fine - coarse
         errors = (LEFT_OF_CORRECTION * correction, refinement, MOVED_GAP * fine)
@@ -83,11 +86,12 @@ class Recorded:
 
     @cached_property
     def edge(self) -> float:
-        """Outermost radius that is touched on all three runs, over a_H."""
+        """Outermost radius in contact in all three runs, over a_H."""
         return float(min(run["radii"][-1] for run in self.record["runs"]))
 
     def profile(self, traction: str, first: float, last: float) -> Profile:
-        """Pressure or shear at the radii that both meshes have, from `first` to `last` of a_H."""
+        """Return the pressure or shear at the common radii of both meshes, from `first` to
+        `last` of a_H."""
         coarse, fine, soft = self.record["runs"]
         radii = np.array(coarse["radii"])
         chosen = np.flatnonzero((radii >= first) & (radii <= last))
@@ -103,7 +107,7 @@ class Recorded:
 
 
 def recorded(name: str) -> Recorded:
-    """The record of the scene of this name; KeyError if there is none."""
+    """Return the record of a scene; raise KeyError for an unknown name."""
     scenes = {each["name"]: each for each in load_reference(NAME)["scenes"]}
     return Recorded(scenes[name])
 
@@ -112,8 +116,8 @@ FIRST = 0.1  # Hertz radii; nearer to the axis are its bore and, with friction, 
 EDGE = 3 / 16  # Hertz radii, three elements of the coarser mesh; its edge ripples that far
 FORCE, TRACTION = 2e-4, 1e-3
 OURS = (
-    f"twice the recorded uncertainty and ours in squares: {FORCE:g} of the force, {TRACTION:g} of "
-    "p_H and µp_H, as the semi-closed references leave them"
+    "twice the root sum of squares of the recorded uncertainty and that of this program: "
+    f"{FORCE:g} of the force, {TRACTION:g} of p_H and µp_H, as for the semi-closed references"
 )
 NAMES = {
     "coated_frictionless": "coated, no friction",
@@ -124,14 +128,16 @@ Reader = Callable[[Any, NDArray[np.float64]], NDArray[np.float64]]
 
 @dataclass(frozen=True)
 class Load:
-    """The end of the recorded step [force]."""
+    """Final state of the recorded step [force]."""
 
     load: float
 
 
 def _parts(name: str, of: Recorded, cells: int, elements: int) -> tuple[Judged, ...]:
-    """The paper's ball, moved as far over the Hertz approach, in as many increments, by elements
-    and by cells: the force and the tractions."""
+    """Judge force and tractions of the paper's ball by elements and by cells.
+
+    The approach over the Hertz approach, and the increments, are those of the record.
+    """
     row, friction = of.record, float(of.record["friction"])
     step = {"increments": row["increments"]} if friction else {}
     scene = pressed(
@@ -169,9 +175,10 @@ def _parts(name: str, of: Recorded, cells: int, elements: int) -> tuple[Judged, 
 def _traction(
     problem: Problem, of: Recorded, name: str, part: float, unit: str, read: Reader
 ) -> tuple[Problem, Within]:
-    """Away from axis and edge; the problem is as uncertain as the traction is recorded.
+    """Return the problem with the uncertainty of the traction, and the row that judges the
+    traction.
 
-    part  of p_H that errors are relative to; unit names it
+    part  fraction of p_H that scales the errors; unit is its name
     """
     last = of.edge - EDGE
     known = of.profile(name, FIRST, last)
@@ -190,28 +197,28 @@ def _traction(
 
 
 def external_codes(level: Level = Level.QUICK) -> Case:
-    """Coated bodies pressed with and without friction, against CalculiX; on finer discretisations
-    at higher levels."""
+    """Build the case of CalculiX on equal scenes; higher levels refine the discretisations."""
     sizes = {Level.QUICK: (128, 32), Level.STANDARD: (256, 64), Level.FULL: (512, 64)}[level]
     return case(
         "external_codes",
-        "CalculiX on the same scenes",
-        "The paper's ball, rigid, moved by a given approach: towards a coating twice as stiff "
-        "as its base and as thick as the Hertz radius, without friction and with µ = 0.1. "
-        "CalculiX was run on the same scenes before, with its own elements and contact: see "
-        "docs/studies/calculix.md.",
+        "Comparison with CalculiX",
+        "The paper's ball, rigid, is moved by a prescribed approach towards a coating twice as "
+        "stiff as its base and as thick as the Hertz radius, without friction and with µ = 0.1. "
+        "The results of CalculiX for these scenes, with its own elements and contact, are "
+        "stored: see docs/studies/calculix.md.",
         *(part for key, name in NAMES.items() for part in _parts(name, recorded(key), *sizes)),
         limits=(
-            "CalculiX ran on a ball a hundred times as flat under a hundredth of the force, as it "
-            "measures the gap where the surface has moved to, which linear theory does not.",
-            "Its springs are removed by extrapolation; near the axis and the edge its nodal "
-            "stresses are too coarse to be judged against.",
-            "Where shear is judged the whole contact has slipped, so that it is µp; what a stick "
-            "disc does to it is judged in frictional_indentation.",
+            "In CalculiX the ball has a hundred times the radius and a hundredth of the force, "
+            "because CalculiX measures the gap on the deformed surface, unlike linear theory.",
+            "Its springs are removed by extrapolation. Near the axis and the edge its nodal "
+            "stresses are too coarse for a comparison.",
+            "Where shear is judged the contact slips, so that the shear is µp; "
+            "frictional_indentation judges the effect of a stick disc.",
         ),
         equations=(
             r"\nabla \cdot \boldsymbol{\sigma} = 0,\quad p = k \max(-g, 0),\quad "
             r"|\mathbf{q}| \le \mu p",
         ),
-        no_order="the code's own records are of two meshes; ours are judged on one",
+        no_order="the records of CalculiX have two meshes; this program is judged on one "
+        "discretisation",
     )

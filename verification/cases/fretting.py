@@ -1,4 +1,4 @@
-"""Fretting loops of alike bodies by all solvers, and the paper's figures 1 and 2."""
+"""Fretting loops of equal bodies by all solvers, and the paper's figures 1 and 2."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ BRANCHES = {2: "loading", 3: "unloading", 4: "reloading"}
 
 
 def hysteresis_chart(name: str, result: Result, exact: ExactLoop) -> Chart:
-    """Tangential force against shift, with the closed form in grey."""
+    """Draw the tangential force against the shift, with the closed form in grey."""
     forces, shifts = _closed_form_loop(exact)
     moved = [i for i in result.increments if i.step >= PRESSED]
     panel = Panel(
@@ -125,13 +125,13 @@ def hysteresis_chart(name: str, result: Result, exact: ExactLoop) -> Chart:
         name=name,
         title="Hysteresis loop",
         caption="Tangential force against tangential shift, one point per increment. The area of "
-        "the closed loop is the energy that friction takes per cycle.",
+        "the closed loop is the energy dissipated per cycle.",
         rows=((panel,),),
     )
 
 
 def loading_history_chart(result: Result) -> Chart:
-    """The paper's figure 1: the load history, with the states of figure 2 marked."""
+    """Draw the paper's figure 1: the load history, with the states of figure 2 marked."""
     count = len(result.increments) - 1
     time = [number / count for number, _ in enumerate(result.increments)]
     force = [force_along_x(i) * NEWTON_TO_LIMIT for i in result.increments]
@@ -162,7 +162,7 @@ def loading_history_chart(result: Result) -> Chart:
 
 
 def tractions_chart(result: Result, exact: ExactLoop) -> Chart:
-    """The paper's figure 2: shear and friction limit along y = 0 in the marked states."""
+    """Draw the paper's figure 2: shear and friction limit along y = 0 in the marked states."""
     section = Section(result.grid, HERTZ.contact_radius)
     scale = FRICTION * HERTZ.peak_pressure
     x = section.x / HERTZ.contact_radius
@@ -195,15 +195,15 @@ def tractions_chart(result: Result, exact: ExactLoop) -> Chart:
     return Chart(
         name="paper_figure_2",
         title="Figure 2 of the paper: contact tractions in a fretting loop",
-        caption="Shear next to y = 0 over its largest possible value µp₀, in the states of figure "
-        "1. The closed form is grey, as in the paper; the thin outer lines are the friction limit "
-        "± µp, which is the pressure in these units.",
+        caption="Shear next to y = 0 over its largest possible value µp₀, in the states of "
+        "figure 1. The closed form is grey, as in the paper; the thin outer lines are the "
+        "friction limit ± µp, which equals the pressure in these units.",
         rows=tuple(panels),
     )
 
 
 def _number_of(result: Result, step: int, part: float) -> int:
-    """Index of the increment of a step whose force is nearest to a part of µW."""
+    """Return the index of the increment of a step whose force is nearest to a fraction of µW."""
     distances = [
         abs(force_along_x(i) * NEWTON_TO_LIMIT - part) if i.step == step else np.inf
         for i in result.increments
@@ -230,7 +230,8 @@ REQUIRED_SHEAR = {128: 2e-3, 256: 1e-3}
 
 
 def shear_allowed(rung: RefinementLevel) -> float:
-    """The required figure; on other grids what its order 3/2 makes of that for 128 cells."""
+    """Return the accuracy target of the shear; on other grids, that of 128 cells scaled by order
+    3/2."""
     return REQUIRED_SHEAR.get(rung.count, REQUIRED_SHEAR[128] * (128 / rung.count) ** 1.5)
 
 
@@ -239,18 +240,18 @@ def _slip_amplitude(result: Any, *_: Any) -> float:
 
 
 def _of_cycle() -> tuple[Row, ...]:
-    """What is judged of the cycle on every grid."""
+    """Return the rows of quantities of the cycle that are judged on every grid."""
     ruiz = "Ruiz, Boddington and Chen 1984, on Mindlin and Deresiewicz 1953"
     imbalance = error_norm(
         "largest_energy_imbalance",
-        "largest part of the energy that an increment cannot account for: work put in, less what "
-        "is stored, dissipated and left to the increment",
+        "largest fraction of the energy unaccounted for in an increment: input work, less "
+        "elastic energy, dissipation and work unresolved by the increment",
         lambda result, *_: loop.largest_imbalance(result),
         "the largest energy so far",
         source="first law",
     )
     amplitude = Observable(
-        "slip_amplitude", "half the range of slip in the cycle, where it is largest", "m",
+        "slip_amplitude", "half the range of slip in the cycle, maximum over the contact", "m",
         _slip_amplitude,
         lambda exact: float(exact.cycled.slip_amplitude(HERTZ.contact_radius)),
     )  # fmt: skip
@@ -263,7 +264,7 @@ def _of_cycle() -> tuple[Row, ...]:
     )
     distance_error = error_norm(
         "largest_slip_distance_error",
-        "largest difference of the way slipped in the contact",
+        "largest difference of the accumulated slip in the contact",
         lambda result, _, problem: problem.ends[-1].largest_slip_distance_error(result),
         unit="m",
         over=loop.OVER_LARGEST_WAY,
@@ -274,7 +275,8 @@ def _of_cycle() -> tuple[Row, ...]:
         lambda exact: float(exact.cycled.largest_f1), source=ruiz,
     )  # fmt: skip
     f2 = Observable(
-        "ruiz_f2", "largest shear times slip amplitude times tension of the surface", "Pa^2 m",
+        "ruiz_f2", "largest shear times slip amplitude times tensile stress of the surface",
+        "Pa^2 m",
         lambda result, *_: loop.largest_f2(result),
         lambda exact: float(exact.cycled.largest_f2), source=ruiz,
     )  # fmt: skip
@@ -289,32 +291,34 @@ def _of_cycle() -> tuple[Row, ...]:
         Within(imbalance, 1e-6, ASKED),
         Within(
             amplitude, part_of_side(1.5),
-            "slip is largest at the edge, and known where the edge runs through a cell: up to half "
-            "a cell beside it, where it differs by three times its distance over the radius",
+            "slip is largest at the edge, and is known at cells through which the edge passes: "
+            "up to half a cell from the edge, where its relative error is three times that "
+            "distance over the radius",
         ),
         Within(
             amplitude_error, 1e-3,
-            "no more than is asked of the shear on 256 cells; like that it falls with the power "
-            "3/2 of the cell",
+            "the accuracy target of the shear on 256 cells; both errors fall with the power 3/2 "
+            "of the cell",
         ),
         Within(
             distance_error, 1e-3,
-            "as for the slip amplitude, of which it is five times: one way in the first loading, "
-            "two back and two again",
+            "as for the slip amplitude, of which it is five times: once in the first loading, "
+            "twice in each half cycle",
         ),
-        Within(f1, 1e-3, "as for the slip amplitude: both factors are known there"),
+        Within(f1, 1e-3, "as for the slip amplitude: both factors are known at the same cells"),
         Within(
             f2, 3e-2,
-            "largest 0.03 a from the edge, where the shear ends as a square root and the stress of "
-            "cells of constant shear errs with the root of the cell",
+            "the maximum is 0.03 a from the edge, where the shear ends as a square root and the "
+            "stress of cells of constant shear has an error of the order of the root of the cell",
         ),
     )  # fmt: skip
     return tuple(replace(row, each=True) for row in rows)
 
 
 def fretting_loop(level: Level = Level.QUICK, cells: Sequence[int] = (), quarter: int = 4) -> Case:
-    """The fretting loop with ν = 0, where its closed form is exact, at the two required counts of
-    cells, and at a finer one at the full level.
+    """Build the case of the fretting loop with ν = 0, for which the closed form is exact.
+
+    The grids are the two of the accuracy targets; the full level adds a finer grid.
 
     cells    per side, instead of those of the level
     quarter  increments to T*
@@ -330,11 +334,11 @@ def fretting_loop(level: Level = Level.QUICK, cells: Sequence[int] = (), quarter
     return case(
         "fretting_loop",
         "Fretting loop, ν = 0",
-        "The contact of cattaneo_mindlin on a window of 2.2 contact radii, sheared to 0.9 µW, "
-        "back to -0.9 µW and again to 0.9 µW. After a reversal the slip of before stays locked "
-        "in, so this judges the memory of the history and not only its last load. Of the cycle "
-        "it judges what is reported for fretting: slip amplitude, Ruiz's parameters, and "
-        "whether work, stored and dissipated energy balance.",
+        "The contact of cattaneo_mindlin on a window of 2.2 contact radii, loaded tangentially "
+        "to 0.9 µW, to -0.9 µW and to 0.9 µW again. After a reversal the preceding slip stays "
+        "locked in, so that the case judges the effect of the whole history. Judged are also the "
+        "results for fretting: slip amplitude, Ruiz's parameters, and the balance of work, "
+        "stored and dissipated energy.",
         judged(grids, _of_cycle()),
         judged(named(f"{wide.levels[0]}, window 3 a", wide), (on_wide_window,)),
         charts=(
@@ -342,17 +346,19 @@ def fretting_loop(level: Level = Level.QUICK, cells: Sequence[int] = (), quarter
                 "fretting_hysteresis", results[grids.judged.run.label], problem.ends[-1]
             ),
         ),
-        no_order="the shear is asked for on 128 and 256 cells; cattaneo_mindlin judges its order",
+        no_order="the accuracy targets of the shear are for 128 and 256 cells; cattaneo_mindlin "
+        "judges its order",
     )
 
 
 def paper_fretting_loop(level: Level = Level.QUICK) -> Case:
-    """The paper's own scene, figures 1 and 2: exact arc, ν = 0.3, in the paper's increments."""
+    """Build the case of the paper's figures 1 and 2: exact arc, ν = 0.3, in the paper's
+    increments."""
     cells = 128 if level is Level.QUICK else 256
     band = (
-        "the closed form lets all slipping points pull along x although they do not slip along x; "
-        "solutions of Coulomb's vector law differ from it by parts of a per cent in shift and "
-        "energy and by a few per cent in the shear"
+        "the closed form directs the shear along x at all slipping points although they do not "
+        "slip along x; solutions of Coulomb's vector law differ from it by fractions of a per "
+        "cent in shift and energy and by a few per cent in the shear"
     )
     problem = loop_problem("", STEEL, 18)
     exact = problem.ends[-1]
@@ -391,7 +397,8 @@ def paper_fretting_loop(level: Level = Level.QUICK) -> Case:
             "slip_direction_deviation",
             "largest angle between shear and x axis in the slip ring, end of the first loading",
             "°", lambda result: slip_traction_angle(result.steps[LOADED - 1], FRICTION),
-            "zero in the closed form: by this much its slip would turn away from its traction",
+            "zero in the closed form: the angle between its slip and its traction would be of "
+            "this size",
         ),
         reported(
             "shift_at_amplitude", "shift at 0.9 µW over the closed form's, less one", "",
@@ -406,10 +413,10 @@ def paper_fretting_loop(level: Level = Level.QUICK) -> Case:
     return case(
         "paper_fretting_loop",
         "Fretting loop of the paper's figures 1 and 2",
-        "Two identical bodies of 420 GPa and ν = 0.3, a ball of 18 mm with its exact arc under "
-        "1 kN, µ = 0.1, T between ± 0.9 µW. For ν > 0 the closed form breaks the direction law "
-        "of friction in its slip ring, so it is a companion here and not a judge: it has to be "
-        "near, and the distance is reported.",
+        "Two identical bodies of 420 GPa and ν = 0.3: a ball of 18 mm with its exact arc under 1 "
+        "kN, µ = 0.1, T between ± 0.9 µW. For ν > 0 the closed form violates the direction law "
+        "of friction in its slip annulus. It is therefore not the exact solution here: the "
+        "difference must be small and is reported.",
         judged(
             replace(run, problem=replace(problem, uncertainty=0.05)),
             (Within(LARGEST_SHEAR_ERROR, 0.05, band),),
@@ -423,7 +430,7 @@ def paper_fretting_loop(level: Level = Level.QUICK) -> Case:
         limits=(
             "The closed form is not the solution of this problem; the ν = 0 loop judges accuracy.",
         ),
-        no_order="the closed form is only near: its own error does not fall with the cells",
+        no_order="the closed form is approximate: its error does not fall with the cells",
     )
 
 
@@ -434,16 +441,19 @@ ORDER = 1.5
 OF_SHIFT, OF_ENERGY, OF_SHEAR = asked(5e-4, ORDER), asked(1e-3, ORDER), asked(1e-2, ORDER)
 WHY = (
     "set by hand: 5e-4 of the shift, 1e-3 of the energy and 1e-2 of µp_H at 64 elements per "
-    "radius, on other meshes what the order 3/2 of cusps at moving edges makes of them"
+    "radius; on other meshes scaled by the order 3/2 of cusps at moving edges"
 )
 ACROSS = (
-    "For ν > 0 slip has a component across the load, up to 4 % of µp_H in the shear; both the "
-    "closed form and this run neglect it."
+    "For ν > 0 slip has a component across the load, which contributes up to 4 % of µp_H to the "
+    "shear; the closed form and this run neglect it."
 )
 
 
 def _shear_error(result: Any, _: int, problem: Problem) -> float:
-    """Largest error in any increment, a tenth of the radius to either side of stick edges apart."""
+    """Compute the largest error of the shear in any increment, over µp_H.
+
+    Radii within a tenth of the contact radius of a stick edge are omitted.
+    """
     within = judged_within(result.discretisation.elements_per_radius)
     worst, edges = 0.0, []
     for increment, exact in problem.ends[-1].along(result):
@@ -461,8 +471,8 @@ OF_LOOP = (
     Within(
         error_norm(
             "shear",
-            "largest error of the shear in any increment, a tenth of the radius to either side of "
-            "every stick edge apart, over µp_H",
+            "largest error of the shear in any increment, more than a tenth of the radius from "
+            "each stick edge, over µp_H",
             _shear_error,
             OVER_LIMIT,
         ),
@@ -494,12 +504,13 @@ def fem_partial_slip(
     elements: int = 0,
     studied: Sequence[tuple[int, float]] | None = None,
 ) -> Case:
-    """Cattaneo and Mindlin's contact and its fretting loop, by finite elements, with orders above
-    the quick level.
+    """Build the case of Cattaneo and Mindlin's contact and its fretting loop by finite elements.
+
+    Orders are judged above the quick level.
 
     elements  per radius, of the mesh of the loop, instead of those of the level
-    studied   meshes for the single shearing, and place of the edge of the contact in its element;
-              their orders are judged
+    studied   meshes for the single loading, and position of the contact edge in its element; their
+              orders are judged
     """
     orders = bool(studied) or level is not Level.QUICK
     if studied is None:
@@ -517,7 +528,7 @@ def fem_partial_slip(
         *(
             Within(
                 STICK_RADIUS.at(*stop, "µW"), part_of_side(0.1),
-                "a tenth of an element, read off the last values",
+                "a tenth of an element: the edge is extrapolated from the last values",
             )
             for stop in also_by_cells.items()
         ),
@@ -530,36 +541,37 @@ def fem_partial_slip(
         ),
         Falls(
             SHIFT.over_stops(listed), 2.0,
-            "the difference of two approaches, of the contact and of the stick zone (Cattaneo); "
-            "each is wrong by h²/R times a number that depends on where in its element the edge is",
+            "the shift is the difference of two approaches, of the contact and of the stick zone "
+            "(Cattaneo); each has an error of h²/R times a number that depends on the position "
+            "of the edge in its element",
         ),
         Falls(
             WORK.over_stops(listed), 2.0,
-            "what the area below the curve of approach over load differs from its trapezium: as "
-            "wrong as the approaches at its ends",
+            "the difference of the area below the curve of approach over load from its "
+            "trapezium: the error is that of the approaches at its ends",
         ),
     )  # fmt: skip
     stick_of_loop = Within(
         LARGEST_STICK_RADIUS_ERROR, part_of_side(0.2),
-        "a fifth of an element: the edge is read off the last values, which an older edge nearby "
-        "disturbs",
+        "a fifth of an element: the edge is extrapolated from the last values, which an older "
+        "edge nearby disturbs",
     )  # fmt: skip
     return case(
         "fem_partial_slip",
         "Finite elements: fretting loop",
-        "Two alike bodies under 1 kN, sheared to 0.9 µW, to -0.9 µW and back, as in "
-        "fretting_loop. The first harmonic of the displacement carries a shear along the load "
-        "that is the same all around each ring; slip across the load is neglected, as the "
-        "closed form does for any ν. Shear is a quadratic program within ±µp. Orders are "
-        f"judged on a single shearing with stops at {listed}, for ν = 0: nothing slips across the "
-        "load there, and the closed form is exact.",
+        "Two equal bodies under 1 kN are loaded tangentially to 0.9 µW, to -0.9 µW and back, as "
+        "in fretting_loop. The first harmonic of the displacement represents a shear along the "
+        "load that is uniform around each ring. Slip across the load is neglected, as in the "
+        "closed form for any ν. The shear solves a quadratic program within ±µp. Orders are "
+        f"judged for a single loading with stops at {listed}, for ν = 0: there is no slip across "
+        "the load, and the closed form is exact.",
         judged(mesh, (*OF_LOOP, stick_of_loop)),
         *(judged(one, (*rows, *falls) if orders else rows) for one in shearing),
         charts=(
             *(
                 _loop_profile(
                     mesh, step, f"fem_partial_slip_{name}", name,
-                    f"Shear by finite elements over the closed form at {force} µW, and their "
+                    f"Shear by finite elements and by the closed form at {force} µW, and their "
                     "difference.",
                 )
                 for step, name, force in (
@@ -583,8 +595,8 @@ def fem_partial_slip(
 
 
 def fem_penalty_slip(level: Level = Level.QUICK) -> Case:
-    """Slip and its memory by finite elements with a penalty: fretting loop and twisted ball."""
-    gauss = "Shear at the Gauss points over the closed form, and their difference."
+    """Build the case of a fretting loop and a ball in torsion by finite elements with a penalty."""
+    gauss = "Shear at the Gauss points, the closed form, and their difference."
     n = (finest(level),)
     of_loop, ball = (
         on_springs(on_elements(problem, n, 0.97, of), f"{of}, {n[0]} elements per radius, penalty")
@@ -596,7 +608,7 @@ def fem_penalty_slip(level: Level = Level.QUICK) -> Case:
         for row in (
             Within(
                 TWIST.at(*stop, SLIDING), lambda rung: 2 * OF_SHIFT(rung),
-                "twice the figure of the shift of the loop, and its reason",
+                "twice the tolerance of the shift of the loop, for the same reason",
             ),
             Within(SHEAR_AROUND.at(*stop, SLIDING), OF_SHEAR, WHY),
         )
@@ -604,9 +616,9 @@ def fem_penalty_slip(level: Level = Level.QUICK) -> Case:
     return case(
         "fem_penalty_slip",
         "Finite elements with a penalty: fretting loop and torsion",
-        "The loop of fem_partial_slip and the twisted ball of fem_torsion with springs along "
-        "the surface and Coulomb's law by return mapping. What a point has slipped is "
-        "remembered as where its spring stands without load.",
+        "The loop of fem_partial_slip and the ball of fem_torsion with a penalty along the "
+        "surface and Coulomb's law by return mapping. The accumulated slip of a point is the "
+        "position of its spring without load.",
         judged(of_loop, OF_LOOP),
         judged(ball, of_ball),
         charts=(
@@ -623,7 +635,7 @@ def fem_penalty_slip(level: Level = Level.QUICK) -> Case:
 
 
 def _shear_of_circle(result: Any, step: int, problem: Problem) -> float:
-    """Mean error of q_x over the contact, over µp_H."""
+    """Compute the mean error of q_x over the contact, over µp_H."""
     end, surface = result.steps[step], surface_of(result)
     shear = surface.vector(end, "shear")
     assert shear is not None
@@ -634,19 +646,20 @@ def _shear_of_circle(result: Any, step: int, problem: Problem) -> float:
 
 
 def _shift_at_reversals(result: Any, _: int, problem: Problem) -> float:
-    """Largest error at the reversals [length]."""
+    """Compute the largest error of the shift at the reversals [length]."""
     largest = problem.ends[-1].end.shift
     found = [shift_along_x(end) for end in result.steps[1:]]
     return float(np.max(np.abs(np.subtract(found, (largest, -largest, largest)))))
 
 
 def radial_tangential(level: Level = Level.QUICK) -> Case:
-    """Tangential loads by the radial solver: Cattaneo and Mindlin, their loop, a coated body."""
+    """Build the case of tangential loads by the radial solver: closed forms, a loop, a coated
+    body."""
     stops = {1: 0.3, 2: 0.6, 3: 0.9}  # of µW, by loading step
     parts = tuple(stops.values())
-    of_rings = f"asked of {RINGS} rings at equal increments (the recipe's 4e-4, and a margin)"
+    of_rings = f"accuracy target of {RINGS} rings at equal increments (4e-4, and a margin)"
     # Slip across the load, which the closed form neglects, takes 7e-4 off: 36 and 48 rings agree.
-    of_steel = "the closed form is 7e-4 off where slip turns, and rings 5e-4"
+    of_steel = "errors of 7e-4 of the closed form, where slip turns, and 5e-4 of the rings"
 
     def of_stops(shift: float, because: str) -> tuple[Within, ...]:
         return (
@@ -667,7 +680,7 @@ def radial_tangential(level: Level = Level.QUICK) -> Case:
     of_loop = (
         Within(at_reversals, 5e-4, of_rings),
         Within(
-            ENERGY_PER_CYCLE, 5e-3, "set by hand: what 18 increments leave of a cycle of 0.9 µW"
+            ENERGY_PER_CYCLE, 5e-3, "set by hand: the error of 18 increments in a cycle of 0.9 µW"
         ),
     )
     nu_zero, steel = (
@@ -683,26 +696,29 @@ def radial_tangential(level: Level = Level.QUICK) -> Case:
     coated = replace(pressed, scene=scene, ends=(COATED, None))
     of_pressing = Within(
         replace(APPROACH, step=0), 5e-6,
-        "set by hand: rings that are laid for a push, 20 increments",
+        "set by hand: rings laid out for a tangential load, 20 increments",
     )  # fmt: skip
-    at_last = Within(shear.at(3, stops[3], "µW"), 5e-3, "asked of the radial solver, in the mean")
+    at_last = Within(
+        shear.at(3, stops[3], "µW"), 5e-3, "accuracy target of the radial solver, for the mean"
+    )
     to_and_fro = on_radii(loop_problem("Ball to and fro", NU_ZERO, 9), "to and fro")
     return case(
         "radial_tangential",
         "Tangential loads on rings and angles",
-        f"The paper's ball under 1 kN, pushed to {', '.join(f'{part:g}' for part in parts)} of "
-        "µW, of bodies whose slip goes along the load (ν = 0) and of steel; pushed to and fro at "
-        "0.9 µW; and a rigid ball on a coating twice as stiff, pressed with friction before it is "
-        "pushed; by the radial solver, which obeys Coulomb's law as a vector law at points.",
+        "The paper's ball under 1 kN is loaded tangentially to "
+        f"{', '.join(f'{part:g}' for part in parts)} of µW, for bodies whose slip is along the "
+        "load (ν = 0) and for steel; in a loop of 0.9 µW; and a rigid ball on a coating twice as "
+        "stiff is pressed with friction before the tangential load. The radial solver satisfies "
+        "Coulomb's law as a vector law at points.",
         judged(nu_zero, (*of_stops(5e-4, of_rings), at_last)),
         judged(steel, of_stops(1.5e-3, of_steel)),
         judged(to_and_fro, of_loop),
         judged(on_radii(coated, "coated", laws=OVER_ANGLES), (of_pressing,)),
         limits=(
-            "Closed forms for steel neglect slip across the load, which its points have: at most "
-            "a thousandth of the shift.",
-            "Coated bodies under a push have no closed form: finite elements and cells are "
-            "compared with this solver in cross_check.",
+            "Closed forms for steel neglect slip across the load, which the solver includes: at "
+            "most a thousandth of the shift.",
+            "Coated bodies under a tangential load have no closed form: cross_check compares "
+            "this solver with finite elements and cells.",
         ),
-        no_order="judged on the rings that the solver chooses, not on several counts of them",
+        no_order="judged on the rings that the solver chooses, not on several numbers of rings",
     )

@@ -1,4 +1,4 @@
-"""Pressing with friction: stick, slip and their memory, by all solvers, cells and increments."""
+"""Indentation with friction: stick and slip by all solvers, with refined cells and increments."""
 
 from __future__ import annotations
 
@@ -104,10 +104,10 @@ Field = NDArray[np.float64]
 
 
 def at_centres(cells: tuple[int, int], field: Field) -> Field:
-    """A field (…, n, m) at the centres of other cells of the same window, bilinearly.
+    """Interpolate a field (…, n, m) bilinearly to the centres of other cells of the same window.
 
-    Means over the other cells would not do: where they cut cells of the field in two, these count
-    with the wrong part of their slope, an error of first order all over the surface.
+    Means over the other cells are no substitute: a mean over half a cell of the field misses half
+    of the change of the field across that cell, which is a first-order error on the whole surface.
     """
     along_x = _weights(cells[0], field.shape[-2])
     along_y = _weights(cells[1], field.shape[-1])
@@ -115,8 +115,11 @@ def at_centres(cells: tuple[int, int], field: Field) -> Field:
 
 
 def _weights(to: int, of: int) -> Field:
-    """Weights (to, of) of linear interpolation between the centres of `of` equal intervals, at
-    those of `to` others; constant beyond the outermost."""
+    """Return the weights (to, of) of linear interpolation between the centres of two divisions.
+
+    `of` equal intervals are interpolated at the centres of `to` others. The extrapolation is
+    constant.
+    """
     position = np.clip((np.arange(to) + 0.5) * of / to - 0.5, 0, of - 1)
     left = np.minimum(position.astype(int), max(of - 2, 0))
     weights = np.zeros((to, of))
@@ -134,17 +137,17 @@ SEED = 7
 
 
 def consistent_tangent() -> Check:
-    """Tangent against central differences, for the exact law and for springs.
+    """Compare the tangent with central differences, for exact contact and for the penalty law.
 
-    A wrong one leaves all results as they are and only costs iterations.
+    A wrong tangent changes no result but costs iterations.
     """
     return Check(
-        "consistent_tangent", "largest difference between the tangent of the equations and their "
-        "central differences", "", f"{2 * STATES} random states on {RINGS} rings", _worst,
-        identity(0.0, "the derivative of the equations; Newton's method converges linearly with "
-                 "another"),
-        Required(1e-8, f"central differences of step {STEP:g} of values of order one: what they "
-                 "neglect is a sixth of its square times a third derivative of 160, and rounding"),
+        "consistent_tangent", "largest difference between the tangent matrix and central "
+        "differences of the equations", "", f"{2 * STATES} random states on {RINGS} rings", _worst,
+        identity(0.0, "the derivative of the equations; with another matrix Newton's method "
+        "converges linearly"),
+        Required(1e-8, f"central differences of step {STEP:g} of values of order one: they "
+        "neglect a sixth of the squared step times a third derivative of 160, and rounding"),
         1.0, "a traction of order one",
     )  # fmt: skip
 
@@ -182,7 +185,8 @@ def _error(springs: float, seed: int) -> float:
 
 
 def _on_one_side(equations: Equations, above: Iterate, below: Iterate) -> Any:
-    """Points that neither start to touch nor to slip between two iterates: there is no kink."""
+    """Select the points that change neither contact nor slip between two iterates: there is no
+    kink."""
     sides = []
     for at in (above, below):
         _, _, in_slip = equations.linearised(at)
@@ -193,7 +197,7 @@ def _on_one_side(equations: Equations, above: Iterate, below: Iterate) -> Any:
 
 
 def _rings(random: np.random.Generator) -> RingCompliance:
-    """Rings with random symmetric positive definite harmonics."""
+    """Draw a ring compliance with random symmetric positive definite harmonics."""
     harmonics = []
     for _ in range(HIGHEST + 1):
         factor = random.normal(size=(3 * RINGS, 3 * RINGS))
@@ -223,7 +227,7 @@ STICK_PART = Observable(
 def _profiles(
     of: RefinementLevels, one: Indentation, name: str, by: str, *drawn: str
 ) -> list[Drawing]:
-    """Pressure or shear over the radius, beside the reference."""
+    """Draw pressure or shear over the radius, together with the reference."""
     fields = {
         "pressure": ("p / p_H", of.problem.scale(OVER_PEAK), DRAWN_PRESSURE),
         "shear": (
@@ -240,8 +244,8 @@ def _profiles(
         profile(
             of, f"{name}_{one.file_name}" + ("_pressure" if field == "pressure" else ""),
             f"{field.capitalize()} over the radius, {one.name}",
-            f"{field.capitalize()} by {by} after {count} increments over the reference, and their "
-            "difference: shear remembers the whole way.",
+            f"{field.capitalize()} by {by} after {count} increments, the reference, and their "
+            "difference. The shear depends on the whole load history.",
             *fields[field],
         )
         for field in drawn
@@ -249,9 +253,12 @@ def _profiles(
 
 
 def frictional_indentation(level: Level = Level.QUICK) -> Case:
-    """A rigid ball pressed on bodies that slip away below it: a coarse grid at the quick level, the
-    one that figures are asked on above, where the stick radius is judged, too."""
-    why = "asked of the coupled solver on 256 x 256 cells"
+    """Build the case of a rigid ball pressed with friction on coupled bodies.
+
+    The quick level takes a coarse grid. Other levels take the grid of the accuracy targets, and
+    judge the stick radius as well.
+    """
+    why = "accuracy target of the coupled solver on 256 x 256 cells"
     cells, contacts = 256, [WEAK, STRONG, NU_ZERO, COATED]
     if level is Level.QUICK:
         cells, contacts = 96, [WEAK, STRONG, COATED]
@@ -272,12 +279,12 @@ def frictional_indentation(level: Level = Level.QUICK) -> Case:
     }
     return case(
         "frictional_indentation",
-        "Pressing with friction",
-        "The paper's ball, rigid, pressed by 1 kN on bodies of the paper's E* and on its "
-        "coated one. Their surfaces move towards the axis below the ball; friction resists, "
-        "and all but a central disc slips. Pressure and shear act on each other, and the shear "
-        "of the disc remembers the whole way. The references come from integral equations over "
-        "the radius.",
+        "Indentation with friction",
+        "The paper's ball, rigid, is pressed by 1 kN on bodies of the paper's E* and on its "
+        "coated body. The surfaces move towards the axis below the ball. Friction resists this "
+        "motion, and the contact slips outside a central stick disc. Pressure and shear are "
+        "coupled, and the shear in the stick disc depends on the whole load history. The "
+        "references are solutions of integral equations over the radius.",
         *(
             judged(
                 grid,
@@ -291,8 +298,9 @@ def frictional_indentation(level: Level = Level.QUICK) -> Case:
             for draw in _profiles(grid, one, "frictional_indentation", "cells", "pressure", "shear")
         ),
         limits=(
-            f"{STRONG.name} takes {MANY} increments to come within 1e-2 of the shear; with {FEW} "
-            "the steps of the stick edge leave ripples of up to 2e-2 in the stick zone.",
+            f"{STRONG.name} needs {MANY} increments for an error of the shear within 1e-2. With "
+            f"{FEW} increments the motion of the stick edge leaves ripples of up to 2e-2 in the "
+            "stick zone.",
             "The stick disc of the coated body is a few cells wide; its radius is not judged.",
         ),
         no_order=JUDGED_BY.format("indentation_refinement, in cells and in increments"),
@@ -301,7 +309,7 @@ def frictional_indentation(level: Level = Level.QUICK) -> Case:
 
 @dataclass(frozen=True)
 class Change:
-    """A change between refined levels, and the order that it is expected to fall with.
+    """Change between refinement levels, and the expected order of the change.
 
     coarsest  levels that are left out of the order
     name      of the verdict, after `order_of_`; empty: `of`
@@ -319,10 +327,10 @@ class Change:
 
 @dataclass(frozen=True)
 class Refined:
-    """Runs of which one thing is refined, coarse to fine, and changes from one to another.
+    """Runs from coarse to fine in one discretisation parameter, and the changes between the runs.
 
-    size   what is refined, h of a level; x_label names it
-    apart  levels from the first of a change to the second
+    size   refined parameter h of a run; x_label is the axis label of h
+    apart  number of levels between the two runs of a change
     """
 
     runs: tuple[AnyRun, ...]
@@ -334,7 +342,7 @@ class Refined:
 
     @property
     def orders(self) -> tuple[OrderOfChange, ...]:
-        """Of the changes that fall with one order."""
+        """Orders of convergence of the changes."""
         labels = tuple(run.label for run in self.runs)
         return tuple(
             OrderOfChange(
@@ -346,7 +354,7 @@ class Refined:
         )  # fmt: skip
 
     def chart(self, name: str, title: str, caption: str) -> Drawing:
-        """Changes against size."""
+        """Draw the changes against the refined parameter."""
 
         def draw(results: Mapping[str, Any]) -> Chart:
             levels = [results[run.label] for run in self.runs]
@@ -366,7 +374,7 @@ class Refined:
 
 
 def _approach_change(coarse: Any, fine: Any) -> float:
-    """Change of the approach relative to the finer."""
+    """Compute the change of the approach, relative to the finer run."""
     return abs(approach(coarse) / approach(fine) - 1)
 
 
@@ -375,19 +383,19 @@ def _radius_change(coarse: Any, fine: Any) -> float:
 
 
 def _shift_change(coarse: Any, fine: Any) -> float:
-    """Change of the tangential shift relative to the finer path."""
+    """Compute the change of the tangential shift, relative to the finer run."""
     return abs(shift_along_x(coarse.steps[-1]) / shift_along_x(fine.steps[-1]) - 1)
 
 
 def _shear_change(coarse: Any, fine: Any) -> float:
-    """Σ|q_coarse - q_fine| / Σµp at the centres of the coarse cells."""
+    """Compute Σ|q_coarse - q_fine| / Σµp at the centres of the coarse cells."""
     found, other = shear_of(coarse.steps[-1]), shear_of(fine.steps[-1])
     size = np.hypot(*(found - at_centres(coarse.grid.cells, other)))
     return float(size.mean() / (HALF.friction * fine.steps[-1].pressure.mean()))
 
 
 def _shear_change_on_rings(coarse: Any, fine: Any) -> float:
-    """∫|q_coarse - q_fine| r dr / ∫µp r dr."""
+    """Compute ∫|q_coarse - q_fine| r dr / ∫µp r dr."""
     one, other = coarse.steps[-1], fine.steps[-1]
     r = one.radii
     difference = np.abs(one.shear_radial - at_radii(other, other.shear_radial, r))
@@ -396,7 +404,7 @@ def _shear_change_on_rings(coarse: Any, fine: Any) -> float:
 
 
 def _increment_size(result: Any) -> float:
-    """Part of a step that an increment takes."""
+    """Compute the number of load steps over the number of increments."""
     return len(result.steps) / len(result.increments)
 
 
@@ -417,8 +425,8 @@ HALF = Indentation(
 )  # fmt: skip
 FIVE_DIGITS = 0.5e-5 / 0.49972
 KEPT_SLIP = (
-    "slip keeps its direction while the contact grows; what increments miss of the stick zone "
-    "alternates and cancels in a mean"
+    "slip keeps its direction while the contact grows; the errors of the increments in the stick "
+    "zone alternate and cancel in a mean"
 )
 FIXED_SHEAR = (
     "the shear of a ring is fixed where the stick edge passes; next to it the shear leaves the "
@@ -427,7 +435,7 @@ FIXED_SHEAR = (
 
 
 def _half_on_cells(cells: int, increments: int) -> Run:
-    """Half of the radius sticks, in other increments than the scene names."""
+    """Return the run with c = a/2 on a grid, with another number of increments than the scene."""
     return Run(
         f"{cells}x{cells}, {increments} increments",
         HALF.problem(20).scene,
@@ -442,14 +450,16 @@ def _approach_error(few: Any, many: Any) -> float:
 
 
 def _stick_error(few: Any, many: Any) -> float:
-    """Relative error of the stick radius, extrapolated in the increments."""
+    """Compute the relative error of the stick radius, extrapolated in the increments."""
     radius = 2 * stick_radius(many) - stick_radius(few)
     return abs(radius / (HALF.stick_part * HALF.contact_radius) - 1)
 
 
 def indentation_refinement(level: Level = Level.QUICK) -> Case:
-    """Pressing with friction under refinement of cells and of increments: two runs at the quick
-    level, orders above it."""
+    """Build the case of indentation with refined cells and refined increments.
+
+    The quick level has two runs; other levels have series of runs and judge the orders.
+    """
     few, many = _half_on_cells(64, 8), _half_on_cells(64, 16)
     # Changes are taken over two levels: by the root of two, and between some increments and twice
     # as many. Grids cut the contact differently, so that many of them tell more. More increments
@@ -489,18 +499,18 @@ def indentation_refinement(level: Level = Level.QUICK) -> Case:
     series = () if level is Level.QUICK else (meshes, paths)
     return case(
         "indentation_refinement",
-        "Pressing with friction under refinement",
-        "The rigid ball on a body of ν = 0, with friction that lets half of the radius stick. "
-        "The pressing is cut into more and more increments on one grid, and the grid into more "
-        "and more cells with the same increments. Each leaves the error of the other, so "
-        "orders are taken from the changes between neighbouring levels.",
+        "Indentation with friction under refinement",
+        "The rigid ball on a body of ν = 0, with friction for which half of the contact radius "
+        "sticks. One series of runs refines the increments on one grid, the other refines the "
+        "grid with equal increments. Each series keeps the error of the other parameter. The "
+        "orders are therefore determined from the changes between neighbouring levels.",
         runs=(few, many, *(run for one in series for run in one.runs)),
         orders=tuple(order for one in series for order in one.orders),
         comparisons=(
             Comparison(
                 "approach", "relative error of the approach, extrapolated from 8 and 16 "
                 "increments with second order", (few.label, many.label), _approach_error, 2e-4,
-                "asked of frictional_indentation, there on 256 x 256 cells", HALF.source,
+                "accuracy target of frictional_indentation, there on 256 x 256 cells", HALF.source,
                 ReferenceKind.SEMI_CLOSED, FIVE_DIGITS,
             ),
             Comparison(
@@ -525,8 +535,8 @@ def indentation_refinement(level: Level = Level.QUICK) -> Case:
         if series
         else (),
         limits=(
-            "The stick radius scatters by a part of a cell from grid to grid: it has no order that "
-            "could be judged; frictional_indentation judges its extrapolated value.",
+            "The stick radius scatters by a fraction of a cell from grid to grid, so that no "
+            "order can be judged. frictional_indentation judges the extrapolated stick radius.",
         ),
         equations=HALF.problem(1).equations,
         no_order="" if series else "orders are judged above the quick level",
@@ -536,9 +546,9 @@ def indentation_refinement(level: Level = Level.QUICK) -> Case:
 def sheared_increments(
     level: Level = Level.QUICK, increments: Sequence[int] = (), cells: int = 48
 ) -> Case:
-    """Pressing and shearing a contact that is coupled, cut into more and more increments.
+    """Build the case of a coupled contact that is pressed and then sheared in ever more increments.
 
-    increments  per step, instead of those of the level; orders where there are five or more
+    increments  numbers per load step, instead of those of the level; orders need five or more
     cells       per side
     """
     counts = (
@@ -572,8 +582,8 @@ def sheared_increments(
         for count in counts
     )  # fmt: skip
     backward = (
-        "slip turns and the friction limit moves while an increment takes both as they are at its "
-        "end: Euler's backward rule"
+        "the direction of slip and the friction limit change during an increment, which takes "
+        "both at its end: the backward Euler rule"
     )
     paths = Refined(
         runs, Refinement.INCREMENTS, _increment_size, "1 / increments of a step",
@@ -586,36 +596,39 @@ def sheared_increments(
     )  # fmt: skip
     return case(
         "sheared_increments",
-        "Shearing a coupled contact in smaller increments",
-        "The rigid ball of indentation_refinement pressed on the body of ν = 0, with friction "
-        f"of {HALF.friction:.2f}, and sheared by {part:g} µW. Shear and pressure act on each "
-        "other, slip turns from outward to along the load: the path decides, and nobody knows "
-        "the exact answer. Each doubling of the increments changes it less.",
+        "Tangential loading of a coupled contact in smaller increments",
+        "The rigid ball of indentation_refinement is pressed on the body of ν = 0, with friction "
+        f"of {HALF.friction:.2f}, and then loaded by a tangential force of {part:g} µW. Shear "
+        "and pressure are coupled, and the slip turns from the radial direction to that of the "
+        "force. The result depends on the load path and has no known exact solution. Each "
+        "doubling of the increments must reduce the change.",
         runs=runs,
         orders=paths.orders if several else (),
         comparisons=(
             Comparison(
                 "shift", f"change of the shift from {counts[-2]} to {counts[-1]} increments",
                 (runs[-2].label, runs[-1].label), _shift_change, 2e-2 * 4 / counts[-2],
-                "2 % from 4 to 8 increments, and half by each further doubling: first order",
-                "the same solver with half as many increments", ReferenceKind.OWN_REFINEMENT,
+                "2 % from 4 to 8 increments, and half of that with each further doubling: first "
+                "order",
+                "the same solver with half the increments", ReferenceKind.OWN_REFINEMENT,
             ),
         ),
         charts=(
             paths.chart(
                 "sheared_increments", "Smaller increments under a tangential force",
-                f"Change by twice the increments on {cells} x {cells} cells. Lines go through the "
-                "levels that are judged; others are points alone.",
+                f"Change with twice the increments on {cells} x {cells} cells. Lines connect the "
+                "levels that are judged; other levels are points.",
             ),
         )
         if several
         else (),
         limits=(
-            "Contact and stick radius move by parts of a cell from path to path: no order.",
-            "The energy lost has no one order: neighbouring changes give 1.58, 1.61, 2.17, 1.67 "
-            "and 2.03 on 4 to 256 increments.",
-            "Changes of the approach give 0.82 on the three coarsest levels and rise to 0.99: the "
-            "coarsest is left out of its order.",
+            "Contact and stick radius change by fractions of a cell with the number of "
+            "increments: no order.",
+            "The dissipated energy has no constant order: neighbouring changes give 1.58, 1.61, "
+            "2.17, 1.67 and 2.03 on 4 to 256 increments.",
+            "Changes of the approach have the order 0.82 on the three coarsest levels and 0.99 "
+            "on the finest; the coarsest level is omitted from the order.",
         ),
         equations=(
             r"|\mathbf{q}| \le \mu p,\quad \mu p \, \dot{\mathbf{s}} = "
@@ -627,7 +640,8 @@ def sheared_increments(
 
 @dataclass(frozen=True)
 class Goodman:
-    """The end of pressing where shear does not act on the pressure: Hertz's, and a stick disc."""
+    """State after indentation without effect of the shear on the pressure: Hertz, with a stick
+    disc."""
 
     stick_part: float
     approach: float = HERTZ.approach
@@ -637,9 +651,9 @@ class Goodman:
 def _goodman(
     title: str, nu: float, friction: float, increments: int, uncertainty: Callable[[float], float]
 ) -> Problem:
-    """The rigid ball pressed with this friction.
+    """Pose the indentation by a rigid ball with friction, coupled one way.
 
-    uncertainty  of the closed form, by Dundurs' constant
+    uncertainty  relative, of the closed form, as a function of Dundurs' constant β
     """
     beta = (1 - 2 * nu) / (2 * (1 - nu))
     return Problem(
@@ -665,14 +679,15 @@ def _excess(result: Any, *_: Any) -> float:
 def goodman_indentation(
     level: Level = Level.QUICK, cells: int = 0, frictions: Sequence[float] = ()
 ) -> Case:
-    """Pressing with friction where shear does not act on the pressure.
+    """Build the case of indentation without effect of the shear on the pressure.
 
     cells, frictions  per side, and coefficients, instead of those of the level
     """
     # On 64 cells the disc of µ = 0.1 is six cells wide, and so is the slip ring of µ = 0.3.
     resolved = (64, (0.2,)) if level is Level.QUICK else (256, (0.1, 0.2, 0.3))
     cells, frictions = (cells, frictions) if cells else resolved
-    hertz, why = "Hertz: the pressure is that without friction", "asked of frictional indentation"
+    hertz, why = "Hertz: the pressure is that without friction", "accuracy target of frictional "
+    "indentation"
     rows = (
         Within(replace(APPROACH, source=hertz), 2e-4, why),
         Within(
@@ -700,19 +715,19 @@ def goodman_indentation(
 
     return case(
         "goodman_indentation",
-        "Pressing with friction, coupled one way",
-        "The paper's ball, rigid, pressed on bodies of the paper's E* and ν = 0.3. Pressure "
-        "draws the surface towards the axis and friction resists; that shear in turn lifts "
-        "or lowers the surface is left out. Then the pressure is Hertz's, and the stick disc "
-        "has a closed form: a test of the history of stick and slip apart from the "
-        "alternation between pressure and shear.",
+        "Indentation with friction, coupled one way",
+        "The paper's ball, rigid, is pressed on bodies of the paper's E* and ν = 0.3. The "
+        "pressure moves the surface towards the axis and friction resists. The normal "
+        "displacement by the shear is neglected: the pressure is then that of Hertz, and the "
+        "stick disc has a closed form. The case tests the history of stick and slip without the "
+        "iteration between pressure and shear.",
         *(judged(one(mu), rows) for mu in frictions),
         limits=(
-            "One-way coupling is an approximation, here computed on purpose; the full coupling is "
-            "judged by the case frictional_indentation.",
+            "One-way coupling is an approximation, used here on purpose; frictional_indentation "
+            "judges the full coupling.",
             "With the full coupling c/a is smaller: 0.1998 for µ = 0.1, 0.8959 for µ = 0.3.",
         ),
-        no_order="the stick radius scatters by a part of a cell from grid to grid",
+        no_order="the stick radius scatters by a fraction of a cell from grid to grid",
     )
 
 
@@ -736,8 +751,10 @@ def _bonded_ball_error(nu: float, few: Any, many: Any) -> float:
 
 
 def no_slip_indentation(level: Level = Level.QUICK) -> Case:
-    """Friction so large that nothing slips: the stiffening factor of bonded indentation, of a punch
-    at every level, of a ball above the quick one."""
+    """Build the case of indentation with full stick: the stiffening factor of bonded contact.
+
+    All levels have a flat punch; a ball is added above the quick level.
+    """
     few, many = 20, 40
     grid = paper.square_grid(96, 1.2 * HERTZ.contact_radius)
     punch = FlatPunch(radius=HERTZ.contact_radius, material=RIGID)
@@ -777,9 +794,10 @@ def no_slip_indentation(level: Level = Level.QUICK) -> Case:
     return case(
         "no_slip_indentation",
         "Indentation without slip",
-        "A rigid flat punch, and a ball, pressed on homogeneous bodies with so much friction "
-        "that no cell slips. Bonding stiffens the contact by a factor that Mossakovskii found. "
-        "It is strong coupling: plain alternation between pressure and shear hardly converges.",
+        "A rigid flat punch and a rigid ball are pressed on homogeneous bodies with so much "
+        "friction that no cell slips. Bonding stiffens the contact by a factor due to "
+        "Mossakovskii. The coupling is strong: a plain alternating iteration between pressure "
+        "and shear hardly converges.",
         runs=(
             *bonded.values(), *smooth.values(), *(pair[0] for pair in balls.values()),
             *(pair[1] for pair in balls.values()),
@@ -790,7 +808,7 @@ def no_slip_indentation(level: Level = Level.QUICK) -> Case:
                     f"punch_nu_{text(nu)}", f"ν = {nu:g}: load factor of the bonded over the "
                     "smooth punch, relative error",
                     (bonded[nu].label, smooth[nu].label), partial(_factor_error, nu), 1e-3,
-                    "the singular edge leaves errors of the order of a cell in either stiffness",
+                    "the singular edge leaves errors of the order of a cell in both stiffnesses",
                     NO_SLIP_SOURCE, ReferenceKind.CLOSED_FORM, ROUNDING,
                 )
                 for nu in NO_SLIP_RATIOS
@@ -800,7 +818,7 @@ def no_slip_indentation(level: Level = Level.QUICK) -> Case:
                     f"ball_nu_{text(nu)}", f"ν = {nu:g}: approach of the ball, extrapolated from "
                     f"{few} and {many} increments, relative error",
                     (pair[0].label, pair[1].label), partial(_bonded_ball_error, nu), 2e-4,
-                    "asked of the coupled solver; first order in the increment",
+                    "accuracy target of the coupled solver; first order in the increment",
                     # Eight digits of both factors.
                     NO_SLIP_BALL_SOURCE, ReferenceKind.SEMI_CLOSED, 1e-7,
                 )
@@ -816,8 +834,7 @@ def no_slip_indentation(level: Level = Level.QUICK) -> Case:
 
 
 def spence_example(level: Level = Level.QUICK) -> Case:
-    """The example of Kalker's program CONTACT that Spence's theory is behind, as that publishes it,
-    on the grid of the example at every level."""
+    """Build the case of the published CONTACT example of Spence's problem (Kalker), on its grid."""
     # The program's units are N and mm: gap 0.004116 r², G = 0.5, ν = 0, cells of 0.2.
     mm, megapascal = 1e-3, 1e6
     cells, side, increments = 45, 0.2 * mm, 35
@@ -846,9 +863,9 @@ def spence_example(level: Level = Level.QUICK) -> Case:
     return case(
         "spence_example",
         "CONTACT's Spence example",
-        "A rigid paraboloid pressed with µ = 0.2986 on a half-space with ν = 0 in 35 equal "
-        "steps of the contact radius: half of the radius sticks. The same cells and steps as "
-        "in the published example, so that the two programs can be compared cell by cell.",
+        "A rigid paraboloid is pressed with µ = 0.2986 on a half-space with ν = 0 in 35 equal "
+        "steps of the contact radius: half of the radius sticks. Cells and steps are those of "
+        "the published example, so that the two programs can be compared cell by cell.",
         runs=(run,),
         quantities=(
             Quantity(
@@ -865,7 +882,8 @@ def spence_example(level: Level = Level.QUICK) -> Case:
                 "stick_ratio", "√(cells that stick / cells in contact)", "", run.label, counted,
                 published(sqrt(stick_cells / contact_cells), 1 / stick_cells),
                 Required(
-                    0.1 * side / radius, "both codes count cells: a tenth of one, one was asked for"
+                    0.1 * side / radius, "both codes count cells: a tenth of a cell, where one "
+                    "cell was the target"
                 ), 1.0, "the contact radius",
             ),
         ),
@@ -876,14 +894,14 @@ def spence_example(level: Level = Level.QUICK) -> Case:
 
 
 def _on_mesh(one: Indentation, elements: int, increments: int) -> RefinementLevels:
-    """The scene of frictional_indentation, but for its increments, on one mesh."""
+    """Return the scene of frictional_indentation on one mesh, with another number of increments."""
     meshes = on_elements(one.problem(increments), (elements,), over=0.97, of=one.name)
     return named(f"{one.name}, {increments} increments", meshes)
 
 
 def fem_indentation(level: Level = Level.QUICK) -> Case:
-    """A rigid ball pressed on bodies that slip away below it, by finite elements."""
-    n, many, why = finest(level), 60, "asked of the finite elements"
+    """Build the case of indentation with friction on coupled bodies by finite elements."""
+    n, many, why = finest(level), 60, "accuracy target of the finite elements"
     meshes = {
         one: _on_mesh(one, n, increments)
         for one, increments in {WEAK: FEW, STRONG: many, COATED: FEW}.items()
@@ -902,11 +920,11 @@ def fem_indentation(level: Level = Level.QUICK) -> Case:
 
     return case(
         "fem_indentation",
-        "Finite elements: pressing with friction",
-        "The scenes of frictional_indentation by finite elements: pressure as a linear "
-        "complementarity problem and radial shear as a quadratic program within the friction "
-        "limit, one after the other until they agree. No penalty: contact and stick are exact "
-        "over the hat functions of the tractions.",
+        "Finite elements: indentation with friction",
+        "The scenes of frictional_indentation by finite elements. The pressure solves a linear "
+        "complementarity problem, the radial shear a quadratic program within the friction "
+        "limit; the two are iterated until they agree. There is no penalty: contact and stick "
+        "are exact in the mean over the hat functions of the tractions.",
         *(judged(mesh, rows(one)) for one, mesh in meshes.items()),
         charts=tuple(
             draw
@@ -922,16 +940,16 @@ def fem_indentation(level: Level = Level.QUICK) -> Case:
 
 
 def fem_increments(level: Level = Level.QUICK) -> Case:
-    """Finite elements: pressing with friction, cut into more and more increments; the same at every
-    level."""
+    """Build the case of indentation by finite elements in ever more increments; equal at all
+    levels."""
     # The stick edge moves from node to node: that shows beyond 12 increments on 256 elements per
     # radius and beyond 24 on 512, and an order read off more is too low.
     elements = 256
     slowly = NotYetAsymptotic(
         0.12,
-        "the next term is of second order and of the other sign: by 1/h = 2 … 12 increments the "
-        "change is h^3/2 (0.0761 - 0.0209 √h) within 0.5 % on 512 elements per radius, whose order "
-        "rises from 1.40 to 1.45 and to 1.5 as √h falls",
+        "the next term is of second order and of opposite sign: for 1/h = 2 … 12 increments the "
+        "change is h^3/2 (0.0761 - 0.0209 √h) within 0.5 % on 512 elements per radius, whose "
+        "order rises from 1.40 to 1.45 and to 1.5 as √h falls",
     )
     mesh = per_radius(elements, 0.97 * HALF.contact_radius)
     paths = Refined(
@@ -951,29 +969,29 @@ def fem_increments(level: Level = Level.QUICK) -> Case:
     )  # fmt: skip
     return case(
         "fem_increments",
-        "Finite elements: pressing with friction in smaller increments",
-        "The rigid ball on a body of ν = 0, with friction that lets half of the radius stick, "
-        "on one mesh. Each doubling of the increments changes the answer less; how much less "
-        "is the order of the path's error.",
+        "Finite elements: indentation with friction in smaller increments",
+        "The rigid ball on a body of ν = 0, with friction for which half of the contact radius "
+        "sticks, on one mesh. Each doubling of the increments reduces the change; the rate is "
+        "the order of the increment error.",
         runs=paths.runs,
         orders=paths.orders,
         charts=(
             paths.chart(
                 "fem_increments",
                 "Smaller increments, finite elements",
-                f"Change by twice the increments on {elements:g} elements per contact radius.",
+                f"Change with twice the increments on {elements:g} elements per contact radius.",
             ),
         ),
         limits=(
-            "Where an increment moves the stick edge by less than an element, smaller increments "
-            "say nothing more: the mesh has to become finer with them.",
+            "Increments that move the stick edge by less than an element give no further "
+            "information: the mesh must be refined with them.",
         ),
         equations=HALF.problem(1).equations,
     )
 
 
 def fem_penalty_indentation(level: Level = Level.QUICK) -> Case:
-    """A rigid ball pressed with friction, by finite elements with a penalty and return mapping."""
+    """Build the case of indentation by finite elements with a penalty and return mapping."""
     rows = (
         Within(APPROACH, 1e-3, PENALTY),
         Within(
@@ -986,7 +1004,7 @@ def fem_penalty_indentation(level: Level = Level.QUICK) -> Case:
                 "by_newton", "increments that took Newton's method",
                 lambda result, *_: float(sum(i.path != "alternation" for i in result.increments)),
             ),
-            "none: pressure and shear in turn, with Anderson mixing, converge in all",
+            "none: the alternating iteration with Anderson mixing converges in all increments",
         ),
         Reported(
             error_norm(
@@ -995,7 +1013,7 @@ def fem_penalty_indentation(level: Level = Level.QUICK) -> Case:
                     sum(i.iterations for i in result.increments) / len(result.increments)
                 ),
             ),
-            "two passes each: springs, and springs beside the forces of the first pass",
+            "two passes each: penalty alone, then one augmentation",
         ),
     )  # fmt: skip
     meshes = {
@@ -1004,11 +1022,12 @@ def fem_penalty_indentation(level: Level = Level.QUICK) -> Case:
     }
     return case(
         "fem_penalty_indentation",
-        "Finite elements with a penalty: pressing with friction",
-        "The scenes of fem_indentation with springs at Gauss points instead of exact contact, "
-        "and Coulomb's law by return mapping: a trial shear from what each point remembers, "
-        "scaled back to µp where it is beyond. Pressure and shear are found in turn; where that "
-        "does not converge, together by Newton's method with the consistent tangent.",
+        "Finite elements with a penalty: indentation with friction",
+        "The scenes of fem_indentation with a penalty at Gauss points instead of exact contact, "
+        "and Coulomb's law by return mapping: a trial shear is computed from the state at the "
+        "preceding increment and scaled back to µp where it exceeds the limit. Pressure and "
+        "shear are solved by an alternating iteration; where that does not converge, together by "
+        "Newton's method with the consistent tangent.",
         *(judged(mesh, rows) for mesh in meshes.values()),
         checks=(consistent_tangent(),),
         charts=tuple(
@@ -1017,8 +1036,8 @@ def fem_penalty_indentation(level: Level = Level.QUICK) -> Case:
             for draw in _profiles(mesh, one, "fem_penalty_indentation", "springs", "outward shear")
         ),
         limits=(
-            f"The shear is that of {FEW} increments, whose error is part of what is judged: each "
-            "place that the edge of stick has passed keeps a ripple, of 0.02 µp_H for µ = 0.3.",
+            f"The shear is that of {FEW} increments, whose error is included in the judged "
+            "error: each position of the stick edge leaves a ripple, of 0.02 µp_H for µ = 0.3.",
         ),
         no_order=JUDGED_BY.format("fem_increments"),
     )
@@ -1028,7 +1047,10 @@ INNERMOST, BESIDE = 0.05, 0.05  # radii where shear is not compared: at the axis
 
 
 def _mean_shear(result: Any, _: int, problem: Problem) -> float:
-    """At the radii of the row, by the shear over √(1-x²), which has no root, between rings."""
+    """Compute the mean error of the shear at the radii of the reference, over µp_H.
+
+    The shear over √(1-x²) has no root at the edge; that ratio is interpolated between rings.
+    """
     end, one = result.steps[-1], problem.ends[-1]
     r = end.radii[end.pressure > 0] / end.contact_radius
     smooth = end.shear_radial[: len(r)] / np.sqrt(1 - r**2)
@@ -1039,10 +1061,13 @@ def _mean_shear(result: Any, _: int, problem: Problem) -> float:
 
 
 def radial_indentation(level: Level = Level.QUICK) -> Case:
-    """Pressing with friction by the radial solver, against integral equations and Goodman's limit;
-    the same at every level."""
+    """Build the case of indentation by the radial solver against integral equations and Goodman's
+    limit.
+
+    The case is equal at all levels.
+    """
     increments, rings = 64, 512  # twice as many increments where the cells take twice as many
-    why = "asked of the radial solver at these increments"
+    why = "accuracy target of the radial solver at these increments"
     of_contacts = (
         Within(APPROACH, 1e-6, why),
         Within(CONTACT_RADIUS, 1e-6, why),
@@ -1056,7 +1081,7 @@ def radial_indentation(level: Level = Level.QUICK) -> Case:
         Within(
             error_norm(
                 "mean_shear",
-                f"mean error of the shear from {INNERMOST:g} a on, beside the front",
+                f"mean error of the shear from {INNERMOST:g} a on, away from the stick edge",
                 _mean_shear, OVER_LIMIT,
             ),
             1e-4, why,
@@ -1067,15 +1092,16 @@ def radial_indentation(level: Level = Level.QUICK) -> Case:
     beta = (1 - 2 * nu) / (2 * (1 - nu))
     of_goodman = Within(
         replace(STICK_PART, name="stick_part", over=ONE), 1e-3,
-        f"asked of the stick radius; {beta**2:.0e} of it is Goodman's",
+        f"accuracy target of the stick radius; {beta**2:.0e} is the error of Goodman's solution",
     )  # fmt: skip
     return case(
         "radial_indentation",
-        "Pressing with friction in one dimension",
-        "The paper's ball, rigid, pressed by 1 kN on half-spaces and on a coating that "
-        f"move towards the axis below it, in {increments} increments, or twice as many where "
-        "nearly all sticks, by the radial solver. The references come from integral equations "
-        "over the radius. Where bodies hardly couple, the stick radius is Goodman's.",
+        "Radial solver: indentation with friction",
+        "The paper's ball, rigid, is pressed by 1 kN on half-spaces and on a coating that move "
+        f"towards the axis below the ball, in {increments} increments, or twice that number "
+        "where nearly all of the contact sticks, by the radial solver. The references are "
+        "solutions of integral equations over the radius. For weak coupling the stick radius is "
+        "Goodman's.",
         *(
             judged(
                 on_radii(one.problem(increments * one.increments // FEW), one.name, rings=rings),
@@ -1094,5 +1120,5 @@ def radial_indentation(level: Level = Level.QUICK) -> Case:
             for ratio in (0.5, 1.0)
             for title in [f"ν = {nu:g}, µ = {ratio:g} β"]
         ),
-        no_order="judged at the increments that the case names, not on several counts of them",
+        no_order="judged at the increments of the case, not on several numbers of them",
     )  # fmt: skip

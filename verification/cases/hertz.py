@@ -1,4 +1,4 @@
-"""Hertz's contact: point and ellipse, exact arc, given approach, unloading, unlike bodies."""
+"""Hertz contact: point and ellipse, exact arc, prescribed approach, unloading, different bodies."""
 
 from __future__ import annotations
 
@@ -82,8 +82,8 @@ ROWS = (
     ),
     Falls(
         CONTACT_RADIUS, 1.0,
-        "pressures that are constant on cells, matched at their centres, let the contact reach too "
-        "far by the same part of a cell, 0.06, on every grid",
+        "pressures that are constant on cells and collocated at their centres extend the contact "
+        "by the same fraction of a cell, 0.06, on every grid",
         NotYetAsymptotic(
             0.15, "a second term counts on coarse grids: 1.12 up to 256 cells, 1.08 up to 512"
         ),
@@ -99,10 +99,9 @@ MEAN = (
 
 
 def hertz_point(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> Case:
-    """Hertz's point contact on square grids, required figures at 128 and 256 cells per side.
+    """Build the case of Hertz's point contact on square grids, with targets at 128 and 256 cells.
 
-    cells  per side, instead of those of the level; without grids that fall on the contact in two
-           other ways
+    cells  per side, instead of those of the level; without the grids in two other positions
     """
     most = {Level.QUICK: 256, Level.STANDARD: 512, Level.FULL: 1024}[level]
     grids = on_cells(BALL, cells or refinement(32, most))
@@ -110,16 +109,16 @@ def hertz_point(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> Case:
     return case(
         "hertz_point",
         "Hertz point contact",
-        "The paper's ball (R = 18 mm, 420 GPa, ν = 0.3) on a half-space of the same material "
-        "under 1 kN, without friction, on a window of three contact radii. As a paraboloid it "
-        "is Hertz's problem exactly.",
+        "The paper's ball (R = 18 mm, 420 GPa, ν = 0.3) is pressed by 1 kN without friction on a "
+        "half-space of the same material, on a window of three contact radii. For a paraboloid "
+        "Hertz's solution is exact.",
         judged(grids, ROWS),
         *(judged(on_cells(BALL, some, offsets=UNLIKE), MEAN) for some in (shifted,) if some),
         charts=(
             profile(
                 grids, "hertz_profile", "Pressure next to y = 0",
-                f"Computed pressure on {grids.judged.run.label} cells over Hertz's, and their "
-                "difference: it is confined to the cells at the edge of the contact.",
+                f"Computed pressure on {grids.judged.run.label} cells, Hertz's pressure, and "
+                "their difference, which is confined to the cells at the edge of the contact.",
                 "p / p₀", HERTZ.peak_pressure, PRESSURE,
             ),
             convergence(
@@ -137,7 +136,7 @@ ARC = SphereContact.under_load(paper.NORMAL_FORCE, paper.RADIUS, paper.CONTACT_M
 
 
 def _beyond(what: Observable, words: str, hertz: float, exact: float, more: str = "") -> Reported:
-    """Distance of a number from Hertz's."""
+    """Report the relative difference of a quantity from Hertz's value."""
     over = replace(
         what,
         name=f"{what.name}_beyond_hertz",
@@ -149,7 +148,8 @@ def _beyond(what: Observable, words: str, hertz: float, exact: float, more: str 
 
 
 def hertz_exact_sphere(level: Level = Level.QUICK) -> Case:
-    """The paper's ball with its exact arc, and its distance from the paraboloid."""
+    """Build the case of the paper's ball with its exact arc, with the difference from the
+    paraboloid."""
     ball, load = Sphere(radius=paper.RADIUS, material=STEEL), paper.pressing()
     problem = Problem(
         paper.frictionless("Ball with its exact arc on a half-space", ball, STEEL, load),
@@ -166,8 +166,8 @@ def hertz_exact_sphere(level: Level = Level.QUICK) -> Case:
     rows = (
         Refined(
             APPROACH, 2.0, 1e-5,
-            "order 2 as for the paraboloid; the cap is a third of the distance from Hertz's "
-            "approach, so that the two can be told apart",
+            "order 2 as for the paraboloid; the cap is a third of the difference from Hertz's "
+            "approach, so that the two can be distinguished",
         ),
         Refined(
             PEAK_PRESSURE, 2.0, 4e-5,
@@ -184,30 +184,30 @@ def hertz_exact_sphere(level: Level = Level.QUICK) -> Case:
     return case(
         "hertz_exact_sphere",
         "Ball with its exact arc",
-        "The ball of hertz_point as a circular arc in the same half-space. Its exact solution is "
-        "an integral; it differs from Hertz's by a²/R² times numbers near 1/15, far less than any "
-        "measurement but more than the error of the solver.",
+        "The ball of hertz_point as a circular arc on the same half-space. The exact solution is "
+        "an integral. It differs from Hertz's by a²/R² times numbers near 1/15, which is far "
+        "below the accuracy of measurements but above the error of the solver.",
         judged(on_cells(problem, refinement(64, 256 if level is Level.QUICK else 512)), rows),
-        limits=("Linear elasticity of a half-space: large strains are another matter.",),
+        limits=("The theory is linear elasticity of a half-space; large strains are not covered.",),
         no_order=DERIVED,
     )
 
 
 def hertz_approach_control(level: Level = Level.QUICK) -> Case:
-    """Hertz's point contact with the approach prescribed, the same at every level."""
+    """Build the case of Hertz's point contact with prescribed approach; equal at all levels."""
     rows = (
         Refined(
             NORMAL_FORCE, 2.0, 7.5e-5,
             "order 2, as the approach under force; the cap is its 5e-5 times 3/2, the exponent of "
             "Hertz's law",
         ),
-        Refined(APPROACH, 2.0, 1e-12, "prescribed: nothing but rounding may change it"),
+        Refined(APPROACH, 2.0, 1e-12, "prescribed: only rounding may change it"),
     )  # fmt: skip
     return case(
         "hertz_approach_control",
         "Hertz point contact, approach prescribed",
-        "The contact of hertz_point, pressed by Hertz's approach for 1 kN. The force that comes "
-        "out is the measured quantity.",
+        "The contact of hertz_point with Hertz's approach for 1 kN prescribed. The resulting "
+        "force is the measured quantity.",
         judged(on_cells(LED_BALL, refinement(32, 128)), rows),
         no_order=DERIVED,
     )
@@ -219,8 +219,10 @@ SMALLER = UNLOADED.contact_radius / HERTZ.contact_radius
 
 
 def on_smaller(figure: float, order: float) -> Callable[[RefinementLevel], float]:
-    """A figure asked for on 128 x 128 cells, or at 64 elements per radius, on those of them that
-    the smaller contact has."""
+    """Scale a tolerance to the number of cells or elements in the smaller contact.
+
+    The tolerance holds for 128 x 128 cells, or for 64 elements per radius.
+    """
 
     def allowed(rung: RefinementLevel) -> float:
         if isinstance(rung.run, Run):
@@ -231,14 +233,15 @@ def on_smaller(figure: float, order: float) -> Callable[[RefinementLevel], float
 
 
 def _pressure_and_approach(one: Any, other: Any) -> float:
-    """Σ|Δp|/Σp at the ends of two histories, or the relative difference of the approach."""
+    """Compute the larger of Σ|Δp|/Σp and the relative difference of the approach, at the last
+    steps."""
     a, b = one.steps[-1], other.steps[-1]
     pressure = abs(a.pressure - b.pressure).sum() / b.pressure.sum()
     return worst(float(pressure), abs(a.approach / b.approach - 1))
 
 
 def hertz_unloading(level: Level = Level.QUICK) -> Case:
-    """Contacts without friction that are unloaded: the history has no effect."""
+    """Build the case of unloading without friction, where the history has no effect."""
     cells, elements = {
         Level.QUICK: (128, 32), Level.STANDARD: (256, 64), Level.FULL: (512, 128),
     }[level]  # fmt: skip
@@ -258,10 +261,10 @@ def hertz_unloading(level: Level = Level.QUICK) -> Case:
         source="Hertz 1882: W ~ δ^(3/2), so that ∫W dδ is 2/5 of W δ",
     )
     why = (
-        "asked of hertz_point on 128 x 128 cells; on other cells per radius what the order 2 makes "
-        "of it"
+        "accuracy target of hertz_point on 128 x 128 cells; on other cells per radius scaled by "
+        "order 2"
     )
-    twice = "twice what is allowed of the approach"
+    twice = "twice the tolerance of the approach"
     on_grid = (
         Within(APPROACH, on_smaller(5e-5, 2), why),
         Within(
@@ -275,7 +278,7 @@ def hertz_unloading(level: Level = Level.QUICK) -> Case:
         Within(APPROACH, on_smaller(1e-4, 2), because(2)),
         Within(
             CONTACT_RADIUS, lambda rung: min(2e-3, on_smaller(5e-4, 1)(rung)),
-            "as for fem_hertz: the edge is known to a thirtieth of an element",
+            "as for fem_hertz: the edge is known to 1/30 of an element",
         ),
         Within(PEAK_PRESSURE, on_smaller(1e-4, 2), because(2)),
         Within(stored, on_smaller(2e-4, 2), twice),
@@ -299,21 +302,22 @@ def hertz_unloading(level: Level = Level.QUICK) -> Case:
     ]
     return case(
         "hertz_unloading",
-        "Unloaded without friction",
-        f"The paper's ball pressed by 1 kN and unloaded to {PART:.3f} kN. Without friction the "
-        "contact is again Hertz's, with approach, radius, pressure and energy of the smaller "
-        "force. A coated body is unloaded likewise, and compared with itself pressed by that force "
-        "at once.",
+        "Unloading without friction",
+        f"The paper's ball is pressed by 1 kN and unloaded to {PART:.3f} kN. Without friction "
+        "the contact is again Hertz's, with approach, radius, pressure and energy of the smaller "
+        "force. A coated body is unloaded in the same way, and compared with a single loading by "
+        "the smaller force.",
         judged(on_cells(problem, (cells,)), on_grid),
         judged(with_edge_at(problem, (elements,)), on_mesh),
         runs=tuple(pair[k].judged.run for k in (0, 1) for pair in (grids, meshes)),
         comparisons=tuple(
             Comparison(
-                "path_independence", "difference of pressure and approach from those of the "
-                "smaller force at once", (back.levels[0], once.levels[0]), _pressure_and_approach,
+                "path_independence", "difference of pressure and approach from those of a single "
+                "loading by the smaller force",
+                (back.levels[0], once.levels[0]), _pressure_and_approach,
                 10 * SOLVER_TOLERANCE,
-                "residuals of two solves, which tractions answer a few times over",
-                "without friction a contact has no memory",
+                "residuals of two solves, amplified a few times in the tractions",
+                "without friction the contact does not depend on the load path",
             )
             for back, once in (grids, meshes)
         ),
@@ -322,7 +326,7 @@ def hertz_unloading(level: Level = Level.QUICK) -> Case:
 
 
 def dissimilar_bodies(level: Level = Level.QUICK) -> Case:
-    """Unlike bodies without friction, of which E* alone matters; the same at every level."""
+    """Build the case of different bodies without friction, with equal E*; equal at all levels."""
     cells = 128
     hard = IsotropicMaterial(young_modulus=300e9, poisson_ratio=0.25)
     # 1/E* = (1 - 0.25²)/300 GPa + the rest, so that E* is the paper's
@@ -342,7 +346,7 @@ def dissimilar_bodies(level: Level = Level.QUICK) -> Case:
         "dissimilar_bodies",
         "Dissimilar bodies without friction",
         "Pairs of different materials with the E* of hertz_point: a rigid ball on steel, and a "
-        "ball on an incompressible body. Without friction Hertz's solution knows only E*.",
+        "ball on an incompressible body. Without friction Hertz's solution depends only on E*.",
         *(
             judged(named(name, on_cells(hertzian(scene), (cells,), of=name)), rows)
             for name, scene in scenes.items()
@@ -356,7 +360,7 @@ def dissimilar_bodies(level: Level = Level.QUICK) -> Case:
 
 
 def hertz_elliptical(level: Level = Level.QUICK) -> Case:
-    """Hertz's contact with an elliptical contact area."""
+    """Build the case of Hertz's contact with an elliptical contact area."""
     mean_radius = replace(
         CONTACT_RADIUS,
         name="mean_contact_radius",
@@ -376,15 +380,15 @@ def hertz_elliptical(level: Level = Level.QUICK) -> Case:
     return case(
         "hertz_elliptical",
         "Elliptical Hertz contact",
-        "A barrel with principal radii of 90 mm and 18 mm: the contact is an ellipse with "
-        f"b/a = {EXACT.axis_ratio:.4f}. Cells are oblong like the window, three semi-axes along "
-        "each side.",
+        "A barrel with principal radii of 90 mm and 18 mm: the contact is an ellipse with b/a = "
+        f"{EXACT.axis_ratio:.4f}. Cells are rectangular like the window, which has three "
+        "semi-axes along each side.",
         judged(grids, rows),
         charts=(
             profile(
                 grids, "elliptical_profile", "Pressure along the long axis of the ellipse",
-                "Computed pressure on the row of cells next to y = 0 over the exact one, and their "
-                "difference.",
+                "Computed pressure on the row of cells next to y = 0, the exact pressure, and "
+                "their difference.",
                 "p / p₀", EXACT.peak_pressure,
             ),
         ),
@@ -396,17 +400,17 @@ ON_MESHES = (
     Within(APPROACH, asked(1e-4, 2), because(2)),
     Within(
         CONTACT_RADIUS, asked(2e-4, 1),
-        "the edge is known to a seventieth of an element; 2e-3 is asked at 64 per radius",
+        "the edge is known to 1/70 of an element; the accuracy target is 2e-3 at 64 per radius",
     ),
     Within(PRESSURE_WITHIN, asked(2e-3, 2), because(2)),
     Falls(
         PRESSURE_L2, 1.0,
-        "at the edge the hats cannot follow a square root: an error of O(√h) on a ring one element "
-        "wide leaves O(h) in L2",
+        "at the edge hat functions do not represent a square root: an error of O(√h) on a ring "
+        "one element wide leaves O(h) in L2",
     ),
     Falls(
         PEAK_PRESSURE, 2.0,
-        "what the hats cannot follow of the square root at the edge comes to O(h²) of the load",
+        "the error of hat functions at the square-root edge is O(h²) of the load",
     ),
     Falls(
         APPROACH, 2.0,
@@ -420,11 +424,11 @@ def fem_hertz(
     elements: Sequence[int] = (),
     studied: Sequence[tuple[int, float]] = (),
 ) -> Case:
-    """Hertz's contact by finite elements, on many meshes.
+    """Build the case of Hertz's contact by finite elements, on many meshes.
 
     elements  per contact radius, instead of those of the level
-    studied   meshes for the orders, and place of the edge in its element; none: the same meshes, up
-              to 64 elements per radius, where the error is that of the contact zone
+    studied   meshes for the orders, and position of the edge in its element; default: the same
+              meshes, up to 64 elements per radius, where the error is that of the contact zone
     """
     studied = studied or (() if elements else order_levels(level))
     elements = elements or levels(level)
@@ -432,37 +436,38 @@ def fem_hertz(
     return case(
         "fem_hertz",
         "Finite elements: Hertz point contact",
-        "The contact of hertz_point solved by axisymmetric finite elements that share nothing "
-        "with the semi-analytical solver but the scene: quadratic elements on a section of a "
-        "hundred contact radii, pressure linear between its rings, contact as a linear "
-        "complementarity problem.",
+        "The contact of hertz_point by axisymmetric finite elements that share only the scene "
+        "with the semi-analytical solver: quadratic elements on a section of a hundred contact "
+        "radii, pressure linear between its rings, contact as a linear complementarity problem.",
         judged(meshes, ON_MESHES),
         charts=(
             profile(
                 meshes, "fem_hertz_profile", "Pressure over the radius",
-                "Pressure by finite elements over Hertz's, and their difference: a ripple of the "
-                "last elements at the edge.",
+                "Pressure by finite elements, Hertz's pressure, and their difference: a ripple "
+                "of the last elements at the edge.",
                 "p / p₀", HERTZ.peak_pressure, PRESSURE,
             ),
             convergence(
                 meshes, ON_MESHES, "fem_hertz_convergence", "Convergence of the finite elements",
-                "Relative errors, root mean square over the places of the edge in its element, "
-                "against the side of an element over the contact radius.",
+                "Relative errors, root mean square over the positions of the edge in its "
+                "element, against the element side over the contact radius.",
                 also=(CONTACT_RADIUS,),
             ),
         ),
         limits=(
             "Away from the contact elements grow by the same ratio on every mesh, which leaves "
-            "2e-6 of the peak pressure and 6e-6 of the approach on the finest.",
-            "The radius errs by A h + B h²: A, up to 0.003, from reading the edge off the last two "
-            "pressures, B, about 0.1, from the pressures. On these meshes neither dominates, so "
-            "that it has no one order.",
+            "errors of 2e-6 of the peak pressure and 6e-6 of the approach on the finest mesh.",
+            "The error of the radius is A h + B h². The term A, up to 0.003, stems from the "
+            "extrapolation of the edge from the last two pressures, the term B, about 0.1, from "
+            "the pressures. Neither term dominates on these meshes, so that there is no constant "
+            "order.",
         ),
     )  # fmt: skip
 
 
 def fem_penalty_hertz(level: Level = Level.QUICK) -> Case:
-    """Hertz's contact by finite elements with a penalty, on a finer mesh at higher levels."""
+    """Build the case of Hertz's contact by finite elements with a penalty; higher levels refine
+    the mesh."""
     elements, factor = finest(level), 10.0
     mesh = with_edge_at(BALL, (elements,))
     springs, improved = (
@@ -477,15 +482,15 @@ def fem_penalty_hertz(level: Level = Level.QUICK) -> Case:
         Reference(
             1 / pi, ReferenceKind.THEORY,
             "springs of stiffness ε in series with Hertz's contact, to first order: the approach "
-            "grows by d/dW of the energy ∫p²/2ε dA in them, which is p₀/2ε",
+            "grows by d/dW of their energy ∫p²/2ε dA, which is p₀/2ε",
         ),
-        Required(0.05, "set by hand: the next order in 1/k and what the mesh adds"),
+        Required(0.05, "set by hand: the next order in 1/k and the error of the mesh"),
     )  # fmt: skip
     rows = (
         Within(PEAK_PRESSURE, 2e-3, PENALTY),
         Within(
             APPROACH, asked(1e-4, 2),
-            "as without a penalty: an augmentation takes away what springs add, 1/πk; "
+            "as without a penalty: an augmentation removes the contribution 1/πk of the springs; "
             f"{because(2)}",
         ),
         Within(CONTACT_RADIUS, part_of_side(0.1), "a tenth of an element: the last points ripple"),
@@ -498,15 +503,16 @@ def fem_penalty_hertz(level: Level = Level.QUICK) -> Case:
     return case(
         "fem_penalty_hertz",
         "Finite elements with a penalty: Hertz point contact",
-        "The contact of fem_hertz with springs of stiffness ε = c E*/h between the surfaces at the "
-        "Gauss points of the contact edges, h the length of an edge, instead of exact contact. "
-        "Springs overlap, and k = c a/h says how much; one augmentation, in which the pressures "
-        "of the springs become forces that need no overlap, takes that away.",
+        "The contact of fem_hertz with springs of stiffness ε = c E*/h between the surfaces at "
+        "the Gauss points of the contact edges, h being the length of an edge, instead of exact "
+        "contact. The overlap of the surfaces is governed by k = c a/h. One augmentation, in "
+        "which the pressures of the springs become forces that need no overlap, removes the "
+        "overlap.",
         judged(improved, rows),
         judged(springs, of_springs),
         quantities=(law,),
         limits=(
-            "The measured error of the peak pressure is −0.54/k; no theory is at hand for that "
+            "The measured error of the peak pressure is −0.54/k; there is no theory for that "
             "number.",
         ),
         equations=(r"\Delta\delta = \frac{p_0}{2\varepsilon},\quad \varepsilon = \frac{c E^*}{h}",),

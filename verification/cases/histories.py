@@ -1,4 +1,4 @@
-"""Histories and identities: one contact seen in several ways must give one answer."""
+"""Load histories and identities: equivalent descriptions of one contact must give equal results."""
 
 from __future__ import annotations
 
@@ -61,16 +61,16 @@ from verification.quantities import shear_of, shift_along_x
 Field = NDArray[np.float64]
 Difference = Callable[[Any, Any], float]
 
-ANSWERED = "residuals of two solves, which tractions answer a few times over"
-ISOTROPIC = "isotropic bodies and friction"
-TURNS_INTO_ITSELF = "square cells turn into themselves; "
+ANSWERED = "residuals of two solves, amplified a few times in the tractions"
+ISOTROPIC = "isotropy of bodies and friction"
+TURNS_INTO_ITSELF = "a right angle maps square cells to square cells;"
 ROTATION = r"\mathbf{q}(\mathbf{R}\mathbf{x}) = \mathbf{R}\,\mathbf{q}(\mathbf{x})"
 EXACT = 10 * SOLVER_TOLERANCE
 FILMED = coated(film(2.0, 1.0))
 
 
 def turned(loading: tuple[LoadStep, ...], degrees: float) -> tuple[LoadStep, ...]:
-    """The steps with their tangential forces turned from x to y."""
+    """Return the load steps with the tangential forces rotated from x to y."""
     c, s = cos(radians(degrees)), sin(radians(degrees))
 
     def one(step: LoadStep) -> LoadStep:
@@ -83,7 +83,7 @@ def turned(loading: tuple[LoadStep, ...], degrees: float) -> tuple[LoadStep, ...
 
 
 def _shift(end: Any) -> Field:
-    """Tangential shift; none before friction acts."""
+    """Return the tangential shift; zero before friction acts."""
     shift = end.tangential_shift
     return np.zeros(2) if shift is None else np.asarray(shift)
 
@@ -95,10 +95,13 @@ def same_fields(
     one: Any,
     other: Any,
 ) -> float:
-    """Largest difference in any increment of Σ|Δp|/Σp, Σ|Δq|/Σp, relative approach, and shift over
-    approach, once the second result is carried over into the frame of the first.
+    """Compute the largest difference of two results in any increment, after a change of frame.
 
-    field   carries a scalar over, vector the shear, turn the shift
+    The measures are Σ|Δp|/Σp, Σ|Δq|/Σp, the relative difference of the approach, and the difference
+    of the shift over the approach.
+
+    field   maps a scalar field of the second result into the frame of the first; vector maps the
+            shear, turn the shift
     """
 
     def apart(a: Any, b: Any) -> float:
@@ -114,7 +117,7 @@ def same_fields(
 
 
 def _by_quarter(field: Field) -> Field:
-    """Turned by a right angle from x to y."""
+    """Rotate a field by a right angle from x to y."""
     return np.asarray(field.T[::-1])
 
 
@@ -131,8 +134,11 @@ after_quarter = partial(same_fields, _by_quarter, _quarter_of_shear, _quarter_of
 
 
 def motion_apart(degrees: float, one: Any, other: Any) -> float:
-    """Largest difference, in any increment, of the shift and of the energy lost, once the second
-    result is turned; relative to the largest of either in the second."""
+    """Compute the largest difference of shift and dissipated energy after a rotation of the second
+    result.
+
+    Differences are taken in each increment, relative to the largest value of the second result.
+    """
     c, s = cos(radians(degrees)), sin(radians(degrees))
     turn = np.array([[c, -s], [s, c]])
     found, expected = (np.array([_shift(i) for i in r.increments]) for r in (one, other))
@@ -145,21 +151,22 @@ def motion_apart(degrees: float, one: Any, other: Any) -> float:
 
 
 def _isotropic(one: Run, other: Run, degrees: float, allowed: float, cells: int) -> Comparison:
-    """A history turned by an angle that the grid does not share.
+    """Compare a history with itself rotated by an angle that the grid does not share.
 
-    allowed  on `cells` cells per side: about four times what square cells leave
+    allowed  on `cells` cells per side: about four times the error of square cells
     """
     return Comparison(
-        f"turned_by_{degrees:g}", f"difference of shift and energy lost after {degrees:g}°",
+        f"turned_by_{degrees:g}", "difference of shift and dissipated energy after a rotation of "
+        f"{degrees:g}°",
         (one.label, other.label), partial(motion_apart, degrees),
         allowed * cells / other.grid.cells[0],
-        f"set by hand: about four times what square cells leave at the edges of contact and stick "
-        f"on {cells} of them, in proportion to the cell on others", ISOTROPIC,
+        f"set by hand: about four times the error of {cells} square cells at the edges of "
+        "contact and stick zone, proportional to the cell side on other grids", ISOTROPIC,
     )  # fmt: skip
 
 
 def load_paths(level: Level = Level.QUICK, cells: int = 0) -> Case:
-    """Histories without a closed form: only the equations themselves can judge them.
+    """Build the case of histories without a closed form, which only the equations can judge.
 
     cells  per side, instead of those of the level
     """
@@ -195,19 +202,21 @@ def load_paths(level: Level = Level.QUICK, cells: int = 0) -> Case:
     return case(
         "load_paths",
         "Load histories without a closed form",
-        "Histories in which normal and tangential load change together or in two directions, "
-        "for ν = 0.3. Nobody has a formula for them; the laws of contact and friction at every "
-        "increment are judged, and that no direction is better than another.",
+        "Histories in which normal and tangential loads change together or in two directions, "
+        "for ν = 0.3. There is no closed form. Judged are the laws of contact and friction in "
+        "each increment, and the independence of the result from the direction of the load.",
         runs=(*changes, straight, quarter, oblique),
         comparisons=(
             Comparison(
-                "turned_by_90", "difference of pressure, shear and shift after a right angle",
+                "turned_by_90", "difference of pressure, shear and shift after a rotation by a "
+                "right angle",
                 (quarter.label, straight.label), after_quarter, EXACT,
                 TURNS_INTO_ITSELF + ANSWERED, ISOTROPIC,
             ),
             _isotropic(oblique, straight, 30.0, 3e-4, 64),
         ),
-        limits=("Small residuals say that the equations are solved, not that they are right.",),
+        limits=("Small residuals show that the equations are solved, not that the equations are "
+        "correct.",),
         equations=(ROTATION,),
         no_order=IDENTITY,
     )  # fmt: skip
@@ -218,8 +227,11 @@ PRESSED, PUSHED, BACK = 1, 2, 3  # loading steps
 
 @dataclass(frozen=True)
 class CoupledContact:
-    """A rigid ball on a body that couples pressure and shear, pushed to and fro by two thirds of
-    µW, then aside, and unloaded under that force."""
+    """Rigid ball on a body that couples pressure and shear, under a tangential loop.
+
+    The force of two thirds of µW is applied along x, reversed, and turned; then the contact is
+    unloaded under that force.
+    """
 
     name: str
     body: Body
@@ -227,7 +239,7 @@ class CoupledContact:
 
     @property
     def history(self) -> tuple[LoadStep, ...]:
-        """The first three steps are a loop along x."""
+        """Load steps; the first three are a loop along x."""
         push = 2 / 3 * self.friction * NORMAL_FORCE
         return (
             pressing(6),
@@ -238,12 +250,12 @@ class CoupledContact:
         )
 
     def scene(self, loading: tuple[LoadStep, ...], way: str) -> Scene:
-        """Under a history."""
+        """Return the scene with a load history."""
         title = f"Rigid ball on a body: {self.name}{way}"
         return pressed(title, rigid_ball(), self.body, *loading, friction=self.friction)
 
     def run(self, cells: int, degrees: float = 0.0) -> Run:
-        """The history, turned."""
+        """Return the run of the rotated history on cells."""
         way = "" if degrees == 0 else f", turned by {degrees:g}°"
         grid = paper.square_grid(cells, 1.2 * HERTZ.contact_radius)
         scene = self.scene(turned(self.history, degrees), way)
@@ -251,7 +263,7 @@ class CoupledContact:
         return Run(f"{self.name}{way}", scene, grid, edge="off")
 
     def section(self, elements: int, harmonics: int) -> SectionRun:
-        """The loop by finite elements: loads along a line."""
+        """Return the run of the loop by finite elements, with loads along one line."""
         mesh = FiniteElementDiscretisation(
             elements_per_radius=elements,
             contact_radius=HERTZ.contact_radius,
@@ -263,17 +275,18 @@ class CoupledContact:
 
 
 class LedByMotion:
-    """A result's history once more, led by its own approach and shift increment by increment.
+    """Repeated solve of a history with the resulting approach and shift prescribed in each
+    increment.
 
-    The motions are not known before the result, so this is no run of the case. It is solved once
-    for all that is measured on it; a history that the solver gives up is infinitely far off.
+    The motions are known only after the first solve, so this solve is not a run of the case. One
+    solve serves all measures. A history that the solver does not complete has an infinite error.
     """
 
     def __init__(self) -> None:
         self._solved: tuple[semi_analytical.Result, semi_analytical.Result | None] | None = None
 
     def difference(self, result: semi_analytical.Result) -> float:
-        """Σ|Δp|/Σp or Σ|Δq|/Σp, the larger in any increment."""
+        """Compute the larger of Σ|Δp|/Σp and Σ|Δq|/Σp in any increment."""
         led = self._led(result)
         if led is None:
             return math.inf
@@ -286,7 +299,7 @@ class LedByMotion:
         )
 
     def violation(self, result: semi_analytical.Result) -> float:
-        """Largest violation of a law in it, dimensionless."""
+        """Compute the largest violation of a law in the repeated solve [1]."""
         led = self._led(result)
         if led is None:
             return math.inf
@@ -294,7 +307,7 @@ class LedByMotion:
         return worst(violation, imbalance or 0.0)
 
     def iterations(self, result: semi_analytical.Result) -> float:
-        """Of all its increments."""
+        """Return the iterations of all increments of the repeated solve."""
         led = self._led(result)
         return math.inf if led is None else float(sum(i.iterations for i in led.increments))
 
@@ -309,7 +322,7 @@ def _pair(vector: Field) -> tuple[float, float]:
 
 
 def solved_by_motion(result: semi_analytical.Result) -> semi_analytical.Result | None:
-    """The history of a result with its approach and shift prescribed; None if that is given up."""
+    """Solve the history of a result with its motions prescribed; None if the solver fails."""
     steps = tuple(
         LoadStep(
             approach=i.approach,
@@ -326,7 +339,7 @@ def solved_by_motion(result: semi_analytical.Result) -> semi_analytical.Result |
 
 
 def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | None = None) -> Case:
-    """Histories of bodies that couple: to and fro, aside, and unloaded, seen in several ways.
+    """Build the case of loops, turns and unloading of coupled bodies, solved in several ways.
 
     sizes  cells per side, elements per radius and harmonics, instead of those of the level
     """
@@ -339,10 +352,11 @@ def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | No
     films = [filmed.run(cells), filmed.run(cells, 90.0)]
     section = bare.section(elements, harmonics)
     led = {run.label: LedByMotion() for run in (runs[0], films[0])}
-    carried = "residuals of two solves, answered by tractions and carried through the history"
+    carried = "residuals of two solves, amplified in the tractions and carried through the "
+    "history"
     read: dict[str, tuple[str, float, Callable[[Any], float]]] = {
         "shift": ("shift", 5e-3, shift_along_x),
-        "energy": ("energy lost", 1.5e-2, lambda end: float(end.dissipated_energy)),
+        "energy": ("dissipated energy", 1.5e-2, lambda end: float(end.dissipated_energy)),
         "approach": ("approach", 1e-3, lambda end: float(end.approach)),
     }
 
@@ -351,12 +365,12 @@ def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | No
 
     return case(
         "coupled_history",
-        "To and fro, aside and unloaded, with coupling",
-        "A rigid ball pressed on bodies whose pressure and shear act on each other, pushed by "
-        "two thirds of µW, pulled back as far, pushed aside and unloaded under that force. "
-        "What a surface remembers of a reversal, of another direction and of unloading has no "
-        "closed form here. The same history is therefore seen turned, led by the motion that "
-        "it took instead of by its forces, and solved by finite elements.",
+        "Tangential loop, turn and unloading with coupling",
+        "A rigid ball is pressed on bodies that couple pressure and shear. A tangential force of "
+        "two thirds of µW is applied, reversed and turned; then the contact is unloaded under "
+        "that force. The effects of reversal, turn and unloading on the surface have no closed "
+        "form here. The same history is therefore also solved after a rotation, with the "
+        "resulting motions prescribed instead of the forces, and by finite elements.",
         runs=(*runs, *films, section),
         quantities=tuple(
             Quantity(
@@ -366,27 +380,27 @@ def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | No
             for label, again in led.items()
             for name, meaning, measure, source, allowed, because, scale in (
                 (
-                    "led_by_motion", "difference from the same history led by its approach and "
-                    "shift, in any increment: pressure, shear; infinite if the solver gives that "
-                    "history up", again.difference,
-                    "force and motion are conjugate: what leads does not matter",
+                    "led_by_motion", "difference from the same history with prescribed approach "
+                    "and shift, in any increment: pressure, shear; infinite if the solver does "
+                    "not complete that history", again.difference,
+                    "force and motion are conjugate: the kind of control has no effect",
                     100 * SOLVER_TOLERANCE, carried, "the pressure",
                 ),
                 (
-                    "laws_led_by_motion", "largest violation of a law of contact and friction, or "
-                    "part of the energy unaccounted for, in the history led by its motion; "
-                    "infinite if the solver gives it up", again.violation,
-                    "the laws do not ask what leads", OTHER_NORMS * SOLVER_TOLERANCE,
-                    "as of every run", "dimensionless",
+                    "laws_led_by_motion", "largest violation of a law of contact and friction, "
+                    "or fraction of the energy unaccounted for, in the history with prescribed "
+                    "motion; infinite if the solver does not complete it", again.violation,
+                    "the laws do not depend on the kind of control", OTHER_NORMS * SOLVER_TOLERANCE,
+                    "as for every run", "dimensionless",
                 ),
             )
         ),
         findings=tuple(
             Finding(
-                "led_by_motion_iterations", "iterations of the history led by its motion", "",
+                "led_by_motion_iterations", "iterations of the history with prescribed motion", "",
                 label, again.iterations,
-                "work of the solve behind led_by_motion, beside the runs of this case; its motions "
-                "are known only after the run",
+                "cost of the solve for led_by_motion, in addition to the runs of this case; the "
+                "motions are known only after the run",
             )
             for label, again in led.items()
         ),
@@ -394,7 +408,7 @@ def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | No
             *(
                 Comparison(
                     "turned_by_90", f"{contact.name}: difference of pressure, shear and shift "
-                    "after a right angle", (one.label, other.label), after_quarter,
+                    "after a rotation by a right angle", (one.label, other.label), after_quarter,
                     100 * SOLVER_TOLERANCE, TURNS_INTO_ITSELF + carried, ISOTROPIC,
                 )
                 for contact, one, other in (
@@ -409,16 +423,17 @@ def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | No
                     f"{'push' if step == PUSHED else 'reversal'}, relative",
                     (section.label, runs[0].label), partial(apart, step, number),
                     allowed * 32 / cells,
-                    "set by hand: about three times what both leave on the quick discretisations, "
-                    "in proportion to the cell on others; a loop that forgets its first half is "
-                    "off by 0.2", "the other solver, on the same increments",
+                    "set by hand: about three times the error of both on the quick "
+                    "discretisations, proportional to the cell side on others; a loop without "
+                    "memory of its first half has an error of 0.2",
+                    "the other solver, on the same increments",
                     ReferenceKind.OTHER_SOLVER,
                 )
                 for step in (PUSHED, BACK)
                 for name, (words, allowed, number) in read.items()
             ),
         ),
-        limits=("The increments are the same for all, so that their error is not seen.",),
+        limits=("All solves take equal increments, so that the increment error is not visible.",),
         equations=(ROTATION,),
         no_order=IDENTITY,
     )  # fmt: skip
@@ -429,19 +444,19 @@ PUSH = LoadStep(tangential_force=(PART * MU * NORMAL_FORCE, 0.0), increments=2)
 
 
 def _patchy(grid: SurfaceGrid) -> Field:
-    """Friction that differs along x, along y and across the diagonal, with patches of none."""
+    """Return a friction field that varies in all directions and vanishes in patches."""
     x, y = (c / HERTZ.contact_radius for c in grid.coordinates())
     waves = np.sin(3 * x + 0.4) + 0.6 * np.sin(5 * y - 1.1 * x)
     return np.asarray(np.maximum(MU * (1.2 + 0.9 * waves), 0.0))
 
 
 def _in_mirror(q: Field) -> Field:
-    """Mirrored at x = 0."""
+    """Mirror a shear field at x = 0."""
     return np.stack([-q[0][::-1], q[1][::-1]])
 
 
 def in_mirror(one: Any, other: Any) -> float:
-    """The second result mirrored at x = 0, but for its shift."""
+    """Compare pressure and shear with those of the second result mirrored at x = 0."""
 
     def apart(a: Any, b: Any) -> float:
         total = np.sum(b.pressure)
@@ -454,7 +469,7 @@ def in_mirror(one: Any, other: Any) -> float:
 
 
 def scalars_apart(one: Any, other: Any) -> float:
-    """Largest relative difference of approach, shift and energy."""
+    """Compute the largest relative difference of approach, shift and dissipated energy."""
     (a, b) = (
         (end.approach, float(end.tangential_shift[0]), end.dissipated_energy)
         for end in (one.steps[-1], other.steps[-1])
@@ -463,7 +478,7 @@ def scalars_apart(one: Any, other: Any) -> float:
 
 
 def same_surface(level: Level = Level.QUICK) -> Case:
-    """Surfaces given in another way: by maps, on oblong cells, as one material twice."""
+    """Build the case of equivalent inputs: maps, rectangular cells, layers of the base material."""
     # An odd count of cells has one in the middle, where the lowest height of the ball is zero.
     cells = {Level.QUICK: 33, Level.STANDARD: 65, Level.FULL: 129}[level]
     width, longer = 2 * 1.2 * HERTZ.contact_radius, 4 / 3
@@ -473,7 +488,7 @@ def same_surface(level: Level = Level.QUICK) -> Case:
     heights: Any = np.asarray(rigid_ball().initial_gap(*square.coordinates()))
 
     def run(label: str, what: str, grid: SurfaceGrid = square, **other: Any) -> Run:
-        """Of the ball on the film, but for what is given."""
+        """Return the run of the ball on the coated body with the given changes."""
         told: dict[str, Any] = {
             "indenter": rigid_ball(), "body": FILMED, "friction": MU, "degrees": 0.0,
         } | other  # fmt: skip
@@ -519,24 +534,24 @@ def same_surface(level: Level = Level.QUICK) -> Case:
     pairs: tuple[tuple[str, str, Run, Run, Difference, float, str, str], ...] = (
         ("heights", f"ball as a map of heights: {all_fields}", by_heights, told,
          as_it_is, ROUNDING,
-         "heights at the centres of cells are the gap there, bit for bit", same),
+         "heights at cell centres equal the gap there, bit for bit", same),
         ("friction", f"constant map of friction: {all_fields}", everywhere, told,
          as_it_is, EXACT, ANSWERED, same),
-        ("mirror", "patchy friction in a mirror: difference of pressure and shear", mirrored,
-         patchy, in_mirror, EXACT, ANSWERED, "a mirror at x = 0 turns one into the other"),
-        ("turned_by_90", "cells that are not square, turned with the load: difference of "
-         "pressure, shear and shift", wide, narrow, after_quarter, EXACT, ANSWERED, ISOTROPIC),
+        ("mirror", "mirrored patches of friction: difference of pressure and shear", mirrored,
+         patchy, in_mirror, EXACT, ANSWERED, "a reflection at x = 0 maps one to the other"),
+        ("turned_by_90", "rectangular cells, rotated with the load: difference of pressure, "
+        "shear and shift", wide, narrow, after_quarter, EXACT, ANSWERED, ISOTROPIC),
         ("one_material", f"coating on its own material: {all_fields} from those of a homogeneous "
          "body", through, whole, as_it_is, EXACT, ANSWERED, "the same body"),
     )  # fmt: skip
     return case(
         "same_surface",
-        "The same surface told in another way",
-        "The rigid ball on a coated body, pressed with friction and pushed by 0.6 of µW: with "
-        "the ball as a map of heights, with friction as a map that is the same everywhere, "
-        "with patches of friction and their mirror image, and on cells that are longer than "
-        "wide; and on the coating's own material under the same coating. Each says the same as "
-        "another run, or the same seen in a mirror or turned.",
+        "Equivalent descriptions of one surface",
+        "The rigid ball on a coated body is pressed with friction and loaded by a tangential "
+        "force of 0.6 µW. Variants describe the ball as a map of heights and the friction as a "
+        "constant map, use patches of friction and their mirror image, take rectangular cells, "
+        "and put the coating on a body of its own material. Each variant is equivalent to "
+        "another run, directly or after a reflection or rotation.",
         runs=(told, by_heights, everywhere, patchy, mirrored, narrow, wide, whole, through),
         comparisons=(
             *(
@@ -546,11 +561,11 @@ def same_surface(level: Level = Level.QUICK) -> Case:
                 for name, meaning, one, other, difference, allowed, because, source in pairs
             ),
             Comparison(
-                "square_cells", "cells that are not square: difference of approach, shift and "
-                "energy from those of square ones, relative", (narrow.label, told.label),
+                "square_cells", "rectangular cells: difference of approach, shift and energy "
+                "from those of square cells, relative", (narrow.label, told.label),
                 scalars_apart, 1.5e-3 * 33 / cells,
-                "set by hand: about three times what cells longer by a third leave on 33 x 33 of "
-                "them, in proportion to the cell on others",
+                "set by hand: about three times the error of cells longer by a third on a 33 x "
+                "33 grid, proportional to the cell side on others",
                 "the same contact", ReferenceKind.OWN_REFINEMENT,
             ),
         ),
@@ -560,7 +575,8 @@ def same_surface(level: Level = Level.QUICK) -> Case:
 
 
 def forced_effects(level: Level = Level.QUICK) -> Case:
-    """Effects that a scene does not call for, forced on: they change nothing and cost much."""
+    """Build the case of effects that a scene does not need, forced on: equal results at a higher
+    cost."""
     cells = 48 if level is Level.QUICK else 96
     grid = paper.square_grid(cells, 1.3 * HERTZ.contact_radius)
     one_film = film(2.0, 1.0)
@@ -597,31 +613,31 @@ def forced_effects(level: Level = Level.QUICK) -> Case:
             rows.append((name, str(few), str(many), f"{many / few:.1f}"))
         return (
             Table(
-                title="What the plan saves",
+                title="Savings of the plan",
                 columns=("scene", "convolutions, as planned", "all effects on", "ratio"),
                 rows=tuple(rows),
-                note="Increments are the same on both sides; that plans also need fewer of them "
-                "where nothing depends on the path comes on top.",
+                note="Increments are equal on both sides. For scenes that do not depend on the "
+                "load path a plan also needs fewer increments, which adds to the savings.",
                 units=NONE,
             ),
         )
 
     return case(
         "forced_effects",
-        "Only the effects that a scene calls for",
-        "Scenes whose plan leaves effects out, because they vanish: shear without friction, "
-        "tilt and torsion where nothing turns the indenter, the coupling of pressure and shear "
-        "where the bodies are alike, and the mirror images of tractions. Each is "
-        "solved again with every effect forced on. The answer must be the same; what the plan "
-        "saves is the ratio of the convolutions.",
+        "Only the effects that a scene needs",
+        "Scenes whose plan omits effects because they vanish: shear without friction, tilt and "
+        "torsion without a moment or torque, the coupling of pressure and shear for equal "
+        "bodies, and the mirror images of tractions. Each scene is solved again with all effects "
+        "on. The results must be equal; the savings of the plan are the ratio of the "
+        "convolutions.",
         runs=tuple(run for pair in pairs.values() for run in pair),
         comparisons=tuple(
             Comparison(
                 name.replace(" ", "_"),
                 f"{name}: largest difference of pressure, shear, approach and shift",
                 (planned.label, forced.label), as_it_is, EXACT,
-                "both solves leave residuals up to the solver's tolerance, and tractions answer "
-                "these a few times over", "effects that vanish change nothing",
+                "both solves leave residuals up to the solver's tolerance, amplified a few times "
+                "in the tractions", "effects that vanish change nothing",
             )
             for name, (planned, forced) in pairs.items()
         ),
@@ -633,7 +649,7 @@ def forced_effects(level: Level = Level.QUICK) -> Case:
 
 @dataclass(frozen=True)
 class BodyPair:
-    """Two bodies by what they are made of; the upper one is a ball."""
+    """Materials and layers of two bodies; the upper body is a ball."""
 
     name: str
     lower: Body
@@ -641,11 +657,11 @@ class BodyPair:
 
     @property
     def exchanged(self) -> BodyPair:
-        """The bodies exchanged."""
+        """The pair with exchanged bodies."""
         return replace(self, name=f"{self.name}, exchanged", lower=self.upper, upper=self.lower)
 
     def scene(self, *loading: LoadStep) -> Scene:
-        """The ball on the lower body."""
+        """Return the scene of the ball on the lower body."""
         ball = Paraboloid(
             radius=paper.RADIUS, material=self.upper.material, layers=self.upper.layers
         )
@@ -660,8 +676,10 @@ after_half = partial(same_fields, lambda p: p[::-1, ::-1], _turned_half, np.asar
 
 
 def on_rings_apart(one: Any, other: Any) -> float:
-    """Largest difference of pressure, approach and shear along the radius, which points outward on
-    one of the two and inward on the other."""
+    """Compute the largest difference of pressure, approach and radial shear of exchanged bodies.
+
+    The radial shear has opposite signs in the two results.
+    """
 
     def outward(increment: Any) -> Any:
         shear = increment.shear_radial
@@ -680,12 +698,13 @@ def on_rings_apart(one: Any, other: Any) -> float:
 
 
 def exchanged_bodies(level: Level = Level.QUICK) -> Case:
-    """The bodies exchanged: what lay below is the indenter, and the other way round."""
+    """Build the case of exchanged bodies: the lower body becomes the indenter and conversely."""
     source = (
-        "a mirror in the contact plane exchanges the bodies and turns the tangential force, half a "
-        "turn about z turns it back; the gap does not know which of the bodies is curved"
+        "a reflection in the contact plane exchanges the bodies and reverses the tangential "
+        "force, and half a turn about z reverses it back; the gap does not depend on which body "
+        "is curved"
     )
-    same = "largest difference of pressure, shear, approach and shift, after the half turn"
+    same = "largest difference of pressure, shear, approach and shift, after half a turn"
     cells = {Level.QUICK: 32, Level.STANDARD: 64, Level.FULL: 128}[level]
     grid = paper.square_grid(cells, 1.3 * HERTZ.contact_radius)
     elements = per_radius(
@@ -717,10 +736,10 @@ def exchanged_bodies(level: Level = Level.QUICK) -> Case:
     return case(
         "exchanged_bodies",
         "Bodies exchanged",
-        "A rigid ball is pressed with friction on an elastic body and pushed, and an "
-        "elastic ball on a rigid body; a ball on its own material under a coating, and a coated "
-        "ball on the bare material. Finite elements and rings press alone. A mirror makes one of "
-        "the other.",
+        "A rigid ball on an elastic body, and an elastic ball on a rigid body, are pressed with "
+        "friction and loaded tangentially; likewise a ball on its own material under a coating, "
+        "and a coated ball on the bare material. Finite elements and the ring solver have the "
+        "normal load only. A reflection maps one pair to the other.",
         runs=tuple(run for _, one, other, _ in compared for run in (one, other)),
         comparisons=tuple(
             Comparison(
@@ -736,7 +755,8 @@ def exchanged_bodies(level: Level = Level.QUICK) -> Case:
                 Required(EXACT, ANSWERED), 1.0, "the other's",
             ),
         ),
-        limits=("Both of a pair could be wrong alike: frictional_indentation judges one of them.",),
+        limits=("Both results of a pair could have the same error; frictional_indentation judges "
+        "one of them.",),
         equations=(r"p(\mathbf{x}) \to p(-\mathbf{x}),\quad \mathbf{q}(\mathbf{x}) \to "
                    r"\mathbf{q}(-\mathbf{x})",),
         no_order=IDENTITY,
@@ -749,9 +769,11 @@ def _vector(increment: Any, name: str) -> Field:
 
 
 def off_the_way(scene: Scene, result: Any) -> float:
-    """Largest distance of the prescribed load or motion from the straight way of its step. The
-    first step goes from nothing, uniformly in the contact radius: a force on a ball with its third
-    power."""
+    """Compute the largest distance of the prescribed load or motion from its linear ramp.
+
+    The first step starts at zero and is uniform in the contact radius: the force on a ball grows
+    with the third power of the fraction.
+    """
     off = 0.0
     for number, step in enumerate(scene.loading, start=1):
         (name,) = (n for pair in CONTROLS for n in pair if getattr(step, n) is not None)
@@ -778,7 +800,10 @@ def _off_hertz(result: Any) -> float:
 
 
 def led_histories(level: Level = Level.QUICK) -> Case:
-    """Histories led by forces and by motions in turn: where every increment ends, and how many."""
+    """Build the case of steps that alternate between force and displacement control.
+
+    The end of every increment and the number of increments are judged.
+    """
     ball, limit = paper.paraboloid(NU_ZERO), FRICTION * NORMAL_FORCE
     punch = FlatPunch(radius=HERTZ.contact_radius, material=NU_ZERO)
     arm = 0.1 * HERTZ.contact_radius  # the punch touches all over up to a third of its radius
@@ -822,27 +847,28 @@ def led_histories(level: Level = Level.QUICK) -> Case:
         *(Run(name, one, grid, edge="off") for name, one in scenes.items()),
         *(SectionRun(f"{name}, elements", scenes[name], mesh) for name in upright),
     )
-    linear = identity(0.0, "a step ramps linearly from where the step before it ended")
+    linear = identity(0.0, "a step ramps linearly from the end of the preceding step")
 
     def named(run: Run | SectionRun) -> float:
         return float(sum(step.increments or 0 for step in run.scene.loading))
 
     return case(
         "led_histories",
-        "Forces and motions in turn",
-        "A ball led by a force, an approach and a force again, by pushes and a shift, by "
-        "torques and a twist, and a flat punch by moments and a tilt. A step that takes over from "
-        "the other control begins where that ended, and goes straight, in as many increments as it "
-        "names. While the ball is pressed, force and approach are Hertz's in each of them.",
+        "Alternating force and displacement control",
+        "A ball is loaded by a force, an approach and a force again, by tangential forces and a "
+        "shift, by torques and a twist; a flat punch is loaded by moments and a tilt. A step "
+        "with another kind of control starts at the end of the preceding step and is linear, in "
+        "the number of increments of the scene. While the ball is pressed, force and approach "
+        "are Hertz's in each increment.",
         runs=runs,
         quantities=(
             *(
                 Quantity(
-                    "off_the_way", "largest distance of what leads from the straight way of its "
-                    "step, over the larger of its ends", "", run.label,
+                    "off_the_way", "largest distance of the prescribed quantity from the linear "
+                    "ramp of its step, over the larger of its ends", "", run.label,
                     partial(off_the_way, run.scene), linear,
                     Required(
-                        1e-6, "forces are met to the tolerance of the solver; motions exactly"
+                        1e-6, "forces are met to the tolerance of the solver, motions exactly"
                     ),
                     1.0, "1",
                 )
@@ -852,8 +878,8 @@ def led_histories(level: Level = Level.QUICK) -> Case:
                 Quantity(
                     "increments", "increments of all steps", "", run.label,
                     lambda result: float(len(result.increments)),
-                    Reference(named(run), linear.kind, "the scene names them"),
-                    Required(1e-9, "a count is met or not"),
+                    Reference(named(run), linear.kind, "the scene prescribes them"),
+                    Required(1e-9, "a number of increments is met or not"),
                 )
                 for run in runs
             ),
@@ -879,8 +905,7 @@ def led_histories(level: Level = Level.QUICK) -> Case:
 
 
 def fem_far_field(level: Level = Level.QUICK) -> Case:
-    """What finite elements know of the half-space beyond their box: force, push and torque far
-    away."""
+    """Build the case of the far field of finite elements: force, tangential force and torque."""
     near, far = 5.0, 100.0  # box over radius
     push = LoadStep(tangential_force=(100.0, 0.0), increments=1)  # with µ = 1 nothing slips
     pushed = STUCK.scene.model_copy(
@@ -907,17 +932,18 @@ def fem_far_field(level: Level = Level.QUICK) -> Case:
     return case(
         "fem_far_field",
         "Finite elements: the half-space beyond the box",
-        f"A flat punch that sticks, pressed and pushed, and pressed and twisted, in a box "
-        f"of {near:g} of its radii and in one of {far:g}. On the outline of a box bodies move as a "
-        "half-space does under the resultant; if they did not, the punch would move less.",
+        f"A flat punch sticks in a box of {near:g} and of {far:g} of its radii. It is pressed, "
+        "and then loaded by a tangential force or a torque. On the boundary of the box the "
+        "displacement is that of a half-space under the resultant; a fixed boundary would reduce "
+        "the motion of the punch.",
         runs=tuple(runs.values()),
         comparisons=tuple(
             Comparison(
                 name, f"{name} of the punch, {way}: relative difference",
                 (runs[way, near].label, runs[way, far].label), partial(apart, number),
                 near**-power,
-                f"the resultant is known on the box; what follows it falls with the power {power} "
-                "of the radius over the box", "the same contact in a box that is farther away",
+                f"the resultant is known on the box; the next term falls with the power {power} "
+                "of the radius over the box", "the same contact in a larger box",
                 ReferenceKind.OWN_REFINEMENT,
             )
             for name, (way, power, number) in numbers.items()

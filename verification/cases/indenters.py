@@ -49,14 +49,14 @@ if TYPE_CHECKING:
 
 
 def cone_contact(level: Level = Level.QUICK) -> Case:
-    """A cone on a half-space: pressure with a logarithmic peak under the apex."""
+    """Build the case of a cone on a half-space: pressure with a logarithmic peak below the apex."""
     cells = refinement(32, 128 if level is Level.QUICK else 256)
     grids = on_cells(CONE, cells)
     rows = (
         Refined(
             APPROACH, 2.0, 1e-4,
-            "order 2: the apex falls between cells and moves the load of a few of them; the cap is "
-            "twice what is required of the ball",
+            "order 2: the apex lies between cells and shifts the load of a few of them; the cap "
+            "is twice the target of the ball",
         ),
         Refined(CONTACT_RADIUS, 1.0, part_of_side(0.1), EDGE),
     )  # fmt: skip
@@ -68,15 +68,15 @@ def cone_contact(level: Level = Level.QUICK) -> Case:
     return case(
         "cone_contact",
         "Cone on a half-space",
-        "A cone whose flanks rise by 1° under 1 kN. The pressure is infinite under the apex, as a "
+        "A cone with flanks of 1° under 1 kN. The pressure is infinite below the apex, as a "
         "logarithm, and falls to zero at the edge.",
         judged(grids, rows),
         judged(on_cells(CONE, cells, offsets=UNLIKE), (order,)),
         charts=(
             profile(
                 grids, "cone_profile", "Pressure next to y = 0",
-                "Computed pressure over the exact one, in units of the mean pressure, and their "
-                "difference.",
+                "Computed pressure, exact pressure, and their difference, in units of the mean "
+                "pressure.",
                 "p / mean p", mean_pressure(CONE),
             ),
         ),
@@ -85,7 +85,7 @@ def cone_contact(level: Level = Level.QUICK) -> Case:
 
 
 def flat_punch(level: Level = Level.QUICK) -> Case:
-    """A flat punch on a half-space: the pressure is infinite at the rim."""
+    """Build the case of a flat punch on a half-space: infinite pressure at the rim."""
     cells = refinement(32, 128 if level is Level.QUICK else 256)
     grids = on_cells(PUNCH, cells, PUNCH_WINDOW)
     rows = (
@@ -98,8 +98,8 @@ def flat_punch(level: Level = Level.QUICK) -> Case:
     return case(
         "flat_punch",
         "Flat punch on a half-space",
-        "A flat-ended cylinder of 0.4 mm radius under 1 kN. Contact radius and approach are "
-        "proportional; the pressure is singular at the rim, as 1/√(distance).",
+        "A flat-ended cylinder of 0.4 mm radius under 1 kN. Force and approach are proportional; "
+        "the pressure is singular at the rim, as 1/√(distance).",
         judged(grids, rows),
         charts=(
             convergence(
@@ -109,8 +109,8 @@ def flat_punch(level: Level = Level.QUICK) -> Case:
                 also=(CENTRAL_PRESSURE,),
             ),
         ),
-        no_order="first order in the cell side with scatter: how the circle cuts the cells differs "
-        "from grid to grid",
+        no_order="first order in the cell side with scatter: the division of cells by the circle "
+        "differs from grid to grid",
     )  # fmt: skip
 
 
@@ -120,7 +120,7 @@ TILTED = TiltedPunch(PUNCH_RADIUS, paper.CONTACT_MODULUS, NORMAL_FORCE, ECCENTRI
 
 
 def _component(name: str, axis: int, result: Any, *_: Any) -> float:
-    """A component of a vector at the end of the last step; NaN without the vector."""
+    """Return a component of a vector at the end of the last step; NaN without the vector."""
     vector = getattr(result.steps[-1], name)
     return float("nan") if vector is None else float(vector[axis])
 
@@ -130,7 +130,8 @@ def _slope(axis: int, exact: Any) -> float:
 
 
 def _inner_error(result: Any, step: int, problem: Problem) -> float:
-    """Largest relative error of the pressure within half the radius, clear of the rim."""
+    """Compute the largest relative error of the pressure within half the radius, away from the
+    rim."""
     x, y = result.grid.coordinates()
     inside = np.hypot(x, y) < 0.5 * PUNCH_RADIUS
     exact = problem.ends[step].pressure(x[inside], y[inside])
@@ -138,7 +139,7 @@ def _inner_error(result: Any, step: int, problem: Problem) -> float:
 
 
 def _stiffnesses(one: Any, other: Any) -> float:
-    """Largest relative difference of the stiffnesses of two states."""
+    """Compute the largest relative difference of the stiffnesses of two states."""
 
     def of(result: Any) -> np.ndarray:
         end = result.steps[-1]
@@ -148,7 +149,7 @@ def _stiffnesses(one: Any, other: Any) -> float:
 
 
 def tilted_punch(level: Level = Level.QUICK) -> Case:
-    """A flat punch pressed beside its axis: it tilts."""
+    """Build the case of a flat punch with an eccentric force, which tilts."""
     punch = FlatPunch(radius=PUNCH_RADIUS, material=STEEL)
     forced, led = (
         paper.frictionless(title, punch, STEEL, step)
@@ -182,8 +183,8 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
                     partial(_component, "tilt", 1 - along), partial(_slope, along),
                 ),
                 part_of_side(1.5),
-                "one and a half cells over the radius, of which the tilt is the third power: "
-                f"{STAIRCASE}",
+                "one and a half cells over the radius, because the tilt depends on its third "
+                f"power: {STAIRCASE}",
             )
             for along, axis in enumerate("xy")
         ),
@@ -201,17 +202,17 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
     assert isinstance(finest, Run)
     return case(
         "tilted_punch",
-        "Flat punch pressed beside its axis",
-        "A flat punch of 0.4 mm radius, its load of 1 kN 0.3 radii from the axis in a direction "
-        "oblique to the grid. Up to a third of the radius it touches all over, and a plane of "
-        "displacement has a closed form.",
+        "Flat punch with an eccentric force",
+        "A flat punch of 0.4 mm radius with its force of 1 kN 0.3 radii from the axis in a "
+        "direction oblique to the grid. For eccentricities up to a third of the radius the whole "
+        "face is in contact, and the solution for a plane of displacements has a closed form.",
         judged(grids, rows),
         runs=(Run("given tilt", led, finest.grid),),
         comparisons=(
             Comparison(
-                "both_controls", "given moment against given tilt, each relative to the stiffness: "
+                "both_controls", "prescribed moment against prescribed tilt, by the stiffnesses: "
                 "load over approach and moment over tilt", (finest.label, "given tilt"),
-                _stiffnesses, 1e-6, "the punch touches all over: the response is linear to the "
+                _stiffnesses, 1e-6, "the whole face is in contact: the response is linear to the "
                 "tolerance of the solver", "linearity of a contact that does not change",
             ),
         ),
@@ -220,11 +221,12 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
 
 
 MOVED = (8, 5)  # cells between the tip and the force, along x and y
-ROLLED = "an identity of the discrete equations: what is left is the tolerance of the solver"
+ROLLED = "an identity of the discrete equations: the error is the tolerance of the solver"
 
 
 def _moved_apart(beside: Result, centred: Result) -> float:
-    """Largest difference of the tractions, those of the centred ball moved by whole cells."""
+    """Compute the largest difference of the tractions, with the centred ball shifted by whole
+    cells."""
     one, other = beside.steps[-1], centred.steps[-1]
     pressure = np.roll(other.pressure, MOVED, axis=(0, 1))
     worst = np.max(np.abs(one.pressure - pressure)) / other.peak_pressure
@@ -236,9 +238,10 @@ def _moved_apart(beside: Result, centred: Result) -> float:
 
 
 def eccentric_ball(level: Level = Level.QUICK) -> Case:
-    """A ball pressed beside its tip: it rolls, and the contact is where the force acts."""
+    """Build the case of a ball with an eccentric force: it rolls until the contact is below the
+    force."""
     cells, increments = 64 if level is Level.QUICK else 128, 5
-    source = "x²/2R - φx = (x - Rφ)²/2R - Rφ²/2: a tilted paraboloid is a shifted one"
+    source = "x²/2R - φx = (x - Rφ)²/2R - Rφ²/2: a tilted paraboloid is a shifted paraboloid"
     grid = paper.square_grid(cells, 2 * HERTZ.contact_radius)
     e = tuple(number * side for number, side in zip(MOVED, grid.spacing, strict=True))
     roll = tuple(length / paper.RADIUS for length in e)
@@ -270,11 +273,11 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
 
     return case(
         "eccentric_ball",
-        "Ball pressed beside its tip",
-        "The paper's ball, its force of 1 kN acting a whole number of cells beside the tip. It "
-        "rolls until the contact is below the force: the same contact, elsewhere, and as many "
-        "cells, so that the fields agree to the tolerance of the solver - also where pressure "
-        "and shear are coupled.",
+        "Ball with an eccentric force",
+        "The paper's ball with its force of 1 kN a whole number of cells from the tip. The ball "
+        "rolls until the contact is below the force. The contact then equals the centred "
+        "contact, shifted by whole cells, so that the fields agree to the tolerance of the "
+        "solver, also for coupled pressure and shear.",
         runs=runs,
         quantities=(
             *(
@@ -285,7 +288,7 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
                 for along, axis in enumerate("xy")
             ),
             rolled(
-                "moment_of_given_tilt", "moment M_y that the given tilt takes", "N m",
+                "moment_of_given_tilt", "moment M_y at the prescribed tilt", "N m",
                 "given tilt", partial(_component, "moment", 1), NORMAL_FORCE * e[0],
             ),
         ),
@@ -299,7 +302,7 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
                 for suffix in ("", ", unlike bodies")
             ),
             Comparison(
-                "approach", "approach at the origin, and what rolling raises the tip by, against "
+                "approach", "approach at the origin plus the rise of the tip by rolling, against "
                 "the approach of the centred ball", ("beside", "centred"),
                 lambda beside, centred: abs(
                     (beside.steps[-1].approach + drop) / centred.steps[-1].approach - 1
@@ -315,7 +318,7 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
 
 
 def _between(result: Any, step: int, problem: Problem) -> float:
-    """Largest relative error of the pressure of rings away from apex and edge."""
+    """Compute the largest relative error of the pressure of rings away from apex and edge."""
     end = result.steps[step]
     part = end.radii / problem.radius
     away = (part > 0.2) & (part < 0.8)
@@ -324,10 +327,12 @@ def _between(result: Any, step: int, problem: Problem) -> float:
 
 
 def fem_classical(level: Level = Level.QUICK) -> Case:
-    """Cone and flat punch by finite elements; above the quick level the order of the central
-    pressure is judged too."""
-    why = "set by hand at 64 elements per radius, on other meshes what the order makes of it"
-    rim = "what hats cannot follow of the infinite pressure at the rim has an energy of O(h)"
+    """Build the case of cone and flat punch by finite elements.
+
+    Above the quick level the order of the central pressure is judged as well.
+    """
+    why = "set by hand at 64 elements per radius, on other meshes scaled by the order"
+    rim = "the error of hat functions at the infinite pressure of the rim has an energy of O(h)"
     cones = with_edge_at(CONE, levels(level), of="cone")
     punches = on_elements(PUNCH, levels(level), of="punch")
     between = error_norm(
@@ -338,9 +343,7 @@ def fem_classical(level: Level = Level.QUICK) -> Case:
     )
     of_cone = (
         Within(APPROACH, asked(1e-4, 2), why, name="approach_of_cone"),
-        Within(
-            CONTACT_RADIUS, part_of_side(0.05), "a twentieth of an element", name="radius_of_cone"
-        ),
+        Within(CONTACT_RADIUS, part_of_side(0.05), "1/20 of an element", name="radius_of_cone"),
         Within(between, asked(5e-4, 2), why),
     )
     of_punch = (
@@ -354,16 +357,16 @@ def fem_classical(level: Level = Level.QUICK) -> Case:
         CENTRAL_PRESSURE, 1.0, rim,
         NotYetAsymptotic(
             0.15,
-            "the error is A h - B h² with B = 3.5 A / a: neighbours from 22 elements per radius on "
-            "give 0.86, 0.90, 0.93",
+            "the error is A h - B h² with B = 3.5 A / a: neighbouring meshes from 22 elements "
+            "per radius on have the orders 0.86, 0.90, 0.93",
         ),
     )  # fmt: skip
     caption = "Relative errors against the side of an element over the contact radius."
     return case(
         "fem_classical",
         "Finite elements: cone and flat punch",
-        "The scenes of cone_contact and flat_punch by finite elements. Below the punch the hats of "
-        "the pressure end at the rim with half a hat.",
+        "The scenes of cone_contact and flat_punch by finite elements. Below the punch the "
+        "outermost hat function of the pressure is half a hat that ends at the rim.",
         judged(cones, of_cone),
         judged(punches, of_punch),
         judged(fine, () if level is Level.QUICK else (of_fine,)),

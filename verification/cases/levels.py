@@ -1,4 +1,4 @@
-"""Levels of refinement of the cases, and reasons of tolerances that several cases share."""
+"""Refinement levels of the cases, and reasons of tolerances that several cases share."""
 
 from verification.judging.case import Level
 from verification.judging.refinement_levels import (
@@ -7,17 +7,18 @@ from verification.judging.refinement_levels import (
 )
 
 ASKED = "required of this scene by the project's accuracy targets"
-EDGE = "order 1: the edge is known to a part of a cell; the cap is a tenth of a cell"
+EDGE = "order 1: the edge is known to a fraction of a cell; the cap is a tenth of a cell"
 STAIRCASE = (
-    "the rim is a staircase of cells and carries an infinite pressure, so the punch seems larger "
-    "or smaller by a part of a cell"
+    "the rim is a staircase of cells with infinite pressure, which changes the effective radius "
+    "of the punch by a fraction of a cell"
 )
-STICK_BORDER = "order 1: the border is known to a part of a cell; the cap is a fifth of a cell"
+STICK_BORDER = "order 1: the border is known to a fraction of a cell; the cap is a fifth of a "
+"cell"
 SQUARE_ROOTS = "square-root edges of stick zone and contact"
-ELEMENT_RADIUS = "asked of the finite elements at 64 per radius"
-PENALTY = "asked of the finite elements with a penalty, at their default penalty"
+ELEMENT_RADIUS = "accuracy target of the finite elements at 64 per radius"
+PENALTY = "accuracy target of the finite elements with a penalty, at their default penalty"
 IDENTITY = "an identity, in which nothing converges"
-DERIVED = "tolerances are derived from the orders that hertz_point judges on equal grids"
+DERIVED = "tolerances are derived from the orders of hertz_point on equal grids"
 JUDGED_BY = "on one discretisation: the orders of the method are judged in {}"
 
 # Several meshes below the finest, for the order of convergence; no two are alike at the edge.
@@ -33,12 +34,12 @@ PLACES = (0.1, 0.3, MIDDLE, 0.7, 0.9)
 
 
 def levels(level: Level) -> tuple[int, ...]:
-    """Elements per radius, coarse to fine."""
+    """Return the elements per radius, coarse to fine."""
     return _LEVELS[level]
 
 
 def order_levels(level: Level, per_octave: int = PER_OCTAVE) -> tuple[tuple[int, float], ...]:
-    """Elements per radius and place of the edge in its element."""
+    """Return the elements per radius and the positions of the edge in its element."""
     steps = range(round(OCTAVES * per_octave), -1, -1)
     many = tuple(dict.fromkeys(round(ASKED_AT / 2 ** (n / per_octave)) for n in steps))
     meshes = _LEVELS[level] if level is Level.QUICK else many
@@ -46,13 +47,13 @@ def order_levels(level: Level, per_octave: int = PER_OCTAVE) -> tuple[tuple[int,
 
 
 def finest(level: Level) -> int:
-    """Elements per radius of the finest mesh of a level."""
+    """Return the elements per radius of the finest mesh of a level."""
     return _LEVELS[level][-1]
 
 
 def because(order: float) -> str:
-    """The reason that goes with `asked`."""
+    """Return the reason of a tolerance by `asked`."""
     return (
-        f"asked of the finite elements at {ASKED_AT} per radius; on other meshes what the order "
-        f"{order:g} makes of it"
+        f"accuracy target of the finite elements at {ASKED_AT} per radius; on other meshes "
+        f"scaled by the order {order:g}"
     )

@@ -87,29 +87,30 @@ SLIP = error_norm(
 
 
 def _of_stop(step: int, part: float) -> tuple[Row, ...]:
-    """What is judged of the ball at a stop."""
+    """Return the rows of quantities of the ball that are judged at a stop."""
     return (
         Within(
             SHEARS[part], 2e-3,
-            "required of the fretting loop at 128 x 128, which passes through here",
+            "required of the fretting loop at 128 x 128, which includes this state",
         ),
         Refined(STICK_RADIUS.at(step, part, "µW"), 1.0, part_of_side(0.2), STICK_BORDER),
         Within(
             SHIFT.at(step, part, "µW"), 3e-5,
-            "four times what 128 cells leave; 1e-4 is required of the fretting loop",
+            "four times the error of 128 cells; 1e-4 is required of the fretting loop",
         ),
         Refined(
             SLIP.at(step, part, "µW"), 1.5, 1e-4,
-            "order 3/2 of the shear's L1 error; the cap is what is required of the shift, of which "
-            "slip is a part",
+            "order 3/2 of the shear's L1 error; the cap is the accuracy target of the shift, "
+            "which includes the slip",
         ),
     )  # fmt: skip
 
 
 def cattaneo_mindlin(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> Case:
-    """Constant normal force, tangential force raised step by step, ν = 0. Orders of means are
-    judged above the quick level, where coarse grids tell that of the shear only together with
-    shifted ones.
+    """Build the case of a constant normal force and a tangential force raised in steps, ν = 0.
+
+    Orders of means are judged above the quick level. At the quick level the order of the shear is
+    determined from coarse grids in several positions.
 
     cells  per side, instead of those of the level; without shifted grids
     """
@@ -124,33 +125,34 @@ def cattaneo_mindlin(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> C
     order = Falls(SHEAR.at(1 if quick else LOOPED, STOPS[LOOPED], "µW"), 1.5, edges)
     energy = Within(
         ENERGY.at(LOOPED, STOPS[LOOPED], "µW"), 1e-4,
-        "four times what 128 cells leave; 5e-4 is required of the fretting loop's cycle",
+        "four times the error of 128 cells; 5e-4 is required of the fretting loop's cycle",
     )  # fmt: skip
     stopped = "0.3, 0.6, 0.9 and 0.99 µW"
     means = (
         Falls(
             SHIFT.over_stops(stopped), 2.5,
             "the shift is the difference of two approaches, of the contact and of the stick zone "
-            "(Cattaneo), and both are wrong by the same 0.04 h²/R; what is left depends on how "
-            "circles cut the cells, O(h^5/2)",
+            "(Cattaneo), with the same error of 0.04 h²/R; the remaining error depends on the "
+            "division of cells by circles, O(h^5/2)",
         ),
     )  # fmt: skip
     shifted = [] if quick or cells else [on_cells(CATTANEO, refinement(32, 256), offsets=OFFSETS)]
     return case(
         "cattaneo_mindlin",
         "Cattaneo-Mindlin partial slip",
-        "The paper's contact with ν = 0 and the same E*, under 1 kN, sheared by 0.3, 0.6, 0.9 "
-        "and 0.99 of µW. Only for ν = 0 does the slip of the closed form oppose its traction "
-        "everywhere, so only there is it the exact answer to Coulomb's vector law.",
+        "The paper's contact with ν = 0 and the same E*, under 1 kN and tangential forces of "
+        "0.3, 0.6, 0.9 and 0.99 of µW. The slip of the closed form opposes its traction "
+        "everywhere only for ν = 0, so that it is the exact solution of Coulomb's vector law "
+        "only there.",
         judged(grids, (*(row for stop in STOPS.items() for row in _of_stop(*stop)), energy)),
         judged(followed, (order,)),
         *(judged(one, means) for one in shifted),
         charts=(
             profile(
                 grids, "cattaneo_profiles", "Shear next to y = 0",
-                f"Computed shear on {grids.judged.run.label} cells at four tangential forces over "
-                "the closed form, and their difference: it sits at the border of the stick zone "
-                "and at the edge of the contact.",
+                f"Computed shear on {grids.judged.run.label} cells at four tangential forces, "
+                "the closed form, and their difference, which is largest at the stick edge and "
+                "at the contact edge.",
                 "qₓ / µp₀", FRICTION * HERTZ.peak_pressure,
                 *shears_along_x(STOPS),
             ),
@@ -165,8 +167,8 @@ def cattaneo_mindlin(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> C
                 convergence(
                     one, means, "cattaneo_convergence_of_means",
                     "Convergence of shift and dissipated energy",
-                    "Errors at all four tangential forces on grids that fall on the contact in "
-                    "several ways, root mean square: single ones change their sign.",
+                    "Errors at all four tangential forces, root mean square over grids in "
+                    "several positions; single errors change sign.",
                     also=(WORK.over_stops(stopped),),
                 )
                 for one in shifted
@@ -176,7 +178,7 @@ def cattaneo_mindlin(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> C
 
 
 def shears_along_x(stops: dict[int, float]) -> list[Drawn]:
-    """Return the shear at the end of every step, beside the exact one."""
+    """Return the computed and the exact shear at the end of every step."""
     return [
         Drawn(
             lambda end: shear_of(end)[0], lambda exact: exact.shear, f"{part:g} µW", step
@@ -186,7 +188,7 @@ def shears_along_x(stops: dict[int, float]) -> list[Drawn]:
 
 
 def _under_cone(*parts: float) -> Problem:
-    """The cone of cone_contact with ν = 0, sheared to these parts of µW."""
+    """Pose the cone of cone_contact with ν = 0 under tangential forces, as fractions of µW."""
 
     def pressed(load: float) -> ConeContact:
         return ConeContact.under_load(load, SLOPE, paper.CONTACT_MODULUS)
@@ -216,8 +218,10 @@ def _under_cone(*parts: float) -> Problem:
 
 
 def sheared_cone(level: Level = Level.QUICK) -> Case:
-    """Partial slip under a cone; at the quick level coarse grids tell the order only together with
-    shifted ones."""
+    """Build the case of partial slip under a cone.
+
+    At the quick level the order is determined from coarse grids in several positions.
+    """
     cells, stops = refinement(32, 128 if level is Level.QUICK else 256), {1: 0.4, 2: 0.8}
     followed = grids = on_cells(_under_cone(*stops.values()), cells)
     if level is Level.QUICK:
@@ -229,30 +233,30 @@ def sheared_cone(level: Level = Level.QUICK) -> Case:
         for row in (
             Within(
                 SHEAR.at(step, part, "µW"), 4e-3,
-                "twice what is required of the ball at 128 x 128: the apex is an infinite peak "
-                "that cells average",
+                "twice the accuracy target of the ball at 128 x 128: cells average the infinite "
+                "peak at the apex",
             ),
             Refined(stick.at(step, part, "µW"), 1.0, part_of_side(0.2), STICK_BORDER),
             Refined(
                 SHIFT.at(step, part, "µW"), 2.0, 1e-4,
-                "order 2 and cap as the approach of the frictionless cone, of which the shift is a "
-                "copy",
+                "order 2 and cap as for the approach of the frictionless cone, to which the "
+                "shift is proportional",
             ),
         )
     )  # fmt: skip
     return case(
         "sheared_cone",
         "Partial slip under a cone",
-        "The cone of cone_contact with ν = 0 and friction, sheared by 0.4 and 0.8 of µW. For any "
-        "profile the shear is the difference of two pressures times µ; the stick radius is "
-        "a √(1 - T/µW), not the cube root of a ball.",
+        "The cone of cone_contact with ν = 0 and friction, under tangential forces of 0.4 and "
+        "0.8 of µW. For any profile the shear is µ times the difference of two pressures; the "
+        "stick radius is a √(1 - T/µW), instead of the cube root for a ball.",
         judged(grids, rows),
         judged(followed, (Falls(SHEAR.at(1, stops[1], "µW"), 1.5, SQUARE_ROOTS),)),
         charts=(
             profile(
                 grids, "sheared_cone_profiles", "Shear next to y = 0",
-                "Computed shear under the cone over the superposition of two pressures, in units "
-                "of µ times the mean pressure, and their difference. The infinite peaks at the "
+                "Computed shear under the cone, the superposition of two pressures, and their "
+                "difference, in units of µ times the mean pressure. The infinite peaks at the "
                 "apex cancel.",
                 "qₓ / (µ mean p)", FRICTION * mean_pressure(CONE), *shears_along_x(stops),
             ),
@@ -261,8 +265,10 @@ def sheared_cone(level: Level = Level.QUICK) -> Case:
 
 
 def near_sliding(level: Level = Level.QUICK, cells: int = 0) -> Case:
-    """One step to just below gross sliding, and beyond it under a prescribed shift. For ν > 0 the
-    closed form of the shift is no answer.
+    """Build the case of one step to just below gross slip, and of gross slip under a prescribed
+    shift.
+
+    For ν > 0 the closed form of the shift is not exact and not judged.
 
     cells  per side, instead of those of the level
     """
@@ -271,8 +277,9 @@ def near_sliding(level: Level = Level.QUICK, cells: int = 0) -> Case:
     of_step = (
         Within(
             SHIFT, 4e-4,
-            "the stick zone is a few cells wide or less: its force is known to a part of a "
-            "cell's, the shift with it; four times what the narrowest leaves",
+            "the stick zone is a few cells wide or less: its force and with it the shift is "
+            "known to a fraction of that of a cell; four times the error of the narrowest stick "
+            "zone",
         ),
     )  # fmt: skip
     of_sliding = (
@@ -287,11 +294,11 @@ def near_sliding(level: Level = Level.QUICK, cells: int = 0) -> Case:
     )  # fmt: skip
     return case(
         "near_sliding",
-        "Up to gross sliding and beyond",
-        "The paper's contact sheared in a single step to 0.99, 0.999 and 0.9999 of µW, with "
-        "ν = 0 and ν = 0.3, and dragged to five times the shift at gross sliding. What is "
-        "judged is that every solve ends within its tolerance, and that sliding takes µW: "
-        "every particle then slips along x, whatever ν is.",
+        "Gross slip and the approach to it",
+        "The paper's contact is loaded in a single step to 0.99, 0.999 and 0.9999 of µW, with ν "
+        "= 0 and ν = 0.3, and moved to five times the shift at gross slip. Judged are the "
+        "convergence of every solve and the force µW at gross slip, where each particle slips "
+        "along x for any ν.",
         *(
             judged(
                 named(
@@ -309,13 +316,13 @@ def near_sliding(level: Level = Level.QUICK, cells: int = 0) -> Case:
             judged(named(f"{name}, sliding", on_cells(_sliding(material), (cells,))), of_sliding)
             for name, material in materials.items()
         ),
-        limits=("Under force control at µW itself the shift is undefined; it is not a case.",),
+        limits=("Under force control at µW the shift is undefined; there is no such case.",),
         no_order="the stick zone is a few cells wide or less: its radius scatters with the grid",
     )
 
 
 def _sliding(material: IsotropicMaterial) -> Problem:
-    """Dragged by a given shift."""
+    """Pose gross slip under a prescribed shift."""
     beyond, at_sliding = 5.0, paper.partial_slip(material, 0.0).sliding_shift
     scene = paper.frictional(
         f"Dragged to {beyond:g} sliding shifts, ν = {material.poisson_ratio:g}",
@@ -328,7 +335,7 @@ def _sliding(material: IsotropicMaterial) -> Problem:
         scene,
         (FRICTION_LIMIT,),
         HERTZ.contact_radius,
-        "at full slip along x the shear is µp everywhere: T = µW",
+        "at gross slip along x the shear is µp everywhere: T = µW",
         ReferenceKind.IDENTITY,
         uncertainty=0.0,
         equations=(r"T = \int \mu p \, dA = \mu W",),
@@ -342,20 +349,20 @@ PUNCH, PUNCH_FORCE = 5e-3, 10.0
 
 @dataclass(frozen=True)
 class StuckDisc:
-    """The end of the shearing [length]."""
+    """Final state of a bonded disc under a tangential force [length]."""
 
     shift: float = (2 - 0.5) * PUNCH_FORCE / (8 * RUBBER.shear_modulus * PUNCH)
 
 
 def shear_at_points(end: Any) -> tuple[Any, Any]:
-    """q_x and q_y (rings, angles) of an increment sheared along x."""
+    """Return q_x and q_y (rings, angles) of an increment under a tangential force along x."""
     r, theta = np.meshgrid(end.radii, end.angles, indexing="ij")
     q, _ = tractions_at(end, r * np.cos(theta), r * np.sin(theta))
     return q[0], q[1]
 
 
 def _shear_error(result: Any, step: int, problem: Problem) -> float:
-    """∫|q - q_exact| dA / µW by trapezia in r and θ; mirror symmetric."""
+    """Compute ∫|q - q_exact| dA / µW by the trapezium rule in r and θ, for mirror symmetry."""
     end = result.steps[step]
     q_x, q_y = shear_at_points(end)
     off = np.hypot(q_x - problem.ends[step].shear(end.radii)[:, None], q_y)
@@ -375,7 +382,7 @@ def _at_points(of: str, problem: Problem, elements: int, over: float) -> Refinem
 
 
 def fem_harmonics(level: Level = Level.QUICK) -> Case:
-    """Tangential loading by many harmonics with Coulomb's law at points."""
+    """Build the case of tangential loading with many harmonics and Coulomb's law at points."""
     cusp, rim = 1.5, 1.0  # orders with which errors fall
     shear = error_norm("shear", "∫|q - q_exact| dA / µW{when}", _shear_error, "µW")
     across = error_norm("shear_across", "largest |q_y| / µp_H{when}", _shear_across, OVER_LIMIT)
@@ -394,7 +401,7 @@ def fem_harmonics(level: Level = Level.QUICK) -> Case:
             Within(across.at(*stop, "µW"), asked(3e-3, 1.0), because(1.0)),
             Within(
                 STICK_RADIUS.at(*stop, "µW"), part_of_side(1.0),
-                "an element: stick or slip is known ring by ring",
+                "an element: stick and slip are determined ring by ring",
             ),
         )
     )  # fmt: skip
@@ -408,7 +415,7 @@ def fem_harmonics(level: Level = Level.QUICK) -> Case:
             ),
             Reported(
                 beyond.at(*stop, "µW"),
-                "the vector law makes the contact stiffer by parts of a per mille",
+                "the vector law makes the contact stiffer by fractions of 0.1 %",
             ),
         )
     )
@@ -440,24 +447,21 @@ def fem_harmonics(level: Level = Level.QUICK) -> Case:
     return case(
         "fem_harmonics",
         "Finite elements: many harmonics",
-        "Cattaneo and Mindlin's contact by harmonics 0 … 8 of the section, with Coulomb's law "
-        "as a vector law at points of (r, θ): for ν = 0, where the closed form is exact, and "
-        "for ν = 0.3, where it neglects slip across the load. Nothing couples here, so that "
-        "one increment leads to each force. And a disc that sticks all over.",
+        "Cattaneo and Mindlin's contact by harmonics 0 … 8 of the section, with Coulomb's law as "
+        "a vector law at points (r, θ): for ν = 0, where the closed form is exact, and for ν = "
+        "0.3, where it neglects slip across the load. Pressure and shear are uncoupled, so that "
+        "each force is reached in one increment. A further scene is a disc with full stick.",
         judged(exact, rows),
         judged(steel, beside_mindlin),
         judged(disc, (of_disc,)),
         charts=(lambda results: _chart(results[exact.levels[0]], results[steel.levels[0]]),),
-        limits=(
-            "The stick zone is known to an element in radius and, between the angles of the "
-            "points, to sectors of 22.5°.",
-        ),
+        limits=("The resolution of the stick zone is one element in radius and 22.5° in angle.",),
         no_order="on one mesh: fem_partial_slip judges the orders of meshes of the same elements",
     )
 
 
 def _chart(exact: Any, steel: Any) -> Chart:
-    """q_x on the line of the load for both Poisson's ratios, and q_y on rays for the second."""
+    """Draw q_x on the line of the load for both Poisson's ratios, and q_y on rays for ν = 0.3."""
     step, a, limit = PARTS.index(0.6) + 1, HERTZ.contact_radius, FRICTION * HERTZ.peak_pressure
 
     def on_ray(result: Any, r: Any, degrees: float) -> Any:
@@ -478,9 +482,9 @@ def _chart(exact: Any, steel: Any) -> Chart:
     return Chart(
         name="fem_harmonics_shear",
         title="Shear at 0.6 µW by harmonics 0 … 8",
-        caption="Above, shear along the load on the line y = 0 for ν = 0 and ν = 0.3 over the "
-        "closed form in grey. Below, shear across the load along three rays for ν = 0.3: the "
-        "closed form has none.",
+        caption="Above: shear along the load on the line y = 0 for ν = 0 and ν = 0.3, with the "
+        "closed form in grey. Below: shear across the load along three rays for ν = 0.3, which "
+        "is zero in the closed form.",
         rows=(
             (Panel(x_label="x / a", y_label="q_x / µp_H",
                    curves=(curve("closed form", x, known, Look.REFERENCE), *along), height=2.0),),

@@ -1,4 +1,4 @@
-"""A solve by finite elements with Coulomb's law at points (r, θ), as part of a case."""
+"""Run by finite elements with Coulomb's law at points (r, θ), as part of a case."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ ACROSS = "slip across the load"
 
 @dataclass(frozen=True)
 class PointsRun(SectionRun):
-    """One solve on two sets of points: those of `solve`, with points on the line of the load, and
-    those half-way between. The result is the first, but for the stick area: sectors make it err
-    with opposite sign on the two, so that it is the mean.
+    """Run on two sets of points: points with the line of the load, and points halfway between.
 
-    Coulomb's law is obeyed as a vector law even where the plan would neglect slip across the load.
+    The result is that of the first set, with the mean stick area of both sets, because the errors
+    of the stick area by sectors have opposite signs. Coulomb's law is a vector law even if the plan
+    neglects slip across the load.
     """
 
     def solve(self) -> Result:
-        """The solution; raises what `fem_reference.solve` raises."""
+        """Solve on both sets of points; raises the exceptions of `fem_reference.solve`."""
         scene, discretisation = self.scene, self.discretisation
         decided = _with_vector_law(plan(scene))
         radius = meshed_radius(scene, discretisation.contact_radius)
@@ -52,15 +52,17 @@ def _with_vector_law(decided: Plan) -> Plan:
     if decided.path is Path.HARMONICS:
         return decided
     effects = tuple(
-        replace(effect, on=True, why="asked for by this case") if effect.name == ACROSS else effect
+        replace(effect, on=True, why="required by this case") if effect.name == ACROSS else effect
         for effect in decided.effects
     )
     return replace(decided, path=Path.HARMONICS, effects=effects)
 
 
 def _counted(model: ContactModel, increments: Iterator[Increment]) -> Iterator[Increment]:
-    """The increments with the sparse factorisations that fell to them on both sets of points, as
-    `solve` tells them: what a mesh costs, whether its matrices are in the cache or not."""
+    """Yield the increments with the number of sparse factorisations on both sets of points.
+
+    The count is that of `solve`: it does not depend on the cache of matrices.
+    """
     counted = 0
     for increment in increments:
         spent, counted = model.factorizations - counted, model.factorizations

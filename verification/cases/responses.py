@@ -1,4 +1,4 @@
-"""Surface response of layered bodies: other programs' numbers, laws, and the usual sampling."""
+"""Surface response of layered bodies: reference numbers, laws, and the sampling method."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def _stack(row: Mapping[str, Any]) -> Stack:
 
 @cache
 def _frf_errors(number: int) -> tuple[float, float]:
-    """Errors of the scalars and of the matrix of one row."""
+    """Compute the errors of the scalars and of the matrix of one row."""
     row = FRF_ROWS[number]
     c11, c12, c22, csh = (float(row[key]) for key in ("C11", "C12", "C22", "Csh"))
     got = np.array(scalars(_stack(row), np.hypot(row["m"], row["n"])))
@@ -73,7 +73,7 @@ def _coefficients(G1: float, nu1: float, base: tuple[float, float], d: float) ->
 
 
 def _coefficient_error(row: Mapping[str, Any]) -> float:
-    """Largest error of the components of one row."""
+    """Compute the largest error of the components of one row."""
     K = _coefficients(row["G1"], row["nu1"], (row["G2"], row["nu2"]), row["d"])
     i, j = round(row["x"] / row["d"]), round(row["y"] / row["d"])
     errors = [
@@ -116,8 +116,11 @@ def _row_tables(_: Any) -> tuple[Table, Table]:
 
 
 def layered_reference(level: Level = Level.QUICK) -> Case:
-    """Surface FRFs and influence coefficients of layered bodies against numbers of other programs;
-    the same at every level."""
+    """Build the case of FRFs and influence coefficients of layered bodies against reference
+    numbers.
+
+    The case is equal at all levels.
+    """
     frf = "references/frf.json: boundary-value problem in the layer amplitudes, 50 digits"
     required = Required(5e-15, "required of layered FRFs by the project's accuracy targets")
 
@@ -127,10 +130,10 @@ def layered_reference(level: Level = Level.QUICK) -> Case:
     return case(
         "layered_reference",
         "Layered response against other programs",
-        "Surface frequency response of one to five layers on a half-space or a rigid base, "
-        "ν up to exactly ½, α h from 1e-6 to 1e4, against a solution with 50 digits; and "
-        "displacement by unit traction on a square cell of a coated body, against inverse "
-        "transforms. Every row is shown.",
+        "Surface frequency response of one to five layers on a half-space or a rigid base, ν up "
+        "to exactly ½, α h from 1e-6 to 1e4, against a solution with 50 digits. Displacement by "
+        "unit traction on a square cell of a coated body, against inverse transforms. Every row "
+        "is shown.",
         checks=(
             Check(
                 "scalars", "largest error of C₁₁, C₂₂, C_sh, each relative to itself, and of C₁₂ "
@@ -143,35 +146,35 @@ def layered_reference(level: Level = Level.QUICK) -> Case:
                 required, 1.0, "1",
             ),
             Check(
-                "influence_coefficients", "largest error relative to the cell's on itself", "",
+                "influence_coefficients", "largest error relative to the loaded cell's own "
+                "displacement", "",
                 f"{len(COEFFICIENT_ROWS)} rows",
                 lambda: max(map(_coefficient_error, COEFFICIENT_ROWS)),
                 exact(COEFFICIENT_SOURCE, 1e-12),
-                Required(1e-14, "rounding, and twenty times as much; 1e-12 is claimed beside "
-                         "sampling_route"),
+                Required(1e-14, "twenty times the rounding error; sampling_route states 1e-12"),
                 1.0, "1",
             ),
         ),
         tables=_row_tables,
         equations=(FREQUENCY_RESPONSE,),
-        no_order="both sides are closed in the wavenumber, or quadratures to rounding",
+        no_order="both sides are exact in the wavenumber, or quadratures to rounding",
     )  # fmt: skip
 
 
 def frf_laws(level: Level = Level.QUICK) -> Case:
-    """The laws that any surface FRF obeys, tried on random layered bodies; the same at every
-    level."""
+    """Build the case of the laws of any surface FRF, for random layered bodies; equal at all
+    levels."""
     laws = sorted(SYMMETRY_LAWS + LIMIT_LAWS, key=lambda law: int(law.number[1:]))
     return case(
         "frf_laws",
         "Laws of the frequency response of layered bodies",
-        "What mechanics says of the surface response of any layered body, whatever its "
-        "materials: reciprocity, symmetries, positive energy, limits, monotonicity. Each law "
-        "is tried on random bodies of one to five layers on a half-space or a rigid base, "
-        "stiffness contrasts to 1e6, ν from -0.95 to exactly ½, thicknesses over four and "
-        "wavenumbers over eight decades. The value is the worst violation found, relative to "
-        "the largest entry where nothing else is said. The bodies are the same in every run; "
-        "the tests search for worse ones.",
+        "Laws of mechanics for the surface response of any layered body: reciprocity, "
+        "symmetries, positive energy, limits, monotonicity. Each law is tested on random bodies "
+        "of one to five layers on a half-space or a rigid base, with stiffness contrasts to 1e6, "
+        "ν from -0.95 to exactly ½, thicknesses over four and wavenumbers over eight decades. "
+        "The value is the largest violation, relative to the largest entry unless stated "
+        "otherwise. The bodies are the same in every run; the tests search for larger "
+        "violations.",
         checks=tuple(
             Check(
                 law.name, f"{law.number}: {law.statement}", "", f"{law.draws} bodies",
@@ -229,9 +232,8 @@ def _sampling_table(_: Any) -> tuple[Table]:
         title="Error of sampled coefficients, relative to the coefficient",
         columns=("setting", "samples", *MEASURES, "last cell, absolute"),
         rows=(*rows, ("exact coefficients, no parameter", "0", *["< 1e-10 %"] * 5)),
-        note="The shape at the last cell of the window is what is left after a constant is "
-        "taken off, as a free approach would do. The last row is what layered_reference "
-        "bounds.",
+        note="The shape at the last cell of the window is the error after subtraction of a "
+        "constant, as with a free approach. The last row is the bound of layered_reference.",
         units=NONE,
     )
     return (table,)
@@ -244,9 +246,9 @@ def _sampling_chart(
     caption: str,
     *labels: str,
 ) -> Chart:
-    """Errors against one of the two parameters.
+    """Draw the errors against one of the two parameters.
 
-    labels  of the axis and of the parameter that is held
+    labels  of the axis and of the fixed parameter
     """
     curves = [
         curve(name, settings, [abs(of(at(n))) for n in settings], Look.POINTS, series)
@@ -260,54 +262,54 @@ def _sampling_chart(
     return Chart(
         name=f"sampling_by_{by}",
         title=f"Sampled coefficients against {by}",
-        caption=f"{caption} Thin black dashes at the bottom: the exact route.",
+        caption=f"{caption} Thin black dashes at the bottom: the exact coefficients.",
         rows=((panel,),),
     )
 
 
 def sampling_route(level: Level = Level.QUICK) -> Case:
-    """The usual way to the influence coefficients, sampling the FRF, beside the exact one; the same
-    at every level."""
+    """Build the case of influence coefficients from a sampled FRF, against the exact coefficients.
+
+    The case is equal at all levels.
+    """
     finest = REFINEMENTS[-1]
     return case(
         "sampling_route",
-        "Sampling the frequency response, as is usual",
-        "Influence coefficients are usually had by multiplying the frequency response with "
-        "the transform of one loaded cell, sampling the product and transforming back, as in "
-        "the paper. Two parameters have to be chosen: refinement (samples per cell side) "
-        "against aliasing, extension (period over window) against periodic images. Here that "
-        "is measured against the exact coefficients, which have no parameter and are right to "
-        "1e-12: a layer twice as stiff as its substrate, cells of an eighth of its thickness, "
-        "32 x 32 of them.",
+        "Influence coefficients from a sampled frequency response",
+        "Influence coefficients are usually computed, as in the paper, by an inverse FFT of "
+        "samples of the frequency response times the transform of one loaded cell. This method "
+        "has two parameters: the refinement (samples per cell side) against aliasing, and the "
+        "extension (period over window) against periodic images. Its errors are measured against "
+        "the exact coefficients, which have no parameter and an error of 1e-12: a layer twice as "
+        "stiff as its substrate, 32 x 32 cells of 1/8 of its thickness.",
         checks=(
             Check(
                 "sampled_tends_to_exact", "error of the loaded cell at the finest sampling", "",
                 f"refinement {finest}, extension {EXTENSION}",
                 lambda: _sampled(finest, EXTENSION).own,
                 identity(0.0, "both are the same integral, once sampled and once not"),
-                Required(5e-3, "what sampling leaves; the exact coefficients share no step with "
-                         "it"), 1.0, "the coefficient",
+                Required(5e-3, "the error of sampling; the exact coefficients share no step with "
+                "it"), 1.0, "the coefficient",
             ),
         ),
         charts=(
             lambda _: _sampling_chart(
                 "refinement", REFINEMENTS, lambda r: _sampled(r, EXTENSION),
-                "Refinement removes the error of the loaded and the next cell slowly, and leaves "
-                "that of the far ones, which periodic images make.",
+                "Refinement slowly reduces the error of the loaded and the next cell. The error "
+                "of distant cells, caused by periodic images, remains.",
                 "samples per cell side", f"extension {EXTENSION}",
             ),
             lambda _: _sampling_chart(
                 "extension", EXTENSIONS, lambda e: _sampled(REFINEMENT, e),
-                "A longer period removes the images from the far cells, and does nothing for the "
-                "loaded one.",
+                "A longer period removes the images from distant cells and has no effect on the "
+                "loaded cell.",
                 "period / window", f"refinement {REFINEMENT}",
             ),
         ),
         tables=_sampling_table,
         limits=(
-            f"The exact coefficients themselves are judged in layered_reference "
-            f"({COEFFICIENT_SOURCE}).",
+            f"The exact coefficients are judged in layered_reference ({COEFFICIENT_SOURCE}).",
         ),
         equations=(FREQUENCY_RESPONSE,),
-        no_order="the table and both charts follow two parameters; no order of either is claimed",
+        no_order="the table and both charts vary two parameters; no order is claimed",
     )  # fmt: skip

@@ -1,4 +1,4 @@
-"""Loops through the spring of a rig, and contacts on a lower body that is strained."""
+"""Loops with a rig of finite stiffness, and contacts on a strained lower body."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ ON_ALL = 1e-3
 
 @dataclass(frozen=True)
 class Sprung:
-    """Mindlin and Deresiewicz's contact behind a spring."""
+    """Mindlin and Deresiewicz's contact in series with a spring."""
 
     state: TangentialHistory
 
@@ -80,7 +80,7 @@ class Sprung:
 
     @property
     def dissipated_energy(self) -> float:
-        """Since the start [force length]."""
+        """Dissipated energy since the start [force length]."""
         return self.state.dissipated_energy
 
     @property
@@ -90,11 +90,11 @@ class Sprung:
 
     @property
     def loaded(self) -> PartialSlip:
-        """First loading to Q*."""
+        """State of the first loading to Q*."""
         return replace(self.state.virgin, tangential_force=self.loaded_force)
 
     def moved_to(self, actuator: float) -> Sprung:
-        """The state at another shift of the actuator [length]."""
+        """Return the state at another shift of the actuator [length]."""
 
         def missed(force: float) -> float:
             return self.state.loaded_to(force).shift + force / STIFFNESS - actuator
@@ -128,14 +128,14 @@ FORCE = number(
 
 
 def _worked(result: Any, step: int, _: Problem) -> float:
-    """Elastic energy and dissipation since pressing, over the work of µW [1]."""
+    """Compute the elastic energy and dissipation since indentation, over the work of µW [1]."""
     start, end = result.steps[0], result.steps[step]
     spent = [x.elastic_energy + (x.dissipated_energy or 0.0) for x in (start, end)]
     return float((spent[1] - spent[0]) / (FRICTION_LIMIT * SLIDING_SHIFT))
 
 
 def _stored() -> Observable:
-    """Without the springs; the closed form of both is the area under first loading and loop."""
+    """Return the quantity of the work at the contact, without the spring."""
     return Observable(
         "work_at_contact", "work of T on the contact until the end, over µW and its shift", "",
         _worked, _exact_work,
@@ -143,7 +143,8 @@ def _stored() -> Observable:
 
 
 def _exact_work(end: Sprung) -> float:
-    """Σ of first loading T - δ and of a whole loop: stored after loading, and all dissipated."""
+    """Compute the exact work at the contact: energy stored in the first loading, and all
+    dissipation."""
     loaded = end.loaded
     # ∫ T dδ of first loading: with y = c/a, T = µW (1 - y³), δ = s (1 - y²).
     y = loaded.stick_radius / loaded.contact_radius
@@ -153,12 +154,12 @@ def _exact_work(end: Sprung) -> float:
 
 
 def once_lost(loaded: PartialSlip) -> float:
-    """Dissipation of first loading over µW and its shift [1]."""
+    """Compute the dissipation of the first loading over µW and its shift [1]."""
     return float(loaded.dissipated_energy / (FRICTION_LIMIT * SLIDING_SHIFT))
 
 
 def _of_loop(name: str) -> Observable:
-    """A number of the loop as a fretting test has it."""
+    """Return a quantity of the loop that fretting tests report."""
 
     def measure(result: Any, *_: Any) -> float:
         (cycle,) = fretting_cycles(result)
@@ -180,9 +181,10 @@ def _of_loop(name: str) -> Observable:
 
 
 def series_spring(level: Level = Level.QUICK) -> Case:
-    """A fretting loop through the spring of a rig, by all solvers."""
+    """Build the case of a fretting loop with a rig of finite stiffness, by all solvers."""
     problem = _sprung()
-    why = "set by hand: what 64 x 64 cells, 16 elements or 24 rings leave of a loop of 0.87 µW"
+    why = "set by hand: the error of 64 x 64 cells, 16 elements or 24 rings for a loop of 0.87 "
+    "µW"
     rows: tuple[Row, ...] = (
         *(
             Within(what.at(step, part, "of the largest actuator shift"), ON_ALL, why)
@@ -198,18 +200,23 @@ def series_spring(level: Level = Level.QUICK) -> Case:
         Within(_of_loop(name), 5e-3, why)
         for name in ("loop_opening", "energy_ratio", "energy_friction", "gross_slip_share")
     )
-    works = Within(_stored(), 1e-2, f"{why}; springs stored as much as the contact")
+    works = Within(
+        _stored(),
+        1e-2,
+        f"{why}; the energy of the spring, which is not included, is "
+        "as large as that of the contact",
+    )
     cells = 64 if level is Level.QUICK else 128
     return case(
         "series_spring",
-        "Loop through the spring of a rig, ν = 0",
-        "The paper's contact with ν = 0 behind a spring of 100 N/µm, somewhat softer than the "
-        "contact. The actuator is moved by 1.5 µm, back and forth again. The spring is a constant "
-        "in the compliance of all three solvers.",
+        "Fretting loop with a rig of finite stiffness, ν = 0",
+        "The paper's contact with ν = 0 in series with a spring of 100 N/µm, which is softer "
+        "than the contact. The shift of the actuator is 1.5 µm, -1.5 µm and 1.5 µm. The spring "
+        "adds a constant to the compliance in all three solvers.",
         judged(on_cells(problem, (cells,), of="cells"), (*rows, *loops, works)),
         judged(on_elements(problem, (16,), over=0.97, of="elements"), (*rows, *loops)),
         judged(on_radii(problem, "rings"), (*rows, *loops, works)),
-        no_order="the constant has no error of its own; fretting_loop judges the contact",
+        no_order="the constant compliance has no error; fretting_loop judges the contact",
     )
 
 
@@ -219,7 +226,7 @@ ECCENTRICITY, SHEARED = 0.14, 0.5
 
 
 def eccentric(name: str) -> Problem:
-    """A contact whose lower body is strained in proportion to T, both along x."""
+    """Pose a contact with a strain of the lower body in proportion to T, both along x."""
     radii = SHAPES[name]
     contact = EllipticalContact.under_load(paper.NORMAL_FORCE, radii, paper.CONTACT_MODULUS)
     a, b = contact.semi_axes
@@ -243,7 +250,7 @@ def eccentric(name: str) -> Problem:
 
 
 def _centre_of_stick(result: Any, step: int, problem: Problem) -> float:
-    """Error of the centre of the stick zone, over the semi-axis [1]."""
+    """Compute the error of the centre of the stick zone, over the semi-axis [1]."""
     end, (x, _) = result.steps[step], result.grid.coordinates()
     centre = float(x[end.in_stick].mean())
     return (centre - problem.ends[step].eccentricity) / problem.radius
@@ -255,7 +262,7 @@ CENTRE = error_norm(
 
 
 def eccentric_contact(level: Level = Level.QUICK) -> Case:
-    """The eccentric stick zone of a contact that is sheared and strained in phase, with orders."""
+    """Build the case of the eccentric stick zone under force and strain in phase, with orders."""
     most = {Level.QUICK: 128, Level.STANDARD: 192, Level.FULL: 256}[level]
     edges = f"{SQUARE_ROOTS}: an error of O(√h) on rings one cell wide leaves O(h^3/2) in L1"
     order = Falls(SHEAR, 1.5, edges)
@@ -264,7 +271,7 @@ def eccentric_contact(level: Level = Level.QUICK) -> Case:
     )
     rows: tuple[Row, ...] = (
         of_shear,
-        Within(SHIFT, 1e-4, "what is required of the fretting loop"),
+        Within(SHIFT, 1e-4, "required of the fretting loop"),
         Within(ENERGY, 1e-3, "twice the figure required of the fretting loop's cycle"),
         Within(STICK_RADIUS, part_of_side(0.1), "a tenth of a cell"),
         Within(CENTRE, part_of_side(0.2), "a fifth of a cell: mean of the cells that stick"),
@@ -276,15 +283,16 @@ def eccentric_contact(level: Level = Level.QUICK) -> Case:
     return case(
         "eccentric_contact",
         "Sheared contact on a strained body",
-        "Bodies of one material with ν = 0 under 1 kN; a tangential force of half the friction "
-        "limit and a strain of the lower body along it grow in proportion. The stick zone has "
-        "the shape of the contact and lies 0.14 semi-axes off its centre.",
+        "Bodies of one material with ν = 0 under 1 kN. A tangential force of half the friction "
+        "limit and a strain of the lower body along this force grow in proportion. The stick "
+        "zone has the shape of the contact, and its centre is 0.14 semi-axes from the centre of "
+        "the contact.",
         *(judged(one, rows) for one in ladders.values()),
         judged(orders, (order,)),
         charts=(
             profile(
                 ladders["ball"], "eccentric_shear", "Shear next to y = 0",
-                "Computed shear over the closed form, and their difference.", "qₓ / µp₀",
+                "Computed shear, the closed form, and their difference.", "qₓ / µp₀",
                 FRICTION * HERTZ.peak_pressure,
                 Drawn(lambda end: shear_of(end)[0], lambda exact: exact.shear),
             ),
@@ -298,14 +306,15 @@ HARD = IsotropicMaterial(young_modulus=2 * paper.STEEL.young_modulus, poisson_ra
 
 @dataclass(frozen=True)
 class Strained:
-    """A pressed ball on a body that is strained all around."""
+    """Pressed ball on a body with an equibiaxial strain."""
 
     stick_radius: float
     dissipated_energy: float
 
 
 def _coated() -> Problem:
-    """A frictionless contact, pressed and then strained: the pressure stays."""
+    """Pose a frictionless contact that is pressed and then strained: the pressure does not
+    change."""
     layer = Layer(thickness=0.2e-3, material=HARD)
     scene = paper.frictionless(
         "Coated body, strained", paper.paraboloid(NU_ZERO), paper.STEEL, paper.pressing(1)
@@ -322,7 +331,7 @@ def _coated() -> Problem:
 
 
 def _added(layer: int) -> Observable:
-    """σ_xx on the axis below the strain, less that without it, in a layer or the base."""
+    """Return the change of σ_xx on the axis by the strain, in a layer or the base."""
 
     def measure(result: Any, step: int, _: Problem) -> float:
         deep = (0.1e-3, 0.4e-3)
@@ -339,7 +348,8 @@ def _added(layer: int) -> Observable:
 
 
 def strained_ball(level: Level = Level.QUICK) -> Case:
-    """An equibiaxial strain below a pressed ball, by all solvers and both laws."""
+    """Build the case of an equibiaxial strain below a pressed ball, by all solvers and contact
+    laws."""
     known = load_reference("strained_ball")
     exact = Strained(known["stick_radius"] * HERTZ.contact_radius, known["dissipated_energy"])
     step = LoadStep(bulk_strain=(STRAIN, STRAIN, 0.0), increments=1)
@@ -365,7 +375,7 @@ def strained_ball(level: Level = Level.QUICK) -> Case:
     )
     return case(
         "strained_ball",
-        "Ball on a body that is strained all around",
+        "Ball on a body under equibiaxial strain",
         "The paper's ball with ν = 0 is pressed by 1 kN, and then the lower body is strained by "
         "3e-4 in all directions. The indenter resists the expansion by a radial shear.",
         judged(cells, rows(8e-4)),
@@ -374,7 +384,11 @@ def strained_ball(level: Level = Level.QUICK) -> Case:
         judged(on_radii(problem, "rings"), rows(4e-4)),
         judged(
             on_cells(_coated(), (32,), of="coated"),
-            [Within(_added(layer), 1e-9, "exact: the pressure stays") for layer in (0, 1)],
+            [
+                Within(_added(layer), 1e-9, "exact: the pressure does not change")
+                for layer in (0, 1)
+            ],
         ),
-        no_order="the reference is a solver's; its own rings judge the order of radial_indentation",
+        no_order="the reference is a numerical solution by the radial solver; cattaneo_mindlin "
+        "and fem_partial_slip judge the orders of cells and elements",
     )

@@ -1,4 +1,5 @@
-"""Stress below sliding, twisted and pushed contacts, at their edge, and across interfaces."""
+"""Stress below sliding, twisted and tangentially loaded contacts, at their edge, and at
+interfaces."""
 
 from __future__ import annotations
 
@@ -66,13 +67,13 @@ FILMED = Body(material=STEEL, layers=(Layer(thickness=0.5 * A, material=STIFFER)
 
 
 def _largest(error: Any) -> float:
-    """Of all numbers, over p₀."""
+    """Return the largest absolute value, over p₀."""
     return float(np.max(np.abs(error)) / P0)
 
 
 @cache
 def _tractions(cells: int) -> tuple[Field, Field]:
-    """Hertz's pressure at the cell centres and the shear of sliding along x."""
+    """Return Hertz's pressure at the cell centres, and the shear of gross slip along x."""
     x, y = hertz_grid(cells).coordinates()
     p = np.asarray(HERTZ.pressure(np.hypot(x, y)))
     return p, np.stack([SLIDING * p, np.zeros_like(p)])
@@ -88,7 +89,8 @@ def _section(cells: int, sliding: bool) -> SubsurfaceField:
 
 @cache
 def _axis_errors(cells: int) -> Field:
-    """Errors of zz, xx (pressure alone) and xz (with shear) at the depths AXIS."""
+    """Compute the errors of zz and xx (pressure alone) and of xz (with shear) at the depths
+    AXIS."""
     exact = axis_stress(AXIS * A, A, P0, NU)
     still, sliding = (_section(cells, slides).below()[1][: len(AXIS)] for slides in (False, True))
     shear = sliding_axis_shear(AXIS * A, A, SLIDING * P0)
@@ -105,7 +107,7 @@ def _off_axis_error() -> float:
 
 
 def _error_below() -> float:
-    """All over the window, at every sixteenth cell."""
+    """Compute the largest error of all components at every 16th cell of the window."""
     depths = np.array((0.5, 1.0)) * A
     found = subsurface(Body(material=STEEL), hertz_grid(256), *_tractions(256), depths.tolist())
     some = slice(8, None, 16)
@@ -123,7 +125,7 @@ def _error_below() -> float:
 
 @cache
 def _filmed() -> SubsurfaceField:
-    """Both sides of the interface and the surface."""
+    """Compute the stress on both sides of the interface and at the surface."""
     ((above, below),) = interfaces(FILMED)
     return subsurface(FILMED, hertz_grid(64), *_tractions(64), [above, below, 0.0])
 
@@ -136,7 +138,7 @@ def _continuity() -> float:
 
 
 def _in_plane_jump() -> float:
-    """Strains e_xx, e_yy from the side below, stress from them on the side above."""
+    """Compare σ_xx above the interface with the value that the in-plane strains below require."""
     above, below = _filmed().stress[:2]
     xx, yy, zz = below[XX], below[YY], below[ZZ]
     E, nu = STEEL.young_modulus, NU
@@ -162,14 +164,14 @@ def _errors_by_depth() -> Table:
             )
             for k, depth in enumerate(AXIS)
         ),
-        note="Second order in the cell: the pressure is sampled at cell centres. Close to the "
-        "surface and to the edge of the contact the cells themselves show.",
+        note="The order in the cell side is 2, because the pressure is sampled at cell centres. "
+        "Close to the surface and to the edge of the contact the cells are visible.",
         units=NONE,
     )
 
 
 def subsurface_stress(level: Level = Level.QUICK) -> Case:
-    """Stress below a sliding ball, and across the interface of a coated body."""
+    """Build the case of stress below a sliding ball, and at the interface of a coated body."""
     closed: tuple[tuple[str, str, str, Callable[[], float]], ...] = (
         ("hertz_axis", "largest error of σ_zz and σ_xx on the axis, over p₀",
          "Huber 1904; Johnson 1985, ch. 3.4", lambda: _largest(_axis_errors(256)[:, :2])),
@@ -177,14 +179,14 @@ def subsurface_stress(level: Level = Level.QUICK) -> Case:
          "Hamilton 1983, on the axis", lambda: _largest(_axis_errors(256)[:, 2])),
         ("hertz_off_axis", "largest error of σ_zz and σ_yy in the plane y = 0 at depths from 0.2 "
          "a, over p₀", "Huber 1904", _off_axis_error),
-        ("sliding_below", "largest error of the six components of stress below pressure and "
-         "shear, at depths 0.5 a and a all over the window, over p₀", "Hamilton 1983",
+        ("sliding_below", "largest error of the six stress components below pressure and shear, "
+        "at depths of 0.5 a and a over the whole window, over p₀", "Hamilton 1983",
          _error_below),
     )  # fmt: skip
     laws: tuple[tuple[str, str, str, Callable[[], float], str], ...] = (
         ("interface_continuity", "largest jump of σ_zz, σ_xz, σ_yz over p₀ and of u over its "
-         "largest value", "the bond", _continuity, "1"),
-        ("in_plane_jump", "σ_xx above minus what the strains below demand of it, over p₀",
+         "largest value", "displacement and traction are continuous", _continuity, "1"),
+        ("in_plane_jump", "σ_xx above minus the value that the strains below require, over p₀",
          "in-plane strains are continuous", _in_plane_jump, "p₀"),
         ("surface_tractions", "σ_zz, σ_xz at z = 0 against the tractions, over p₀",
          "the boundary condition", _surface, "p₀"),
@@ -193,11 +195,11 @@ def subsurface_stress(level: Level = Level.QUICK) -> Case:
     return case(
         "subsurface_stress",
         "Stress below a sliding ball",
-        "Hertz's pressure, sampled at the cell centres, and a shear of 0.3 times it, on a "
-        "steel half-space: stress on the axis, in the plane y = 0 and below the whole contact "
-        "against Huber and Hamilton. Then the same tractions on a coated body: what must be "
-        "continuous across the interface, what must jump and by how much, and the tractions "
-        "at the surface.",
+        "Hertz's pressure, sampled at the cell centres, and a shear of 0.3 times this pressure "
+        "act on a steel half-space. The stress on the axis, in the plane y = 0 and below the "
+        "whole contact is compared with Huber's and Hamilton's. The same tractions on a coated "
+        "body test the components that are continuous at the interface, the jump of the others, "
+        "and the tractions at the surface.",
         checks=(
             *(
                 Check(
@@ -228,19 +230,19 @@ MOST = FRICTION * P0
 
 
 def _grid(cells: int) -> ShiftedGrid:
-    """The edge cuts its cells in every way."""
+    """Return a grid whose cells the contact edge divides in different ways."""
     of = hertz_grid(cells)
     return ShiftedGrid(of.cells, of.window, (0.31, 0.17))
 
 
 def _sliding(body: Body, grid: SurfaceGrid, pressure: Field) -> NearEdge:
-    """With the shear of full sliding along x."""
+    """Compute the stress near the edge with the shear of gross slip along x."""
     shear = np.stack([FRICTION * pressure, np.zeros_like(pressure)])
     return near_edge(stack_of(body), grid, pressure, shear)
 
 
 def _tension(body: Body, indenter: Paraboloid, cells: int) -> float:
-    """Largest on the edge, under the paper's force, over p0."""
+    """Compute the largest tensile stress at the edge under the paper's force, over p₀."""
     grid = _grid(cells)
     result = semi_analytical.solve(pressed("Sliding", indenter, body), grid, 1e-8)
     found = _sliding(body, grid, result.steps[-1].pressure)
@@ -249,7 +251,8 @@ def _tension(body: Body, indenter: Paraboloid, cells: int) -> float:
 
 @cache
 def _exact_edge() -> NearEdge:
-    """Of means of Hertz's pressure over the cells, by 16 Gauss points per side."""
+    """Compute the stress near the edge from cell means of Hertz's pressure (16 Gauss points per
+    side)."""
     grid = _grid(128)
     x, y = grid.coordinates()
     nodes, weights = (half / 2 for half in np.polynomial.legendre.leggauss(16))
@@ -263,7 +266,10 @@ def _exact_edge() -> NearEdge:
 
 
 def _line_error() -> float:
-    """At 32 places within four cells of either edge, none nearer to it than an eighth of a cell."""
+    """Compute the largest error at 32 positions within four cells of either edge.
+
+    No position is nearer to the edge than 1/8 of a cell.
+    """
     found = _exact_edge()
     beside = (np.arange(32) / 32 - 0.5 + 1 / 64) * 8 * found.grid.spacing[0]
     x = np.concatenate([-A + beside, A + beside])
@@ -272,7 +278,7 @@ def _line_error() -> float:
 
 
 def _near_edge() -> tuple[NearEdge, Field, Field, NDArray[np.bool_]]:
-    """The contact, the places of its cells, and those within three cells of the edge."""
+    """Return the contact, and positions and mask of the cells within three cells of the edge."""
     found = _exact_edge()
     x, y = found.grid.coordinates()
     near = np.abs(np.hypot(x, y) - A) < 3 * found.grid.spacing[0]
@@ -280,7 +286,7 @@ def _near_edge() -> tuple[NearEdge, Field, Field, NDArray[np.bool_]]:
 
 
 def _surface_error() -> float:
-    """At cell centres, of the pressure alone."""
+    """Compute the largest error of the stress at cell centres under the pressure alone."""
     of, x, y, near = _near_edge()
     found = near_edge(of.stack, of.grid, of.tractions.cells[2], None)
     stress = found.corrected(subsurface(of.stack, of.grid, of.tractions.cells[2], None, (0.0,)))
@@ -294,7 +300,7 @@ def _surface_error() -> float:
 
 
 def _error_a_cell_below() -> float:
-    """At cell centres, sliding."""
+    """Compute the largest error of the stress one cell below cell centres at gross slip."""
     found, x, y, near = _near_edge()
     depth, cells = found.grid.spacing[0], found.tractions.cells
     field = found.corrected(subsurface(found.stack, found.grid, cells[2], cells[:2], (depth,)))
@@ -303,10 +309,14 @@ def _error_a_cell_below() -> float:
 
 
 def edge_stress(level: Level = Level.QUICK) -> Case:
-    """Stress at the edge of a sliding contact, where it is largest and tractions on cells miss it;
-    the quick level leaves out two coatings and the surface."""
+    """Build the case of stress at the edge of a sliding contact, where tractions on cells are
+    inaccurate.
+
+    The quick level omits two coatings and the surface.
+    """
     required = "required of stress at the edge by the project's accuracy targets"
-    own = "a tenth of what the tension on the edge may be wrong: what is fitted is exact here"
+    own = "a tenth of the tolerance of the tensile stress at the edge: the fitted tractions are "
+    "exact here"
     exact = trailing_edge_tension(1.0, FRICTION, NU)
     hamilton, quick = "Hamilton and Goodman 1966; Johnson 1985, section 7.1", level is Level.QUICK
     # Zero is as uncertain as the form behind it: rounding, or one integral.
@@ -322,10 +332,10 @@ def edge_stress(level: Level = Level.QUICK) -> Case:
     return case(
         "edge_stress",
         "Stress at the edge of a sliding contact",
-        "A ball that slides on steel and on coated bodies, its pressure solved on cells that "
-        "lie anyhow on the contact and its shear 0.1 of that: the tension on the trailing "
-        "edge. Then Hertz's own pressure, its means over cells given: the line "
-        "through the edge, and all components beside and below it.",
+        "A ball slides on steel and on coated bodies. The pressure is solved on cells in a "
+        "general position relative to the contact, and the shear is 0.1 of the pressure: tensile "
+        "stress at the trailing edge. With cell means of Hertz's pressure: stress on the line "
+        "through the edge, and all components near and below the edge.",
         checks=(
             *(
                 Check(
@@ -359,7 +369,7 @@ def edge_stress(level: Level = Level.QUICK) -> Case:
             HAMILTON_EQUATION,
             r"\sigma_{xx}(-a, 0) = p_0 \left[\frac{1 - 2\nu}{3} + \mu \pi \frac{4 + \nu}{8}\right]",
         ),
-        no_order="the edge falls anywhere in its cells: errors scatter from grid to grid",
+        no_order="the edge has any position in its cells: errors scatter from grid to grid",
     )  # fmt: skip
 
 
@@ -372,12 +382,12 @@ def _below(result: Any) -> RadialBody:
 
 
 def _points(body: RadialBody, depth: float, x: Field, y: Field) -> StressPoints:
-    """At a depth and places in contact radii."""
+    """Compute the stress at a depth and at positions given in contact radii."""
     return body.points((Depth(depth * A, 0),), A * x, A * y)
 
 
 def _pushed_error(depth: float, result: Any, *_: Any) -> float:
-    """Along and beside the load."""
+    """Compute the largest error on lines along the load, at 0, 0.4 a and 0.8 a from the axis."""
     x, y = (part.ravel() for part in np.meshgrid(np.linspace(-1.5, 1.5, 31), (0.0, 0.4, 0.8)))
     exact = hamilton_stress(x, y, depth, 1.0, P0, MOST, NU)
     exact -= hamilton_stress(x, y, depth, STUCK, 0.0, STUCK * MOST, NU)
@@ -395,7 +405,7 @@ def _error_of_tension(result: Any, *_: Any) -> float:
 
 
 def _error_of_torque(result: Any, *_: Any) -> float:
-    """∫ σ_θz 2πr² dr over the plane, r/(1 + r) from 0 to 1."""
+    """Compute the relative error of ∫ σ_θz 2πr² dr over a plane, with r/(1 + r) from 0 to 1."""
     nodes, weights = np.polynomial.legendre.leggauss(120)
     t = (1 + nodes) / 2
     r, area = t / (1 - t), weights / 2 / (1 - t) ** 2
@@ -404,7 +414,7 @@ def _error_of_torque(result: Any, *_: Any) -> float:
 
 
 def _tension_by_rays(result: Any, _: int, problem: Problem) -> float:
-    """On the trailing edge where the contact slides, over p₀."""
+    """Compute the tensile stress at the trailing edge at gross slip, over p₀."""
     end = result.steps[-1]
     nothing = np.zeros_like(end.radii)
     still = round_circle(end.radii, end.contact_radius, nothing, nothing, end.pressure)
@@ -416,7 +426,8 @@ def _tension_by_rays(result: Any, _: int, problem: Problem) -> float:
 
 
 def radial_stress(level: Level = Level.QUICK) -> Case:
-    """Stress below the radial solver's shear: a push, a twist, and sliding on coatings."""
+    """Build the case of stress by the radial solver: tangential force, torque, sliding on
+    coatings."""
     pushed = replace(
         sheared("Ball pushed", (0.6,), STEEL, 6),
         source="Cattaneo 1938, Mindlin 1949; Hamilton 1983",
@@ -430,7 +441,7 @@ def radial_stress(level: Level = Level.QUICK) -> Case:
                     f"largest error of all components {depth:g} a below the surface",
                     partial(_pushed_error, depth), "p₀",
                 ),
-                5e-3, "set by hand: what 24 rings leave of the shear where it has a front",
+                5e-3, "set by hand: the error of 24 rings at the front of the shear",
             )
             for depth in (0.1, 0.5)
         ),
@@ -439,22 +450,23 @@ def radial_stress(level: Level = Level.QUICK) -> Case:
                 "trailing_edge", "error of σ₁ on the trailing edge", _error_of_tension,
                 "its value",
             ),
-            5e-3, "required of tension at the edge by the project's accuracy targets",
+            5e-3, "required of tensile stress at the edge by the project's accuracy targets",
         ),
     )  # fmt: skip
     of_twist = Within(
         error_norm(
-            "torque", f"error of the torque carried {CARRIED:g} a below", _error_of_torque,
+            "torque", f"error of the torque transmitted {CARRIED:g} a below", _error_of_torque,
             "its value", source="equilibrium",
         ),
-        5e-4, f"set by hand: straight lines between {RINGS_SHOWN} rings in the share of slip",
+        5e-4, f"set by hand: linear interpolation between {RINGS_SHOWN} rings of the slip "
+        "contribution",
     )  # fmt: skip
     of_coating = Within(
         Observable(
             "trailing_edge", "σ₁ on the trailing edge over Hertz's p₀", "", _tension_by_rays,
             lambda value: float(value),
         ),
-        2e-4, "set by hand: what points on rays and between radii leave",
+        2e-4, "set by hand: the error of points on rays and between radii",
     )  # fmt: skip
     slides = {
         "E1/E2 = {:g}, h = {:g} a_H".format(*of): Problem(
@@ -467,19 +479,20 @@ def radial_stress(level: Level = Level.QUICK) -> Case:
     return case(
         "radial_stress",
         "Stress below shear on rings and angles",
-        "The paper's ball of steel pushed to 0.6 of µW: all components below the "
-        "edge and the tension on it; the ball twisted: what a plane below carries of the torque; "
-        "a ball that slides on coatings: the tension on the trailing edge; by the radial solver, "
-        "from its tractions or, sliding, from exact ones.",
+        "The paper's steel ball under a tangential force of 0.6 µW: all components below the "
+        "surface and the tensile stress at the edge. The ball under a torque: the torque "
+        "transmitted by a plane below. A ball that slides on coatings: the tensile stress at the "
+        "trailing edge. All are computed from the tractions of the radial solver, for gross slip "
+        "from exact tractions.",
         judged(on_radii(pushed, "pushed"), of_push),
         judged(on_radii(twisted, "twisted"), (of_twist,)),
         *(judged(on_radii(problem, name), (of_coating,)) for name, problem in slides.items()),
         limits=(
-            "Cattaneo and Mindlin neglect slip across the load, which the solver has: of steel at "
-            "most a thousandth of the shift.",
-            "What a pushed coating has below has no closed form: `slipstick stress` of "
-            "coated_fretting.toml by three solvers gives 1.171, 1.169 and 1.172 GPa.",
+            "Cattaneo and Mindlin neglect slip across the load, which the solver includes: for "
+            "steel at most a thousandth of the shift.",
+            "The stress below a coating under a tangential force has no closed form: `slipstick "
+            "stress` of coated_fretting.toml by three solvers gives 1.171, 1.169 and 1.172 GPa.",
         ),
         equations=(HAMILTON_EQUATION,),
-        no_order="judged on the rings that the solver chooses, not on several counts of them",
+        no_order="judged on the rings that the solver chooses, not on several numbers of rings",
     )

@@ -1,4 +1,5 @@
-"""Torsion by all solvers: a ball twisted into partial slip and back, punch, coated balls, turns."""
+"""Torsion by all solvers: partial slip and reversal of a ball, punch, coated balls, turning
+loads."""
 
 from __future__ import annotations
 
@@ -66,8 +67,8 @@ from verification.quantities import energy_between, shear_of
 Field = NDArray[np.float64]
 
 SLIDING = "of the sliding torque"
-HALF_A_PER_CENT = "0.5 % of the twist was asked for at 128 x 128"
-QUARTER = "order 1: the border is known to a part of a cell; the cap is a quarter"
+HALF_A_PER_CENT = "the accuracy target is 0.5 % of the twist at 128 x 128"
+QUARTER = "order 1: the border is known to a fraction of a cell; the cap is a quarter"
 MASING = "Lubkin 1951, with Masing's rule for the reversal"
 WITHIN = 0.995  # radii up to which shear is compared: at the edge it has no finite slope
 LOOP_TWISTS = tuple(
@@ -78,7 +79,7 @@ LOOP_TWISTS = tuple(
     for step, name in {1: "loaded", 2: "unloaded", 3: "reversed", 4: "closed"}.items()
 )  # fmt: skip
 ENERGY_PER_CYCLE = Observable(
-    "energy_per_cycle", "energy lost from the first to the second torque of + 0.9", "J",
+    "energy_per_cycle", "energy dissipated from the first to the second torque of + 0.9", "J",
     lambda result, *_: energy_between(result, 2, 5),
     lambda end: float(end.energy_per_cycle), source=MASING,
 )  # fmt: skip
@@ -86,7 +87,7 @@ TORQUE = number("torque", "torque at the twist of 0.9 of the limit", exact="mome
 
 
 def _shear_on_cells(result: Any, step: int, problem: Problem) -> float:
-    """Σ|q - q_exact| / Σµp."""
+    """Compute Σ|q - q_exact| / Σµp."""
     end, a = result.steps[step], problem.radius
     x, y = result.grid.coordinates()
     r = np.hypot(x, y)
@@ -96,7 +97,10 @@ def _shear_on_cells(result: Any, step: int, problem: Problem) -> float:
 
 
 def _largest_shear_error(result: Any, step: int, problem: Problem) -> float:
-    """Over the friction limit, or over the shear at half the radius of the punch."""
+    """Compute the largest error of the shear.
+
+    The scale is the friction limit, or for the punch the shear at half its radius.
+    """
     end, known = result.steps[step], problem.ends[step]
     scale = problem.scales.get(OVER_LIMIT) or float(known.shear(problem.radius / 2))
     inside = end.radii < WITHIN * problem.radius
@@ -113,7 +117,7 @@ def _mean_shear_error(result: Any, step: int, problem: Problem) -> float:
 
 
 def torsion(level: Level = Level.QUICK) -> Case:
-    """A ball twisted into partial slip and back, and a stuck flat punch."""
+    """Build the case of a ball twisted into partial slip and back, and of a stuck flat punch."""
     cells = refinement(32, 128 if level is Level.QUICK else 256)
     balls, finest = on_cells(TWISTED, cells), cells[-1:]
     punches = on_cells(STUCK, cells[::-2][::-1], 2.2, of="stuck punch")
@@ -141,14 +145,15 @@ def torsion(level: Level = Level.QUICK) -> Case:
     )  # fmt: skip
     of_loop = (
         *(
-            Within(twist, 1e-4, f"four times what 128 cells leave; {HALF_A_PER_CENT}")
+            Within(twist, 1e-4, f"four times the error of 128 cells; {HALF_A_PER_CENT}")
             for twist in LOOP_TWISTS[1:]
         ),
-        Within(ENERGY_PER_CYCLE, 2e-4, f"four times what 128 cells leave; {HALF_A_PER_CENT}"),
+        Within(ENERGY_PER_CYCLE, 2e-4, f"four times the error of 128 cells; {HALF_A_PER_CENT}"),
     )
     of_given_twist = Within(
         TORQUE, 3e-5,
-        "a quarter of what is allowed of a twist: near the limit the torque hardly depends on it",
+        "a quarter of the tolerance of a twist: near the limit the torque hardly depends on the "
+        "twist",
         name="torque_of_given_twist",
     )  # fmt: skip
     stuck_area = Observable(
@@ -161,19 +166,19 @@ def torsion(level: Level = Level.QUICK) -> Case:
     of_punch = (
         Within(
             TWIST, part_of_side(1.5),
-            "the twist goes as 1/radius³, and the rim is a staircase by which the radius seems to "
-            "be wrong by up to half a cell",
+            "the twist is proportional to 1/radius³, and the staircase of cells at the rim "
+            "changes the effective radius by up to half a cell",
             name="stuck_twist",
         ),
-        Within(stuck_area, 1e-12, "µ is twice what would make the rim slip"),
+        Within(stuck_area, 1e-12, "µ is twice the coefficient at which the rim slips"),
     )  # fmt: skip
     return case(
         "torsion",
         "Torsion with partial slip",
-        "The paper's ball under 1 kN, twisted by 0.5, 0.9 and 0.99 of the torque at which all "
-        "slips; to and fro by 0.9 of it; led to the twist of that torque; and a flat punch "
-        "that sticks all over. Torsion moves the surfaces in circles, which no pressure "
-        "couples with, so that the closed form holds for any pair of alike bodies.",
+        "The paper's ball under 1 kN is loaded by 0.5, 0.9 and 0.99 of the torque at gross slip, "
+        "by a loop of 0.9 of this torque, and by a prescribed twist; a flat punch sticks "
+        "completely. Torsion moves the surfaces in circles and is uncoupled from the pressure, "
+        "so that the closed form holds for any pair of equal bodies.",
         judged(balls, of_ball),
         judged(named("to and fro", on_cells(TO_AND_FRO, finest)), of_loop),
         judged(named("given twist", on_cells(LED, finest)), (of_given_twist,)),
@@ -201,18 +206,18 @@ BALL = Paraboloid(radius=paper.RADIUS, material=BASE, layers=LAYERS)
 
 
 def _compliance(k: Field) -> Field:
-    """Of both bodies together."""
+    """Return the torsional compliance of both bodies together."""
     return 2 * one_layer(k, LAYERS[0].thickness, COATING.shear_modulus, BASE.shear_modulus)
 
 
 def _limit(r: Field) -> Field:
-    """µp of the semi-closed contact."""
+    """Return the friction limit µp of the semi-closed contact."""
     return FRICTION * exact_contact(BODY, BALL).pressure(r)
 
 
 @cache
 def twisted_coated() -> Problem:
-    """The coated balls pressed, and twisted with stops."""
+    """Pose the coated balls under a normal force and a torque raised in steps."""
     normal = exact_contact(BODY, BALL)
     surface = TorsionalSurface(_compliance, COATING.shear_modulus / 2, LAYERS[0].thickness)
     a = normal.contact_radius
@@ -237,7 +242,7 @@ def twisted_coated() -> Problem:
 
 
 def torsion_coated(level: Level = Level.QUICK) -> Case:
-    """Torsion of two balls with a coating each: partial slip on layers, without any coupling."""
+    """Build the case of two coated balls in torsion: partial slip on layers, without coupling."""
     rows = tuple(
         row
         for stop in COATED_PARTS.items()
@@ -253,32 +258,32 @@ def torsion_coated(level: Level = Level.QUICK) -> Case:
     return case(
         "torsion_coated",
         "Torsion of coated balls with partial slip",
-        "A ball and a half-space with the same coating, twice as stiff as what is below it and "
-        "as thick as the contact radius without it, under 1 kN and a torque. Alike bodies do "
-        "not couple, torsion makes shear waves alone, and the layer acts on these by one "
-        "reflection: the problem is a Fredholm equation, solved to ten digits.",
+        "A ball and a half-space with the same coating, twice as stiff as the material below and "
+        "as thick as the contact radius without coating, under 1 kN and a torque. Equal bodies "
+        "do not couple, torsion makes only shear waves, and the layer reflects these with one "
+        "coefficient: the problem is a Fredholm equation, solved to ten digits.",
         judged(on_cells(twisted_coated(), cells), rows),
         limits=(
             "The pressure of the reference uses the solver's frequency response of layers, which "
-            "other cases judge; its torsion does not.",
+            "other cases judge; the torsion of the reference does not.",
         ),
         no_order="the tolerances are derived from the orders that torsion judges on equal grids",
     )
 
 
 def shear_around(step: int) -> Drawn:
-    """The circumferential shear at the end of a step."""
+    """Return the curves of the circumferential shear at the end of a step."""
     return Drawn(lambda end: end.shear_circumferential, lambda exact: exact.shear, step=step)
 
 
 def fem_torsion(level: Level = Level.QUICK) -> Case:
-    """Torsion by finite elements, with the edge of the ball's contact at several places of its
+    """Build the case of torsion by finite elements, with several positions of the edge in its
     element."""
     cusp = (
         "set by hand: at 64 elements per radius 2e-3 of the twist and 5e-3 of µp_H, on other "
-        "meshes what the order 3/2 of the cusps at both edges makes of it"
+        "meshes scaled by the order 3/2 of the cusps at both edges"
     )
-    rim = "what hats cannot follow of the infinite shear at the rim has an energy of O(h)"
+    rim = "the error of hat functions at the infinite shear of the rim has an energy of O(h)"
     balls = with_edge_at(TWISTED, levels(level)[-1:], order_levels(level), "ball")
     of_ball = tuple(
         row
@@ -287,7 +292,7 @@ def fem_torsion(level: Level = Level.QUICK) -> Case:
             Within(TWIST.at(*stop, SLIDING), asked(2e-3, 1.5), cusp),
             Within(
                 STICK_RADIUS.at(*stop, SLIDING), part_of_side(0.1),
-                "a tenth of an element, read off the last values",
+                "a tenth of an element: the edge is extrapolated from the last values",
             ),
             Within(SHEAR_AROUND.at(*stop, SLIDING), asked(5e-3, 1.5), cusp),
         )
@@ -302,16 +307,16 @@ def fem_torsion(level: Level = Level.QUICK) -> Case:
     return case(
         "fem_torsion",
         "Finite elements: torsion",
-        "The paper's ball under 1 kN, twisted by 0.5, 0.9 and 0.99 of the torque at which all "
-        "slips, and a flat punch that sticks all over, as in torsion. One unknown displacement, "
-        "around the axis; pressure does not enter but by the friction limit.",
+        "The paper's ball under 1 kN is loaded by 0.5, 0.9 and 0.99 of the torque at gross slip, "
+        "and a flat punch sticks completely, as in torsion. The only unknown is the "
+        "circumferential displacement; the pressure enters only through the friction limit.",
         judged(balls, of_ball),
         judged(on_elements(STUCK, levels(level), of="stuck punch"), of_punch),
         charts=tuple(
             profile(
                 balls, f"fem_torsion_{step}", f"Shear over the radius at {part:g} {SLIDING}",
-                "Circumferential shear by finite elements over the closed form, and their "
-                "difference: a cusp at the edge of stick.",
+                "Circumferential shear by finite elements, the closed form, and their "
+                "difference: a cusp at the stick edge.",
                 "q / µp₀", TWISTED.scale(OVER_LIMIT), shear_around(step),
             )
             for step, part in PARTS.items()
@@ -320,7 +325,7 @@ def fem_torsion(level: Level = Level.QUICK) -> Case:
 
 
 def _exact(*observables: Observable, error: float = ROUNDING) -> Iterator[Within]:
-    return (Within(w, 2 * error, "twice what the reference may be wrong by") for w in observables)
+    return (Within(w, 2 * error, "twice the uncertainty of the reference") for w in observables)
 
 
 def _at_parts(parts: dict[int, float], *observables: Observable) -> tuple[Observable, ...]:
@@ -328,7 +333,8 @@ def _at_parts(parts: dict[int, float], *observables: Observable) -> tuple[Observ
 
 
 def radial_torsion(level: Level = Level.QUICK) -> Case:
-    """Torsion by the radial solver: closed forms, Masing's rule, and a Fredholm equation."""
+    """Build the case of torsion by the radial solver: closed forms, Masing's rule, a Fredholm
+    equation."""
     shear = error_norm(
         "shear", f"largest error of the shear up to {WITHIN:g} a{{when}}", _largest_shear_error,
         "µp_H, or the shear at half the radius of the punch",
@@ -340,21 +346,21 @@ def radial_torsion(level: Level = Level.QUICK) -> Case:
     parts = ", ".join(f"{part:g}" for part in PARTS.values())
     return case(
         "radial_torsion",
-        "Torsion in one dimension",
-        f"The paper's ball under 1 kN, twisted by {parts} of the torque at which all "
-        "slips, by a given twist, and to and fro; a flat punch that sticks all over; and coated "
-        "balls as in torsion_coated; by the radial solver. It follows reversals by the branches "
-        "that are open, and energies from them without increments.",
+        "Radial solver: torsion",
+        f"The paper's ball under 1 kN is loaded by {parts} of the torque at gross slip, by a "
+        "prescribed twist, and by a loop; a flat punch sticks completely; coated balls are those "
+        "of torsion_coated. The radial solver follows reversals by Masing's rule and computes "
+        "energies without increments.",
         judged(on_radii(TWISTED, "ball"), [*_exact(*_at_parts(PARTS, TWIST, stick, shear))]),
         judged(on_radii(LED, "given twist"), [*_exact(TORQUE)]),
         judged(on_radii(STUCK, "stuck punch"), [*_exact(TWIST, shear)]),
         judged(on_radii(TO_AND_FRO, "to and fro"), of_loop),
         judged(on_radii(twisted_coated(), "coated"), [*of_coated]),
         limits=(
-            "The friction limit of the coated reference comes from the response of layers to "
-            "pressure that the solver has, too; its torsion does not.",
+            "The friction limit of the coated reference uses the response of layers to pressure "
+            "that the solver uses as well; the torsion of the reference does not.",
         ),
-        no_order="the solution is exact but for rounding: nothing falls with the rings",
+        no_order="the solution is exact to rounding: no error falls with the rings",
     )
 
 
@@ -375,19 +381,19 @@ def _push(x: float, y: float, increments: int) -> LoadStep:
 
 
 def _scene(title: str, *steps: LoadStep) -> Scene:
-    """A rigid ball on a coating twice as stiff, as thick as the contact is wide."""
+    """Return the scene of a rigid ball on a coating twice as stiff as its base, h = a_H."""
     body = coated(film(2.0, 1.0))
     return pressed(title, rigid_ball(), body, paper.pressing(8), *steps, friction=FRICTION)
 
 
 @cache
 def _on_cells(scene: Scene, cells: int) -> Any:
-    """The answer of cells, with edges inside them."""
+    """Solve a scene on cells with the edge correction."""
     return solve_discretised(scene, SurfaceDiscretisation(cells=(cells, cells)))
 
 
 def _motion_apart(ours: Any, _: int, problem: Problem) -> float:
-    """Largest difference of shift and twist, over the largest of the history."""
+    """Compute the largest difference of shift and twist, over the largest value of the history."""
     theirs, errors = problem.ends[-1](), []
     for of in MOTIONS:
         both = [
@@ -402,7 +408,7 @@ def _motion_apart(ours: Any, _: int, problem: Problem) -> float:
 
 
 def _apart_of_stated(ours: Any, _: int, problem: Problem) -> float:
-    """Largest difference over the sum of the errors that both state."""
+    """Compute the largest difference over the sum of the stated errors of both solvers."""
 
     def size(value: Any) -> float:
         return 0.0 if value is None else float(np.linalg.norm(value))
@@ -426,14 +432,17 @@ def _apart_of_stated(ours: Any, _: int, problem: Problem) -> float:
 
 
 def _quarter(vector: Any) -> tuple[float, float]:
-    """Turned by a quarter."""
+    """Rotate a vector by a quarter turn."""
     x, y = vector
     return -y, x
 
 
 def _turned() -> float:
-    """Difference of the shift after a quarter turn, on half the rings and eight angles, turned by
-    two of them."""
+    """Compute the difference of the shift after a rotation of the scene by a quarter turn.
+
+    The solves take half the rings and eight angles, so that the rotation shifts the points by two
+    angles.
+    """
     here = _scene("pushed along x, then y", *(_push(*push, 2) for push in TURNING))
     scene = _scene("pushed along y, then -x", *(_push(*_quarter(push), 2) for push in TURNING))
     plan = replace(radial.plan(here), fineness=0.5)
@@ -445,8 +454,10 @@ def _turned() -> float:
 
 
 def radial_turning(level: Level = Level.QUICK) -> Case:
-    """Torsion of coupled bodies, torsion beside a push, and a push that turns, by the radial
-    solver; at higher levels beside finer cells."""
+    """Build the case of coupled torsion, torsion with a tangential force, and a turning force.
+
+    The radial solver is compared with cells, which are finer at higher levels.
+    """
     cells = {Level.QUICK: 64, Level.STANDARD: 96, Level.FULL: 192}[level]
     scenes = {
         "torsion": _scene(
@@ -462,7 +473,7 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
             _push(*TURNING[0], 4), _push(*TURNING[1], 6),
         ),
     }  # fmt: skip
-    of_twist = "asked of the rings at any number of increments"
+    of_twist = "accuracy target of the rings at any number of increments"
     mean_shear = error_norm(
         "mean_shear", "mean error of q_θ over the contact{when}", _mean_shear_error, OVER_LIMIT
     )
@@ -471,12 +482,18 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
         for stop in PARTS.items()
         for row in (
             Within(replace(TWIST, over=OVER_TWIST).at(*stop, SLIDING), 5e-4, of_twist),
-            Within(mean_shear.at(*stop, SLIDING), 5e-3, "asked of the radial solver, in the mean"),
+            Within(
+                mean_shear.at(*stop, SLIDING),
+                5e-3,
+                "accuracy target of the radial solver, for the mean",
+            ),
         )
     )
     of_loop = (
         *(Within(twist, 5e-4, of_twist) for twist in LOOP_TWISTS),
-        Within(ENERGY_PER_CYCLE, 2e-3, "set by hand: four times what rings leave of a cycle"),
+        Within(
+            ENERGY_PER_CYCLE, 2e-3, "set by hand: four times the error of the rings for a cycle"
+        ),
     )
     of_coated = (
         Within(
@@ -484,14 +501,15 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
                 "motion", "largest difference of shift and twist", _motion_apart,
                 "the largest of the history",
             ),
-            7e-4, "set by hand: 64 cells along a side and rings leave some 3e-4 each",
+            7e-4, "set by hand: errors of about 3e-4 each of 64 cells along a side and of the "
+            "rings",
         ),
         Within(
             error_norm(
                 "stated", "largest difference of motions, radii and energies", _apart_of_stated,
-                "what both state together",
+                "the sum of both stated errors",
             ),
-            1.0, "both state how far off they are",
+            1.0, "both solvers state their errors",
         ),
     )  # fmt: skip
 
@@ -503,12 +521,12 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
 
     return case(
         "radial_turning",
-        "Torsion and turning pushes on rings and angles",
-        "The paper's ball of steel twisted as in radial_torsion, by points on rings, where "
-        "the exact shear has no increments; and a rigid ball on a coating twice as stiff: pressed "
-        "and twisted to and fro, and pressed further while it is twisted; twisted, then pushed, "
-        "and twisted back; pushed along x, then along y. All of them beside cells, in the same "
-        "increments.",
+        "Torsion and turning tangential forces on rings and angles",
+        "The paper's steel ball under the torques of radial_torsion, by points on rings, where "
+        "the exact shear needs no increments. A rigid ball on a coating twice as stiff as its "
+        "base: under a torsional loop with a rise of the normal force, under torque, tangential "
+        "force and reversed torque, and under a tangential force along x, then y. All histories "
+        "of the coated body are compared with cells in equal increments.",
         judged(on_radii(TWISTED, "ball", at_points=True), of_ball),
         judged(on_radii(TO_AND_FRO, "to and fro", at_points=True), of_loop),
         *(
@@ -518,13 +536,13 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
         checks=(
             Check(
                 "turned", "difference of the shift after a quarter turn", "", "the radial solver",
-                _turned, identity(0.0, "a scene that is turned has turned answers"),
-                Required(1e-10, "points are turned onto points"), 1.0, "the shift",
+                _turned, identity(0.0, "a rotated scene has rotated results"),
+                Required(1e-10, "points are mapped to points"), 1.0, "the shift",
             ),
         ),
         limits=(
-            "Of coupled bodies cells are the only other voice: finite elements take one line, or "
-            "torsion of alike bodies.",
+            "For coupled bodies cells are the only other solver: finite elements are limited to "
+            "loads along one line, or torsion of equal bodies.",
         ),
-        no_order="judged on the rings that the solver chooses, not on several counts of them",
+        no_order="judged on the rings that the solver chooses, not on several numbers of rings",
     )  # fmt: skip

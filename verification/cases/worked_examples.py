@@ -1,8 +1,8 @@
-"""The harness itself on examples worked by hand: what refinement leaves uncertain, and its print.
+"""Examples of the harness worked by hand: uncertainty by refinement, and the printed numbers.
 
-All have levels h = 1, 2, 4 and an error a + c h, beside which (1, -6, 8) ε is left: it is
-orthogonal to what is fitted with weights 1/h, as 1 - 6/4 + 8/16 = 1 - 6/2 + 8/4 = 0. Its weighted
-squares are (1 + 9 + 4) ε².
+All examples have levels h = 1, 2, 4 and an error a + c h, plus a deviation (1, -6, 8) ε. The
+deviation is orthogonal to the line that is fitted with weights 1/h, as 1 - 6/4 + 8/16 = 1 - 6/2 +
+8/4 = 0. Its weighted sum of squares is (1 + 9 + 4) ε².
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ PRINTED = Required(0.05, "two digits are printed")
 
 @dataclass(frozen=True)
 class _Rung:
-    """What a case knows of a run, and its result."""
+    """Refinement level with its result."""
 
     label: str
     spacing: float
@@ -46,13 +46,13 @@ class _Rung:
 
 
 def worked_examples(level: Level = Level.QUICK) -> Case:
-    """The case, the same at every level."""
+    """Build the case; equal at all levels."""
     return Case(
         name="worked_examples",
-        title="The harness by hand",
-        problem="Values on three and four levels whose fits, scatters and intervals come out in "
-        "round numbers: what a tolerance that is derived from refinement allows, the limit and its "
-        "uncertainty, the intervals of an order and of a line, and what is printed of them.",
+        title="Worked examples of the harness",
+        problem="Values on three and four levels with round numbers for fits, scatters and "
+        "intervals. Judged are a tolerance derived from refinement, the limit and its "
+        "uncertainty, the intervals of an order and of a line, and the printed numbers.",
         runs=(),
         quantities=(),
         checks=tuple(
@@ -71,7 +71,7 @@ def worked_examples(level: Level = Level.QUICK) -> Case:
 
 
 def _verdict() -> Verdict:
-    """Of a value that is 2 U off, on a scale of two."""
+    """Judge a value with an error of 2 U on a scale of 2."""
     rungs = [
         _Rung(f"h = {h:g}", h, LIMIT + SLOPE * h + EPSILON * r)
         for h, r in zip(LEVELS, BESIDE, strict=True)
@@ -106,14 +106,14 @@ def _number_in(text: str) -> float:
 
 
 def _limit(part: int) -> float:
-    """Value and uncertainty with a fourth level, at h = 8, that the line goes through."""
+    """Return the value or the uncertainty with a fourth level, h = 8, on the line."""
     h = np.array([*LEVELS, 8.0])
     f = LIMIT + SLOPE * h + EPSILON * np.array([*BESIDE, 0.0])
     return richardson(h, f, 1.0)[part]
 
 
 def _errors() -> list[float]:
-    """h² times e^(x ε), with x = (1, -2, 1) orthogonal to any line over log h."""
+    """Return h² e^(x ε), with x = (1, -2, 1) orthogonal to any line over log h."""
     return [h**2 * np.exp(EPSILON * x) for h, x in zip(LEVELS, (1, -2, 1), strict=True)]
 
 
@@ -130,13 +130,13 @@ def _reach() -> float:
 
 
 _EXAMPLES: tuple[tuple[str, str, Callable[[], float], float, Required], ...] = (
-    ("derived_tolerance", "what is allowed: U = 2 √(c² + s² + u_ref²), s² = 14 ε²", _allowed, U,
+    ("derived_tolerance", "tolerance U = 2 √(c² + s² + u_ref²), s² = 14 ε²", _allowed, U,
      TO_ROUNDING),
-    ("printed_tolerance", "what is allowed, as it is printed where a verdict fails",
+    ("printed_tolerance", "tolerance, as printed in the text of a failed verdict",
      _printed_tolerance, U, PRINTED),
-    ("printed_uncertainty", "uncertainty of the reference over the scale, as it is printed",
+    ("printed_uncertainty", "uncertainty of the reference over the scale, as printed",
      _printed_uncertainty, OF_REFERENCE / 2, PRINTED),
-    ("limit", "limit of four levels on a line, with ε beside it", partial(_limit, 0), LIMIT,
+    ("limit", "limit of four levels on a line, with the deviation ε", partial(_limit, 0), LIMIT,
      TO_ROUNDING),
     # The two finest levels alone have the limit a + 8 ε. Of the fit, s² = 14 ε²/2, times the
     # element of the inverse of [[Σ1/h², Σ1/h], [Σ1/h, 4]] = [[85/64, 15/8], [15/8, 4]].
@@ -144,7 +144,7 @@ _EXAMPLES: tuple[tuple[str, str, Callable[[], float], float, Required], ...] = (
      partial(_limit, 1), EPSILON * hypot(sqrt(7 * 256 / 115), 8), TO_ROUNDING),
     ("interval_of_the_order", "half-width of the order's 95 % interval: t √(6 ε² / 2 ln²2)",
      _order_interval, STUDENT * EPSILON * sqrt(3) / log(2), TO_ROUNDING),
-    ("margin_of_the_order", "how far below it the order may be at 95 %: t₁ √(6 ε² / 2 ln²2)",
+    ("margin_of_the_order", "one-sided 95 % margin of the order: t₁ √(6 ε² / 2 ln²2)",
      _order_margin, ONE_SIDED * EPSILON * sqrt(3) / log(2), TO_ROUNDING),
     ("interval_of_the_line", "half-width of the line's 95 % band in its middle: t √(6 ε² / 3)",
      _reach, STUDENT * EPSILON * sqrt(2), TO_ROUNDING),

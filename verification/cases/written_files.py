@@ -1,4 +1,4 @@
-"""What files say of a contact that is pressed beside its tip, pushed, twisted and pushed back."""
+"""Result files of an eccentric contact under tangential forces and a torque."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ COATED = pressed("Ball on a stiff coating", paper.paraboloid(STEEL), coated(film
 
 @dataclass(frozen=True, eq=False)
 class _Written:
-    """Rows of tables by their columns, and arrays, read without what writes or loads a run."""
+    """Rows of tables by column, and arrays, read without the reader and writer of the product."""
 
     increments: list[dict[str, str]]
     cycle: dict[str, str]
@@ -89,35 +89,38 @@ class _Written:
 
 
 def written_files(level: Level = Level.QUICK) -> Case:
-    """The case, the same at every level."""
+    """Build the case; equal at all levels."""
     return Case(
         name="written_files",
-        title="What files say",
-        problem="A ball is pressed beside its tip, pushed aside, twisted, and pushed to and fro, "
-        "so that loads and motions have two different components. Its files are read back: loads "
-        "are the sums of the tractions beside them, tables have the numbers of the fields, the "
-        "place of a maximum is where the field has it. Below a stiff coating the sides of the "
-        "interface are parts of what lies above and below it.",
+        title="Contents of result files",
+        problem="A ball with an eccentric force is loaded by tangential forces in two directions "
+        "and by a torque, so that loads and motions have two different components. The result "
+        "files are read back: loads are the sums of the tractions in the files, tables agree "
+        "with the fields, and the position of a maximum is that in the field. Below a stiff "
+        "coating the stress at the sides of the interface is bounded by that of the layer and "
+        "the base.",
         runs=(),
         quantities=(),
         checks=(
             _check(
-                "loads", "largest difference of force, push, torque and moments of the table from "
-                "the sums of the tractions, over the largest of each",
+                "loads", "largest difference of normal force, tangential force, torque and "
+                "moments in the table from the sums of the tractions, over the largest of each",
                 loads, 10 * SOLVER_TOLERANCE, "equilibrium, met to the tolerance of the solver",
             ),
             _check(
-                "columns", "largest difference of a column of the table from the data set of its "
-                "name, over its largest value", columns, 1e-15, "the same numbers, written twice",
+                "columns", "largest difference of a column of the table from the data set of "
+                "this name, over its largest value",
+                columns, 1e-15, "the same numbers, written twice",
             ),
             _check(
-                "place_of_f1", "distance of Ruiz's first parameter at the place that the table "
-                "names from its largest value", place_of_f1, 1e-12, "the same cell",
+                "place_of_f1", "relative difference of Ruiz's first parameter at the tabulated "
+                "position from its largest value", place_of_f1, 1e-12, "the same cell",
             ),
             _check(
-                "sides_of_an_interface", "by how much the largest stress on a side of the "
-                "interface exceeds that of the layer or base that it is part of",
-                sides_of_an_interface, 1e-12, "a part has no larger maximum than the whole",
+                "sides_of_an_interface", "largest excess of the stress on a side of the "
+                "interface over that of the adjacent layer or base",
+                sides_of_an_interface, 1e-12, "a maximum over a part is at most that over the "
+                "whole",
             ),
         ),
         equations=(
@@ -132,7 +135,7 @@ def _check(
     name: str, meaning: str, measure: Callable[[], float], allowed: float, because: str
 ) -> Check:
     return Check(
-        name, meaning, "", "files", measure, identity(0.0, "a law of what is written"),
+        name, meaning, "", "files", measure, identity(0.0, "consistency of the files"),
         Required(allowed, because), 1.0, "1",
     )  # fmt: skip
 
@@ -166,7 +169,8 @@ def _rows(path: Path) -> list[dict[str, str]]:
 
 
 def loads() -> float:
-    """In every increment."""
+    """Compute the largest difference of the loads from the sums of the tractions in any
+    increment."""
     found = _written()
     x, y = found.arrays["x"], found.arrays["y"]
     area = (x[1] - x[0]) * (y[1] - y[0])
@@ -187,7 +191,8 @@ def loads() -> float:
 
 
 def columns() -> float:
-    """Of all scalars that the fields have."""
+    """Compute the largest difference of a column from its data set, for all scalars of the
+    fields."""
     found = _written()
     there = [name for name in SCALARS if f"increments/{name}" in found.arrays]
     apart = []
@@ -205,7 +210,7 @@ def _apart(told: Field, stored: Field) -> float:
 
 
 def place_of_f1() -> float:
-    """At the cell nearest to the place."""
+    """Compute the relative difference of the value at the tabulated position from the maximum."""
     found = _written()
     field = found.arrays["last_cycle/ruiz_f1"]
     cell = tuple(
@@ -225,7 +230,10 @@ def _extremes() -> dict[tuple[str, str], Extreme]:
 
 
 def sides_of_an_interface() -> float:
-    """Of all measures, over the maximum of the whole; and at one depth, that of the layer."""
+    """Compute the largest excess of a maximum at an interface over that of its layer or base.
+
+    The depth of the interface is compared with the thickness of the layer as well.
+    """
     found, excess = _extremes(), [0.0]
     depth = COATED.body.layers[0].thickness
     for whole, side in (("layer 1", "above"), ("base", "below")):
