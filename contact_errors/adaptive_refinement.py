@@ -1,8 +1,9 @@
 """Requested accuracy: refine until stated errors meet it, or a limit on time or memory is reached.
 
-The first level determines the numbers that a request binds, and refuses a request beyond reach. A
-parameter is refined by (part / allowed)^(1/(0.6 p)), at most 4 times at once. Each part of an error
-is allowed an equal share of the request. Where a number has not converged the cells are doubled.
+The first level determines the numbers that the request applies to, and refuses a request that
+cannot be met. A parameter is refined by (part / allowed)^(1/(0.6 p)), at most 4 times per level.
+Each part of an error may use an equal share of the request. If a number has not converged the cells
+are doubled.
 """
 
 from __future__ import annotations
@@ -42,18 +43,19 @@ InContext: TypeAlias = Callable[[Any], AbstractContextManager[Any]]
 # Called after each level: its number, the requested and the reached errors.
 Estimated = Callable[[int, Mapping[str, float], Mapping[str, float | None]], None]
 
-# Errors have to be below 1/1.15 of the request: a stop at the first error below a bound selects
-# errors that are too small.
+# Errors must be below 1/1.15 of the request, because stopping at the first error below a limit
+# selects errors that are too small.
 SPARE = 1.15
-# Largest and smallest refinement of the cells at once, and that of a number not converged.
+# Largest and least refinement of the cells per level, and their refinement for a number not
+# converged.
 MAX_AT_ONCE, LEAST_AT_ONCE, UNCONVERGED = 4.0, 1.15, 2.0
 # Doublings of the cells of the first level until they resolve the contact.
 MAX_DOUBLINGS = 5
 MAX_ROUNDS = 7
-# The first level may overestimate an error by the first factor. Refinements beyond the second are
-# equally out of reach.
+# The first level may overestimate an error by the first factor. Refinements above the second one
+# cannot be computed.
 DOUBT, FURTHEST = 4.0, 1e4
-# Of the natural size of a number: a smaller number is a zero with round-off.
+# A number below this fraction of its natural size is zero with round-off.
 ROUND_OFF = 1e-7
 
 ABSENT = "the results of this scene by this solver do not have it"
@@ -84,27 +86,28 @@ class RefinementLevel:
     processor_seconds: float
 
     def largest(self, name: str) -> float:
-        """Largest size of a number in the history; 0 for an absent number."""
+        """Return the largest size of a number in the history; 0 for an absent number."""
         return float(np.max(largest_so_far(self.values)[-1].get(name, 0.0)))
 
     def errors(self, name: str) -> Iterator[StatedError]:
-        """Errors of a number at the ends of all steps that have it."""
+        """Return the errors of a number at the ends of all steps that have it."""
         return (step[name] for step in self.stated.steps if name in step)
 
     def reached(self, name: str) -> float | None:
-        """Largest error of a number relative to its largest size; None unless all converged."""
+        """Return the largest error of a number over its largest size; None if any has not
+        converged."""
         errors = list(self.errors(name))
         if any(e.error is None or e.status is ErrorStatus.NOT_CONVERGED for e in errors):
             return None
         return float(max(np.max(e.error or 0.0) for e in errors)) / self.largest(name)
 
     def meets(self, shares: Mapping[str, float]) -> bool:
-        """Whether all errors meet the request with the margin of `SPARE`."""
+        """Return true if all errors meet the request with the margin `SPARE`."""
         reached = {name: self.reached(name) for name in shares}
         return all(r is not None and SPARE * r <= shares[name] for name, r in reached.items())
 
     def needed(self, shares: Mapping[str, float], believed: float = BELIEVED) -> Refinement:
-        """Refinement of every parameter that meets a request.
+        """Determine the refinement of every parameter that meets a request.
 
         believed  fraction of the convergence orders: 1 for the most likely refinement
         """
@@ -173,7 +176,7 @@ class Levels:
         )
 
     def settings(self, fineness: Fineness) -> AccuracySettings:
-        """Discretisation for the summary."""
+        """Return the discretisation for the summary."""
         return AccuracySettings(
             increments=fineness.increments,
             tolerance=fineness.tolerance,
@@ -181,22 +184,22 @@ class Levels:
         )
 
     def too_large(self, fineness: Fineness) -> str | None:
-        """Reason why a level is beyond the solver or the memory; None for one that fits."""
+        """Return the reason if a level exceeds the solver's limits or the memory, else None."""
         ((name, size),) = self.solver.shown(fineness.space).items()
         shown = f"{name} = {size}"
         if np.max(size) > self.solver.most:
-            return f"a round with {shown} is beyond {self.solver.most:g}"
+            return f"a level with {shown} exceeds the limit {self.solver.most:g}"
         needed, available = self.solver.memory(fineness), available_bytes()
         if needed <= available:
             return None
         return (
-            f"a round with {shown} needs about {needed / 2**30:.1f} GiB; "
+            f"a level with {shown} needs about {needed / 2**30:.1f} GiB, and "
             f"{available / 2**30:.1f} GiB are available"
         )
 
 
 def bounded(by: Refinement, most: float = MAX_AT_ONCE) -> Refinement:
-    """Limit all refinement factors; some parameter is refined in any case."""
+    """Limit all refinement factors, and refine at least one parameter."""
     cells, increments = min(by.cells, most), min(by.increments, most)
     others = {part: min(factor, most**2) for part, factor in by.others.items()}
     if max(cells, increments) < LEAST_AT_ONCE and not others:
@@ -206,10 +209,10 @@ def bounded(by: Refinement, most: float = MAX_AT_ONCE) -> Refinement:
 
 @dataclass(frozen=True)
 class Targets:
-    """Numbers that a request binds.
+    """Numbers that a request applies to.
 
     shares    largest error of each number, relative to its largest value in the history
-    left_out  numbers that are not bound, with the reason
+    left_out  other numbers, with the reason
     """
 
     shares: Mapping[str, float]
@@ -228,12 +231,12 @@ class Refined:
 class Progress:
     """State of a refinement between two levels, sufficient to resume it.
 
-    targets  numbers that are bound
-    rounds   levels solved so far
-    spent    their seconds
+    targets  numbers that the request applies to
+    rounds   number of levels solved
+    spent    their time [s]
     last     discretisation of the last level
     next     discretisation of the next level
-    needed   expected seconds of the next level
+    needed   expected time of the next level [s]
     """
 
     targets: Targets
@@ -249,9 +252,9 @@ class Price:
     """Cost of one request.
 
     settings  discretisation of the last level
-    seconds   CPU time of the first and the last level
+    seconds   CPU time of the first and the last level [s]
     memory    of the last level [byte]
-    fits      whether so much memory is available
+    fits      true if the memory is available
     """
 
     settings: AccuracySettings
@@ -268,14 +271,16 @@ def refine(
     begun: Progress | None = None,
     between: Callable[[Progress], None] | None = None,
 ) -> Refined:
-    """Solve ever finer levels until a request is met.
+    """Solve finer and finer levels until a request is met.
 
-    most_seconds  no level is begun that would exceed the sum of the seconds
+    If a limit is reached, or the next level has no result, the last level is returned with the
+    reason. Raises AccuracyOutOfReach for a request that cannot be met, and the errors of the first
+    level.
+
+    most_seconds  limit of the total time; no level starts that is expected to exceed it
+    estimated     called with the errors of each level
     begun         state to resume from, as passed to `between`
-    between       called before each level but the first
-
-    If a limit is reached, or a finer level has no result, the last level is returned with the
-    reason. Raises AccuracyOutOfReach for a request beyond reach, and the errors of the first level.
+    between       called before each level except the first
     """
     state, level, stopped = begun, None, None
     if state is None:
@@ -316,14 +321,14 @@ def refine(
 def _compared(
     level: RefinementLevel, targets: Targets
 ) -> tuple[Mapping[str, float], Mapping[str, float | None]]:
-    """Requested errors, and those of a level."""
+    """Return the requested errors, and those of a level."""
     return targets.shares, {name: level.reached(name) for name in targets.shares}
 
 
 def _after(
     level: RefinementLevel, levels: Levels, targets: Targets, rounds: int, spent: float
 ) -> Progress:
-    """State after a level."""
+    """Return the state after a level."""
     finer = levels.solver.refined(level.fineness, bounded(level.needed(targets.shares)))
     shared = max(1.0, level.seconds / max(level.processor_seconds, 1e-3))
     works = levels.solver.work(level.fineness), levels.solver.work(finer)
@@ -345,15 +350,15 @@ def price(levels: Levels, first: RefinementLevel, request: AccuracyRequest) -> P
 
 
 def targets_of(request: AccuracyRequest, level: RefinementLevel, levels: Levels) -> Targets:
-    """Determine the numbers that a request binds, by a first result.
+    """Determine the numbers that a request applies to, by a first result.
 
     Raises AccuracyOutOfReach for a named number that is absent or infinite, and for a number that
-    the finest affordable cells will not meet.
+    the largest possible discretisation will not determine as requested.
     """
     left_out = {name: why for name in request.shares() if (why := _why_left_out(name, level))}
     for name in request.named:
         if name in left_out:
-            raise AccuracyOutOfReach(f"no accuracy of {name} can be had: {left_out[name]}")
+            raise AccuracyOutOfReach(f"{name} can have no requested accuracy: {left_out[name]}")
     shares = {name: share for name, share in request.shares().items() if name not in left_out}
     doubted = {name: DOUBT * share for name, share in shares.items()}
     needed = bounded(level.needed(doubted, believed=1.0), FURTHEST)
@@ -364,7 +369,7 @@ def targets_of(request: AccuracyRequest, level: RefinementLevel, levels: Levels)
 
 
 def _why_left_out(name: str, level: RefinementLevel) -> str:
-    """Empty for a number that is bound."""
+    """Return the reason why a number has no accuracy; empty if it has one."""
     if not any(name in step for step in level.stated.steps):
         return ABSENT
     if name == "peak_pressure" and any(features.infinite for features in level.run.features):
@@ -374,7 +379,7 @@ def _why_left_out(name: str, level: RefinementLevel) -> str:
 
 
 def _stopped(state: Progress, levels: Levels, most_seconds: float) -> str | None:
-    """Reason why the next level is not begun; None without one."""
+    """Return the reason if the refinement stops before the next level, else None."""
     if state.rounds == MAX_ROUNDS:
         return f"{state.rounds} rounds have not met it"
     if too_large := levels.too_large(state.next):

@@ -27,10 +27,11 @@ from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import SolverError
 from contact_scene.stepping.increment_error import with_error
 
-# Coarse solves: description, share of the cells along a side, and further cells. The edges of zones
-# lie differently within the cells of each.
+# Coarse solves: description, fraction of the cells along a side, and further cells. Each has the
+# edges of zones at other positions within the cells.
 SHARES = ("half the {} and two", 1 / 2, 2), ("two fifths of the {}", 2 / 5, 0)
-# A step with fewer increments is compared with many, as halves of few do not converge regularly.
+# A step with fewer increments is compared with finer histories, because halves of few increments do
+# not converge regularly.
 FEW, MANY = 4, (32, 8)
 LEAST_TOLERANCE = 1e-13
 
@@ -85,9 +86,9 @@ class CoarseSolve:
 
 @dataclass(frozen=True)
 class DiscretisedSolver(ABC):
-    """A solver of one scene.
+    """Solver of one scene with its discretisation parameters.
 
-    asked    parameters that are kept, and the coarsest values of the others
+    asked    parameters that are not changed, and the coarsest values of the others
     decided  plan of a result; None for that of the first level of refinement
     """
 
@@ -96,7 +97,7 @@ class DiscretisedSolver(ABC):
     decided: Any = None
 
     # Part of the error, name of the cells, their largest number along a side (over the radius, or
-    # multiple of the rings), and shares of them in coarse solves.
+    # multiple of the rings), and coarse solves.
     part: ClassVar[Part]
     cells: ClassVar[str]
     most: ClassVar[float]
@@ -127,58 +128,60 @@ class DiscretisedSolver(ABC):
 
     @abstractmethod
     def space_of(self, result: Any) -> Any:
-        """Grid, mesh or multiple of the rings of a result."""
+        """Return the grid, mesh or multiple of the rings of a result."""
 
     def fineness_of(self, result: Any) -> Fineness:
-        """Discretisation of a result."""
+        """Return the discretisation of a result."""
         return Fineness(self.space_of(result), result.plan.increments, result.tolerance)
 
     # ---- coarse solves
 
     @abstractmethod
     def coarser(self, result: Any, share: float, more: int) -> Any:
-        """Grid, mesh or rings with a share of the cells along a side, and more."""
+        """Return a grid, mesh or rings with a fraction of the cells along a side plus `more`
+        cells."""
 
     def of_mesh(self, base: Any, result: Any) -> Iterable[CoarseSolve]:
-        """Coarse solves in the other parameters of a mesh, from that of a first coarse solve."""
+        """Return coarse solves in the other parameters of a mesh; `base` is that of a coarse
+        solve."""
         return ()
 
     def few(self, base: Any, result: Any) -> Any:
-        """Grid, mesh or rings of the solves that compare increments."""
+        """Return the grid, mesh or rings of the solves that compare increments."""
         return base
 
     @abstractmethod
     def sides(self, result: Any) -> tuple[float, ...]:
-        """Sides of a cell."""
+        """Return the sides of a cell."""
 
     @abstractmethod
     def shown(self, space: Any) -> Mapping[str, Any]:
-        """Discretisation for the record."""
+        """Return the discretisation for the record."""
 
     @abstractmethod
     def features(self, result: Any) -> Sequence[Features]:
-        """Resolution at the end of each step."""
+        """Return the resolution at the end of each step."""
 
     def residuals(self, result: Any) -> Sequence[float]:
-        """Bound of the residuals of each step."""
+        """Return limits of the residuals of each step."""
         return [result.tolerance] * len(result.steps)
 
     def neglected(self, result: Any) -> Mapping[str, float]:
-        """Relative errors of numbers by effects that the solver neglects."""
+        """Return relative errors of numbers by effects that the solver neglects."""
         return {}
 
     # ---- refinement
 
     @abstractmethod
     def first(self) -> Any:
-        """Grid, mesh or rings of the coarsest level."""
+        """Return the grid, mesh or rings of the coarsest level."""
 
     @abstractmethod
     def finer(self, space: Any, by: Refinement) -> Any:
-        """Grid, mesh or rings refined by at least these factors."""
+        """Return the grid, mesh or rings, refined by at least these factors."""
 
     def refined(self, fineness: Fineness, by: Refinement) -> Fineness:
-        """Discretisation refined by at least these factors.
+        """Return the discretisation, refined by at least these factors.
 
         Steps without an increment error keep their increments.
         """
@@ -194,11 +197,11 @@ class DiscretisedSolver(ABC):
 
     @abstractmethod
     def work(self, fineness: Fineness) -> Work:
-        """Size of a solve."""
+        """Return the size of a solve."""
 
     @abstractmethod
     def memory(self, fineness: Fineness) -> int:
-        """Largest memory of a solve [byte]."""
+        """Estimate the largest memory of a solve [byte]."""
 
 
 def solved_run(
@@ -207,14 +210,14 @@ def solved_run(
     """Make the coarse solves of a result, each once.
 
     The first coarse solve has the increments of the run. The increments are then changed on its
-    cells, or on few cells where that takes less time. All further coarse solves have the fewest
+    cells, or on a coarser grid if this takes less time. All further coarse solves have the fewest
     increments, and the effect of the increments on the numbers is added.
     """
     run, made = solver.fineness_of(result), list[CoarseSolveRecord]()
     known: dict[Fineness, Any] = {run: result}
 
     def solved(differs: str, coarse: Fineness) -> Any:
-        """Result of a coarse solve; None for a refused one."""
+        """Return the result of a coarse solve; None for a refused one."""
         if coarse not in known:
             shown, increments = solver.shown(coarse.space), coarse.increments
             record = CoarseSolveRecord(differs=differs, increments=increments, **shown)
@@ -277,7 +280,8 @@ def solved_run(
 
 
 def added(found: Sequence[Values], effect: Effect) -> Sequence[Values]:
-    """Add the effect of increments, the numbers with many and with few of them."""
+    """Add the effect of increments: the difference of the numbers with many and with few of
+    them."""
     return (
         found
         if not effect
@@ -291,7 +295,7 @@ def added(found: Sequence[Values], effect: Effect) -> Sequence[Values]:
 def _for_increments(
     solver: DiscretisedSolver, run: Fineness, space: Any, result: Any, others: Sequence[Any]
 ) -> Any:
-    """Cells of the first coarse solve, or few cells if all solves on them take less time."""
+    """Return the cells of the first coarse solve, or fewer if all solves then take less time."""
     few = solver.few(space, result)
     unit = solver.work(run)
 
@@ -303,7 +307,7 @@ def _for_increments(
 
 
 def at_ends(result: Any, resolved: Callable[[Any], Features]) -> Sequence[Features]:
-    """Resolution at the end of each step; without contact that of the preceding step."""
+    """Return the resolution at the end of each step; without contact that of the previous step."""
     found: list[Features] = []
     for end in result.steps:
         found.append(resolved(end) if end.contact_area else found[-1])
@@ -311,7 +315,8 @@ def at_ends(result: Any, resolved: Callable[[Any], Features]) -> Sequence[Featur
 
 
 def slip_zone(end: Any, per_length: float) -> tuple[float | None, float | None]:
-    """Stick zone and width of the slip zone of a contact of revolution, in cells."""
+    """Return the stick radius and the width of the slip annulus of a contact of revolution, in
+    cells."""
     if end.stick_radius is None:
         return None, None
     slips = end.status is not ContactStatus.FULL_STICK
@@ -320,7 +325,7 @@ def slip_zone(end: Any, per_length: float) -> tuple[float | None, float | None]:
 
 
 def _spent(found: Any) -> Mapping[str, int]:
-    """Work of a solve."""
+    """Return the work of a solve."""
     names = ("iterations", "convolutions")
     return {
         name: sum(getattr(increment, name) for increment in found.increments)
@@ -330,7 +335,7 @@ def _spent(found: Any) -> Mapping[str, int]:
 
 
 def recounted(counts: Sequence[int], matters: Sequence[bool]) -> list[tuple[int, ...]]:
-    """Return the increments of the two coarse solves; steps without increment error keep theirs."""
+    """Return the increments of two coarse solves; steps without increment error keep theirs."""
     both = [
         _pair(count) if matter else (count, count)
         for count, matter in zip(counts, matters, strict=True)
@@ -341,10 +346,10 @@ def recounted(counts: Sequence[int], matters: Sequence[bool]) -> list[tuple[int,
 def ratios(
     counts: Sequence[int], others: Sequence[int], matters: Sequence[bool]
 ) -> tuple[float, ...]:
-    """Coarsening factor of the increments at the end of each step.
+    """Return the coarsening factor of the increments at the end of each step.
 
-    A step that inherits a state takes the factor nearest to 1 among the steps so far. The factor
-    is 1 where no step so far has an increment error.
+    A step that depends on the history has the factor nearest to 1 of the steps so far. The factor
+    is 1 if no step so far has an increment error.
     """
     found, nearest = [], 1.0
     for count, other, matter in zip(counts, others, matters, strict=True):

@@ -2,13 +2,14 @@
 
     t = t₀ w/w₀ ((u + o)/(u₀ + o))^1.1
 
-u unknowns and w repetitions of a solve take t; u₀ and w₀ take t₀, which is measured then and there.
-The exponent is 1 for the transforms of the fields, and 0.1 because iterations double with 1000
-times the cells. Of few unknowns a solve takes as long as of o, the overhead of each operation.
+A solve with u unknowns and w repetitions takes the time t. The time t₀ of the coarse solve (u₀, w₀)
+is measured. The exponent is 1 for the transforms of the fields, plus 0.1 because the number of
+iterations doubles with 1000 times the cells. The overhead of each operation is equal to the work of
+o unknowns.
 
-The error estimate of a run adds two solves, with 1/4 and 4/25 of its unknowns, and solves that
-judge the increments. The latter have few cells in the run and in the coarse solve alike, so that
-they take as long as in the error estimate of the coarse solve, in proportion to the repetitions.
+The error estimate of a run adds two solves, with 1/4 and 4/25 of its unknowns, and solves for the
+increment error. The latter have equally few cells in the run and in the coarse solve, so their time
+is proportional to the repetitions.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ EXPONENT = 1.1
 # Unknowns whose work equals the overhead of an operation. The scenes of `tests/cost_record.json`
 # fit 9000 to 27 000 on cells, and 600 to 2900 by elements.
 CELL_OVERHEAD, ELEMENT_OVERHEAD = 128.0**2, 32.0**2
-# Factorisations take as long as so many increments of a history by elements.
+# Factorisations of a history by elements take as long as this number of increments.
 SET_UP_INCREMENTS = 50
 # Shares of the cells along a side in the two coarse solves of an error estimate.
 COARSE = 1 / 2, 2 / 5
@@ -51,12 +52,15 @@ class Work:
 
 
 def work_on_cells(cells: tuple[int, int], increments: Sequence[int], shear: bool) -> Work:
-    """Determine the size of a solve on cells; `shear`: tractions have three components, not one."""
+    """Determine the size of a solve on cells.
+
+    shear  true for three components of traction, false for one
+    """
     return Work(cells[0] * cells[1] * (3 if shear else 1), sum(increments), CELL_OVERHEAD)
 
 
 def work_on_elements(per_radius: int, increments: Sequence[int], harmonics: int) -> Work:
-    """Determine the size of a solve by elements with so many angular harmonics."""
+    """Determine the size of a solve by elements with a number of angular harmonics."""
     repetitions = harmonics * (SET_UP_INCREMENTS + sum(increments))
     return Work(per_radius**2, repetitions, ELEMENT_OVERHEAD)
 
@@ -89,13 +93,13 @@ def estimated_run_seconds(solved: float, judged: float, coarse: Work, run: Work)
 
 
 def coarse_increments(increments: Sequence[int]) -> tuple[int, ...]:
-    """Reduce the increments of all load steps alike to the limit of the coarse solve."""
+    """Reduce the increments of all load steps by one factor to the limit of the coarse solve."""
     share = min(1.0, MAX_INCREMENTS / sum(increments))
     return tuple(ceil(share * count) for count in increments)
 
 
 def cpu_seconds(call: Callable[[], T]) -> tuple[T, float]:
-    """Measure the CPU time of a call that finds no array in the cache; return its result, too."""
+    """Measure the CPU time of a call without the disk cache, and return its result and time [s]."""
     with without_cache():
         began = time.process_time()
         result = call()

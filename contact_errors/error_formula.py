@@ -47,10 +47,10 @@ SMOOTH, EDGE, ROOT = 2.0, 1.0, 0.5
 ORDERS: Mapping[str, float] = MappingProxyType(
     {"increments": 1.0, "section": 2.0, "penalty": 1.0, "harmonics": 2.0, "tolerance": 1.0}
 )
-# Residuals of the tolerance leave errors of about ten times as much. The last change of the edge
-# correction leaves at most as much, as its iterations at least halve an error.
+# An error is about ten times the residuals that cause it. The error after the last iteration of the
+# edge correction is at most its last change, as each iteration at least halves the error.
 PER_TOLERANCE, PER_ITERATION = 10.0, 1.0
-# A larger sum of parts over the number is no error estimate.
+# Largest sum of parts over the number for an error estimate.
 LARGEST_SHARE = 0.5
 
 # Smallest features in cells. Elements and rings count twice: their shape functions are linear.
@@ -60,7 +60,7 @@ LIMITS: Mapping[str, float] = MappingProxyType(
 
 CONTACT_EDGE = frozenset({"contact_radius", "contact_area"})
 STICK_EDGE = frozenset({"stick_radius", "stick_area", "stick_centre"})
-# Largest values in cells that the edge cuts anywhere.
+# Largest values in cells, which the edge divides at any position.
 AT_EDGES, PEAK = frozenset({"slip_amplitude", "ruiz_f1", "ruiz_f2"}), "peak_pressure"
 OF_SLIP = frozenset(
     {
@@ -78,17 +78,16 @@ class Features:
     layer     thinnest layer
     wave      mean wavelength of a height map
     stick     smaller semi-axis of the stick zone
-    annulus   width of the slip zone around it; 0 if slip of all cells may hide a stick zone
-    fitted    whether the edge of the contact is fitted within the cells
-    stick_fitted
-              the same of the edge of the stick zone
-    sharp     whether the indenter has a rim or a tip, below which all numbers converge with the
-              first order
-    infinite  whether the exact peak pressure is infinite
-    cusp      whether the pressure has a cusp: friction acts back on it, or the gap grows with a
+    annulus   width of the slip zone around it; 0 if a contact with slip in all cells may have a
+              stick zone
+    fitted    true if the edge of the contact is fitted within the cells stick_fitted true if the
+              edge of the stick zone is fitted within the cells
+    sharp     true for an indenter with a rim or a tip; all numbers then have the order 1
+    infinite  true if the exact peak pressure is infinite
+    cusp      true if the pressure has a cusp, because shear changes the pressure or the gap is a
               power between 1 and 2
-    ridge     whether the largest pressure is nearer to the edge of the contact than to its middle
-    slides    whether all of the contact certainly slips
+    ridge     true if the largest pressure is nearer to the edge of the contact than to its middle
+    slides    true if all of the contact certainly slips
     changes   relative changes of numbers in the last iteration of the edge correction
     """
 
@@ -107,7 +106,7 @@ class Features:
     changes: Mapping[str, float] = field(default_factory=dict)
 
     def order(self, name: str) -> float:
-        """Convergence order of a number in the size of a cell."""
+        """Return the convergence order of a number in the size of a cell."""
         if self.sharp:
             return EDGE
         if name in AT_EDGES or (name == PEAK and self.cusp):
@@ -121,7 +120,7 @@ class Features:
         return EDGE if first else SMOOTH
 
     def resolve(self, name: str) -> bool:
-        """Whether the cells resolve the features on which a number depends."""
+        """Return true if the cells resolve the features on which a number depends."""
         sizes = {"contact": self.contact, "layer": self.layer, "wave": self.wave}
         if name in STICK_EDGE:
             sizes["stick"] = self.stick
@@ -133,12 +132,12 @@ class Features:
 
 
 def is_singular(indenter: ShapedBody) -> bool:
-    """Whether the exact pressure is infinite below a rim or a tip."""
+    """Return true if the exact pressure is infinite below a rim or a tip."""
     return indenter.rim is not None or indenter.gap_exponent == 1
 
 
 def has_cusp(indenter: ShapedBody) -> bool:
-    """Whether the pressure of a smooth contact has a cusp at the point of first touch."""
+    """Return true if the pressure of a smooth contact has a cusp at the point of first contact."""
     return indenter.gap_exponent is not None and 1 < indenter.gap_exponent < 2
 
 
@@ -146,8 +145,8 @@ def has_cusp(indenter: ShapedBody) -> bool:
 class Comparison:
     """Two solves that differ in one discretisation parameter.
 
-    part    of the error that the parameter contributes to
-    ratios  coarsening factor of the parameter at the end of each step; 1 without an effect
+    part    of the error, to which the parameter contributes
+    ratios  coarsening factor of the parameter at the end of each step; 1 for no effect
     """
 
     part: Part
@@ -156,8 +155,10 @@ class Comparison:
     ratios: Sequence[float]
 
     def part_of(self, step: int, name: str, order: float) -> Numbers | None:
-        """Part of the error of a number at the end of a step, from 0; None without one.
+        """Return one part of the error of a number at the end of a step; None if the solves have
+        none.
 
+        step   from 0
         order  of the number in the cells
         """
         here, there = self.base[step].get(name), self.coarse[step].get(name)
@@ -187,7 +188,7 @@ class SolvedRun:
     neglected: Mapping[str, float]
 
     def errors(self) -> Iterator[Mapping[str, StatedError]]:
-        """Stated errors at the end of each step."""
+        """Yield the stated errors at the end of each step."""
         before: dict[str, dict[Part, Numbers]] = {}
         for step, ramp in enumerate(self.scene.load_path()):
             exact = prescribed(ramp, self.scene.rig)
@@ -197,7 +198,7 @@ class SolvedRun:
             }
 
     def _error(self, step: int, name: str, before: dict[str, dict[Part, Numbers]]) -> StatedError:
-        """Error of a number; `before` has its parts at earlier steps."""
+        """Return the error of a number; `before` has its parts at earlier steps."""
         features, value = self.features[step], self.values[step][name]
         apart = not np.any(self.values[step]["contact_area"])
         if not np.any(value) and (apart or name in STICK_EDGE):
@@ -225,11 +226,11 @@ class SolvedRun:
         return near_gross_slip(self.scene)
 
     def order(self, name: str) -> float:
-        """Smallest convergence order of a number in the cells."""
+        """Return the smallest convergence order of a number in the cells."""
         return min(features.order(name) for features in self.features)
 
     def _parts(self, step: int, name: str, largest: Numbers) -> dict[Part, Numbers] | None:
-        """Parts of the error of a number; None where one is unknown."""
+        """Return the parts of the error of a number; None if one is unknown."""
         features = self.features[step]
         if name == PEAK and features.infinite:
             return None
@@ -250,7 +251,7 @@ class SolvedRun:
 
 
 def largest_so_far(values: Sequence[Values]) -> tuple[Values, ...]:
-    """Largest size of each number in the history up to each step, one for a whole vector."""
+    """Return the largest size of each number in the history up to each step, one per vector."""
     seen: dict[str, Numbers] = {}
     found = []
     for step in values:
@@ -262,7 +263,7 @@ def largest_so_far(values: Sequence[Values]) -> tuple[Values, ...]:
 
 
 def stated(parts: Mapping[Part, Numbers], converged: bool) -> StatedError:
-    """Sum of the parts."""
+    """Return an error as the sum of its parts."""
     status = ErrorStatus.ESTIMATED if converged else ErrorStatus.NOT_CONVERGED
     total = np.sum(list(parts.values()), axis=0)
     amounts = {part: _amount(size, len(total)) for part, size in parts.items()}

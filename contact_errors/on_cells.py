@@ -35,26 +35,26 @@ from semi_analytical.plan import Coupling
 from semi_analytical.resolution import resolution
 from semi_analytical.solve import solve_within
 
-# Cells over the contact radius of the solves that estimate the increment error. The effect of
-# increments on 24² and on 64² cells differs by at most 7 %.
+# Cells over the contact radius in the solves for the increment error. The effect of increments on
+# 24² and on 64² cells differs by at most 7 %.
 PER_RADIUS = 11
-# Largest height of a random surface in root mean squares: one place in a thousand exceeds it.
+# Largest height of a random surface over its root mean square, exceeded at 0.1 % of the positions.
 HIGHEST = 3.0
-# Cells along the shorter side of the first level; eleven per radius on a fitted window.
+# Cells along the shorter side of the first level: 11 per radius on a fitted window.
 FIRST_CELLS = 24
-# Error of the shear by increments on the first level.
+# Increment error of the shear on the first level.
 FIRST_PATH_ACCURACY = 4e-2
 MAX_CELLS = 16384
-# Enlargement of a fitted window, on as many more cells, where the contact reaches its edge.
+# Enlargement of a fitted window with equal cells, if the contact reaches its edge.
 ROOM, MAX_ENLARGEMENTS = 1.25, 5
 
 
 @dataclass(frozen=True)
 class CellSolver(DiscretisedSolver):
-    """The semi-analytical solver; a space is a grid.
+    """Semi-analytical solver. Its discretisation in space is a grid.
 
     asked   window if given, ratio of the cells along the sides, largest tolerance
-    stress  whether the stress in the body is computed as well
+    stress  true if the stress in the body is computed as well
     """
 
     asked: SurfaceDiscretisation
@@ -71,13 +71,13 @@ class CellSolver(DiscretisedSolver):
 
     @property
     def plan(self) -> Plan:
-        """Effects, and at least the increments that the scene names."""
+        """Effects, and at least the increments that the scene prescribes."""
         return self.decided or semi_analytical.plan(
             self.scene, FIRST_PATH_ACCURACY, self.asked.edge
         )
 
     def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Result:
-        """Solve on a larger window of equal cells where a fitted window is too small."""
+        """Solve on a larger window with equal cells if a fitted window is too small."""
         grids, plan = [fineness.space], self.plan.cut_into(fineness.increments)
         fixed = self.asked.window is not None or self.scene.indenter.extent is not None
         for _ in range(0 if fixed else MAX_ENLARGEMENTS):
@@ -156,22 +156,22 @@ class CellSolver(DiscretisedSolver):
 
 
 def _changes(report: EdgeReport) -> Mapping[str, float]:
-    """Relative changes of numbers in the last iteration of the edge correction."""
+    """Return relative changes of numbers in the last iteration of the edge correction."""
     motions = dict.fromkeys(("approach", "normal_force", "tilt", "moment"), report.response)
     radii = {"contact_radius": report.radius, "contact_area": 2 * report.radius}
     return {**motions, **radii, PEAK: report.peak}
 
 
 def _to_edge(end: Increment) -> float:
-    """Distance of the largest pressure from the edge of the contact, in cells."""
+    """Return the distance of the largest pressure from the edge of the contact, in cells."""
     place = np.unravel_index(np.argmax(end.pressure), end.pressure.shape)
     return float(distance_transform_edt(end.in_contact)[place])
 
 
 def _may_hide_stick(end: Increment) -> bool:
-    """Whether cells that all slip may hide a stick zone smaller than a cell.
+    """Return true if a contact with slip in all cells may have a stick zone smaller than a cell.
 
-    The least slip of a cell is then no more than its differences from the adjacent cells.
+    The least slip of a cell is then not larger than its differences from the adjacent cells.
     """
     slip = np.hypot(*np.asarray(end.slip_increment)) * end.in_contact
     i, j = np.unravel_index(np.argmin(np.where(end.in_contact, slip, np.inf)), slip.shape)
@@ -180,15 +180,15 @@ def _may_hide_stick(end: Increment) -> bool:
 
 
 def _part(cells: tuple[int, int], share: float, more: int = 0) -> tuple[int, int]:
-    """A share of the cells along each side, rounded up to an even number, and more."""
+    """Return a fraction of the cells along each side, rounded up to an even number, plus `more`."""
     nx, ny = (2 * ceil(share * n / 2) + more for n in cells)
     return nx, ny
 
 
 def scaled(cells: tuple[int, int], factor: float) -> tuple[int, int]:
-    """Cells along each side: smallest even numbers from a multiple on with no prime factor above 5.
+    """Return a multiple of the cells, increased to even numbers without prime factors above 5.
 
-    Fourier transforms of their multiples are fast.
+    Fourier transforms of these numbers are fast.
     """
     nx, ny = (2 * next_fast_len(ceil(round(factor * n, 6) / 2), real=True) for n in cells)
     return nx, ny

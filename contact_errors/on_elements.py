@@ -1,5 +1,7 @@
-"""The finite elements for error estimates and refinement: elements, increments, section, overlap,
-harmonics."""
+"""Finite element solver for error estimates and refinement.
+
+Parameters: elements, increments, section, overlap, harmonics.
+"""
 
 from __future__ import annotations
 
@@ -32,10 +34,10 @@ from fem_reference import Increment, Method, Path, Plan, Result
 from fem_reference.expected_radius import sections_of
 from fem_reference.memory import largest_bytes
 
-# Friction acts back on the pressure, which has a cusp on the axis.
+# With friction acting on the pressure, the pressure has a cusp on the axis.
 CUSPED = (Path.PRESSING_WITH_FRICTION, Path.HARMONICS)
 FEWEST_ELEMENTS, SMALLEST_BOX, FEWEST_HARMONICS, LARGEST_OVERLAP = 4, 5.0, 2, 1.0
-LINEAR = 2.0  # linear elements resolve a feature like twice as many cells
+LINEAR = 2.0  # linear elements resolve a feature as twice their number of cells do
 FIRST_ELEMENTS, MAX_ELEMENTS, MAX_HARMONICS = 8, 512, 64
 LEAST_OVERLAP, LARGEST_BOX = 1e-8, 1e6
 
@@ -45,9 +47,9 @@ ACROSS = ("tangential_shift", "tangential_force", "stick_radius", "stick_area",
 
 @dataclass(frozen=True)
 class ElementSolver(DiscretisedSolver):
-    """The finite elements; a space is a mesh.
+    """Finite element solver. Its discretisation in space is a mesh.
 
-    method  law of contact and friction
+    method  for the contact and friction laws
     """
 
     asked: FiniteElementDiscretisation
@@ -67,7 +69,7 @@ class ElementSolver(DiscretisedSolver):
         return self.decided or fem_reference.plan(self.scene)
 
     def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Result:
-        """Solve, with more overlap where coarse elements leave more than the run may."""
+        """Solve the scene, with a larger overlap if coarse elements exceed that of the run."""
         scene = self.scene.with_increments(fineness.increments)
         mesh = _with(fineness.space, tolerance=fineness.tolerance)
         try:
@@ -128,11 +130,12 @@ class ElementSolver(DiscretisedSolver):
         )
 
     def neglected(self, result: Result) -> Mapping[str, float]:
-        """Slip across the load, which the path with shear along the load neglects.
+        """Return errors by slip across the load, which the path with shear along the load neglects.
 
         In Mindlin's solution the slip is inclined to the load by at most α = ν/(4 - 2ν) (Johnson
-        1985, section 7.2). Shear of that inclination carries 1 - α²/2 of the load. Layers respond
-        differently along and across a wave for any ν: the largest α counts, that of ν = ½.
+        1985, section 7.2). Shear of this inclination carries 1 - α²/2 of the load. Layers respond
+        differently along and across a wave for any ν, so the largest α, that of ν = ½, applies to
+        them.
         """
         if result.plan.path is not Path.SHEARING:
             return {}
@@ -178,6 +181,6 @@ def _with(mesh: FiniteElementDiscretisation, **update: object) -> FiniteElementD
 
 
 def _peak_radius(end: Increment) -> float:
-    """Radius of the largest pressure [length]."""
+    """Return the radius of the largest pressure [length]."""
     largest = end.pressure.reshape(len(end.radii), -1).max(axis=1)
     return float(end.radii[np.argmax(largest)])

@@ -26,15 +26,17 @@ from contact_scene.quantities.summary import ContactStatus
 from radial import Increment, Plan, Result
 from radial.memory import estimated_bytes
 
-# Of double precision, with what rotations of a few hundred rows lose.
+# Of double precision, with round-off of a few hundred rows.
 PRECISION = 1e-13
-LINEAR = 2.0  # values linear between rings resolve a feature like twice as many cells
+# linear interpolation between rings resolves a feature as twice the number of cells does
+LINEAR = 2.0
 FIRST_FINENESS, MAX_FINENESS = 0.5, 4.0
 
 
 @dataclass(frozen=True)
 class RingSolver(DiscretisedSolver):
-    """The radial solver; a space is a multiple of its rings, or of its orders and points."""
+    """Radial solver. Its discretisation in space is a multiple of its rings, or orders and
+    points."""
 
     asked: RadialDiscretisation
     decided: Plan | None = None
@@ -42,7 +44,7 @@ class RingSolver(DiscretisedSolver):
     part: ClassVar[Part] = "quadrature"
     cells: ClassVar[str] = "rings"
     most: ClassVar[float] = MAX_FINENESS
-    # Where half of the rings are refused, two thirds may succeed.
+    # If half of the rings are too few to solve, two thirds may suffice.
     shares: ClassVar[Sequence[tuple[str, float, int]]] = (
         ("half the {}", 1 / 2, 0),
         ("two thirds of the {}", 2 / 3, 0),
@@ -59,7 +61,7 @@ class RingSolver(DiscretisedSolver):
 
     @property
     def counted(self) -> bool:
-        """Whether numbers depend on rings. Without friction they depend on orders and points."""
+        """True if numbers depend on rings; without friction they depend on orders and points."""
         return self.plan.coupled or self.plan.circle is not None
 
     def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Result:
@@ -71,7 +73,7 @@ class RingSolver(DiscretisedSolver):
         return result.plan.fineness
 
     def coarser(self, result: Result, share: float, more: int) -> float:
-        """Without friction numbers depend on orders and points, which are doubled."""
+        """Return the fraction of the rings, or twice the orders and points without friction."""
         return result.plan.fineness * (share if self.counted else 2.0)
 
     def sides(self, result: Result) -> tuple[float, ...]:
@@ -87,7 +89,7 @@ class RingSolver(DiscretisedSolver):
         return at_ends(result, lambda end: self._resolved(result, end))
 
     def _resolved(self, result: Result, end: Increment) -> Features:
-        """The contact in widest rings, its zones in mean rings."""
+        """Return the contact in widest rings and its zones in mean rings."""
         indenter, plan = self.scene.indenter, result.plan
         within = end.radii[end.radii <= end.contact_radius]
         widest = float(np.max(np.diff([0.0, *within, end.contact_radius])))

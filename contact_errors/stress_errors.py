@@ -1,18 +1,18 @@
 """Errors of the largest stresses, from two sets of coarse tractions.
 
-Cells are twice as wide, in two positions; elements are twice as wide, with all rings and with every
-second one. Each stress of a region has up to two places where it may be largest: inside, and at the
-surface next to the edge of the contact. The error of the largest stress found is
+Coarse cells are twice as wide, in two positions. Coarse elements are twice as wide, with all rings
+and with every second one. Each stress of a region has up to two places where it may be largest:
+inside, and at the surface adjacent to the edge of the contact. The error of the largest stress is
 
     max over these places (value + its error) - largest stress found
 
-Inside the stress converges with order 2, and twice the excess of a parabola through three depth
-levels is added for a largest value between levels. Next to a fitted edge the stress converges with
-order 1, next to another edge with order ½. Half a cell inside the edge of tractions that end in a
-square root, the tensile stress lacks m^-½ of its value on m cells per contact radius. On a fitted
-edge the error is also that of another fit. An edge that is not fitted and may have the largest
-stress leaves the stress not converged. The von Mises stress is not largest at an edge without
-shear, and has no such place unless it is found there.
+Inside the body the stress has the order 2. Twice the excess of a parabola through three depth
+levels is added for a largest value between levels. Adjacent to a fitted edge the stress has the
+order 1, adjacent to another edge the order ½. Half a cell inside the edge of tractions that end in
+a square root, the tensile stress is too small by m^-½ of its value on m cells per contact radius.
+At a fitted edge the error is at least that of another fit. If an edge that is not fitted may have
+the largest stress, the stress has not converged. The von Mises stress is not largest at an edge
+without shear, and is only compared there if it is found there.
 """
 
 from __future__ import annotations
@@ -56,12 +56,12 @@ from contact_scene.solver_errors import UnsupportedScene
 Field = NDArray[np.float64]
 Key = tuple[str, str]
 
-# Regions that the edge of the contact belongs to.
+# Regions that contain the edge of the contact.
 AT_SURFACE = "body", "layer 1", SURFACE
-# Cells from the surface within which a stress depends on the edge of the tractions.
+# Depth in cells up to which a stress depends on the edge of the tractions.
 NEAR = 2.0
 COARSE = 2.0  # coarsening factor of the tractions
-# Of double precision, with the cancellation in sums of a few hundred waves.
+# Of double precision, with cancellation in sums of a few hundred waves.
 PRECISION = 1e-13
 
 
@@ -70,9 +70,9 @@ def largest_stresses(
 ) -> Mapping[str, tuple[float, StatedError | None]]:
     """Compute largest stresses of the body at the end of a load step, the last if absent.
 
-    Returns values [force/length^2] and errors; nothing for a rigid body.
+    Returns values [force/length^2] and errors; empty for a rigid body.
 
-    errors  of the result; None where they were left out
+    errors  of the result; None without error estimates
     names   MEASURE@REGION; an interface by its number, for the side with the larger value
     """
     state = state_of_result(result, step, errors)  # type: ignore[arg-type]
@@ -121,7 +121,7 @@ def stress_at(
 
 
 def _field(state: LoadedBodies, *, indenter: bool = False, depths: Any = None) -> StressField:
-    """Stress below tractions on cells, on rings, or of a disc."""
+    """Return the stress below tractions on cells, on rings, or of a disc."""
     if state.pressed is not None:
         return stress_on_disc(state, indenter=indenter, depths=depths)
     if state.on_rings:
@@ -130,7 +130,7 @@ def _field(state: LoadedBodies, *, indenter: bool = False, depths: Any = None) -
 
 
 def _is_fitted(field: StressField) -> bool:
-    """Whether the edge of the contact is fitted within the cells or elements."""
+    """Return true if the edge of the contact is fitted within the cells or elements."""
     edge = field.edge
     return bool(field.how.get("edges")) if edge is None else edge.determined
 
@@ -138,10 +138,10 @@ def _is_fitted(field: StressField) -> bool:
 def stress_errors(
     state: LoadedBodies, field: StressField, found: Sequence[Extreme], *, indenter: bool = False
 ) -> tuple[StatedError, ...]:
-    """Estimate the errors of the largest stresses that were found in a field.
+    """Estimate the errors of the largest stresses found in a field.
 
-    The error of the tractions counts as far as increments cause it; cells cause far less than
-    their coarse representation does in the stress.
+    The error of the tractions enters only with its part by increments. The part by cells is far
+    smaller than the effect of coarse tractions on the stress.
     """
     if state.pressed is not None:
         return _on_disc(state, found, indenter)
@@ -185,7 +185,8 @@ def stress_errors(
 
 
 def _places(field: StressField, body: Body, near: float) -> Mapping[bool, Mapping[Key, float]]:
-    """Largest stresses by region and measure: at the surface, with the edge, and below."""
+    """Return the largest stresses by region and measure: at the surface, with the edge, and
+    below."""
     shallow, found = field.points.depth < near, {}
     for at_edge, chosen in ((True, shallow), (False, ~shallow)):
         points, edge = field.points.chosen(chosen), field.edge if at_edge else None
@@ -197,10 +198,10 @@ def _places(field: StressField, body: Body, near: float) -> Mapping[bool, Mappin
 
 
 def _between_levels(points: StressPoints, values: Field, extreme: Extreme) -> float:
-    """Twice the excess of the parabola through the largest values on three depth levels.
+    """Return twice the excess of the parabola through the largest values on three depth levels.
 
-    Twice, as a parabola omits terms of third order in the distance of the levels. 0 on an interface
-    and at the end of a material.
+    A parabola omits terms of third order, hence twice. Return 0 on an interface and at the end of a
+    material.
 
     values  of the measure at the points (…)
     """
@@ -223,13 +224,13 @@ def _growth(order: float) -> float:
 
 
 def _side(state: LoadedBodies) -> float:
-    """Side of a cell along x, or of a ring [length]."""
+    """Return the side of a cell along x, or of a ring [length]."""
     places = next(iter(state.axes.values()))
     return float(places[-1] - places[0]) / (len(places) - 1)
 
 
 def on_wide_cells(state: LoadedBodies, shift: int = 0) -> LoadedBodies:
-    """Return equal forces on cells twice as wide, whose tractions are the means of four.
+    """Return equal forces on cells twice as wide, as means of the tractions of four cells.
 
     shift  number of empty cells, 0 or 1, before the first pair along each side
     """
@@ -248,11 +249,11 @@ def on_wide_cells(state: LoadedBodies, shift: int = 0) -> LoadedBodies:
 
 
 def on_half_the_elements(state: LoadedBodies, every: int = 1) -> LoadedBodies:
-    """Return the tractions of each or of every second ring for half of the elements."""
+    """Return the tractions of each or of every second ring, for half of the elements."""
     asked, radii = state.discretisation, state.axes["radii"]
     assert asked is not None
     half = max(2, asked.elements_per_radius // 2)
-    # One unloaded ring more keeps the last one.
+    # One more unloaded ring preserves the last one.
     pad = (len(radii) - 1) % every
     more = [*radii, *[2 * radii[-1] - radii[-2]] * pad]
     tractions = {}
@@ -270,7 +271,7 @@ def on_half_the_elements(state: LoadedBodies, every: int = 1) -> LoadedBodies:
 def _on_disc(
     state: LoadedBodies, found: Sequence[Extreme], indenter: bool
 ) -> tuple[StatedError, ...]:
-    """Errors below the tractions of `radial`: searched again with twice the orders and points."""
+    """Return errors below the tractions of `radial`, from twice the orders and points."""
     from contact_results.stress.radial_body import RadialBody, is_sheared
 
     sheared = is_sheared(state)

@@ -1,7 +1,7 @@
-"""Finite-element reference: the same scenes by axisymmetric finite elements.
+"""Axisymmetric finite-element reference solver.
 
-It shares `contact_scene` with `semi_analytical` and no numerics, so that the two can be held
-against each other.
+It shares `contact_scene` with `semi_analytical`, but no numerics. The two solvers verify each
+other.
 """
 
 from contact_scene.effect import Effect

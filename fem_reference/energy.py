@@ -1,4 +1,4 @@
-"""Work put in and energy stored, from what an increment reports."""
+"""Work of the loads and elastic energy, from the fields of an increment."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -22,9 +22,9 @@ def accounted(
     increment: Increment,
     on_strain: float = 0.0,
 ) -> Increment:
-    """The increment with its input work, its elastic energy, and how uncertain the energy lost is.
+    """Add input work, elastic energy and the uncertainty of the dissipated energy to an increment.
 
-    before     the increment before it in the history
+    before     previous increment of the history
     on_strain  work of the shear on the strained lower body in the increment [force length]
     """
     work, stored = input_work(before, increment), elastic_energy(scene, plan, increment)
@@ -41,9 +41,10 @@ def accounted(
 
 
 def input_work(before: Increment | None, increment: Increment) -> float | None:
-    """Trapezoidal sum Σ ½ (f₀ + f₁)(ω₁ - ω₀) since the start of the history [force length].
+    """Compute the trapezoidal sum Σ ½ (f₀ + f₁)(ω₁ - ω₀) since the start of the history [force
+    length].
 
-    Forces and moments f are over their conjugate motions ω. None once a motion is undefined, at
+    f are forces and moments, ω their conjugate motions. Return None once a motion is undefined, at
     the friction limit under force control.
     """
     worked = 0.0 if before is None else before.trapezoidal_work
@@ -57,9 +58,11 @@ def input_work(before: Increment | None, increment: Increment) -> float | None:
 def dissipation_uncertainty(
     plan: Plan, before: Increment | None, increment: Increment
 ) -> float | None:
-    """Σ ∫ |q₁ - q₀| |s₁ - s₀| dA over the increments of steps whose path matters, by the
-    trapezoidal rule [force length]: the slip times the change of friction along it. None where the
-    dissipated energy is."""
+    """Estimate the error of the dissipated energy by finite increments [force length].
+
+    It is Σ ∫ |q₁ - q₀| |s₁ - s₀| dA over the increments of path-dependent load steps: the change of
+    shear times the change of slip. Return None if the dissipated energy is None.
+    """
     if increment.dissipated_energy is None:
         return None
     known = 0.0 if before is None else before.dissipation_uncertainty or 0.0
@@ -78,24 +81,25 @@ COMPONENTS = ("radial", "circumferential", "along_load")
 
 
 def _changed(name: str, before: Increment | None, increment: Increment) -> Field:
-    """Length of the change of a vector (rings,), or (rings, angles) where that has angles."""
+    """Return the length of the change of a vector (rings,), or (rings, angles) if the field has
+    angles."""
     changes = []
     for component in COMPONENTS:
         now = getattr(increment, f"{name}_{component}")
         last = getattr(before, f"{name}_{component}", None)
         if now is not None:
-            # What did not depend on the angle so far is the same at all of them.
+            # A field without angles so far is axisymmetric.
             start = np.zeros_like(now) if last is None else last
             changes.append(now - (start[:, None] if start.ndim < now.ndim else start))
     return np.asarray(np.hypot.reduce(np.abs(changes), axis=0))
 
 
 def elastic_energy(scene: Scene, plan: Plan, increment: Increment) -> float | None:
-    """½ ∫ (p u_z + q·u) dA, the energy stored in both bodies [force length].
+    """Return ½ ∫ (p u_z + q·u) dA, the energy stored in both bodies [force length].
 
-    Where there is pressure the surfaces touch, so that u_z = ω - h and u = slip + rigid motion: no
-    displacement is computed. None where particles may have moved past each other before they
-    touched: bodies that couple, and pressing under shear. None where the motion is undefined.
+    Within the contact u_z = ω - h and u = slip + rigid motion, so no displacement is computed.
+    Return None if particles may slip before their contact (coupled bodies, normal loading under
+    shear), and if the motion is undefined.
     """
     if plan.path not in UNCOUPLED or any(plan.path_matters[: increment.step]):
         return None
@@ -114,7 +118,7 @@ def elastic_energy(scene: Scene, plan: Plan, increment: Increment) -> float | No
 def _sheared(
     plan: Plan, increment: Increment, hats: Hats
 ) -> Iterator[tuple[Field, Field, Field | None]]:
-    """Shear, slip and the rigid motion times the weights of the rings, by component."""
+    """Yield shear, slip and the rigid motion times the weights of the rings, by component."""
     if increment.shear_along_load is not None and increment.slip_along_load is not None:
         shift = increment.tangential_shift
         size = None if shift is None else float(np.dot(shift, plan.direction)) * hats.weights
@@ -126,7 +130,7 @@ def _sheared(
 
 
 def _hats(radii: Field) -> Hats:
-    """Hats whose corners are the rings."""
+    """Return hat functions whose corners are the rings."""
     nodes = np.empty(2 * len(radii) - 1)
     nodes[::2] = radii
     nodes[1::2] = 0.5 * (radii[:-1] + radii[1:])
@@ -134,7 +138,7 @@ def _hats(radii: Field) -> Hats:
 
 
 def _loads(increment: Increment) -> tuple[Field, Field | None]:
-    """Forces (W, T_x, T_y, M_z) and motions (ω_z, ω_x, ω_y, φ_z); None where undefined."""
+    """Return forces (W, T_x, T_y, M_z) and motions (ω_z, ω_x, ω_y, φ_z), or None if undefined."""
     force, shift = increment.tangential_force, increment.tangential_shift
     torque, twist = increment.torque, increment.twist
     now = np.array([increment.normal_force, *(force or (0.0, 0.0)), torque or 0.0])

@@ -1,6 +1,6 @@
-"""How large the contact will be: what the fine elements of the mesh are laid out for.
+"""Expected contact radius, for which the fine elements of the mesh are laid out.
 
-It decides the mesh and not the answer: a contact that does not fit the mesh is noticed.
+It affects the mesh only: a contact outside of the fine elements is detected and meshed again.
 """
 
 from math import sqrt
@@ -24,36 +24,35 @@ from fem_reference.model import ContactModel, outermost_modulus
 from fem_reference.plan import plan
 from fem_reference.scales import Scales
 
-# Bodies with layers that are not deep are pressed on a coarse mesh first.
+# Elements per radius of the first mesh of bodies with layers that are not thick.
 COARSE = 8
 GROWTH, TOO_SMALL = 1.5, 0.5
 MAX_TRIALS = 30
 COARSE_TOLERANCE = 1e-8
-# In contact radii: of coatings a million times as stiff as what is below them, sections are larger
-# by many decades, and so is the work; the radius needs none of them.
+# In contact radii. Coatings much stiffer than their substrate require far larger sections, and more
+# work, for stresses; the radius does not.
 LARGEST_COARSE_BOX = 1e4
-# In contact radii: the contact hardly depends on what lies below a thicker layer.
+# In contact radii: the material below a thicker layer has hardly any effect on the contact.
 DEEP = 100.0
 
 
 def sections_of(scene: Scene, discretisation: FiniteElementDiscretisation) -> list[SectionMesh]:
-    """Mesh the deformable bodies of a scene; equal bodies share their mesh."""
+    """Return meshes of the deformable bodies of a scene; equal bodies share their mesh."""
     radius = meshed_radius(scene, discretisation.contact_radius)
     sections = ContactModel.of(scene, discretisation, radius).sections
     return list({id(section): section for section in sections if section is not None}.values())
 
 
 def meshed_radius(scene: Scene, asked: float | None) -> float:
-    """What the mesh is laid out for: a rim, where a ring of nodes must lie; else the contact radius
-    that is asked for or, if that is None, expected [length]."""
+    """Return the radius for the mesh: that of a rim, or the requested or expected radius
+    [length]."""
     return scene.indenter.rim or asked or expected_radius(scene)
 
 
 def expected_radius(scene: Scene) -> float:
-    """Largest contact radius of the history without friction [length].
+    """Estimate the largest contact radius of the history without friction [length].
 
-    Closed forms for half-spaces and below deep layers; with other layers, from a coarse mesh of
-    about the right size.
+    Half-spaces and thick layers have closed forms. Other layers are solved on a coarse mesh.
     """
     guess = max(_half_space_radius(scene, ramp) for ramp in scene.load_path())
     layered = scene.body.layers or scene.indenter.layers
@@ -67,14 +66,14 @@ def expected_radius(scene: Scene) -> float:
 
 
 def _extremes(scene: Scene) -> list[LoadRamp]:
-    """The ramps with the largest force and the largest approach."""
+    """Return the ramps with the largest force and the largest approach."""
     ramps = scene.load_path()
     kinds = [[r for r in ramps if r.normal.kind is kind and r.normal.end] for kind in ControlKind]
     return [max(same, key=lambda ramp: ramp.normal.end) for same in kinds if same]
 
 
 def _bare_radius(scene: Scene, ramp: LoadRamp) -> float:
-    """Of a contact between half-spaces of the outermost materials."""
+    """Return the radius of a contact between half-spaces of the outermost materials [length]."""
     outermost = [
         body.model_copy(update={"material": body.layers[0].material, "layers": ()})
         if body.layers
@@ -86,7 +85,8 @@ def _bare_radius(scene: Scene, ramp: LoadRamp) -> float:
 
 
 def _half_space_radius(scene: Scene, ramp: LoadRamp) -> float:
-    """Of a contact between half-spaces, layers counted as if they filled them on their own."""
+    """Return the radius of a contact between half-spaces with the mean compliance of all layers
+    [length]."""
     indenter, end, exponent = scene.indenter, ramp.normal.end, scene.indenter.gap_exponent
     if indenter.rim is not None:
         return indenter.rim
@@ -97,21 +97,21 @@ def _half_space_radius(scene: Scene, ramp: LoadRamp) -> float:
         power, more = indenter.contact_at(contact_approach(scene, end, modulus)), 0
     if power is None or exponent is None:
         raise UnsupportedScene(
-            f"how large the contact will be is not known beforehand of this indenter "
-            f"({shape_text(indenter)}); give contact_radius in [fem_reference]"
+            f"the contact radius of this indenter ({shape_text(indenter)}) cannot be estimated "
+            "before the solve. Set contact_radius in [fem_reference]"
         )
     degree = exponent + more
     return sqrt(power[0]) if degree == 2 else power[0] ** (1 / degree)
 
 
 def _softness(body: Body) -> float:
-    """(1-ν²)/E, the mean over the elastic materials of a body."""
+    """Return the mean of (1-ν²)/E over the elastic materials of a body."""
     parts = body.elastic_materials
     return sum(1 / part.plane_strain_modulus for part in parts) / max(1, len(parts))
 
 
 def _coarse_radius(scene: Scene, ramp: LoadRamp, guess: float) -> float:
-    """Pressed in one increment, on coarse meshes until one fits."""
+    """Return the radius of a contact loaded in one increment, on coarse meshes until one fits."""
     by_force = ramp.normal.kind is ControlKind.FORCE
     end = ramp.normal.end
     step = LoadStep(normal_force=end) if by_force else LoadStep(approach=end)
@@ -132,7 +132,7 @@ def _coarse_radius(scene: Scene, ramp: LoadRamp, guess: float) -> float:
 
 
 def _coarse(scene: Scene, radius: float) -> FiniteElementDiscretisation:
-    """Elements that tell how large a contact is, if it is of about this radius."""
+    """Return coarse elements for a contact of about this radius."""
     to_radius = Scales(radius, outermost_modulus(scene)).dimensionless
     bodies = [to_radius(body) for body in (scene.body, scene.indenter)]
     deepest = max(sum(layer.thickness for layer in body.layers) for body in bodies)

@@ -1,4 +1,4 @@
-"""What a solve returns: fields over the radius, with the names and signs of CONVENTIONS."""
+"""Result of a solve: fields over the radius, with the names and signs of CONVENTIONS."""
 
 from dataclasses import dataclass
 from enum import Enum
@@ -10,7 +10,7 @@ from fem_reference.plan import Plan
 
 
 class Method(Enum):
-    """How contact and friction are enforced."""
+    """Enforcement of the contact and friction laws."""
 
     COMPLEMENTARITY = "complementarity"
     PENALTY = "penalty"
@@ -18,13 +18,13 @@ class Method(Enum):
 
 @dataclass(frozen=True, kw_only=True)
 class Increment(RingIncrement):
-    """The converged state at the end of one increment of the load history.
+    """Converged state at the end of one increment of the load history.
 
-    Pressure and shear are values at the rings, linear in between; gap and slip are means weighted
-    with the ring's hat function, so that they vanish exactly where surfaces touch or stick.
+    Pressure and shear are values at the rings, with linear interpolation. Gap and slip are means
+    weighted with the ring's hat function, so that they are exactly zero in contact and stick.
 
     iterations  linear systems of the contact solver
-    path        which way of solving was taken, where a method has several
+    path        algorithm used, for a method with several; else None
     """
 
     factorizations: int = 0
@@ -34,10 +34,10 @@ class Increment(RingIncrement):
 
 @dataclass(frozen=True)
 class Result:
-    """All increments of a load history on one mesh, with what was asked for and decided.
+    """All increments of a load history on one mesh, with scene, discretisation and plan.
 
-    sections  meshes of lower body and indenter, in units of `radius`; None where rigid
-    radius    contact radius that the meshes are laid out for [length]
+    sections  meshes of lower body and indenter, in units of `radius`; None if rigid
+    radius    contact radius for which the meshes are laid out [length]
     """
 
     scene: Scene
@@ -50,15 +50,15 @@ class Result:
 
     @property
     def solver(self) -> str:
-        """What a summary calls the solver."""
+        """Name of the solver in a summary."""
         return f"fem_reference.{self.method.value}"
 
     @property
     def tolerance(self) -> float:
-        """Bound of every residual at the end of every increment."""
+        """Limit of every residual at the end of every increment."""
         return self.discretisation.tolerance
 
     @property
     def steps(self) -> tuple[Increment, ...]:
-        """The last increment of every loading step."""
+        """Last increment of every load step."""
         return tuple(i for i in self.increments if i.index == i.increments_in_step)

@@ -28,16 +28,16 @@ from fem_reference.plan import Path
 
 
 def march(method: ContactMethod, tolerance: float) -> Iterator[Increment]:
-    """Increments of the scene's load path, one after the other; raises what `marked` raises."""
+    """Yield the increments of the scene's load path; raises the errors of `marked`."""
     return (increment for increment, _ in marked(method, tolerance))
 
 
 def marked(
     method: ContactMethod, tolerance: float, since: Checkpoint | None = None
 ) -> Iterator[tuple[Increment, ResumePoint[PointState]]]:
-    """Increments of the scene's load path, each with the mark from which the march can go on.
+    """Yield the increments of the scene's load path, each with its resume point.
 
-    since   where the same march stood before, to go on from there
+    since   checkpoint after which the solve resumes
     raises  NotConverged and GrossSliding, with the last converged increment as `last_state`
     """
     scene, counts = method.model.scene, method.plan.increments
@@ -46,7 +46,7 @@ def marked(
 
 @dataclass(frozen=True)
 class _Solver:
-    """The method as the march sees it: it counts nothing, and halves as often as it may."""
+    """Adapter from a contact method to load stepping. Work does not limit the bisection."""
 
     scene: Scene
     method: ContactMethod
@@ -54,7 +54,7 @@ class _Solver:
     most_spent: float = 0.0
 
     def spent(self) -> float:
-        """Nothing."""
+        """Return 0: work does not limit the bisection."""
         return 0.0
 
     def advance(
@@ -64,7 +64,7 @@ class _Solver:
         before: PointState | None,
         fraction: float,
     ) -> PointState:
-        """The state at a fraction of the ramp."""
+        """Return the state at a fraction of the ramp."""
         normal = (start.normal_force, start.approach) if start else (0.0, 0.0)
         tangential = (start.load, start.motion) if start else (0.0, 0.0)
         loads = Loads(NormalTarget(*ramp.normal.led(fraction, normal)), STILL)
@@ -75,11 +75,11 @@ class _Solver:
         return self.method.advance(before, loads, self.tolerance)
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Field:
-        """See `contact_scene.stepping.load_stepping.Solver`."""
+        """Return the gap without tractions at the rings of an increment [length]."""
         return np.array(np.broadcast_to(self.method.undeformed_gap, last.gap.T.shape).T)
 
     def report(self, reached: Reached[PointState], last: Increment | None) -> Increment:
-        """As the method reports it, with the account of energy carried on."""
+        """Return the increment with its energies and the displacements of the rig."""
         increment = self.method.increment(reached.state, reached.place)
         increment = replace(increment, halvings=reached.halvings)
         increment = of_contact(increment, self.scene.rig)
@@ -87,7 +87,8 @@ class _Solver:
         return accounted(self.scene, self.method.plan, last, increment, resisted)
 
     def _along(self, ramp: LoadRamp) -> ScalarControl | None:
-        """Control of the indenter along the shear: of its twist, or along the plan's direction."""
+        """Return the control of the twist, or of the tangential motion along the plan's
+        direction."""
         path, control = self.method.plan.path, ramp.tangential
         if path is Path.TWISTING:
             return ramp.twisting

@@ -1,11 +1,11 @@
-"""What leads the indenter at the end of an increment: a force, or the motion itself."""
+"""Prescribed loads or motions of the indenter at the end of an increment."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
 class NormalTarget:
-    """Either the normal force [force] or the approach [length]."""
+    """Prescribed normal force [force] or approach [length]."""
 
     force: float | None = None
     approach: float | None = None
@@ -13,10 +13,10 @@ class NormalTarget:
 
 @dataclass(frozen=True)
 class TangentialTarget:
-    """Either the load or the motion of the indenter along the shear.
+    """Prescribed load or motion of the indenter along the shear.
 
     load    tangential force along the plan's direction [force], or torque [force length]
-    motion  shift along that direction [length], or twist [radian]
+    motion  shift along this direction [length], or twist [radian]
     """
 
     load: float | None = None
@@ -28,8 +28,10 @@ STILL = TangentialTarget(motion=0.0)
 
 @dataclass(frozen=True)
 class Loads:
-    """Loads or motions that are prescribed at the end of an increment, and the strain of the lower
-    body since first touch, the same all around."""
+    """Prescribed loads or motions at the end of an increment.
+
+    strain  of the lower body since first contact, equal in all directions
+    """
 
     normal: NormalTarget
     tangential: TangentialTarget = STILL

@@ -21,14 +21,15 @@ from fem_reference.scales import Scales
 
 
 class ContactModel:
-    """Two bodies of a scene, meshed. Compliances are condensed when first asked for, then kept.
+    """Two bodies of a scene with their meshes. A compliance is computed at its first use and
+    stored.
 
-    lengths and forces are those of the scene; only the meshes are in units of `scales`.
+    Lengths and forces are those of the scene. Only the meshes are in units of `scales`.
 
     sections        lower and upper mesh; None for a rigid body
-    factorizations  sparse factorisations spent so far
-    settled         names of motions that are condensed, or whose condensation is counted elsewhere:
-                    by the part of a history that was solved before it was interrupted
+    factorizations  number of sparse factorisations
+    settled         names of condensed motions, and of motions counted by an interrupted part of the
+                    history
     """
 
     def __init__(
@@ -48,7 +49,7 @@ class ContactModel:
     def of(
         cls, scene: Scene, discretisation: FiniteElementDiscretisation, radius: float
     ) -> "ContactModel":
-        """The model for contacts up to a radius [length]."""
+        """Return the model for contacts up to a radius [length]."""
         scales = Scales(radius, outermost_modulus(scene))
         lower, upper = (scales.dimensionless(body) for body in (scene.body, scene.indenter))
         section = _section(lower, discretisation)
@@ -57,13 +58,13 @@ class ContactModel:
 
     @cached_property
     def radii(self) -> Field:
-        """Of the nodes in the contact zone, corner and midside alternating [length]."""
+        """Radii of the nodes in the contact zone, corner and midside alternating [length]."""
         section = next(section for section in self.sections if section is not None)
         return np.asarray(section.radii * self.scales.length)
 
     @cached_property
     def hats(self) -> Hats:
-        """Of the corners that can carry traction: they end at a rim."""
+        """Hat functions of the corners that can carry traction. They end at a rim."""
         return hats_on(self.radii, self.rim)
 
     @property
@@ -74,12 +75,12 @@ class ContactModel:
 
     @property
     def ends_at_rim(self) -> bool:
-        """Whether the contact is as large as the indenter lets it be, whatever the load."""
+        """True if the rim of the indenter bounds the contact at any load."""
         return self.scene.indenter.rim is not None
 
     @property
     def friction(self) -> CoulombFriction:
-        """Between the two bodies, the same everywhere."""
+        """Friction between the two bodies, equal everywhere."""
         return self.scene.friction or FRICTIONLESS
 
     def gap(self, r: Field) -> Field:
@@ -87,20 +88,24 @@ class ContactModel:
         return np.asarray(self.scene.indenter.initial_gap(r, 0.0))
 
     def compliance(self, harmonic: int) -> NodalCompliance:
-        """Displacement of the lower surface relative to the upper per nodal force [length/force]:
-        pressing for n = 0, then (r, theta, z)."""
+        """Return the displacement of the lower surface relative to the upper per nodal force
+        [length/force].
+
+        For n = 0 the motion is normal loading. For n >= 1 its components are (r, theta, z).
+        """
         return self._condensed(motion(harmonic))
 
     def torsion(self) -> NodalCompliance:
-        """The same for circumferential displacement and force."""
+        """Return the circumferential displacement per circumferential nodal force
+        [length/force]."""
         return self._condensed(TORSION)
 
     def along_load(self) -> Field:
-        """Mean around the axis of the displacement along x, per nodal force f(r) along x
+        """Return the mean displacement along x around the axis, per nodal force f(r) along x
         [length/force].
 
-        q_r = f cos θ and q_θ = -f sin θ, so that the mean of u_x is (u_r - u_θ)/2 in the amplitudes
-        of n = 1. What is left out, the part of u_x with cos 2θ and u_y, is Mindlin's approximation.
+        With q_r = f cos θ and q_θ = -f sin θ, the mean of u_x is (u_r - u_θ)/2 in the amplitudes of
+        n = 1. Mindlin's approximation neglects the part of u_x ∝ cos 2θ, and u_y.
         """
         C = self.compliance(1).matrix
         return np.asarray(0.5 * (C[0, :, 0] - C[0, :, 1] - C[1, :, 0] + C[1, :, 1]))
@@ -119,7 +124,7 @@ class ContactModel:
         return self._compliances[of]
 
     def _springs(self, of: Motion) -> Field:
-        """Displacement of all nodes by the springs of a rig, per nodal force (c, c)
+        """Return the displacement of all nodes by the springs of a rig, per nodal force (c, c)
         [length/force]."""
         down, along = compliances(self.scene.rig)
         compliance = {PRESSING: down, SHEARING: along}.get(of, 0.0)
@@ -131,14 +136,16 @@ def _section(body: Body, discretisation: FiniteElementDiscretisation) -> Section
         return None
     make = section_mesh
     if discretisation.mesher == "gmsh":
-        # Only here: gmsh needs libraries that not every machine has.
+        # Imported here because gmsh requires libraries that are not installed everywhere.
         from fem_reference.mesh.gmsh_mesh import gmsh_section_mesh as make
     return make(body, discretisation.elements_per_radius, discretisation.box)
 
 
 def outermost_modulus(scene: Scene) -> float:
-    """Young's modulus of the outermost elastic material, if need be the indenter's
-    [force/length^2]."""
+    """Return Young's modulus of the outermost elastic material [force/length^2].
+
+    It is that of the indenter if the lower body has no elastic material.
+    """
     for body in (scene.body, scene.indenter):
         for material in body.elastic_materials:
             return material.young_modulus

@@ -1,4 +1,5 @@
-"""Path of a scene: its effects, its refusals, and the number of its increments."""
+"""Plan of a scene: its effects, checks that refuse unsupported scenes, and numbers of
+increments."""
 
 from dataclasses import dataclass
 from enum import Enum
@@ -17,19 +18,20 @@ from contact_scene.quantities.cycles import loop_increments
 from contact_scene.reading.scene_text import shape_text
 from contact_scene.solver_errors import UnsupportedScene
 
-# Of the shear moduli within a body: beyond, its stiffness matrix loses the softest part.
+# Largest ratio of shear moduli within a body. Above it the stiffness matrix loses the softest
+# material.
 MAX_CONTRAST = 1e8
 ROUND_OFF = 1e-9
-# Increments of a step whose path matters; errors fall as their inverse.
+# Increments of a path-dependent step. Errors are proportional to their inverse.
 PATH_INCREMENTS = 20
 LARGEST_SHARE = 0.05
 
-# The sine of an angle below this is round-off of a load that goes straight.
+# Largest sine of an angle between loads along one line, with round-off.
 STRAIGHT = 1e-9
 
 
 class Path(Enum):
-    """Which tractions are solved for, and on which harmonics."""
+    """Tractions of the solve, and their harmonics."""
 
     PRESSING = "pressure alone"
     PRESSING_WITH_FRICTION = "pressure and radial shear, coupled"
@@ -40,13 +42,13 @@ class Path(Enum):
 
 @dataclass(frozen=True)
 class Plan:
-    """What is computed for a scene. What is off costs nothing downstream.
+    """Effects computed for a scene. Other effects need no work.
 
-    path          which tractions are solved for
-    direction     unit vector of the tangential load, (1, 0) if there is none
-    increments    how many increments each loading step takes
-    path_matters  whether the end of each step depends on how finely it is cut
-    effects       every effect with its reason, as shown to people
+    path          tractions of the solve
+    direction     unit vector of the tangential load, (1, 0) without one
+    increments    number of increments of each load step
+    path_matters  true for load steps whose end depends on the number of increments
+    effects       all effects with reasons, for output
     """
 
     path: Path
@@ -57,7 +59,7 @@ class Plan:
 
 
 def plan(scene: Scene) -> Plan:
-    """Decide the path of a scene; raises UnsupportedScene for what is not axisymmetric enough."""
+    """Determine the path of a scene; raise UnsupportedScene if it is not axisymmetric."""
     scene = normal_form(scene)
     refuse_equator(scene)
     _refuse_shapes(scene)
@@ -96,7 +98,7 @@ def _path(friction: bool, loaded: bool, twisted: bool, couples: bool) -> Path:
 
 
 def _direction(ramps: tuple[LoadRamp, ...]) -> tuple[float, float]:
-    """Of the first tangential load that is not zero: so positive loads come first."""
+    """Return the unit vector of the first nonzero tangential load."""
     for ramp in ramps:
         x, y = ramp.tangential.end
         if x or y:
@@ -105,7 +107,7 @@ def _direction(ramps: tuple[LoadRamp, ...]) -> tuple[float, float]:
 
 
 def _path_matters(ramps: tuple[LoadRamp, ...], path: Path) -> tuple[bool, ...]:
-    """Whether the end of each step depends on the path to it."""
+    """Return true for each step whose end depends on the path to it."""
     matters = []
     sheared = path in (Path.PRESSING_WITH_FRICTION, Path.HARMONICS)
     for ramp in ramps:
@@ -118,8 +120,8 @@ def _path_matters(ramps: tuple[LoadRamp, ...], path: Path) -> tuple[bool, ...]:
 
 
 def _increments(scene: Scene, matters: tuple[bool, ...]) -> tuple[int, ...]:
-    """As asked for; else one wherever the end of the step does not depend on its path, but enough
-    for the work of closed cycles."""
+    """Return the increments of each step: requested, or as its path and closed load cycles
+    require."""
     ramps = scene.load_path()
     loops = loop_increments(ramps) if scene.friction else (1,) * len(ramps)
     return tuple(
@@ -129,7 +131,7 @@ def _increments(scene: Scene, matters: tuple[bool, ...]) -> tuple[int, ...]:
 
 
 def _path_increments(scene: Scene, ramp: LoadRamp) -> int:
-    """Fine enough for about one per cent of the shear, first order in the increment."""
+    """Return the number of increments for an error of the shear of about 1 %."""
     friction = scene.friction
     by_force = ramp.normal.kind is ramp.tangential.kind is ControlKind.FORCE
     pressing = ramp.normal.start != ramp.normal.end or ramp.strains
@@ -146,10 +148,10 @@ def _path_increments(scene: Scene, ramp: LoadRamp) -> int:
 def _effects(
     scene: Scene, path: Path, acting: tuple[bool, bool, bool, bool], why_coupled: str
 ) -> tuple[Effect, ...]:
-    """Every effect with its reason.
+    """Return all effects with their reasons.
 
-    acting       whether there are friction, a tangential load, torsion, and coupling
-    why_coupled  why pressure does or does not move the surfaces past each other
+    acting       true for friction, a tangential load, torsion, and coupling, in this order
+    why_coupled  reason for or against relative tangential displacement by pressure
     """
     has_friction, loaded, twisted, couples = acting
     return (
@@ -175,7 +177,8 @@ def _effects(
 
 
 def _cross_slip(path: Path) -> Effect:
-    """Slip across the load, which Poisson's ratio calls for (Munisamy, Hills and Nowell 1994)."""
+    """Return the effect of slip across the load by Poisson's ratio (Munisamy, Hills and Nowell
+    1994)."""
     name = "slip across the load"
     if path is Path.SHEARING:
         return Effect(
@@ -187,57 +190,58 @@ def _cross_slip(path: Path) -> Effect:
 
 
 def _refuse_shapes(scene: Scene) -> None:
-    """Shapes and friction that are not the same all around; raises UnsupportedScene."""
+    """Raise UnsupportedScene for indenters and friction that are not axisymmetric."""
     indenter, friction = scene.indenter, scene.friction
     if not indenter.is_of_revolution:
         raise UnsupportedScene(
-            f"the indenter is not the same all around ({shape_text(indenter)}), and this solver "
-            "takes bodies of revolution; solve it with the semi-analytical solver"
+            f"the indenter is not axisymmetric ({shape_text(indenter)}), and this solver requires "
+            "bodies of revolution; solve it with the semi-analytical solver"
         )
     if friction is not None and friction.varying is not None:
         raise UnsupportedScene(
-            "friction is given as a map, and this solver takes one coefficient; name one number"
+            "the coefficient of friction is a map, and this solver requires one number. Give one "
+            "number"
         )
 
 
 def _refuse_loads(scene: Scene, loaded: bool, twisted: bool, coupled: bool) -> None:
-    """Loads that are not along one line or about one axis; raises UnsupportedScene.
+    """Raise UnsupportedScene for tilts, and for loads along two lines or about two axes.
 
-    coupled  whether pressing alone leaves shear
+    coupled  true if normal loading causes shear
     """
     if any(any(ramp.tilting.end) for ramp in scene.load_path()):
         raise UnsupportedScene(
-            "a step names a moment or a tilt, and this solver keeps the indenter upright; leave it "
-            "out"
+            "a step has a moment or a tilt, and this solver does not tilt the indenter. Remove it, "
+            "or solve it with the semi-analytical solver"
         )
     free = any(ramp.tilting.kind is ControlKind.FORCE for ramp in scene.load_path())
     if free and loaded and coupled:
         raise UnsupportedScene(
-            "the indenter may tilt freely under a tangential load, and this solver keeps it "
-            "upright; prescribe the tilt"
+            "the indenter may tilt freely under a tangential load, and this solver does not tilt "
+            "it. Prescribe the tilt"
         )
     if twisted and loaded:
         raise UnsupportedScene(
-            "steps name a tangential load and a torsion, and this solver takes one of them; leave "
-            "the other out, or solve it with --solver radial"
+            "the scene has a tangential load and a torsion, and this solver supports one of them. "
+            "Remove the other, or solve it with --solver radial"
         )
     if twisted and coupled:
         raise UnsupportedScene(
-            "the indenter is twisted where pressing alone leaves radial shear, and this solver "
-            "does not combine the two; take bodies that are alike, leave the torsion out, or solve "
-            "it with --solver radial"
+            "the indenter is twisted while normal loading causes radial shear, and this solver "
+            "does not combine the two. Use equal bodies, remove the torsion, or solve it with "
+            "--solver radial"
         )
     ends = [ramp.tangential.end for ramp in scene.load_path()]
     longest = max(ends, key=lambda end: hypot(*end))
     for end in ends:
         if _turns(longest, end):
             raise UnsupportedScene(
-                f"the tangential load goes along {longest} and along {end}, and this solver takes "
-                "one direction; keep to a straight line, or solve it with --solver radial"
+                f"the tangential load has the directions {longest} and {end}, and this solver "
+                "requires one direction. Use one line, or solve it with --solver radial"
             )
 
 
 def _turns(one: tuple[float, float], other: tuple[float, float]) -> bool:
-    """Whether two loads are not on one line, round-off apart."""
+    """Return true if two loads are not on one line, within round-off."""
     cross = one[0] * other[1] - one[1] * other[0]
     return abs(cross) > STRAIGHT * hypot(*one) * hypot(*other)

@@ -1,4 +1,4 @@
-"""The two units in which everything inside this package is a plain number."""
+"""Units of length and stress of the dimensionless quantities in this package."""
 
 from dataclasses import dataclass
 
@@ -10,8 +10,8 @@ from contact_scene.material import IsotropicMaterial, Material
 class Scales:
     """Unit of length and unit of stress of a dimensionless problem.
 
-    length   the contact radius that is expected [length]
-    modulus  an elastic modulus of the pair [force/length^2]
+    length   expected contact radius [length]
+    modulus  elastic modulus of one of the bodies [force/length^2]
     """
 
     length: float
@@ -28,7 +28,7 @@ class Scales:
         return self.force * self.length
 
     def dimensionless(self, body: Body) -> Body:
-        """The stack of the body with thicknesses and moduli in these units; a shape is left out."""
+        """Return the body with thicknesses and moduli in these units, without its shape."""
         layers = tuple(
             Layer(thickness=layer.thickness / self.length, material=self._scaled(layer.material))
             for layer in body.layers

@@ -1,4 +1,4 @@
-"""Solve a scene: plan, mesh, model, march."""
+"""Solve a scene: plan, mesh, model, load stepping."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -27,7 +27,8 @@ Progress = Callable[[Increment], None]
 
 GROWTH = 1.2
 MAX_ENLARGEMENTS = 8
-# A mesh for a contact so many times as large as the one that was found spends its elements beside.
+# Largest ratio of the radius of the mesh to the contact radius found. Above it most fine elements
+# lie outside of the contact.
 TOO_LARGE = 1.5
 
 
@@ -39,36 +40,36 @@ def solve(
     progress: Progress | None = None,
     store: CheckpointStore | None = None,
 ) -> Result:
-    """Contact of a scene by axisymmetric finite elements, every increment of its load history.
+    """Solve the contact of a scene by axisymmetric finite elements for all increments.
 
     Parameters
     ----------
     scene
-        What is solved.
+        The contact problem.
     discretisation
-        How many elements, how large the section is, and the tolerance of every residual.
+        Number of elements, size of the section, and tolerance of every residual.
     method
-        How contact and friction are enforced.
+        Enforcement of the contact and friction laws.
     progress
-        Called with each increment once it has converged; again from the first one where the
-        contact does not fit the mesh and another one is taken.
+        Called with each increment after its solve. If the contact does not fit the mesh, the
+        history restarts on another mesh, and the calls start again from the first increment.
     store
-        Of this very solve: what it has kept is not computed again.
+        Checkpoints of an earlier run of the same solve. The solve resumes after the last one.
 
     Raises
     ------
     UnsupportedScene
-        The scene is not axisymmetric enough, by name.
+        The scene is not axisymmetric or has an effect that this solver lacks.
     ContactAtZoneEdge
-        The contact reaches the end of the zone that `discretisation.contact_radius` asks for.
+        The contact exceeds the radius `discretisation.contact_radius`.
     ContactNotResolved
         A prescribed approach is so small that no ring comes into contact.
     GrossSliding
         A tangential force or torque exceeds the friction limit.
     SurfacesOverlap
-        A penalty leaves more overlap than `discretisation.overlap` allows.
+        The overlap of the penalty method exceeds `discretisation.overlap`.
     NotConverged
-        An increment stopped above the tolerance; `last_state` holds the last good one.
+        An increment did not reach the tolerance. `last_state` is the last converged increment.
     """
     scene = normal_form(scene)
     decided = plan(scene)
@@ -105,7 +106,7 @@ def _solver(
     discretisation: FiniteElementDiscretisation,
     method: Method,
 ) -> ContactMethod:
-    """The contact method on a model, with the law that is asked for."""
+    """Return the contact method on a model, with the requested enforcement."""
     penalty = None
     if method is Method.PENALTY:
         penalty = Penalty(
@@ -122,7 +123,7 @@ def _told(
     progress: Progress | None,
     store: CheckpointStore | None,
 ) -> Iterator[Increment]:
-    """Increments, those of the past first, with the sparse factorisations that fell to them."""
+    """Yield all increments, first stored ones, each with its number of sparse factorisations."""
     told: list[Increment] = []
     fields = FieldStore()
     for increment in since.increments if since else ():

@@ -76,9 +76,9 @@ def test_paths_of_changing_loads_are_judged() -> None:
 @pytest.mark.parametrize(
     ("answer", "name", "said"),
     [
-        (radius.answer, "hertz_elliptical", "not the same all around"),
+        (radius.answer, "hertz_elliptical", "not axisymmetric"),
         (radius.answer, "sliding_stress", "stress below the surface"),
-        (section.answer, "hertz_elliptical", "not the same all around"),
+        (section.answer, "hertz_elliptical", "not axisymmetric"),
         (section.answer, "layered_patch/G1_over_G2=2", "contacts only"),
     ],
 )

@@ -414,5 +414,5 @@ def test_maps_are_refused_by_name(tmp_path: FilePath) -> None:
     with pytest.raises(UnsupportedScene, match="height map"):
         plan(Scene.model_validate({**document, "indenter": rough}))
     patchy = {"coefficient": {"map": str(tmp_path / "map.npy"), "spacing": 1e-4}}
-    with pytest.raises(UnsupportedScene, match="friction is given as a map"):
+    with pytest.raises(UnsupportedScene, match="coefficient of friction is a map"):
         plan(Scene.model_validate({**document, "friction": patchy}))

@@ -179,7 +179,7 @@ def _compliance(bodies: Bodies) -> Any:
 
 RUB = CoulombFriction(coefficient=0.1)
 REFUSED = {
-    "not the same all around": {"indenter": Ellipsoid(radii=(1e-2, 2e-2), material=RIGID)},
+    "not axisymmetric": {"indenter": Ellipsoid(radii=(1e-2, 2e-2), material=RIGID)},
     "moment or a tilt": {"loading": (LoadStep(normal_force=1e3, moment=(1e-3, 0)),)},
     "rim": {"indenter": FlatPunch(radius=1e-3, material=RIGID), "friction": RUB},
     "separate within the contact": {

@@ -24,7 +24,7 @@ class GaussPoints(TractionBasis):
 
 
 def gauss_points(nodes: Field, reach: float = np.inf) -> GaussPoints:
-    """Place Gauss points on every edge between Q2 nodes, out to the corner at `reach`.
+    """Create Gauss points on every edge between Q2 nodes, up to the corner at `reach`.
 
     nodes  radii of corner and midside nodes in turn, corners first and last (m,) [length]
     """

@@ -1,17 +1,17 @@
-"""Radius of contact and of stick, much finer than the elements.
+"""Radius of the contact and of the stick zone, resolved below the size of elements.
 
-Towards the edge of a smooth contact the pressure falls like the square root of the distance. On
-hats of equal width its computed values near the edge are all decided by where in its element the
-edge lies: the first zero is one element beyond the last ring with pressure, and the ratio of the
-last two values tells the rest. How, follows from plane contact of a parabola, solved with the same
-hats and the kernel -ln|x| of a half-plane; any smooth contact looks like that close enough to its
-edge. Elements next to the edge comply a little otherwise than a half-plane does, by Poisson's ratio
-of what they are of. The shear that is missing from full slip behaves so at the edge of stick
-(Cattaneo 1938), but for what elements do.
+The pressure at the edge of a smooth contact is proportional to the root of the distance. On hats of
+equal width, its nodal values near the edge depend only on the position of the edge in its element:
+the first zero is one element beyond the last ring with pressure, and the ratio of the last two
+values determines the position. The relation is that of plane contact of a parabola, solved with
+equal hats and the kernel -ln|x| of a half-plane. Every smooth contact is of this form close to its
+edge. The compliance of elements at the edge deviates from a half-plane by a correction that depends
+on Poisson's ratio. The difference of the shear from the limit has the same form at the border of
+the stick zone (Cattaneo 1938), without this correction.
 
-At Gauss points, three to an element, the squares of the values are fitted by a parabola in r²
-without the last element. The fit takes tractions of springs alone: augmented tractions ripple at
-the edge. Over a whole element of places where the edge can lie the radii come within 0.1 h.
+At Gauss points, three per element, the squares of the values are fitted by a parabola in r² without
+the last element. The fit uses tractions of springs only: augmented tractions oscillate at the edge.
+The error of the radii is below 0.1 h for any position of the edge in an element.
 """
 
 from dataclasses import dataclass
@@ -25,14 +25,13 @@ from contact_scene.body import Body
 
 Beyond = tuple[float, ...]
 
-# Distance of the edge beyond the last ring, in elements, by powers of the ratio of the last two
-# values: cubic through the plane contact, within 2e-5. An edge that has only just passed a ring
-# leaves it empty: the edge is `FURTHEST` beyond the last one at most.
+# Distance of the edge from the last ring, in elements, as a polynomial in the ratio of the last two
+# values: a cubic through plane contact, with an error of 2e-5. A ring just passed by the edge has
+# no pressure, so the edge is at most `FURTHEST` beyond the last ring with pressure.
 BEYOND = (0.02807, 1.00215, 0.12215, 0.01960)
 
-# What square elements add to it: powers of the ratio down, of Poisson's ratio across. Read off
-# Hertz's contact on this mesh, 36 and 72 elements over the radius extrapolated to none of it being
-# curved; within 3e-4.
+# Correction for square elements: powers of the ratio by rows, of Poisson's ratio by columns. It is
+# extrapolated from Hertz contacts with 36 and 72 elements over the radius, with an error of 3e-4.
 BY_ELEMENTS = (
     (0.0173, -0.0439, -0.0072),
     (-0.0019, 0.0013, 0.0011),
@@ -41,12 +40,12 @@ BY_ELEMENTS = (
 )
 FURTHEST = 1.05
 
-# Power 3/2 is told from 1/2 by the two values before: at most 0.54 of one another against at least
-# 0.77. The last value has reached this part of the one before when the edge reaches the next ring.
+# The previous two values distinguish the powers: their ratio is at most 0.54 for 3/2 and at least
+# 0.77 for 1/2. For 3/2, the last ratio has this value if the edge is at the next ring.
 GAINING = 0.66
 AT_NEXT_RING = 0.3
 
-# At Gauss points: distances of the fitted points from the last one, in elements, and the fewest.
+# At Gauss points: distances of the fitted points from the last one, in elements, and least number.
 FITTED = (1.2, 5.9)
 FEWEST = 5
 
@@ -93,13 +92,13 @@ class HatEdge:
         return HatEdge()
 
     def radius(self, radii: Field, values: Field, last: int, step: int = 1) -> float:
-        """See `Edge.radius`."""
+        """Compute the radius; see `Edge.radius`."""
         before, after = last - step, last + step
         width = radii[after] - radii[last]
         if not 0 <= before < len(radii) or values[before] <= 0:
             return float(radii[last] + 0.5 * width)
         middle = radii[last] + 0.5 * width
-        # On a circle √(a² - r²) = √(a - r) √(a + r): the second factor is not the edge's.
+        # On a circle √(a² - r²) = √(a - r) √(a + r): the second factor does not belong to the edge.
         circle = sqrt((middle + radii[before]) / (middle + radii[last]))
         ratio = min(1.0, values[last] / values[before] * circle)
         if 0 <= before - step < len(radii) and values[before] < GAINING * values[before - step]:
@@ -124,7 +123,7 @@ class GaussEdge:
         return self
 
     def radius(self, radii: Field, values: Field, last: int, step: int = 1) -> float:
-        """See `Edge.radius`."""
+        """Compute the radius; see `Edge.radius`."""
         beyond = last + step
         middle = radii[last]
         if 0 <= beyond < len(radii):
@@ -179,7 +178,8 @@ def stick_area(
         area = pi * min(outer, contact_radius) ** 2
     for ring in np.flatnonzero(stuck[1:] != stuck[:-1]).tolist():
         at, beside, step = (ring, ring + 1, 1) if stuck[ring] else (ring + 1, ring, -1)
-        # Missing from slip the way that the neighbour slips: after a reversal not the nearer limit.
+        # Difference from slip in the direction of the adjacent ring: after a reversal the other
+        # limit may be nearer.
         direction = shear[:, beside] / (np.hypot.reduce(shear[:, beside]) or 1.0)
         missing = bound - direction @ shear
         area += step * pi * at_stick.radius(radii, missing, at, step) ** 2

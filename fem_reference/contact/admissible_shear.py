@@ -12,7 +12,7 @@ ROUND_OFF = 4e-16
 
 
 def into_discs(q: Field, bound: Vector) -> Field:
-    """Project vectors q (2, points) onto discs of radius `bound`."""
+    """Restrict vectors q (2, points) to discs of radius `bound` by projection."""
     length = np.sqrt(q[0] ** 2 + q[1] ** 2)
     longer = length > bound
     return np.asarray(q * np.where(longer, bound / np.where(longer, length, 1.0), 1.0))
@@ -21,14 +21,14 @@ def into_discs(q: Field, bound: Vector) -> Field:
 def project(
     q: Field, bound: Vector, stiffness: Vector, along: Field, total: float | None
 ) -> tuple[Field, float]:
-    """Project q onto the admissible shears in the metric Σ d |·|².
+    """Return the projection of q onto the admissible shears in the metric Σ d |·|².
 
     stiffness  d (points,) > 0
     along      (2, points); the total is Σ along · q
-    total      T, smaller than Σ bound |along|; None: the discs alone
-    returns    P(q + λ along/d) with the one λ that gives the total
+    total      T, smaller than Σ bound |along|; None without this condition
+    returns    P(q + λ along/d) with the λ that gives the total
 
-    The total grows with λ, so that Newton's method between bounds that close in always ends.
+    The total increases with λ, so that Newton's method within a shrinking bracket converges.
     """
     if total is None:
         return into_discs(q, bound), 0.0

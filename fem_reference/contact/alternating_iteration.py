@@ -33,7 +33,7 @@ from fem_reference.residuals import over
 MAX_TURNS = 60
 LOOSEST = 1e-4  # first tolerance of the shear
 REMEMBERED = 30
-DEPENDENT = 1e-10  # part of a difference below which the others explain it
+DEPENDENT = 1e-10  # relative size of a difference below which it depends linearly on the others
 
 
 @dataclass(frozen=True)
@@ -231,5 +231,5 @@ class _Anderson:
         if self._force is None:
             return np.asarray(guess)
         carried = float(np.sum(self._areas * guess))
-        # An extrapolation that leaves no pressure at all tells nothing.
+        # An extrapolation without any pressure is not usable.
         return np.asarray(guess * (self._force / carried)) if carried > 0 else answer

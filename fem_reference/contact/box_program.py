@@ -26,7 +26,7 @@ Sides = NDArray[np.int8]
 
 MAX_STEPS = 60
 MAX_RELEASES = 50  # per component
-# Of the largest value: beyond a bound by less is round-off.
+# Over the largest value: smaller violations of a bound are round-off.
 ROUND_OFF = 1e-13
 
 

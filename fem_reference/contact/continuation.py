@@ -22,13 +22,13 @@ from fem_reference.contact.coupled_newton import Root, Start, root
 from fem_reference.contact.natural_map import Equations, Iterate
 
 MAX_STEPS = 1000
-SOFT = 10.0  # of the springs at first, over the compliance of the bodies at a point
-ON_PATH = 1e-7  # how much may be missed on the way
+SOFT = 10.0  # initial compliance of the springs over that of the bodies at a point
+ON_PATH = 1e-7  # residual on the path
 FIRST_LENGTH, SHORTEST, LONGEST = 0.05, 1e-7, 1.0
-BEYOND_KINK = 1e-6  # how far a piece of the path is looked for on the other side of a kink
+BEYOND_KINK = 1e-6  # relative distance of the search on the other side of a kink
 MAX_CORRECTIONS = 8
 GROWTH = 1.5
-LITTLE_FRICTION = 0.1  # shear is measured by no less of the pressure
+LITTLE_FRICTION = 0.1  # least divisor of the error of shear, over the pressure
 
 
 def solve_by_continuation(
@@ -111,7 +111,7 @@ class _Path:
             self._length = min(GROWTH * self._length, LONGEST)
 
     def _shorten(self) -> None:
-        """Halve the length; at a kink, change to the direction on its other side."""
+        """Reduce the length by half; at a kink, change to the direction on its other side."""
         self._length /= 2
         if self._length > SHORTEST:
             return

@@ -23,7 +23,7 @@ from fem_reference.contact.natural_map import Equations, Iterate
 
 MAX_STEPS = 200
 MAX_HALVINGS = 7
-REMEMBERED = 4  # misses; a step that gets below the largest of them is not shortened
+REMEMBERED = 4  # residuals; a step below the largest of them is not shortened
 SUFFICIENT = 1e-3
 
 
@@ -115,10 +115,10 @@ def _first(problem: CoupledProblem, start: Start, springs: float) -> tuple[Itera
 
 
 def _nearer(equations: Equations, at: Iterate, change: Vector, bound: float) -> Iterate | None:
-    """Line search: return the first trial whose residual is below the bound.
+    """Return the first trial of a line search whose residual is below the bound.
 
     If there is none, return the trial of the least residual: at a kink all steps may increase it.
-    None if no residual is finite.
+    Return None if no residual is finite.
     """
     nearest, least = None, np.inf
     for halvings in range(MAX_HALVINGS + 1):

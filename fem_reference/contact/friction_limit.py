@@ -6,8 +6,8 @@ from contact_scene.array_types import Mask
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import GrossSliding
 
-# A force this close to the friction limit, relatively, is at it: what would still stick, a
-# hundredth of the contact wide (the cube root), is less than an element.
+# Relative distance from the friction limit of a force that counts as gross slip. The remaining
+# stick zone, with a radius of 1 % (the cube root), is smaller than an element.
 AT_LIMIT = 1e-6
 
 

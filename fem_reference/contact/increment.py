@@ -40,14 +40,14 @@ from fem_reference.residuals import (
 )
 
 MAX_ATTEMPTS = 4
-# Relative change of the pressure by an alternating iteration from which Newton's method takes over.
+# Relative change of the pressure by an alternating iteration, below which Newton's method starts.
 # From 1e-2 to 1e-4 the time of an increment varies by 25 %.
 NEAR = 1e-3
-# Of the approach: tangential displacements below are round-off of bodies that do not couple.
+# Over the approach: smaller tangential displacements are round-off of uncoupled bodies.
 ROUND_OFF = 1e-6
-# Overlap over approach up to which springs do not move the edge of the contact visibly.
+# Overlap over approach, up to which springs have no visible effect on the edge of the contact.
 AT_EDGE = 5e-3
-# A mesh's zone of equal elements is so much wider than its contact, at most.
+# Largest ratio of the zone of equal elements of a mesh to its contact.
 WIDEST_ZONE = 1.25
 
 
@@ -65,7 +65,7 @@ def advance(
     increment = _Increment(contact, before, loads, tolerance)
     passes = [increment.first()]
     if contact.penalty is not None:
-        # Springs stiff enough need one update at Gauss points to be as good as the mesh.
+        # Stiff springs need one update at Gauss points to reach the accuracy of the mesh.
         fewest = int(contact.at_gauss_points)
         passes = augmented(passes[0], increment.again, increment.left, contact.penalty, fewest)
     return increment.state(passes)
@@ -191,7 +191,7 @@ class _Increment:
         contact, before, last = self.contact, self.before, passes[-1]
         compliance, problem, solution = contact.compliance, last.problem, last.solution
         p, q, w = solution.pressure, solution.shear, compliance.areas
-        # At Gauss points augmented tractions ripple at the edge.
+        # At Gauss points augmented tractions oscillate at the edge.
         for_edges = passes if contact.at_gauss_points else [last]
         edges = next((one for one in for_edges if one.overlap_share <= AT_EDGE), last).tractions
         in_stick = (problem.friction.limit(p) > 0) & ~solution.in_slip
@@ -239,7 +239,7 @@ class _Increment:
         """
         contact, before, loads = self.contact, self.before, self.loads
         compliance = contact.compliance
-        # At Gauss points the strain left in springs is dropped: bodies could not follow it.
+        # At Gauss points the strain remaining in springs is omitted: bodies cannot follow it.
         strained = 0.0 if contact.at_gauss_points else before.shear - before.multiplier[:2]
         memory = before.displacement + compliance.springs * (multiplier[:2] + strained)
         problem = CoupledProblem(
@@ -277,14 +277,14 @@ class _Increment:
     ) -> _Pass:
         compliance, motion = problem.compliance, solution.shift
         if motion is None and not np.any(problem.bound(solution.pressure)):
-            # Where friction carries nothing, the indenter stays.
+            # Without any friction limit the indenter does not move.
             motion = self.before.motion
         u_t, u_z = compliance.displacement(solution.pressure, solution.shear)
         passed = np.zeros_like(u_t)
         if motion is not None:
             passed = motion * compliance.motion + problem.target - u_t
         gap = problem.gap + u_z - solution.approach
-        # The springs' strain is no displacement of the bodies.
+        # The strain of the springs is no displacement of the bodies.
         displacement = u_t - compliance.springs * solution.shear
         residuals = self._residuals(problem, solution, gap, passed if motion is not None else None)
         return _Pass(
@@ -346,7 +346,8 @@ class _Increment:
         )
         direction = missing = None
         if passed is not None:
-            # What shear alone does: where all sticks from the start, all together moves nothing.
+            # Displacement by shear alone: under full stick from the start, a rigid motion has no
+            # such displacement.
             by_shear, _ = problem.compliance.displacement(np.zeros_like(p), q)
             lengths = longest(by_shear), longest(self.before.displacement), ROUND_OFF * approach
             direction = slip_direction(q, bound, passed, w, float(np.max(lengths)))

@@ -68,7 +68,8 @@ class ContactMethod:
         return reported(contact, state, self.plan.direction, place)
 
     def work_on_strain(self, before: PointState | None, state: PointState) -> float:
-        """½ Σ w (q₀ + q₁)·r Δε: work of the shear on a lower body that is strained by Δε."""
+        """Return ½ Σ w (q₀ + q₁)·r Δε, the work of the shear on a lower body with the strain change
+        Δε."""
         change = state.strain - (before.strain if before else 0.0)
         if change == 0:
             return 0.0

@@ -14,7 +14,7 @@ import numpy as np
 from contact_scene.array_types import Field, Mask, Matrix, Vector
 from fem_reference.contact.alternating_iteration import CoupledProblem, CoupledSolution
 
-LEAST_FRICTION = 1e-6  # shear is measured by no less of the pressure
+LEAST_FRICTION = 1e-6  # least divisor of the error of shear, over the pressure
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,8 @@ class Equations:
         safe = np.where(length > 0, length, 1.0)
         normal = np.where(in_slip, z_t / safe, 0.0)
         kept = np.where(in_slip, bound / safe, 1.0)
-        # Without contact p and q are zero: their rows of the derivative are those of the identity.
+        # Outside of contact p and q are zero: their rows of the derivative are those of the
+        # identity.
         on = np.flatnonzero(z_z > 0)
         points, count = np.arange(len(on)), 3 * n + 3
         w, d_t, d_z = w[on], d_t[on], d_z[on]

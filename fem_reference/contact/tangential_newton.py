@@ -15,9 +15,9 @@ from fem_reference.contact.admissible_shear import project
 from fem_reference.loads import TangentialTarget
 
 MAX_STEPS = 100
-# Below, the energy along a step is all round-off, and a Newton step is taken as it is.
+# Below, the energy along a step is round-off, and a Newton step is taken without line search.
 ENERGY_ROUND_OFF = 1e-5
-# Part of the bound below which shear is no scale for its own error.
+# Least fraction of the limit at which the shear is a scale of its own error.
 LEAST_SHEAR = 1e-6
 GRADIENT_STEPS = 2
 

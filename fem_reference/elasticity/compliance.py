@@ -16,7 +16,7 @@ from fem_reference.elasticity.motion import Motion
 from fem_reference.mesh.section_mesh import SectionMesh
 
 PACKAGE = Path(__file__).resolve().parents[1]
-# All that decides the bits of a compliance, from the mesh to the condensed matrix.
+# Folders that determine a compliance to the last bit, from the mesh to the condensed matrix.
 FOLDERS = ("mesh", "elasticity")
 
 
@@ -47,9 +47,10 @@ class NodalCompliance:
 
 
 def condense(section: SectionMesh, motion: Motion) -> NodalCompliance:
-    """The compliance of one body in one motion: from the cache, else by one sparse factorisation.
+    """Compute the compliance of one body in one motion by one sparse factorisation, or read the
+    cache.
 
-    Raises ResourceRefused where the memory does not suffice.
+    Raises ResourceRefused if the memory is insufficient.
     """
     radii, count = section.radii, len(motion.components)
     computed = False
@@ -66,11 +67,12 @@ def condense(section: SectionMesh, motion: Motion) -> NodalCompliance:
 def composite(
     lower: SectionMesh | None, upper: SectionMesh | None, motion: Motion
 ) -> NodalCompliance:
-    """Displacement of the lower surface relative to the upper, per force on the lower one.
+    """Compute the displacement of the lower surface relative to the upper, per force on the lower
+    one.
 
-    None stands for a rigid body; bodies alike may be one and the same section. The upper body sees
-    the shear reversed with respect to its own inward normal: C1 + J C2 J with J = diag(1, 1, -1).
-    Raises ValueError for two rigid bodies, or two whose contact nodes differ.
+    None is a rigid body; equal bodies may have one section. The upper body has the reversed shear
+    relative to its inward normal: C1 + J C2 J with J = diag(1, 1, -1). Raises ValueError for
+    two rigid bodies, or two with different contact nodes.
     """
     bodies = [section for section in (lower, upper) if section is not None]
     if not bodies:
@@ -106,9 +108,9 @@ def _identity(section: SectionMesh, motion: Motion) -> str:
 
 @cache
 def sources_digest(package: Path = PACKAGE) -> str:
-    """Of the sources of mesh and compliance as they are now, and of the libraries.
+    """Compute the digest of the sources of mesh and compliance, and of the library versions.
 
-    package  the folder that holds FOLDERS
+    package  the folder that contains FOLDERS
     """
     libraries = (np.__version__, scipy.__version__, skfem.__version__)
     digest = hashlib.sha256(repr(libraries).encode())

@@ -62,7 +62,8 @@ class FactoredSection:
         self._far = self._numbering.factor * far[self._numbering.dofs]
 
     def displacement(self, forces: Field, nodes: Indices | slice = EVERYWHERE) -> Field:
-        """(c, n, k) displacement of the nodes for (c, m, k) generalised forces on the surface."""
+        """Return the displacement (c, n, k) of nodes for generalised forces (c, m, k) on the
+        surface."""
         weights = self.motion.resultant_weights(self.section.radii)
         resultants = np.einsum("cm,cmk->k", weights, forces)
         displacement = self._far[:, nodes, None] * resultants
@@ -78,9 +79,10 @@ class FactoredSection:
         return displacement
 
     def compliance(self) -> Field:
-        """(c, m, c, m) displacement of the surface nodes per unit generalised force on them.
+        """Return the displacement (c, m, c, m) of the surface nodes per unit generalised force on
+        them.
 
-        The far field is that of the resultant alone, which leaves a small asymmetry: it is removed.
+        The far field depends on the resultant alone. The small asymmetry that it causes is removed.
         """
         numbering, first = self._numbering, self._numbering.contact
         stiffness = (self._lu.L[first:, first:] @ self._lu.U[first:, first:]).toarray()
@@ -94,7 +96,7 @@ class FactoredSection:
         return (0.5 * (matrix + matrix.T)).reshape(weights.shape * 2)
 
     def _prescribed(self, basis: Basis) -> Field:
-        """The degrees of freedom far away for a unit resultant of which only they know."""
+        """Return the degrees of freedom on the far boundary for a unit resultant."""
         values = np.zeros(self._numbering.size)
         outline, far_field = self.section.outline, self.motion.far_field
         if far_field is not None and not outline.rigid_base:
@@ -110,7 +112,8 @@ class FactoredSection:
 def _assembled(
     section: SectionMesh, motion: Motion, basis: Basis, numbering: Numbering
 ) -> csr_array:
-    """The stiffness between all displacements; explicit zeros stay, for they will be filled."""
+    """Assemble the stiffness between all displacements, with the explicit zeros that fill-in
+    needs."""
     stiffness = element_stiffness(basis, section, motion.harmonic, motion.components)
     dofs, factor = _of_elements(basis, numbering)
     stiffness *= factor[:, :, None] * factor[:, None]
@@ -123,7 +126,8 @@ def _assembled(
 def _with_pressure(
     stiffness: csr_array, section: SectionMesh, motion: Motion, basis: Basis, numbering: Numbering
 ) -> csr_array:
-    """Volume strain = p / lambda in the mixed elements, beside the forces of the pressure."""
+    """Add equations of the pressure p: volume strain = p / lambda in mixed elements, and its
+    forces."""
     mixed, first = dilatation(section).mixed, numbering.dofs.size
     volume = volume_strain(basis, motion.harmonic, motion.components)[mixed]
     dofs, factor = (one[mixed, :, None] for one in _of_elements(basis, numbering))
@@ -137,7 +141,8 @@ def _with_pressure(
 
 
 def _of_elements(basis: Basis, numbering: Numbering) -> tuple[Dofs, Field]:
-    """(e, 9 c) degrees of freedom of the elements, component by component, and their factors."""
+    """Return degrees of freedom of the elements (e, 9 c), component by component, and their
+    factors."""
     shape = (-1, basis.nelems)
     return (
         numbering.dofs[:, basis.element_dofs].reshape(shape).T,

@@ -1,4 +1,4 @@
-"""What a resultant on the surface of a half-space does far away: displacements on the box."""
+"""Far field of a resultant on the surface of a half-space: displacements on the outer boundary."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from contact_scene.material import IsotropicMaterial
 
 
 def boussinesq(r: Field, z: Field, material: IsotropicMaterial) -> Field:
-    """(3, ...) amplitudes u_r, u_theta, u_z (n = 0) of a unit force along z at the origin.
+    """Compute amplitudes u_r, u_theta, u_z (3, ...) of a unit force along z at the origin, n = 0.
 
     Boussinesq 1885; Johnson, Contact Mechanics (1985), Eq. 3.18.
     """
@@ -19,7 +19,7 @@ def boussinesq(r: Field, z: Field, material: IsotropicMaterial) -> Field:
 
 
 def cerruti(r: Field, z: Field, material: IsotropicMaterial) -> Field:
-    """(3, ...) amplitudes u_r, u_theta, u_z (n = 1) of a unit force along theta = 0.
+    """Compute amplitudes u_r, u_theta, u_z (3, ...) of a unit force along theta = 0, n = 1.
 
     Cerruti 1882; Johnson, Contact Mechanics (1985), Eq. 3.75.
     """
@@ -32,9 +32,9 @@ def cerruti(r: Field, z: Field, material: IsotropicMaterial) -> Field:
 
 
 def point_torque(r: Field, z: Field, material: IsotropicMaterial) -> Field:
-    """(3, ...) amplitudes u_r, u_theta, u_z (n = 0) of a unit torque about z at the origin.
+    """Compute amplitudes u_r, u_theta, u_z (3, ...) of a unit torque about z at the origin, n = 0.
 
-    Half of Kelvin's point couple in the full space, whose plane z = 0 is free of traction.
+    It is half of Kelvin's point couple in the full space, whose plane z = 0 is free of traction.
     """
     R = np.hypot(r, z)
     u_theta = r / R**3

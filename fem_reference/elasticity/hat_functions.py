@@ -22,7 +22,7 @@ SAME = 1e-9
 
 @BilinearForm  # type: ignore[untyped-decorator]
 def product(hat: Any, trace: Any, w: Any) -> Any:
-    """φ ψ r."""
+    """Return φ ψ r."""
     return hat * trace * w.x[0]
 
 
@@ -68,9 +68,9 @@ def corners_under(nodes: Field, reach: float) -> int:
 
 
 def hats_on(nodes: Field, reach: float = np.inf) -> Hats:
-    """The hats on nodes (corner and midside alternating), out to the corner at `reach`.
+    """Return the hats on nodes (corner and midside alternating), up to the corner at `reach`.
 
-    At the last corner half a hat is left: no traction reaches further.
+    The last corner has half a hat: no traction acts beyond it.
     """
     radii = nodes[::2][: corners_under(nodes, reach)]
     hats = _hat_basis(radii)
@@ -78,7 +78,7 @@ def hats_on(nodes: Field, reach: float = np.inf) -> Hats:
     outwards = np.argsort(traces.doflocs[0])
     products = np.zeros((len(nodes), len(radii)))
     products[: traces.N] = product.assemble(hats, traces).toarray()[outwards]
-    # Quadratics add up to one.
+    # The sum of the quadratics is 1.
     return Hats(radii, products, products.sum(axis=0), _integrals(hats, lambda r: r))
 
 
@@ -87,6 +87,6 @@ def _hat_basis(radii: Field) -> Basis:
 
 
 def _integrals(hats: Basis, function: Callable[[Field], Field]) -> Field:
-    """∫ f φ r dr of every hat."""
+    """Return ∫ f φ r dr of every hat."""
     load = LinearForm(lambda hat, w: function(np.asarray(w.x[0])) * hat * w.x[0])
     return np.asarray(load.assemble(hats))

@@ -1,4 +1,4 @@
-"""How a body moves in one angular harmonic: components, axis, resultant and far field."""
+"""Motions of a body in one angular harmonic: components, axis, resultant and far field."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -16,15 +16,15 @@ FarField = Callable[
 
 @dataclass(frozen=True)
 class Motion:
-    """One harmonic of the displacement, and what the axis and the far field know of it.
+    """One harmonic of the displacement, with its conditions on the axis and in the far field.
 
     harmonic    n
-    components  which of u_r (0), u_theta (1), u_z (2) take part
-    on_axis     by component: 0 where it vanishes at r = 0, else its factor of the one displacement
-                that is left there
+    components  indices of u_r (0), u_theta (1), u_z (2) in the motion
+    on_axis     by component: 0 if it is zero at r = 0, else its factor of the one displacement on
+                the axis
     resultant   by component: factor of the nodal forces in the resultant of the surface tractions
     lever       power of r in the resultant
-    far_field   displacement of a half-space for a unit resultant; None: a body at rest
+    far_field   displacement of a half-space for a unit resultant; None for zero displacement
     """
 
     harmonic: int
@@ -36,11 +36,11 @@ class Motion:
 
     @property
     def changes_volume(self) -> bool:
-        """Whether it can; torsion cannot."""
+        """True if the motion can change the volume; torsion cannot."""
         return self.harmonic > 0 or self.components != TORSION.components
 
     def resultant_weights(self, radii: NDArray[np.float64]) -> NDArray[np.float64]:
-        """(c, m) factors of the generalised nodal forces in the resultant: W, T or M_z."""
+        """Return factors (c, m) of the generalised nodal forces in the resultant: W, T or M_z."""
         return np.multiply.outer(np.asarray(self.resultant), radii**self.lever)
 
 
@@ -52,9 +52,9 @@ SHEARING = Motion(1, (0, 1, 2), (1.0, -1.0, 0.0), (np.pi, -np.pi, 0.0), 0, cerru
 
 
 def motion(harmonic: int) -> Motion:
-    """The motion under tractions of the harmonic; pressing for n = 0 (not TORSION)."""
+    """Return the motion under tractions of the harmonic: for n = 0 normal loading, not torsion."""
     if harmonic < 0:
-        raise ValueError(f"harmonic {harmonic}: give 0, 1, 2, ...")
+        raise ValueError(f"harmonic {harmonic} is not 0, 1, 2, ...")
     if harmonic < 2:
         return (PRESSING, SHEARING)[harmonic]
     return Motion(harmonic, (0, 1, 2), (0.0,) * 3, (0.0,) * 3, 0, None)

@@ -18,7 +18,7 @@ from fem_reference.mesh.section_mesh import SectionMesh
 Indices = NDArray[np.int64]
 Dofs = NDArray[np.int32]
 
-LEAF = 4  # elements that are not cut further
+LEAF = 4  # elements that are not divided further
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,8 +65,8 @@ def number_unknowns(
     keys[1, surface] = keys.max() + 1
     rank = np.empty(basis.N, dtype=np.int64)
     rank[np.lexsort(keys)] = np.arange(rank.size)
-    # A pressure is held by the displacements around it alone: it follows them, save for those of
-    # the contact zone, which are not to be eliminated with the rest.
+    # A pressure depends only on the displacements of its element. It is eliminated after them,
+    # except for those of the contact zone, which are not eliminated.
     inside = np.where(np.isin(elements, surface), -1, rank[elements]).max(axis=1)
     places = np.concatenate([2 * rank[free % basis.N], np.repeat(2 * inside[mixed] + 1, 3)])
     order = np.concatenate([free, pressure.ravel()])[np.argsort(places, kind="stable")]
@@ -75,7 +75,7 @@ def number_unknowns(
 
 
 def _elimination_keys(points: NDArray[np.float64], quads: Indices, elements: Indices) -> Indices:
-    """(2, n) sort keys of the nodes, the second the more important one.
+    """Return sort keys (2, n) of the nodes. The second key has priority.
 
     points, quads  corners (2, k) and elements (4, e)
     elements       (e, 9) nodes of the elements
@@ -85,8 +85,8 @@ def _elimination_keys(points: NDArray[np.float64], quads: Indices, elements: Ind
     first, last = np.full(count, leaf.max()), np.zeros(count, dtype=np.int64)
     np.minimum.at(first, elements, leaf[:, None])
     np.maximum.at(last, elements, leaf[:, None])
-    # Leaves are numbered so that a subtree is what agrees in the leading bits. The node belongs to
-    # the cut of the smallest subtree with all its elements, and comes after that subtree's leaves.
+    # Leaves of a subtree have equal leading bits. A node belongs to the smallest subtree with all
+    # its elements, and follows the leaves of this subtree.
     height = np.frexp((first ^ last).astype(np.float64))[1].astype(np.int64)
     end = ((last >> height) + 1) << height
     return np.stack([height, end])
@@ -111,7 +111,7 @@ def _leaves(points: NDArray[np.float64], quads: Indices) -> Indices:
             cut = np.bincount(group, (low[a] < median) & (high[a] >= median))
             unequal = np.abs(2 * np.bincount(group, below[a]) - size) / size
             price.append(cut * (1.0 + unequal) + size * (unequal == 1.0))
-        # Across the axis along which fewer elements stand in the way of the cut.
+        # The cut is perpendicular to the axis along which it meets fewer elements.
         side = np.where((price[0] <= price[1])[group], *below)
         leaf += (~side & (size > 1)[group]) * (1 << level)
     return leaf

@@ -31,7 +31,7 @@ class ElementQuadLinear(Element):  # type: ignore[misc]
     refdom = RefQuad
 
     def gbasis(self, mapping: Any, X: Any, i: int, tind: Any = None) -> tuple[DiscreteField]:
-        """The basis function i at points."""
+        """Evaluate the basis function i at points; see `skfem.Element.gbasis`."""
         at = mapping.F(X, tind)
         if i == 0:
             return (DiscreteField(np.ones_like(at[0])),)
@@ -42,9 +42,9 @@ class ElementQuadLinear(Element):  # type: ignore[misc]
 
 
 def displacement_basis(section: SectionMesh, quadrature: Any = None) -> Basis:
-    """Of one component of the displacement, with u/r, u_,r and u_,z as `grad`.
+    """Create the basis of one component of the displacement, with u/r, u_,r and u_,z as `grad`.
 
-    quadrature  points and weights on the unit square; None: such as are exact
+    quadrature  points and weights on the unit square; None for exact integration
     """
     basis = Basis(section.mesh, ElementQuad2(), intorder=EXACT, quadrature=quadrature)
     r = np.asarray(basis.global_coordinates())[0]
@@ -56,7 +56,8 @@ def displacement_basis(section: SectionMesh, quadrature: Any = None) -> Basis:
 
 
 def pressure_basis(displacement: Basis) -> Basis:
-    """Of the pressure, at the points and with the weights of the basis of the displacement."""
+    """Create the basis of the pressure, at the points and with the weights of that of the
+    displacement."""
     basis = displacement.with_element(ElementQuadLinear())
     basis.dx = displacement.dx
     return basis

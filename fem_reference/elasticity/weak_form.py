@@ -48,15 +48,15 @@ def strains(u: Any, component: int, n: int) -> dict[str, Field]:
 def element_stiffness(
     basis: Basis, section: SectionMesh, harmonic: int, components: Components
 ) -> Field:
-    """(e, 9 c, 9 c) stiffness of every element, component by component.
+    """Compute the stiffness (e, 9 c, 9 c) of every element, component by component.
 
-    The volume strain is projected onto functions linear in an element (Q2-P1), in every material:
-    that keeps nearly incompressible layers from locking, and is exact for quadratic displacements.
-    Where `dilatation` says so, the resistance to it is left out: there the pressure is an unknown.
+    The volume strain is projected onto linear functions of an element (Q2-P1) in every material.
+    This prevents locking of nearly incompressible layers and is exact for quadratic displacements.
+    Mixed elements of `dilatation` have no resistance to it: there the pressure is an unknown.
     """
     strain = _strains_of(basis, harmonic, components)
     volume = _projected_volume(basis, strain)
-    # The distortion stores 2 mu e : e, which counts the shear g = 2 e of two places once.
+    # The distortional energy 2 mu e : e contains the shear g = 2 e of two entries once.
     weight = np.sqrt(shear_moduli(section)[:, None] * basis.dx)[:, None]
     for name, field in strain.items():
         field *= np.sqrt(2.0) * weight if name in NORMAL else weight
@@ -68,18 +68,17 @@ def element_stiffness(
 
 
 def volume_strain(basis: Basis, harmonic: int, components: Components) -> Field:
-    """(e, 9 c, 3) projections of the volume strain onto linear functions, orthonormal in every
-    element."""
+    """Compute projections (e, 9 c, 3) of the volume strain onto orthonormal linear functions."""
     return _projected_volume(basis, _strains_of(basis, harmonic, components))
 
 
 def volume_strain_at(basis: Basis, points: Basis, strain: Field) -> Field:
-    """(e, q) the volume strain of projections (e, 3), at the points of another basis."""
+    """Evaluate the volume strain (e, q) of projections (e, 3), at the points of another basis."""
     return np.einsum("ep,epq->eq", strain, _orthonormal(basis, _linear(points)))
 
 
 def _strains_of(basis: Basis, harmonic: int, components: Components) -> dict[str, Field]:
-    """(e, 9 c, q) strains of every element's functions, component by component."""
+    """Compute strains (e, 9 c, q) of every element's functions, component by component."""
     elements, points = basis.dx.shape
     found: dict[str, Field] = {}
     for k, component in enumerate(components):
@@ -97,7 +96,7 @@ def _projected_volume(basis: Basis, strain: dict[str, Field]) -> Field:
 
 
 def _linear(basis: Basis) -> Field:
-    """(e, 3, q) the functions of the pressure."""
+    """Return the functions of the pressure (e, 3, q)."""
     return np.stack([np.asarray(field[0]) for field in pressure_basis(basis).basis], axis=1)
 
 
@@ -110,11 +109,11 @@ def _orthonormal(basis: Basis, linear: Field) -> Field:
 
 @dataclass(frozen=True, eq=False)
 class Dilatation:
-    """How elements resist a change of volume; lambda = 2 mu nu / (1 - 2 nu), infinite at nu = 1/2.
+    """Resistance to change of volume; lambda = 2 mu nu / (1 - 2 nu), infinite at nu = 1/2.
 
-    resistance   (e,) lambda; 0 where the pressure is an unknown
-    mixed        (e,) whether it is: so large a lambda would drown the shear in round-off
-    compliance   (e,) 1 / lambda where the pressure is an unknown, else 0
+    resistance  (e,) lambda; 0 if the pressure is an unknown
+    mixed       (e,) true if it is an unknown: with a large lambda the shear stiffness is round-off
+    compliance  (e,) 1 / lambda if the pressure is an unknown, else 0
     """
 
     resistance: Field
@@ -123,7 +122,7 @@ class Dilatation:
 
 
 def dilatation(section: SectionMesh) -> Dilatation:
-    """Resistance to volume strain of every element."""
+    """Compute the resistance to volume strain of every element."""
     nu = np.array([m.poisson_ratio for m in section.outline.materials])[section.layer]
     softness = (1.0 - 2.0 * nu) / (2.0 * shear_moduli(section))  # nu / lambda
     mixed = 2.0 * nu > STIFFEST * (1.0 - 2.0 * nu)
@@ -136,5 +135,5 @@ def dilatation(section: SectionMesh) -> Dilatation:
 
 
 def shear_moduli(section: SectionMesh) -> Field:
-    """(e,) mu of every element."""
+    """Return mu of every element (e,)."""
     return np.array([m.shear_modulus for m in section.outline.materials])[section.layer]

@@ -62,7 +62,7 @@ def gmsh_section_mesh(
         kinds, cells, corners = gmsh.model.mesh.getElements(2)
     found = {int(kind): len(cell) for kind, cell in zip(kinds, cells, strict=True)}
     if set(found) != {_QUADRILATERAL}:
-        # A reader that wants quadrilaterals would leave the others out and the section with holes.
+        # A reader of quadrilaterals would omit other elements and leave holes in the section.
         raise SolverError(f"gmsh made elements other than quadrilaterals, by type: {found}")
     place = np.zeros(int(tags.max()) + 1, dtype=np.int64)
     place[tags] = np.arange(tags.size)
@@ -107,7 +107,8 @@ def _gmsh_model() -> Iterator[Any]:
 
 
 def _restore_broken_pipes() -> None:
-    """gmsh makes writing to a pipe that nobody reads end the process, behind Python's back."""
+    """Restore Python's handling of broken pipes, which gmsh replaces by termination of the
+    process."""
     if threading.current_thread() is threading.main_thread():  # others must not change handlers
         signal.signal(signal.SIGPIPE, signal.getsignal(signal.SIGPIPE))
 
@@ -118,7 +119,7 @@ def _set(gmsh: Any, options: Mapping[str, float]) -> None:
 
 
 def _draw(geometry: Any, outline: SectionOutline) -> None:
-    """Lines and surfaces, with the elements on every line. Loops run around with r before z."""
+    """Create lines and surfaces, with the elements of every line. Loops start along r, then z."""
     h = outline.size
     across = (0.0, outline.zone, outline.box)
     depths = (0.0, *outline.interfaces)
@@ -153,9 +154,11 @@ def _draw(geometry: Any, outline: SectionOutline) -> None:
 
 
 def _divide(geometry: Any, line: int, elements: NDArray[np.floating[Any]]) -> None:
-    """As many elements on a line as between the given points, in one ratio; always an even number.
+    """Set the elements of a line to the number between the given points, in a geometric
+    progression.
 
-    Quadrilaterals alone fill a surface only if its edge has an even number of elements.
+    The number is even: a surface can only be filled by quadrilaterals if its edge has an even
+    number of elements.
     """
     sizes = np.diff(elements)
     count = sizes.size + sizes.size % 2

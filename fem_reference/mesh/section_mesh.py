@@ -43,8 +43,10 @@ class SectionMesh:
 
     @property
     def mesh(self) -> MeshQuad:
-        """For scikit-fem, its boundaries named: axis, contact zone, and far what is at rest or has
-        the displacements of a half-space."""
+        """Mesh for scikit-fem with named boundaries: axis, contact zone, and far boundary.
+
+        The far boundary has zero displacement or that of a half-space.
+        """
         outline = self.outline
         boundaries = {
             "axis": lambda x: x[0] == 0.0,
@@ -76,14 +78,18 @@ class SectionMesh:
         return radii
 
     def refined(self) -> "SectionMesh":
-        """Every element cut into four: the displacements of this mesh exist on that one too."""
+        """Return the mesh with every element divided into four. Its space contains that of this
+        mesh."""
         mesh = self.mesh.refined()
         finer = replace(self.outline, size=self.outline.size / 2.0)
         return SectionMesh(np.asarray(mesh.p), np.asarray(mesh.t), finer)
 
     def towards(self, edges: NDArray[np.float64]) -> "SectionMesh":
-        """A mesh of rectangles with lines at these radii, its elements halved and halved again
-        towards them and towards the surface; this one itself where there are none."""
+        """Return a mesh of rectangles with lines at these radii, refined towards them and the
+        surface.
+
+        Elements are halved repeatedly. Return this mesh itself without radii.
+        """
         if not edges.size:
             return self
         r, z = self.points

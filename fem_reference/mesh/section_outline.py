@@ -1,4 +1,4 @@
-"""What any mesh of a body has to fit: outer edges, interfaces, contact zone and element sizes."""
+"""Outline of a section for any mesh: outer edges, interfaces, contact zone and element sizes."""
 
 from dataclasses import dataclass
 
@@ -77,8 +77,8 @@ def section_outline(
     thickness = sum(layer.thickness for layer in body.layers)
     if thickness > DEEPEST_LAYERS:
         raise UnsupportedScene(
-            f"the layers are {thickness:g} contact radii thick, above {DEEPEST_LAYERS:g}: what is "
-            "below them is not felt; leave the substrate out and make the last layer the body"
+            f"the layers are {thickness:g} contact radii thick, more than {DEEPEST_LAYERS:g}, so "
+            "that the substrate has no effect. Remove it and use the last layer as the body"
         )
     outer = sufficient_box(body) if box is None else float(box)
     depths = [float(depth) for depth in np.cumsum([x.thickness for x in body.layers])]
@@ -88,25 +88,26 @@ def section_outline(
         depths.append(outer)
     if not (SMALLEST_BOX * zone <= outer < np.inf and depths == sorted(depths)):
         raise SolverError(
-            f"a section of {outer:g} contact radii does not hold a contact zone of {zone:g} and "
-            f"layers of {thickness:g}: give a larger box"
+            f"a section of {outer:g} contact radii is too small for a contact zone of {zone:g} and "
+            f"layers of {thickness:g}. Use a larger box"
         )
     thinnest = min([x.thickness for x in body.layers], default=np.inf)
     if thinnest < THINNEST_LAYER * size:
         raise UnsupportedScene(
-            f"a layer is {thinnest:g} contact radii thick, below {THINNEST_LAYER:g} of the element "
-            f"beside it ({size:g}): leave it out, or take more elements per radius"
+            f"a layer is {thinnest:g} contact radii thick, less than {THINNEST_LAYER:g} of the size "
+            f"of its elements ({size:g}). Remove it, or use more elements per radius"
         )
     rigid = not isinstance(body.material, IsotropicMaterial)
     return SectionOutline(size, zone, outer, tuple(depths), tuple(materials), rigid)
 
 
 def sufficient_box(body: Body) -> float:
-    """Radius at which the substrate's own displacements stand in for those of the stack.
+    """Estimate the radius beyond which the far field of the substrate applies to the stack.
 
     With x the sum over the layers of thickness times relative difference from the substrate's
-    stiffness, they leave an error of about x / L^2 in the shift, relative to it, and less in the
-    approach; a stack that spreads the load, x > 1, one of 0.06 x^2 / L^2. Here that is 1e-5.
+    stiffness, the relative error of the shift is about x / L^2, and that of the approach is
+    smaller. A stack that spreads the load, x > 1, has an error of 0.06 x^2 / L^2. The limit is
+    1e-5.
     """
     thickness = sum(layer.thickness for layer in body.layers)
     x = 0.0
@@ -118,7 +119,7 @@ def sufficient_box(body: Body) -> float:
 
 
 def _difference(layer: IsotropicMaterial, substrate: IsotropicMaterial) -> float:
-    """The larger of the relative differences of the shear and the plane-strain modulus."""
+    """Return the larger of the relative differences of the shear and the plane-strain modulus."""
     return max(
         abs(layer.shear_modulus / substrate.shear_modulus - 1.0),
         abs(layer.plane_strain_modulus / substrate.plane_strain_modulus - 1.0),

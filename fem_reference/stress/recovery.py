@@ -40,15 +40,16 @@ GAUSS = 0.5 + np.array([-0.5, 0.5]) / np.sqrt(3.0)
 
 @dataclass(frozen=True, eq=False)
 class Recovery:
-    """From the 2 x 2 points of the elements to points at the nodes, one for each material there.
+    """Extrapolation from the 2 x 2 points of the elements to nodes, one point per material of a
+    node.
 
-    section, basis  whose displacements are given
+    section, basis  of the displacements
     at              the same basis at the 2 x 2 points
     extrapolation   (9, 4) from these points to the nodes of an element
     cells           (e, 9) points
     node            (n,) node of every point
     material        (n,)
-    share           (n,) how many elements meet at a point
+    share           (n,) number of elements at a point
     """
 
     section: SectionMesh
@@ -61,12 +62,12 @@ class Recovery:
     share: Field
 
     def amplitude(self, of: Motion, u: Field, scales: Scales) -> Amplitude:
-        """Fields of one motion from the displacement of the nodes (c, nodes)."""
+        """Compute the fields of one motion from the displacement of the nodes (c, nodes)."""
         strain = dict.fromkeys(ORDER, np.zeros_like(self.at.dx))
         for component, values in zip(of.components, u, strict=True):
             found = strains(self.at.interpolate(values), component, of.harmonic)
             strain |= {name: strain[name] + part for name, part in found.items()}
-        # The volume strain resists as its projection onto linear functions does.
+        # The volume strain enters with its projection onto linear functions.
         expansion = volume_strain(self.basis, of.harmonic, of.components)
         local = u[:, self.basis.element_dofs].reshape(-1, len(expansion))
         volume = volume_strain_at(self.basis, self.at, np.einsum("eip,ie->ep", expansion, local))
@@ -82,7 +83,7 @@ class Recovery:
 
 
 def recovery_of(section: SectionMesh) -> Recovery:
-    """What recovers the stress on a section; the same for all its motions."""
+    """Create the recovery of the stress on a section, which is equal for all its motions."""
     xi, eta = (part.ravel() for part in np.meshgrid(GAUSS, GAUSS, indexing="ij"))
     basis = displacement_basis(section)
     at = displacement_basis(section, (np.stack([xi, eta]), np.full(4, 0.25)))
@@ -102,7 +103,8 @@ def recovery_of(section: SectionMesh) -> Recovery:
 
 
 def _extrapolation(nodes: Field) -> Field:
-    """(9, 4) bilinear functions of the 2 x 2 points, first coordinate slowest, at the nodes."""
+    """Return the bilinear functions (9, 4) of the 2 x 2 points, first coordinate slowest, at the
+    nodes."""
     low, high = GAUSS
     along = [np.stack([(high - c) / (high - low), (c - low) / (high - low)], -1) for c in nodes.T]
     return np.einsum("na,nb->nab", *along).reshape(len(nodes), 4)

@@ -53,7 +53,7 @@ class SectionField:
         return self._sum([part.displacement for part in self.parts], (1,), theta)
 
     def stress(self, theta: float = 0.0) -> Field:
-        """rr, tt, zz, tz, rz, rt (6, n), tension positive [force/length^2]."""
+        """Return the stress rr, tt, zz, tz, rz, rt (6, n), positive in tension [force/length^2]."""
         return self._sum([part.stress for part in self.parts], AS_SINE, theta)
 
     @cached_property
@@ -62,7 +62,8 @@ class SectionField:
         return self._sorted(self.points[0] == 0.0, self.points[1])
 
     def side(self, depth: float, material: int) -> Indices:
-        """Points at the depth of an interface that belong to a material, outwards."""
+        """Return indices of points at the depth of an interface in a material, in the order of
+        r."""
         on_it = np.isclose(self.points[1], depth, rtol=SAME_DEPTH, atol=0.0)
         return self._sorted(on_it & (self.material == material), self.points[0])
 

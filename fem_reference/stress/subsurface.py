@@ -21,7 +21,7 @@ from fem_reference.stress.section_field import SectionField
 from fem_reference.stress.surface_tractions import SurfaceTractions
 
 POINTS_BETWEEN = 4
-# Amplitudes below this part of the largest are round-off.
+# Amplitudes below this fraction of the largest are round-off.
 ROUND_OFF = 1e-12
 
 
@@ -32,7 +32,7 @@ def subsurface(
     *,
     upper: bool = False,
 ) -> SectionField:
-    """Displacement and stress of one body.
+    """Compute displacement and stress of one body.
 
     Parameters
     ----------
@@ -43,14 +43,14 @@ def subsurface(
     discretisation
         Elements per radius of the loaded circle, and the size of the section.
     upper
-        Whether the body is the indenter: it carries the shear reversed, and z points up into it.
+        True for the indenter: the shear is reversed, and z points up into it.
 
     Raises
     ------
     UnsupportedScene
-        A material is so nearly incompressible that its pressure is not a matter of strain.
+        A material is nearly incompressible, so that its pressure does not follow from strain.
     ResourceRefused
-        The memory does not suffice.
+        The memory is insufficient.
     """
     if not body.deforms:
         raise ValueError("a rigid body has no stress")
@@ -87,9 +87,11 @@ def _nodes(body: Body, section: SectionMesh, nodes: Field, length: float) -> Fie
 
 
 def _section(body: Body, discretisation: FiniteElementDiscretisation, zone: float) -> SectionMesh:
-    """The mesh of half as many elements per radius with every element cut into four: elements that
-    grow with depth as fast as those for displacements alone leave 2e-3 of the stress, however fine
-    they are at the surface."""
+    """Return a mesh of half the elements per radius with every element divided into four.
+
+    The stress error of a mesh for displacements alone is 2e-3 for any element size at the surface,
+    because its elements grow faster with depth.
+    """
     coarse = max(2, ceil(discretisation.elements_per_radius / 2))
     return section_mesh(body, coarse, discretisation.box, zone).refined()
 
@@ -104,7 +106,7 @@ def _refuse_incompressible(section: SectionMesh) -> None:
 
 @dataclass(frozen=True, eq=False)
 class _LoadPoints:
-    """Where the tractions are integrated: between all corners and rings.
+    """Points of integration of the tractions, between all corners and rings.
 
     radii     (k,)
     weighted  (m, k) ψ w r at them for every node of the surface, so that ∫ ψ t r dr = weighted @ t
@@ -117,8 +119,11 @@ class _LoadPoints:
 def _carrying_the_load(
     tractions: SurfaceTractions, points: _LoadPoints, length: float
 ) -> list[tuple[Motion, Field]]:
-    """Amplitudes at the points. What was computed at rings carries the load with lines between
-    them; roots through the same values carry a little more, so all is made less by that."""
+    """Return amplitudes at the points, scaled to the load of the result.
+
+    The result has linear interpolation between rings. Roots through its values have a slightly
+    larger load.
+    """
     radii, weight = points.radii * length, points.weighted.sum(axis=0)
     found = tractions.amplitudes(radii)
     if not tractions.edges.size:

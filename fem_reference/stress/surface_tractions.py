@@ -1,4 +1,4 @@
-"""What loads the surface of a section, at any radius, as harmonics."""
+"""Tractions on the surface of a section, at any radius, as harmonics."""
 
 from __future__ import annotations
 
@@ -25,26 +25,27 @@ from fem_reference.compliance.ring_edge import (
 from fem_reference.elasticity.motion import PRESSING, SHEARING, TORSION, Motion, motion
 from fem_reference.fields import Increment
 
-# The last element with pressure says nothing of the smooth factor. Hats that do not end where the
-# contact does err before it by turns above and below, each ring by -0.3 of the next one further
-# out: a line and such turns are fitted to so many elements before the last.
+# The last element with pressure does not determine the smooth factor. Hats that do not end at the
+# edge have oscillating errors before it, with a factor of -0.3 from ring to ring: a line and this
+# oscillation are fitted to this number of elements before the last.
 FITTED, TURNS = 8, -0.3
 FEWEST_RINGS = 4
-BETWEEN_RAYS = 2  # rays of the tractions to one of those that were computed
+BETWEEN_RAYS = 2  # rays of the tractions per computed ray
 
 
 @dataclass(frozen=True, eq=False)
 class SurfaceTractions:
-    """What loads the lower body; names and signs as in `Increment`.
+    """Tractions on the lower body; names and signs as in `Increment`.
 
-    Between rings it is linear. Where the contact ends in a root, the pressure is what is linear
-    times the root √(1 - r²/a²), its edge a found on every ray, and the shear a part of it that is
-    linear: the stress beside an edge is decided by what happens within the last element.
+    They are linear between rings. If the contact ends in a root, the pressure is a linear
+    interpolant times √(1 - r²/a²), with the edge a of every ray, and the shear is the pressure
+    times a linear interpolant: the stress near an edge depends on the tractions of the last
+    element.
 
     radii   (rings,) [length]
-    angles  None, or (angles,) where fields are (rings, angles)
-    rooted  whether pressure and shear end in a root of the distance from the edge
-    edge    how far beyond the last ring pressure ends, see `beyond_pressure`
+    angles  None, or (angles,) for fields (rings, angles)
+    rooted  true if pressure and shear end in a root of the distance from the edge
+    edge    distance of the edge from the last ring with pressure, see `beyond_pressure`
     """
 
     radii: Field
@@ -58,7 +59,7 @@ class SurfaceTractions:
 
     @classmethod
     def of(cls, increment: Increment) -> SurfaceTractions:
-        """Those of an increment, linear between rings."""
+        """Return the tractions of an increment, linear between rings."""
         return cls(
             increment.radii,
             increment.pressure,
@@ -70,21 +71,24 @@ class SurfaceTractions:
 
     @property
     def loaded_radius(self) -> float:
-        """Of the last ring with pressure, or of the next one if that is the axis [length]."""
+        """Radius of the last ring with pressure, or of the next one if it is the axis [length]."""
         loaded = self.pressure.reshape(len(self.radii), -1).max(axis=1) > 0
         last = np.flatnonzero(loaded)[-1]
         return float(self.radii[last] or self.radii[last + 1])
 
     @property
     def reach(self) -> float:
-        """Where the pressure has come to zero, or its last ring [length]."""
+        """Radius at which the pressure reaches zero, or of the last ring [length]."""
         beyond = self.radii[self.radii > self.loaded_radius]
         return float(beyond[0]) if beyond.size else self.loaded_radius
 
     @property
     def edges(self) -> Field:
-        """Radii of the edges before and behind the load, the same twice where the pressure is the
-        same all round [length]; none where it is not rooted or on too few rings to tell."""
+        """Radii of the edges in front of and behind the load [length].
+
+        They are equal for an axisymmetric pressure. Empty if the tractions are not rooted or have
+        too few rings.
+        """
         if not self.rooted or self._fewest < FEWEST_RINGS:
             return np.empty(0)
         if self.angles is None:
@@ -141,13 +145,16 @@ class SurfaceTractions:
         return np.array([contact_edge(self.radii, ray, edge) for ray in self._rays.T])
 
     def _linear(self, radii: Field, rays: Field) -> Field:
-        """(4, radii, harmonics)"""
+        """Return harmonics (4, radii, harmonics) of tractions that are linear between rings."""
         found = [[np.interp(radii, self.radii, ray) for ray in part.T] for part in rays]
         return self._harmonics(np.swapaxes(found, 1, 2))
 
     def _rooted(self, radii: Field, rays: Field) -> Field:
-        """(4, radii, harmonics). Shear over pressure and the smooth factor of the pressure go from
-        ray to ray first: the root ends at another radius on each."""
+        """Return harmonics (4, radii, harmonics) of tractions that end in a root.
+
+        Shear over pressure and the smooth factor of the pressure are interpolated between rays
+        first, because the radius of the root differs from ray to ray.
+        """
         factors = np.empty((4, len(radii), rays.shape[2]))
         for ray, edge in enumerate(self._edges):
             loaded = rays[3, :, ray] > 0
@@ -180,7 +187,7 @@ class SurfaceTractions:
 
 
 def _smooth_factor(radii: Field, at: Field, pressed: Field, edge: float, per_element: int) -> Field:
-    """Of the pressure on a ray: what times √(1 - r²/a²) is the pressure, at any radii."""
+    """Return the smooth factor of the pressure on a ray, p / √(1 - r²/a²), at any radii."""
     inner = at[at < edge][:-per_element]
     smooth = pressed[: len(inner)] / np.sqrt(1.0 - (inner / edge) ** 2)
     count = min(FITTED * per_element, len(inner))
