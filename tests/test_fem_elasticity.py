@@ -241,7 +241,7 @@ def test_a_refined_mesh_is_nested(mesher, body):
         (stack(), {"elements_per_radius": 8, "box": 1.5}, SolverError, "larger box"),
         (stack(), {"elements_per_radius": 8, "box": np.inf}, SolverError, "larger box"),
         (stack(20.0), {"elements_per_radius": 8, "box": 10.0}, SolverError, "larger box"),
-        (stack(1e-9), {"elements_per_radius": 8}, UnsupportedScene, "leave it out"),
+        (stack(1e-9), {"elements_per_radius": 8}, UnsupportedScene, "Remove it"),
         (stack(2e6), {"elements_per_radius": 8}, UnsupportedScene, "leave the substrate out"),
     ],
 )

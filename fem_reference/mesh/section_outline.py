@@ -94,8 +94,8 @@ def section_outline(
     thinnest = min([x.thickness for x in body.layers], default=np.inf)
     if thinnest < THINNEST_LAYER * size:
         raise UnsupportedScene(
-            f"a layer is {thinnest:g} contact radii thick, less than {THINNEST_LAYER:g} of the size "
-            f"of its elements ({size:g}). Remove it, or use more elements per radius"
+            f"a layer is {thinnest:g} contact radii thick, less than {THINNEST_LAYER:g} of the "
+            f"size of its elements ({size:g}). Remove it, or use more elements per radius"
         )
     rigid = not isinstance(body.material, IsotropicMaterial)
     return SectionOutline(size, zone, outer, tuple(depths), tuple(materials), rigid)
