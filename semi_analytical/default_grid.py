@@ -181,7 +181,7 @@ _CONTROLS = list(product((True, False), repeat=2))
 
 def _control(load: NormalTarget) -> tuple[bool, bool]:
     """Return whether the force is prescribed, and whether the moment is."""
-    return load.force is not None, load.tilting is not None and load.tilting.moment is not None
+    return load.force is not None, load.moment is not None
 
 
 def _size(load: NormalTarget) -> float:
@@ -194,11 +194,10 @@ def _lean(axis: int, load: NormalTarget) -> float:
 
     A moment is divided by the force, if prescribed.
     """
-    assert load.tilting is not None
-    if load.tilting.tilt is not None:
-        return abs(load.tilting.tilt[axis])
-    assert load.tilting.moment is not None
-    return abs(load.tilting.moment[axis]) / (load.force or 1.0)
+    if load.moment is not None:
+        return abs(load.moment[axis]) / (load.force or 1.0)
+    assert load.tilt is not None
+    return abs(load.tilt[axis])
 
 
 def _guessed_semi_axes(scene: Scene, load: NormalTarget) -> tuple[float, float]:

@@ -60,11 +60,6 @@ class Correct(Protocol):
 MAX_CONVOLUTIONS = 30_000
 
 
-def march(model: ContactModel, plan: Plan, tolerance: float) -> Iterator[Increment]:
-    """Increments of the scene's load path, one after the other; raises what `marked` raises."""
-    return (increment for increment, _ in marked(model, plan, tolerance))
-
-
 def marked(
     model: ContactModel, plan: Plan, tolerance: float, since: Checkpoint | None = None
 ) -> Iterator[tuple[Increment, ResumePoint[State]]]:

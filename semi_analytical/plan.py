@@ -110,9 +110,9 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
         effect.second_body(scene),
         effect.layers(scene),
         effect.friction(scene),
-        Effect("tangential load", friction and loaded, _why_shear(friction, loaded)),
-        Effect("tilt", tilt, _why_tilt(tilt)),
-        Effect("torsion", torsion, _why_torsion(friction, torsion)),
+        _prescribed("tangential load", loaded, "a tangential load or torsion", friction),
+        _prescribed("tilt", tilt, "a moment or a tilt"),
+        _prescribed("torsion", torsion, "a torque or a twist", friction),
         effect.strained(scene),
         effect.coupled(scene, coupled, why),
         effect.load_history(len(scene.loading) > 1 and shear),
@@ -135,18 +135,11 @@ def _tangentially_loaded(scene: Scene) -> bool:
     )
 
 
-def _why_shear(friction: bool, loaded: bool) -> str:
+def _prescribed(name: str, on: bool, loads: str, friction: bool = True) -> Effect:
+    """Describe an effect of prescribed loads; without `friction` it is off."""
     if not friction:
-        return "without friction the surfaces carry no shear"
-    if not loaded:
-        return "no load step prescribes a tangential load or torsion"
-    return "a load step prescribes a tangential force or shift, a torque or a twist"
-
-
-def _why_tilt(tilt: bool) -> str:
-    if tilt:
-        return "a load step prescribes a moment or a tilt"
-    return "no load step prescribes a moment or a tilt: the indenter does not tilt"
+        return Effect(name, False, "without friction the surfaces carry no shear")
+    return Effect(name, on, f"{'a' if on else 'no'} load step prescribes {loads}")
 
 
 def _symmetry(
@@ -179,14 +172,6 @@ def _symmetry(
     (s_x, s_y), *_ = signs
     found = ReducedDomain((x, y), (s_x if x else 1, s_y if y else 1))
     return found, even + f"solved on {'a quarter' if x and y else 'half'} of the window"
-
-
-def _why_torsion(friction: bool, torsion: bool) -> str:
-    if not friction:
-        return "without friction the surfaces carry no torque"
-    if torsion:
-        return "a load step prescribes a torque or a twist"
-    return "no load step prescribes a torque or a twist: the indenter does not rotate"
 
 
 def _edges(scene: Scene, asked: EdgeCorrection, torsion: bool) -> tuple[bool, str]:

@@ -149,7 +149,7 @@ def _problem(
     """Restrict the increment to a box of cells."""
     operator = model.operator(box.shape)
     target = surface_target(model, last, tangential)
-    rotation = None if tangential.torsion is None else model.rotation[(..., *box.slices)]
+    rotation = model.rotation[(..., *box.slices)] if tangential.twists else None
     return CoupledProblem(
         normal=operator.normal,
         precondition_normal=operator.precondition,
@@ -238,7 +238,7 @@ class _Trial:
     def _gross_slip(self, p: Field, bound: Field, u_t: VectorField) -> TangentialState:
         """Return the state of gross slip at the friction limit, or without friction."""
         model, last, load = self.model, self.last, self.tangential
-        if load.torsion is not None and load.torsion.torque is not None:
+        if load.torque is not None:
             refuse_excessive_torque(model, bound, load)
         elif load.force is not None:
             force_reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area)

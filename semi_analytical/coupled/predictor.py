@@ -114,10 +114,7 @@ def _dilated(
     Without a preceding increment, or after a much smaller one, radius and force follow the gap r^k.
     """
     exponent = model.scene.indenter.gap_exponent
-    fixed_tilt = normal.tilting is None or (
-        normal.tilting.moment is None and normal.tilting == now.target.tilting
-    )
-    if exponent is None or not fixed_tilt:
+    if exponent is None or normal.moment is not None or normal.tilt != now.target.tilt:
         return None
     if normal.force is not None:
         load, loads = normal.force, [state.normal_force for state in (now, behind) if state]

@@ -35,9 +35,8 @@ def force_reaches_limit(force: Vector, limit: float) -> bool:
 def refuse_excessive_torque(model: ContactModel, bound: Field, load: TangentialTarget) -> None:
     """Raise GrossSliding if friction cannot carry a prescribed torque together with the other
     loads."""
-    assert load.torsion is not None
-    assert load.torsion.torque is not None
-    torque, force = abs(load.torsion.torque), load.force
+    assert load.torque is not None
+    torque, force = abs(load.torque), load.force
     if torque == 0 and (force is None or not np.any(force)):
         return
     if not np.any(bound):

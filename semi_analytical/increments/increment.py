@@ -20,14 +20,10 @@ from semi_analytical.increments.normal_solve import (
     NormalState,
     NormalTarget,
     Pair,
-    Tilting,
     press,
 )
 from semi_analytical.increments.stick_slip import slip_and_stick
-from semi_analytical.increments.tangential_solve import (
-    TangentialTarget,
-    Torsion,
-)
+from semi_analytical.increments.tangential_solve import TangentialTarget
 from semi_analytical.increments.tangential_state import (
     TangentialState,
     untouched,
@@ -96,9 +92,9 @@ def moment_of(model: ContactModel, pressure: Field) -> Pair:
 
 def reached_moment(model: ContactModel, target: NormalTarget, pressure: Field) -> Pair | None:
     """Return the prescribed moment, else that of the pressure; None without tilt."""
-    if target.tilting is None:
+    if target.moment is None and target.tilt is None:
         return None
-    return target.tilting.moment or moment_of(model, pressure)
+    return target.moment or moment_of(model, pressure)
 
 
 def residuals_of(model: ContactModel, state: State) -> Residuals:
@@ -115,10 +111,10 @@ def residuals_of(model: ContactModel, state: State) -> Residuals:
 
 def _moment_equilibrium(model: ContactModel, state: State) -> float | None:
     """Compute |Σp (y, x) - M| / Σp r; None where no moment is prescribed."""
-    tilting, p = state.target.tilting, state.pressing.pressure
-    if tilting is None or tilting.moment is None:
+    moment, p = state.target.moment, state.pressing.pressure
+    if moment is None:
         return None
-    missing = np.subtract(moment_of(model, p), tilting.moment)
+    missing = np.subtract(moment_of(model, p), moment)
     return float(np.hypot(*missing) / (np.sum(p * magnitude(model.arms)) * model.grid.cell_area))
 
 
@@ -167,7 +163,12 @@ def normal_target(
     """
     reached = (0.0, 0.0) if start is None else (start.normal_force, start.pressing.approach)
     force, approach = ramp.normal.led(fraction, reached)
-    return NormalTarget(force, approach, _tilting(ramp, start, fraction) if tilts else None)
+    if not tilts:
+        return NormalTarget(force, approach)
+    turned: tuple[Pair, Pair] = ((0.0, 0.0), (0.0, 0.0))
+    if start is not None:
+        turned = start.moment or turned[0], start.pressing.tilt or turned[1]
+    return NormalTarget(force, approach, *ramp.tilting.led(fraction, turned))
 
 
 def tangential_target(
@@ -179,27 +180,17 @@ def tangential_target(
     if sheared is not None:
         reached = _pair(sheared.force), None if sheared.shift is None else _pair(sheared.shift)
     force, shift = ramp.tangential.led(fraction, reached)
+    torque = twist = None
+    if twists:
+        turned = (sheared.torque or 0.0, sheared.twist or 0.0) if sheared else (0.0, 0.0)
+        torque, twist = ramp.twisting.led(fraction, turned)
     return TangentialTarget(
         None if force is None else np.array(force),
         None if shift is None else np.array(shift),
-        _torsion(ramp, start, fraction) if twists else None,
+        torque,
+        twist,
         ramp.strain(fraction),
     )
-
-
-def _tilting(ramp: LoadRamp, start: State | None, fraction: float) -> Tilting:
-    reached: tuple[Pair, Pair] = ((0.0, 0.0), (0.0, 0.0))
-    if start is not None:
-        reached = start.moment or reached[0], start.pressing.tilt or reached[1]
-    return Tilting(*ramp.tilting.led(fraction, reached))
-
-
-def _torsion(ramp: LoadRamp, start: State | None, fraction: float) -> Torsion:
-    sheared = start.sheared if start is not None else None
-    reached = (0.0, 0.0)
-    if sheared is not None:
-        reached = sheared.torque or 0.0, sheared.twist or 0.0
-    return Torsion(*ramp.twisting.led(fraction, reached))
 
 
 def _pair(vector: np.ndarray) -> Pair:

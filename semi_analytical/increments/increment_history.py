@@ -38,7 +38,7 @@ def further(
 
     Zero where no extrapolation applies: the direction or the normal load changes, or torsion acts.
     """
-    if behind is None or behind.target != now.target or tangential.torsion is not None:
+    if behind is None or behind.target != now.target or tangential.twists:
         return 0.0
     if tangential.force is not None:
         way, last = tangential.force - now.force, now.force - behind.force

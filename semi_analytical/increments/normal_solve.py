@@ -61,43 +61,34 @@ class NormalState:
 
 
 @dataclass(frozen=True)
-class Tilting:
-    """Prescribed moment (M_x, M_y) [force length] or tilt (x, y): exactly one."""
-
-    moment: Pair | None = None
-    tilt: Pair | None = None
-
-
-@dataclass(frozen=True)
 class NormalTarget:
     """Prescribed force W [force] or approach [length]: exactly one; and the tilt, None without
     tilt."""
 
     force: float | None = None
     approach: float | None = None
-    tilting: Tilting | None = None
+    moment: Pair | None = None
+    tilt: Pair | None = None
 
     def gap(self, model: ContactModel) -> Field:
         """Return the undeformed gap; for a prescribed tilt that of the tilted indenter at first
         touch."""
-        if self.tilting is None or self.tilting.tilt is None:
+        if self.tilt is None:
             return model.gap
-        return model.gap - plane(model, self.tilting.tilt) - self._first_touch(model)
+        return model.gap - plane(model, self.tilt) - self._first_touch(model)
 
     def _first_touch(self, model: ContactModel) -> float:
         """Return the approach at which the indenter of prescribed tilt first touches a cell
         [length]."""
-        if self.tilting is None or self.tilting.tilt is None:
-            return 0.0
-        return float(np.min(model.gap - plane(model, self.tilting.tilt)))
+        return 0.0 if self.tilt is None else float(np.min(model.gap - plane(model, self.tilt)))
 
     def on(self, model: ContactModel, box: Box) -> NormalLoad:
         """Return the load for the solver on a box of cells, relative to `gap`."""
         total = None if self.force is None else self.force / model.grid.cell_area
-        if self.tilting is not None and self.tilting.moment is not None:
+        if self.moment is not None:
             from semi_analytical.normal.tilting import PressureMoments
 
-            moments = np.array(self.tilting.moment) / model.grid.cell_area
+            moments = np.array(self.moment) / model.grid.cell_area
             arms = model.arms[(..., *box.slices)]
             cells = np.isfinite(model.gap[box.slices])
             return PressureMoments(arms, cells, moments, total, self.approach)
@@ -108,10 +99,8 @@ class NormalTarget:
 
     def reached(self, model: ContactModel, motion: Motion) -> tuple[float, Pair | None]:
         """Convert the motion of the load to approach and tilt."""
-        if self.tilting is None:
-            return float(motion), None
-        if self.tilting.tilt is not None:
-            return float(motion) + self._first_touch(model), self.tilting.tilt
+        if self.moment is None:
+            return float(motion) + self._first_touch(model), self.tilt
         approach, tilt_x, tilt_y = map(float, np.ravel(motion))
         return approach, (tilt_x, tilt_y)
 
@@ -237,14 +226,13 @@ def refuse_unresolved_contact(model: ContactModel, target: NormalTarget) -> None
     """
     if _touches(model, target):
         undeformed = target.gap(model)
-        tilts = target.tilting is not None and target.tilting.moment is not None
-        if not tilts and np.min(model.domain.rim(undeformed)) <= np.min(undeformed):
+        if target.moment is None and np.min(model.domain.rim(undeformed)) <= np.min(undeformed):
             raise ContactAtWindowEdge(
                 "the lowest point of the indenter lies at the border of the window, so that the "
                 f"contact begins there. {_lower(model)}"
             )
         return
-    if target.tilting is None or target.tilting.moment is None:
+    if target.moment is None:
         gap = float(np.min(model.gap))
         least = f"the gap is at least {gap:.4g} m at" if gap < np.inf else "the indenter covers no"
         kind = ContactNotResolved if target.approach is None else NothingTouches

@@ -86,7 +86,7 @@ def _without_solving(
 ) -> TangentialState | None:
     """Return the state in cases without equations: no motion yet, or full slip; None otherwise."""
     nothing = np.zeros_like(last.shear)
-    if load.torsion is not None and load.torsion.torque is not None:
+    if load.torque is not None:
         refuse_excessive_torque(model, bound, load)
         if np.any(bound):
             return None
@@ -98,7 +98,7 @@ def _without_solving(
         )
     moved = last.shear, last.shift, last.displacement
     changes = load.strain not in (None, last.strain or UNSTRAINED)
-    if load.torsion is None and not changes and not any(map(np.any, (load.force, *moved))):
+    if not load.twists and not changes and not any(map(np.any, (load.force, *moved))):
         return replace(
             last, pressure=pressure, in_stick=bound > 0, iterations=0, strain=load.strain
         )
@@ -128,8 +128,8 @@ def shear_residuals(
         defect = model.domain.resultant(q) - load.force / model.grid.cell_area
         equilibrium = float(np.hypot(*defect) / np.sum(bound))
     torque_equilibrium = None
-    if load.torsion is not None and load.torsion.torque is not None:
-        missing = torque_of(model, q) - load.torsion.torque
+    if load.torque is not None:
+        missing = torque_of(model, q) - load.torque
         limit = np.sum(bound * magnitude(model.rotation)) * model.grid.cell_area
         torque_equilibrium = float(abs(missing) / limit)
     moved = np.maximum(np.abs(solution.displacement), np.abs(last.displacement))

@@ -31,25 +31,24 @@ class Shearing:
 
 
 @dataclass(frozen=True)
-class Torsion:
-    """Prescribed torque M_z [force length] or twist: exactly one."""
-
-    torque: float | None = None
-    twist: float | None = None
-
-
-@dataclass(frozen=True)
 class TangentialTarget:
-    """Prescribed force T [force] or shift [length], each (2,): exactly one.
+    """Prescribed tangential load.
 
-    torsion  None without torsion
-    strain   bulk strain since first touch; None without strain
+    force, shift   T [force] or shift [length], each (2,): exactly one
+    torque, twist  M_z [force length] or twist: exactly one; both None without torsion
+    strain         bulk strain since first touch; None without strain
     """
 
     force: Vector | None = None
     shift: Vector | None = None
-    torsion: Torsion | None = None
+    torque: float | None = None
+    twist: float | None = None
     strain: Strain | None = None
+
+    @property
+    def twists(self) -> bool:
+        """Whether torsion acts."""
+        return self.torque is not None or self.twist is not None
 
     def on(
         self,
@@ -65,14 +64,14 @@ class TangentialTarget:
         spring    displacement of a rig's spring per sum of the shear [length^3/force]
         """
         total = None if self.force is None else self.force / cell_area
-        if self.torsion is not None and self.torsion.torque is not None:
+        if self.torque is not None:
             assert rotation is not None
             from semi_analytical.tangential.torsion import ShearMoments
 
             shift = self.shift
             if not any(domain.summed):  # without resultants nothing shifts
                 total, shift = None, np.zeros(2)
-            return ShearMoments(rotation, self.torsion.torque / cell_area, total, shift)
+            return ShearMoments(rotation, self.torque / cell_area, total, shift)
         if total is not None:
             return ShearSum(total, domain.summed)
         assert self.shift is not None
@@ -101,7 +100,7 @@ def shear(
     box = box_around(bound > 0, 0, model.domain)
     operator = model.operator(box.shape)
     inside = (..., *box.slices)
-    rotation = None if load.torsion is None else model.rotation[inside]
+    rotation = model.rotation[inside] if load.twists else None
     solution = solve_tangential(
         operator.tangential,
         operator.shear_inverse,

@@ -95,9 +95,7 @@ def surface_target(
     """
     target = last.displacement - rigid(model, last.motion)
     target = target - stretched(model, load.strain, last.strain)
-    if load.torsion is None or load.torsion.twist is None:
-        return target
-    return target + load.torsion.twist * model.rotation
+    return target if load.twist is None else target + load.twist * model.rotation
 
 
 def stretched(
@@ -121,7 +119,7 @@ def strain_moments(model: ContactModel, q: VectorField) -> Vector:
 def first_motion(last: TangentialState, load: TangentialTarget) -> Vector:
     """Return the motion of the previous state as an initial guess, with the twist if it is free."""
     assert last.shift is not None
-    if load.torsion is None or load.torsion.torque is None:
+    if load.torque is None:
         return last.shift
     return np.array([*last.shift, last.twist or 0.0])
 
@@ -135,11 +133,9 @@ def torsion_reached(
     model: ContactModel, load: TangentialTarget, motion: Vector, q: VectorField
 ) -> tuple[float | None, float | None]:
     """Return twist and torque, each prescribed or solved; None without torsion."""
-    if load.torsion is None:
-        return None, None
-    if load.torsion.torque is not None:
-        return float(motion[2]), load.torsion.torque
-    return load.torsion.twist, torque_of(model, q)
+    if load.torque is not None:
+        return float(motion[2]), load.torque
+    return load.twist, None if load.twist is None else torque_of(model, q)
 
 
 def touching_share(before: Field, after: Field, gap: Field) -> Field:

@@ -12,6 +12,7 @@ import numpy as np
 from scipy.ndimage import distance_transform_edt
 
 from contact_scene.array_types import Field, Indices, Mask
+from semi_analytical.edge.clipped_power_means import mean_power
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
 
 REACH = 4
@@ -29,11 +30,6 @@ PRODUCTS = (BASIS[:, :, None] * BASIS[:, None, :]).reshape(-1, 36)
 RIDGE = 1e-9 * np.eye(6)
 # Largest ratio of the fit at an edge cell to the mean of its data.
 LEAST_FALL = 0.9
-# Corners of a unit cell, and their signs in the formula of the area where a plane is positive.
-CORNERS = np.array([(0.5, 0.5), (0.5, -0.5), (-0.5, 0.5), (-0.5, -0.5)])
-CORNER_SIGNS = np.array([1.0, -1.0, -1.0, 1.0])
-# Least slope per cell, relative to the largest value; smaller ones are rounding errors.
-FLAT = 1e-12
 
 
 def covered_cells(values: Field, inside: Mask, domain: ReducedDomain = WINDOW) -> float:
@@ -56,12 +52,14 @@ def covered_cells(values: Field, inside: Mask, domain: ReducedDomain = WINDOW) -
     phi = domain.framed(np.square(values / np.max(values)), FRAME)
     pieces = range(0, len(i), AT_ONCE)
     fits = [_fit(phi, trusted, i[k : k + AT_ONCE], j[k : k + AT_ONCE]) for k in pieces]
-    *fit, mean, count = np.concatenate(fits, axis=1)
+    f, f_x, f_y, mean, count = np.concatenate(fits, axis=1)
     centre_inside = inside[i, j]
     parts = np.clip(
-        _coverage(*fit), np.where(centre_inside, 0.5, 0), np.where(centre_inside, 1, 0.5)
+        mean_power(f, f_x, f_y, 0.0),
+        np.where(centre_inside, 0.5, 0),
+        np.where(centre_inside, 1, 0.5),
     )
-    believed = (count >= LEAST_CELLS) & (fit[0] < LEAST_FALL * mean)
+    believed = (count >= LEAST_CELLS) & (f < LEAST_FALL * mean)
     whole = np.count_nonzero(trusted[core, core])
     return float(whole + np.sum(np.where(believed, parts, centre_inside)))
 
@@ -117,17 +115,3 @@ def _fit(phi: Field, trusted: Mask, i: Indices, j: Indices) -> Field:
     normal += RIDGE * (np.trace(normal, axis1=1, axis2=2)[:, None, None] + 1e-30)
     f, f_x, f_y = np.linalg.solve(normal, right[..., None])[:, :3, 0].T
     return np.stack([f, f_x, f_y, mean, use.sum(axis=1)])
-
-
-def _coverage(f: Field, f_x: Field, f_y: Field) -> Field:
-    """Compute the fraction of a unit cell where f + f_x x + f_y y > 0."""
-    steep = np.abs([f_x, f_y])
-    b, c = np.maximum(steep.max(axis=0), FLAT), steep.min(axis=0)
-    along = np.maximum(f + np.multiply.outer([0.5, -0.5], b), 0.0)
-    straight = (along[0] - along[1]) / b
-    least = 1e-3 * b
-    d = np.maximum(c, least)
-    corners = np.maximum(f + CORNERS @ [b, d], 0.0)
-    oblique = (CORNER_SIGNS @ np.square(corners)) / (2 * b * d)
-    part = np.where(c < least, straight, oblique)
-    return np.asarray(np.clip(part, 0.0, 1.0))

@@ -42,10 +42,15 @@ class NormalLoad(Protocol):
         pressure."""
 
     def closure(self, motion: Motion) -> float | Field:
-        """Return the closure of the gap by a motion [length]."""
+        """Return the closure of the gap by a motion, by default the approach [length]."""
+        return motion
 
     def overlap(self, motion: Motion, gap: Field, allowed: Mask) -> float:
-        """Return the overlap of the undeformed bodies, the scale of residual gaps [length]."""
+        """Return the overlap of the undeformed bodies, the scale of residual gaps [length].
+
+        By default it is the magnitude of the approach.
+        """
+        return abs(float(motion))
 
     def admissible(self, p: Field) -> Field:
         """Return a non-negative pressure near the given one that carries the load."""
@@ -57,14 +62,16 @@ class NormalLoad(Protocol):
         """
 
     def less(self, carried: Field) -> NormalLoad:
-        """Subtract the resultants of pressures (nx, ny) carried by other cells."""
+        """Subtract the prescribed resultants of pressures (nx, ny) carried by other cells."""
+        return self
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
         """Return the closures (nx, ny) by unit motions whose forces are prescribed."""
+        return ()
 
 
 @dataclass(frozen=True)
-class PressureSum:
+class PressureSum(NormalLoad):
     """Force control: sum Σp of all cell pressures, W / cell area [force/length^2]."""
 
     total: float
@@ -81,14 +88,6 @@ class PressureSum:
     def motion(self, p: Field, s: Field) -> Motion:
         """Return the approach, the multiplier of the sum."""
         return float(np.vdot(p, s) / p.sum())
-
-    def closure(self, motion: Motion) -> float | Field:
-        """Return the approach."""
-        return motion
-
-    def overlap(self, motion: Motion, gap: Field, allowed: Mask) -> float:
-        """Return the magnitude of the approach."""
-        return abs(float(motion))
 
     def admissible(self, p: Field) -> Field:
         """Cut the pressure off at zero and scale it to the sum."""
@@ -116,7 +115,7 @@ class PressureSum:
 
 
 @dataclass(frozen=True)
-class FixedApproach:
+class FixedApproach(NormalLoad):
     """Displacement control: the approach of the two bodies [length]."""
 
     approach: float
@@ -133,14 +132,6 @@ class FixedApproach:
         """Return the approach."""
         return self.approach
 
-    def closure(self, motion: Motion) -> float | Field:
-        """Return the approach."""
-        return motion
-
-    def overlap(self, motion: Motion, gap: Field, allowed: Mask) -> float:
-        """Return the magnitude of the approach."""
-        return abs(float(motion))
-
     def admissible(self, p: Field) -> Field:
         """Return the pressure cut off at zero."""
         return np.maximum(p, 0.0)
@@ -148,11 +139,3 @@ class FixedApproach:
     def projection(self, inside: Field) -> Projection:
         """Return the restriction to the contact: no force is prescribed."""
         return lambda field: field * inside
-
-    def less(self, carried: Field) -> NormalLoad:
-        """Return the load unchanged: no force is prescribed."""
-        return self
-
-    def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
-        """Return no motion: no force is prescribed."""
-        return ()

@@ -26,7 +26,11 @@ class TangentialLoad(Protocol):
     """Load of the tangential problem. Its motion is the shift (2,), or shift and twist (3,)."""
 
     def rigid(self, motion: Vector) -> VectorField:
-        """Compute the displacement of the indenter, which broadcasts with (2, nx, ny) [length]."""
+        """Compute the displacement of the indenter, which broadcasts with (2, nx, ny) [length].
+
+        By default it is the shift.
+        """
+        return everywhere(motion)
 
     def nearest(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
@@ -41,13 +45,16 @@ class TangentialLoad(Protocol):
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[VectorField, ...]:
         """Return the unit motions whose forces are prescribed, fields of this shape (2, nx, ny)."""
+        return ()
 
     @property
     def given(self) -> Vector:
         """Prescribed forces, in the order of the free motions [force / cell area]."""
+        return np.zeros(0)
 
     def forces(self, q: VectorField) -> Vector:
         """Compute the forces of a shear on the free motions."""
+        return np.zeros(0)
 
     def exhausts(self, bound: Field) -> bool:
         """Return whether the load is at or above the friction limit, which may be zero."""
@@ -57,7 +64,7 @@ class TangentialLoad(Protocol):
 
 
 @dataclass(frozen=True)
-class ShearSum:
+class ShearSum(TangentialLoad):
     """Force control: sum Σq of all cell shears, T / cell area, shape (2,).
 
     summed  components with a resultant; the others are odd about a mirror plane: their sum over the
@@ -66,10 +73,6 @@ class ShearSum:
 
     total: Vector
     summed: tuple[bool, bool] = (True, True)
-
-    def rigid(self, motion: Vector) -> VectorField:
-        """Return the shift as a field."""
-        return everywhere(motion)
 
     def nearest(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
@@ -107,14 +110,10 @@ class ShearSum:
 
 
 @dataclass(frozen=True)
-class FixedShift:
+class FixedShift(TangentialLoad):
     """Displacement control: the tangential shift of the indenter, shape (2,) [length]."""
 
     shift: Vector
-
-    def rigid(self, motion: Vector) -> VectorField:
-        """Return the shift as a field."""
-        return everywhere(motion)
 
     def nearest(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
@@ -125,19 +124,6 @@ class FixedShift:
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
         """Project on the discs |q| <= bound."""
         return project_on_discs(q, bound)
-
-    def free_motions(self, shape: tuple[int, ...]) -> tuple[VectorField, ...]:
-        """Return no motion: no force is prescribed."""
-        return ()
-
-    @property
-    def given(self) -> Vector:
-        """Empty: no force is prescribed."""
-        return np.zeros(0)
-
-    def forces(self, q: VectorField) -> Vector:
-        """Return an empty vector."""
-        return np.zeros(0)
 
     def exhausts(self, bound: Field) -> bool:
         """Return whether the friction limit is zero everywhere."""
