@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 import re
+from datetime import date
 from pathlib import Path
 from typing import Any
 
 import pytest
 from command import outcome
 
+from slipstick.tables import deposit
 from slipstick.tables.catalogue import TABLES
 from verification.references import load_reference
 
@@ -112,3 +114,29 @@ def test_parameters_of_no_contact_are_refused(name: str, axis: str, value: str) 
     assert ended.returncode == 2
     assert "expected more than" in " ".join(re.sub("[│\n]", " ", ended.stderr).split())
     assert len(ended.stderr) < 3000
+
+
+def test_the_deposit_describes_every_table_and_has_the_same_bytes_again(tmp_path: Path) -> None:
+    found = [deposit._onset(), deposit._paths(), TABLES["punch"].dataset({"a_over_h": [1.0]})]
+    for folder in (tmp_path / "one", tmp_path / "two"):
+        deposit.write(folder, found, date(2026, 1, 2))
+    files = sorted((tmp_path / "one").iterdir())
+    assert len(files) == 2 * len(found) + 1
+    assert [f.read_bytes() for f in files] == [
+        (tmp_path / "two" / f.name).read_bytes() for f in files
+    ]
+    graph = {e["@id"]: e for e in json.loads(files[-1].read_text())["@graph"]}
+    listed = {part["@id"] for part in graph["./"]["hasPart"]}
+    assert listed == {f.name for f in files[:-1]}
+    for one in found:
+        name = one.about["table"]
+        assert graph[f"{name}.csv"]["description"] == one.about["problem"]
+        document = json.loads((tmp_path / "one" / f"{name}.json").read_text())
+        assert document["columns"].keys() == document["rows"][0].keys()
+    recorded = load_reference("changing_loads")["ends"]["0.3"]["5"]
+    stored = {
+        row["quantity"]: row["value"]
+        for row in found[1].rows
+        if row["case"] == "changing_loads/nu=0.3" and row["step"] == 5
+    }
+    assert stored == pytest.approx(recorded, rel=1e-5)

@@ -103,6 +103,7 @@ MAINTENANCE = _commands(
         "baseline": "List the accepted numbers, or accept those of a report.",
         "tolerances": "Propose or accept tolerances that follow the errors.",
         "records": "List stored records, their age and cost, or regenerate them.",
+        "deposit": "Write all reference tables as an RO-Crate.",
         "report": "Render the report again from recorded results.",
         "schema": "Print the JSON Schema of a scene file, a summary or a report.",
     }

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
+from typing import Any
+
+from contact_results.directory.machine import program_version
 
 ROUND_OFF = 1e-13
 TIMES = 2.0
@@ -41,6 +45,31 @@ class Found:
     values: tuple[float, ...]
     missed: float = 0.0
     left: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True)
+class Dataset:
+    """Rows of a table with their meaning and provenance.
+
+    about    name, problem, method, source and uncertainty
+    columns  meanings by name
+    rows     values by column
+    """
+
+    about: Mapping[str, str]
+    columns: Mapping[str, str]
+    rows: Sequence[Mapping[str, Any]]
+
+    def csv(self) -> str:
+        """Return CSV text. Its first lines begin with '#' and state provenance and meanings."""
+        head = [f"# {key}: {text}" for key, text in {**self.about, **self.columns}.items()]
+        lines = [",".join(_digits(key, row[key]) for key in self.columns) for row in self.rows]
+        return "\n".join([*head, ",".join(self.columns), *lines, ""])
+
+    def json(self) -> str:
+        """Return JSON text."""
+        document = {**self.about, "columns": self.columns, "rows": self.rows}
+        return json.dumps(document, indent=1, allow_nan=False, ensure_ascii=False) + "\n"
 
 
 @dataclass(frozen=True)
@@ -81,3 +110,20 @@ class Table:
                 for value, other, more in zip(found.values, finer.values, left, strict=True)
             )
             yield dict(zip(self.columns, (*place, *found.values, *uncertainties), strict=True))
+
+    def dataset(self, chosen: Mapping[str, Sequence[float]]) -> Dataset:
+        """Compute the rows at the chosen or default values."""
+        about = {
+            "table": self.name,
+            "made_by": f"slipstick {program_version()}, radial solver",
+            "problem": self.problem,
+            "source": self.source,
+            "uncertainty": self.uncertainty,
+        }
+        return Dataset(about, self.columns, list(self.rows(chosen)))
+
+
+def _digits(column: str, value: Any) -> str:
+    if not isinstance(value, float):
+        return str(value)
+    return f"{value:.1e}" if column.endswith("uncertainty") else f"{value:.15g}"

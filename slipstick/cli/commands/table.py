@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -45,18 +44,8 @@ def table(
 
         raise typer.BadParameter(unknown_names("table", [name], TABLES, "slipstick table"))
     chosen = TABLES[name]
-    values = _values(chosen, over or ())
-    rows = chosen.rows(values)
-    provenance = _provenance(chosen)
-    if as_json:
-        document = {**provenance, "columns": chosen.columns, "rows": list(rows)}
-        typer.echo(json.dumps(document, indent=1, allow_nan=False, ensure_ascii=False))
-        return
-    for key, text in {**provenance, **chosen.columns}.items():
-        typer.echo(f"# {key}: {text}")
-    typer.echo(",".join(chosen.columns))
-    for row in rows:
-        typer.echo(",".join(_digits(column, value) for column, value in row.items()))
+    found = chosen.dataset(_values(chosen, over or ()))
+    typer.echo(found.json() if as_json else found.csv(), nl=False)
 
 
 def _list(tables: Mapping[str, Table]) -> None:
@@ -92,19 +81,3 @@ def _values(chosen: Table, given: Sequence[str]) -> dict[str, list[float]]:
                     f"most {axis.most:g}"
                 )
     return found
-
-
-def _provenance(chosen: Table) -> dict[str, Any]:
-    from contact_results.directory.machine import program_version
-
-    return {
-        "table": chosen.name,
-        "made_by": f"slipstick {program_version()}, radial solver",
-        "problem": chosen.problem,
-        "source": chosen.source,
-        "uncertainty": chosen.uncertainty,
-    }
-
-
-def _digits(column: str, value: float) -> str:
-    return f"{value:.1e}" if column.endswith("_uncertainty") else f"{value:.15g}"
