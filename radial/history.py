@@ -25,8 +25,8 @@ from contact_scene.stepping.load_stepping import (
 from radial.fields import Increment, Result
 from radial.memory import refuse_if_too_large
 from radial.normal.pressing import (
-    Pressed,
-    pressed,
+    NormalContact,
+    normal_contact,
 )
 from radial.normal.surface import (
     displacement,
@@ -35,9 +35,9 @@ from radial.normal.surface import (
 )
 from radial.output_points import (
     largest_targets,
+    output_radii,
     refuse_no_disc,
     refuse_round_off,
-    shown_radii,
     target,
     undeformed_gap,
 )
@@ -81,22 +81,24 @@ def solve(
     NotConverged
         An increment did not reach the tolerance. `last_state` is the last converged increment.
     """
-    asked = discretisation or RadialDiscretisation()
+    discretisation = discretisation or RadialDiscretisation()
     scene = normal_form(scene)
     decided = plan_of(scene) if plan is None else plan
     refuse_if_too_large(scene, decided)
-    solver = _solver(scene, asked, decided)
-    if asked.extrapolated and decided.circle:
-        return Result(scene, asked, decided, _extrapolated(scene, solver, decided, progress, store))
+    solver = _solver(scene, discretisation, decided)
+    if discretisation.extrapolated and decided.circle:
+        return Result(
+            scene, discretisation, decided, _extrapolated(scene, solver, decided, progress, store)
+        )
     increments = []
-    for increment in _marched(scene, solver, decided, store):
+    for increment in _solved_increments(scene, solver, decided, store):
         increments.append(increment)
         if progress is not None:
             progress(increment)
-    return Result(scene, asked, decided, tuple(increments))
+    return Result(scene, discretisation, decided, tuple(increments))
 
 
-def _marched(
+def _solved_increments(
     scene: Scene, solver: Any, plan: Plan, store: CheckpointStore | None
 ) -> Iterator[Increment]:
     """Yield all increments: first those of the last checkpoint, then newly solved ones."""
@@ -122,9 +124,9 @@ def _extrapolated(
         extrapolated,
     )
 
-    coarse = iter([*_marched(scene, solver, plan, None)])
+    coarse = iter([*_solved_increments(scene, solver, plan, None)])
     increments = []
-    for fine in _marched(scene, solver, doubled(plan), store):
+    for fine in _solved_increments(scene, solver, doubled(plan), store):
         if fine.index % 2 == 0:
             increments.append(extrapolated(next(coarse), fine))
             if progress is not None:
@@ -132,23 +134,25 @@ def _extrapolated(
     return tuple(increments)
 
 
-def _solver(scene: Scene, asked: RadialDiscretisation, plan: Plan) -> Any:
+def _solver(scene: Scene, discretisation: RadialDiscretisation, plan: Plan) -> Any:
     if plan.circle:
-        from radial.tangential.tangential_steps import Pushing
+        from radial.tangential.tangential_steps import TangentialSteps
 
-        return Pushing.of(scene, asked, plan)
+        return TangentialSteps.of(scene, discretisation, plan)
     if plan.coupled:
-        from radial.frictional.frictional_indentation_steps import Rubbing
+        from radial.frictional.frictional_indentation_steps import FrictionalSteps
 
-        return Rubbing.of(scene, asked, plan.fineness)
-    pressing = _Solver.of(scene, asked, round(plan.fineness))
+        return FrictionalSteps.of(scene, discretisation, plan.fineness)
+    pressing = _Solver.of(scene, discretisation, round(plan.fineness))
     if not plan.twists:
         return pressing
-    from radial.torsion.torsion_steps import Twisting
+    from radial.torsion.torsion_steps import TorsionSteps
 
     assert scene.friction is not None
     assert scene.friction.uniform is not None
-    return Twisting(scene, pressing, scene.friction.uniform, pressing.fineness, asked.tolerance)
+    return TorsionSteps(
+        scene, pressing, scene.friction.uniform, pressing.fineness, discretisation.tolerance
+    )
 
 
 @dataclass(frozen=True)
@@ -165,38 +169,43 @@ class _Solver:
     tolerance: float
     fineness: int
     radii: Array
-    largest: tuple[Pressed, ...]
+    largest: tuple[NormalContact, ...]
     most_spent: float = 0.0
 
     @classmethod
-    def of(cls, scene: Scene, asked: RadialDiscretisation, fineness: int) -> _Solver:
+    def of(cls, scene: Scene, discretisation: RadialDiscretisation, fineness: int) -> _Solver:
         bodies = Bodies.of(scene)
         largest = tuple(
-            pressed(bodies, scene.indenter, led, fineness) for led in largest_targets(scene)
+            normal_contact(bodies, scene.indenter, prescribed, fineness)
+            for prescribed in largest_targets(scene)
         )
-        rings = shown_radii(asked.rings, largest, scene.indenter.rim)
-        return cls(scene, bodies, asked.tolerance, fineness, rings, largest)
+        rings = output_radii(discretisation.rings, largest, scene.indenter.rim)
+        return cls(scene, bodies, discretisation.tolerance, fineness, rings, largest)
 
     def spent(self) -> float:
         """Return 0: work does not limit the bisection."""
         return 0.0
 
     def advance(
-        self, ramp: LoadRamp, start: Pressed | None, before: Pressed | None, fraction: float
-    ) -> Pressed:
+        self,
+        ramp: LoadRamp,
+        start: NormalContact | None,
+        before: NormalContact | None,
+        fraction: float,
+    ) -> NormalContact:
         """Return the contact at a fraction of the ramp."""
         reached = (start.normal_force, start.approach) if start else (0.0, 0.0)
-        led = target(self.scene, *ramp.normal.led(fraction, reached))
+        prescribed = target(self.scene, *ramp.normal.led(fraction, reached))
         for found in self.largest:
-            if found.target == led:
+            if found.target == prescribed:
                 return found
-        return pressed(self.bodies, self.scene.indenter, led, self.fineness)
+        return normal_contact(self.bodies, self.scene.indenter, prescribed, self.fineness)
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Array:
         """Return the gap without tractions at the rings of an increment [length]."""
         return undeformed_gap(self.scene, last)
 
-    def report(self, reached: Reached[Pressed], last: Increment | None) -> Increment:
+    def report(self, reached: Reached[NormalContact], last: Increment | None) -> Increment:
         """Return the increment with its fields at the rings.
 
         Raises UnsupportedScene if the contact area is no disc, NotConverged above the tolerance.
@@ -212,21 +221,21 @@ class _Solver:
         refuse_no_disc(self.radii, p, gap / contact.approach)
         force = state.target.force
         residuals = Residuals(
-            complementarity=contact.missed,
-            penetration=max(contact.missed, -float(np.min(gap)) / contact.approach),
+            complementarity=contact.residual,
+            penetration=max(contact.residual, -float(np.min(gap)) / contact.approach),
             normal_equilibrium=None if force is None else abs(contact.load / force - 1),
         )
-        residuals.require(self.tolerance, "the contact radius", state.tried)
-        worked = 0.0 if last is None else last.trapezoidal_work or 0.0
-        begun = (0.0, 0.0) if last is None else (last.normal_force, last.approach)
+        residuals.require(self.tolerance, "the contact radius", state.iterations)
+        work = 0.0 if last is None else last.trapezoidal_work or 0.0
+        start = (0.0, 0.0) if last is None else (last.normal_force, last.approach)
         approach = state.approach - state.target.spring * state.normal_force
-        worked += 0.5 * (begun[0] + state.normal_force) * (approach - begun[1])
+        work += 0.5 * (start[0] + state.normal_force) * (approach - start[1])
         increment = Increment(
             step=reached.place.step,
             index=reached.place.index,
             increments_in_step=reached.place.increments_in_step,
             residuals=residuals,
-            iterations=state.tried,
+            iterations=state.iterations,
             halvings=reached.halvings,
             normal_force=state.normal_force,
             approach=state.approach,
@@ -234,7 +243,7 @@ class _Solver:
             peak_pressure=largest_pressure(contact, x, p),
             elastic_energy=contact.elastic_energy,
             input_work=contact.elastic_energy,
-            unresolved_work=worked - contact.elastic_energy,
+            unresolved_work=work - contact.elastic_energy,
             radii=self.radii,
             pressure=p,
             gap=gap,

@@ -49,15 +49,15 @@ def _radius(bodies: Bodies, scene: Scene, target: Target) -> float:
     if scene.indenter.rim is not None:
         return scene.indenter.rim
 
-    def missed(x: float) -> float:
-        return target.missed(disc(bodies, scene.indenter, exp(x), most=FEW_ORDERS))
+    def residual(x: float) -> float:
+        return target.residual(disc(bodies, scene.indenter, exp(x), most=FEW_ORDERS))
 
     x, power = log(first_radius(bodies, scene.indenter, target)), 2.0
-    last = missed(x)
+    last = residual(x)
     for _ in range(TRIED):
         step = min(max(-last / power, -1.0), 1.0)
         if abs(step) <= NEAR:
             break
-        now = missed(x + step)
+        now = residual(x + step)
         power, last, x = max((now - last) / step, 0.5), now, x + step
     return exp(x)

@@ -19,7 +19,7 @@ LIGHT = 4500  # bytes of an increment without its fields
 PER_WAVE = 11_300  # bytes, mostly for the stress in figures
 # With friction: fields on rings, and the cache of responses up to its limit.
 PER_WAVE_RUBBING, RINGS = 8_600, 36_000_000
-PER_WAVE_KEPT, MAX_KEPT = 8_300, 39_000_000
+PER_WAVE_CACHED, MAX_CACHED = 8_300, 39_000_000
 # Contacts at points have a fixed number of rings and angles. Figures are drawn after the memory of
 # the solve is free again.
 PUSHED, WHOLE, PER_WAVE_PUSHED, DRAWN = 133 << 20, 246 << 20, 8_600, 181 << 20
@@ -30,16 +30,16 @@ def estimated_bytes(scene: Scene, plan: Plan) -> int:
 
     Raises UnsupportedScene for contacts too large for the thickness of their layers.
     """
-    told = LIGHT * sum(plan.increments)
-    libraries = LIBRARIES + told
+    reported = LIGHT * sum(plan.increments)
+    libraries = LIBRARIES + reported
     waves = _wavenumbers(scene)
     if plan.circle:
         solved = WHOLE if plan.circle is Circle.WHOLE else PUSHED
-        return told + max(solved + PER_WAVE_PUSHED * waves, DRAWN)
+        return reported + max(solved + PER_WAVE_PUSHED * waves, DRAWN)
     if not plan.coupled:
         return libraries + PER_WAVE * waves
-    kept = min(PER_WAVE_KEPT * waves, MAX_KEPT)
-    return libraries + RINGS + kept + PER_WAVE_RUBBING * waves
+    cached = min(PER_WAVE_CACHED * waves, MAX_CACHED)
+    return libraries + RINGS + cached + PER_WAVE_RUBBING * waves
 
 
 def refuse_if_too_large(scene: Scene, plan: Plan) -> None:

@@ -14,7 +14,7 @@ from contact_scene.solver_errors import UnsupportedScene
 from radial.fields import Increment
 from radial.normal.disc import Disc
 from radial.normal.pressing import (
-    Pressed,
+    NormalContact,
     Target,
 )
 from radial.plan import ELSEWHERE
@@ -48,7 +48,7 @@ def target(scene: Scene, force: float | None, approach: float | None) -> Target:
     return Target(force, approach, compliances(scene.rig)[0])
 
 
-def shown_radii(count: int, largest: Sequence[Pressed], rim: float | None) -> Array:
+def output_radii(count: int, largest: Sequence[NormalContact], rim: float | None) -> Array:
     """Return output radii, denser towards the edge of the largest contact, up to twice its radius
     [length].
 
@@ -57,8 +57,8 @@ def shown_radii(count: int, largest: Sequence[Pressed], rim: float | None) -> Ar
     widest = max((found.contact for found in largest), key=lambda contact: contact.radius)
     inside = np.sin(0.5 * np.pi * np.arange(count + 1) / count)
     inside = inside[1 if widest.profile.apex else 0 : None if rim is None else -1]
-    beside = np.arange(1, count // OUTSIDE + 1) / (count // OUTSIDE)
-    return np.asarray(widest.radius * np.concatenate([inside, 1 + (REACH - 1) * beside**2]))
+    outside = np.arange(1, count // OUTSIDE + 1) / (count // OUTSIDE)
+    return np.asarray(widest.radius * np.concatenate([inside, 1 + (REACH - 1) * outside**2]))
 
 
 def undeformed_gap(scene: Scene, last: Increment) -> Array:
@@ -89,10 +89,10 @@ def refuse_round_off(contact: Disc, tolerance: float) -> None:
     The error is due to round-off: `disc` has increased the number of polynomials until it
     stagnates.
     """
-    if contact.missed > tolerance:
-        enough = 10.0 ** ceil(log10(contact.missed))
+    if contact.residual > tolerance:
+        enough = 10.0 ** ceil(log10(contact.residual))
         raise UnsupportedScene(
             f"round-off limits the accuracy for these thin layers of different stiffness: the "
-            f"error is {contact.missed:.1g} of the approach and the tolerance is "
+            f"error is {contact.residual:.1g} of the approach and the tolerance is "
             f"{tolerance:.1g}. Use [radial] tolerance = {enough:.0e}, or {ELSEWHERE}"
         )

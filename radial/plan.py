@@ -38,17 +38,17 @@ ELSEWHERE = "solve it with the semi-analytical solver"
 class Plan:
     """Effects computed for a scene: pressure, and shear by friction, torsion or a tangential load.
 
-    coupled     true if friction acts without a tangential load or torsion, because pressure or
-                strain displaces the surfaces relative to each other
-    twists      true with torsion
-    pushed      true with a tangential load
-    increments  number of increments of each load step
-    effects     all effects with reasons, for output
-    direction   unit vector of the first tangential load, (1, 0) without one
-    still       number of load steps before the first tangential load
-    circle      angles of the contact at points (rings × angles), which solves contact and friction
-                together; None if no such solve is necessary
-    fineness    multiple of the numbers of orders and points; with friction, of rings and angles
+    coupled       true if friction acts without a tangential load or torsion, because pressure or
+                  strain displaces the surfaces relative to each other
+    twists        true with torsion
+    pushed        true with a tangential load
+    increments    number of increments of each load step
+    effects       all effects with reasons, for output
+    direction     unit vector of the first tangential load, (1, 0) without one
+    normal_steps  number of load steps before the first tangential load
+    circle        angles of the contact at points (rings × angles), which solves contact and
+                  friction together; None if no such solve is necessary
+    fineness      multiple of the numbers of orders and points; with friction, of rings and angles
     """
 
     coupled: bool
@@ -57,7 +57,7 @@ class Plan:
     increments: tuple[int, ...]
     effects: tuple[Effect, ...]
     direction: tuple[float, float] = (1.0, 0.0)
-    still: int = 0
+    normal_steps: int = 0
     circle: Circle | None = None
     fineness: float = 1.0
 
@@ -77,9 +77,9 @@ class Plan:
         return 0 if self.circle is None else len(self.circle.angles(self.highest))
 
     @property
-    def turned(self) -> int:
+    def tangential_increments(self) -> int:
         """Return the number of increments from the first tangential load on."""
-        return sum(self.increments[self.still :])
+        return sum(self.increments[self.normal_steps :])
 
     @property
     def sheared(self) -> bool:
@@ -103,55 +103,57 @@ def plan(scene: Scene) -> Plan:
     strains = [ramp.stretch[1] for ramp in ramps if ramp.stretch]
     strained = around_axis(strains, pushed or any(ramp.twisting.end for ramp in ramps))
     rough = scene.friction is not None and scene.friction.largest > 0
-    rubs = rough and (couples or strained)
-    turns = pushed and not along_one_line(ramps)
-    twists = friction and any(_twists(ramp, turns) for ramp in ramps)
-    circle = _circle(scene, rubs, twists, pushed, turns)
-    if rubs or circle:
-        _refuse_rubbing(scene, circle)
+    frictional = rough and (couples or strained)
+    curved = pushed and not along_one_line(ramps)
+    twists = friction and any(_twists(ramp, curved) for ramp in ramps)
+    circle = _circle(scene, frictional, twists, pushed, curved)
+    if frictional or circle:
+        _refuse_friction(scene, circle)
     elif twists:
         _refuse_map(scene)
-    tells = "a step pushes sideways" if pushed else "no step pushes sideways"
+    is_resolved = "a step pushes sideways" if pushed else "no step pushes sideways"
     effects = (
         effect.PRESSURE,
         effect.second_body(scene),
         effect.layers(scene),
         effect.friction(scene),
-        Effect("tangential load", pushed, tells),
+        Effect("tangential load", pushed, is_resolved),
         Effect("torsion", twists, "a step twists" if twists else "no step twists"),
         effect.strained(scene),
         effect.coupled(scene, rough and couples, why),
-        effect.load_history(rubs or twists or pushed),
+        effect.load_history(frictional or twists or pushed),
     )
-    increments = _pushed_increments(scene, circle) if circle else _increments(scene, rubs)
-    still = next((n for n, ramp in enumerate(ramps) if any(ramp.tangential.end)), len(ramps))
+    increments = _pushed_increments(scene, circle) if circle else _increments(scene, frictional)
+    normal_steps = next((n for n, ramp in enumerate(ramps) if any(ramp.tangential.end)), len(ramps))
     return Plan(
-        rubs, twists, pushed, increments, effects, _direction(ramps), still, circle
+        frictional, twists, pushed, increments, effects, _direction(ramps), normal_steps, circle
     )  # fmt: skip
 
 
-def _twists(ramp: LoadRamp, turns: bool) -> bool:
+def _twists(ramp: LoadRamp, curved: bool) -> bool:
     """Return true if a step prescribes torsion, or if a curved tangential path leaves the twist
     free."""
-    return bool(ramp.twisting.end) or (turns and ramp.twisting.kind is ControlKind.FORCE)
+    return bool(ramp.twisting.end) or (curved and ramp.twisting.kind is ControlKind.FORCE)
 
 
-def _circle(scene: Scene, rubs: bool, twists: bool, pushed: bool, turns: bool) -> Circle | None:
+def _circle(
+    scene: Scene, frictional: bool, twists: bool, pushed: bool, curved: bool
+) -> Circle | None:
     if pushed:
-        return Circle.WHOLE if twists or turns else Circle.HALF
+        return Circle.WHOLE if twists or curved else Circle.HALF
     if not twists:
         return None
     # The shear of torsion has a closed form if the limit is µp and the pressure is constant.
     proportional = scene.friction is not None and scene.friction.uniform is not None
-    closed = proportional and not rubs and not _presses_while_twisted(scene.load_path())
+    closed = proportional and not frictional and not _normal_changes_in_torsion(scene.load_path())
     return None if closed else Circle.ONE
 
 
-def _presses_while_twisted(ramps: tuple[LoadRamp, ...]) -> bool:
-    begun = False
+def _normal_changes_in_torsion(ramps: tuple[LoadRamp, ...]) -> bool:
+    twisted = False
     for ramp in ramps:
-        begun = begun or bool(ramp.twisting.end)
-        if begun and ramp.normal.start != ramp.normal.end:
+        twisted = twisted or bool(ramp.twisting.end)
+        if twisted and ramp.normal.start != ramp.normal.end:
             return True
     return False
 
@@ -190,10 +192,10 @@ def _on_path(scene: Scene, ramp: LoadRamp, circle: Circle) -> int:
     return max(1, ceil(change / (LARGEST_SHARE * limit) - ROUND_OFF))
 
 
-def _increments(scene: Scene, rubs: bool) -> tuple[int, ...]:
+def _increments(scene: Scene, frictional: bool) -> tuple[int, ...]:
     """Return the increments of each load step: requested, or more than 1 only if path-dependent."""
     return tuple(
-        ramp.increments or (PATH_INCREMENTS if rubs and _moves(ramp) else 1)
+        ramp.increments or (PATH_INCREMENTS if frictional and _moves(ramp) else 1)
         for ramp in scene.load_path()
     )
 
@@ -221,7 +223,7 @@ def _refuse_map(scene: Scene) -> None:
         )
 
 
-def _refuse_rubbing(scene: Scene, circle: Circle | None) -> None:
+def _refuse_friction(scene: Scene, circle: Circle | None) -> None:
     """Raise UnsupportedScene for friction maps, rims, and tangential loads without friction."""
     _refuse_map(scene)
     assert scene.friction is not None

@@ -15,7 +15,7 @@ from radial.fields import Increment
 from radial.plan import Plan
 
 # Extrapolated scalars. Prescribed values are equal in both histories.
-LED_TO = (
+EXTRAPOLATED = (
     *("normal_force", "approach", "contact_radius", "tangential_force", "tangential_shift"),
     *("torque", "twist", "dissipated_energy", "elastic_energy"),
     *("actuator_approach", "actuator_shift"),
@@ -29,15 +29,15 @@ def doubled(plan: Plan) -> Plan:
 
 def extrapolated(coarse: Increment, fine: Increment) -> Increment:
     """Return the extrapolated increment from those of both histories at the same loads."""
-    values = {name: _limit(getattr(coarse, name), getattr(fine, name)) for name in LED_TO}
+    values = {name: _limit(getattr(coarse, name), getattr(fine, name)) for name in EXTRAPOLATED}
     for energy in ("elastic_energy", "dissipated_energy"):
         values[energy] = max(values[energy], 0.0)  # extrapolation can give negative energies
-    stored, lost = values["elastic_energy"], values["dissipated_energy"]
+    stored, dissipated = values["elastic_energy"], values["dissipated_energy"]
     assert fine.trapezoidal_work is not None
     assert fine.dissipated_energy is not None
-    values["input_work"] = stored + lost
-    values["unresolved_work"] = fine.trapezoidal_work - stored - lost
-    values["dissipation_uncertainty"] = abs(fine.dissipated_energy - lost)
+    values["input_work"] = stored + dissipated
+    values["unresolved_work"] = fine.trapezoidal_work - stored - dissipated
+    values["dissipation_uncertainty"] = abs(fine.dissipated_energy - dissipated)
     spent = fine.iterations + coarse.iterations
     return replace(
         fine, **values, index=coarse.index, increments_in_step=coarse.increments_in_step,

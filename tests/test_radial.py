@@ -42,7 +42,7 @@ from radial.normal.surface import (
 )
 from radial.response.bodies import Bodies
 from radial.torsion.torsion import (
-    Slipped,
+    PartialSlip,
     Torsion,
 )
 from radial.torsion.twist_path import TwistPath
@@ -237,7 +237,7 @@ def twisted(body: Body, indenter: ShapedBody = UNIT_BALL) -> tuple[Disc, Torsion
 @given(stick=st.floats(0.01, 0.999))
 def test_a_ball_is_twisted_as_lubkin_says(stick: float) -> None:
     contact, torsion = twisted(BARE)
-    ours = torsion.slipped(stick)
+    ours = torsion.partial_slip(stick)
     exact = TorsionalPartialSlip(1.0, 1.0, FRICTION, SOFT.shear_modulus, stick)
     assert_allclose([ours.twist, ours.torque], [exact.twist, exact.moment], rtol=1e-12)
     shear = ours.shear(X, FRICTION * pressure(contact, X))
@@ -258,11 +258,11 @@ def test_layers_twist_as_the_nystrom_method_says(
         lambda k: one_layer(k, thickness, modulus * G, G), modulus * G, thickness
     )
     exact = CoatedTorsion(surface, 1.0, limit, stick)
-    ours = torsion.slipped(stick)
+    ours = torsion.partial_slip(stick)
     assert_allclose([ours.twist, ours.torque], [exact.twist, exact.torque], rtol=1e-10)
 
 
-def _over_disc(state: Slipped, contact: Disc) -> tuple[np.ndarray, ...]:
+def _over_disc(state: PartialSlip, contact: Disc) -> tuple[np.ndarray, ...]:
     """r, q, u_θ and area weights, with nodes closer to the stick edge, to a rim and an axis."""
     v, w = np.polynomial.legendre.leggauss(80)
     u, w = (1 + v) / 2, w / 2
@@ -289,7 +289,7 @@ STIFF = incompressible(3.0, 0.5)
 @pytest.mark.parametrize("body", [BARE, STIFF])
 def test_torque_and_energies_are_those_of_the_fields(shape: str, body: Body) -> None:
     contact, torsion = twisted(body, SHAPES[shape])
-    state = torsion.slipped(0.6)
+    state = torsion.partial_slip(0.6)
     r, shear, moved, area = _over_disc(state, contact)
     rtol = 1e-6
     assert_allclose(np.sum(area * shear * r), state.torque, rtol=rtol)
@@ -306,7 +306,7 @@ def test_torque_and_energies_are_those_of_the_fields(shape: str, body: Body) -> 
 @given(amounts=st.lists(st.floats(-3.0, 3.0), min_size=1, max_size=6))
 def test_twist_and_torque_lead_the_same_way(amounts: list[float]) -> None:
     torsion = twisted(BARE)[1]
-    unit = torsion.slipped(0.5).twist
+    unit = torsion.partial_slip(0.5).twist
     assert unit > 0
     by_twist = by_torque = TwistPath(torsion)
     for amount in amounts:

@@ -26,16 +26,16 @@ from contact_scene import (
 from contact_scene.solver_errors import ContactAtZoneEdge, GrossSliding
 from radial.angular_grid import Circle
 from radial.frictional.coupling import Coupling
-from radial.tangential.limit_load import carried_times
+from radial.tangential.limit_load import limit_load_factor
 from radial.tangential.ring_compliance import ring_compliance
-from radial.tangential.ring_friction import held
+from radial.tangential.ring_friction import solved_state
 from radial.tangential.ring_laws import Laws
-from radial.tangential.ring_layout import laid
-from radial.tangential.ring_newton import aimed
+from radial.tangential.ring_layout import lay_out
+from radial.tangential.ring_newton import newton_iterate
 from radial.tangential.ring_points import Points
 from radial.tangential.ring_state import (
-    Held,
     Loads,
+    PointState,
 )
 
 SOFT = IsotropicMaterial(young_modulus=0.91, poisson_ratio=0.3)
@@ -91,7 +91,7 @@ def beside() -> radial.Result:
 @cache
 def points(circle: Circle) -> Points:
     asked = scene()
-    return laid(Coupling.of(asked), asked.indenter, [RADIUS], 6, 4, circle, FRICTION)
+    return lay_out(Coupling.of(asked), asked.indenter, [RADIUS], 6, 4, circle, FRICTION)
 
 
 CALLED_FOR = {
@@ -144,7 +144,7 @@ def test_torsion_twists_the_surface_by_the_shear_modulus_alone() -> None:
     moved = (ring.compliance @ shear.ravel()).reshape(shear.shape)
     assert np.max(np.abs(moved[[0, 2]])) < 1e-12 * np.max(moved[1])
     stiffer = Body(material=IsotropicMaterial(young_modulus=0.7, poisson_ratio=0.0))
-    other = laid(
+    other = lay_out(
         Coupling.of(scene(body=stiffer)), scene().indenter, [RADIUS], 6, 4, Circle.WHOLE, FRICTION
     )
     assert_allclose((other.compliance @ shear.ravel()).reshape(shear.shape), moved, rtol=1e-9,
@@ -160,18 +160,22 @@ def test_friction_carries_less_of_a_push_beside_torsion() -> None:
     limit = np.sqrt(np.maximum(1 - (r / RADIUS) ** 2, 0.0))
     both = np.array([True, True, True])
     force, torque = limit @ ring.areas, limit @ ring.levers
-    assert carried_times(ring, limit, np.array([0.6 * force, 0, 0]), both) == pytest.approx(
+    assert limit_load_factor(ring, limit, np.array([0.6 * force, 0, 0]), both) == pytest.approx(
         1 / 0.6, rel=1e-6
     )
-    assert carried_times(ring, limit, np.array([0, 0, torque]), both) == pytest.approx(1, rel=1e-6)
+    assert limit_load_factor(ring, limit, np.array([0, 0, torque]), both) == pytest.approx(
+        1, rel=1e-6
+    )
     given = np.array([0, 0.7 * force, 0.7 * torque])
     ways = np.linspace(0, np.pi / 2, 2001)
     slips = np.stack([0 * ways, np.cos(ways), np.sin(ways) / RADIUS], axis=1)
-    sliding = (slips @ ring.ways).reshape(len(ways), 2, -1)
+    sliding = (slips @ ring.rigid_motions).reshape(len(ways), 2, -1)
     least = np.min((np.hypot(sliding[:, 0], sliding[:, 1]) @ limit) / (slips @ given))
     assert 1 / 1.4 < least < 1 / 0.7  # convex, and within the box of both
-    assert carried_times(ring, limit, given, both) == pytest.approx(least, rel=1e-5)
-    held = carried_times(ring, limit, np.array([0.7 * force, 0, 0]), np.array([True, True, False]))
+    assert limit_load_factor(ring, limit, given, both) == pytest.approx(least, rel=1e-5)
+    held = limit_load_factor(
+        ring, limit, np.array([0.7 * force, 0, 0]), np.array([True, True, False])
+    )
     assert held == pytest.approx(1 / 0.7, rel=1e-6)
 
 
@@ -284,11 +288,11 @@ def led(approach: float | None, shift: float, force: float | None = None) -> Loa
 
 
 @cache
-def after(*shares: float) -> Held:
+def after(*shares: float) -> PointState:
     """Pressed at once, then pushed to shares of µW, one after another."""
     if not shares:
-        return held(alike(), LAW, pushed(0.0), None, TOLERANCE)
-    return held(alike(), LAW, pushed(shares[-1]), after(*shares[:-1]), TOLERANCE)
+        return solved_state(alike(), LAW, pushed(0.0), None, TOLERANCE)
+    return solved_state(alike(), LAW, pushed(shares[-1]), after(*shares[:-1]), TOLERANCE)
 
 
 @pytest.mark.parametrize(("harmonic", "way"), [(0, 2), (1, 0), (3, 2), (4, 1)])
@@ -323,37 +327,37 @@ def test_newtons_method_aims_at_where_the_laws_would_hold() -> None:
     state = after(0.6)
     x = np.concatenate([state.tractions, state.motion * [1.02, 1, 1, 1.01]])
     at, step = laws.at(x, alike().compliance @ x[:-4]), 1e-7
-    aim = aimed(laws, at)
+    aim = newton_iterate(laws, at)
     assert aim is not None
     x = x + step * (aim - x)
     nearer = laws.at(x, alike().compliance @ x[:-4])
-    left = (at.missed - nearer.missed) / step
-    assert_allclose(left, at.missed, atol=1e-5 * np.abs(at.missed).max())
+    left = (at.residual - nearer.residual) / step
+    assert_allclose(left, at.residual, atol=1e-5 * np.abs(at.residual).max())
 
 
 @pytest.mark.parametrize(("last", "share"), [(0.3, 1.0), (0.4, 2.0), (0.2, 0.5)])
 def test_a_load_that_goes_on_starts_in_proportion(last: float, share: float) -> None:
     """From the state before, by so many of its increments as the load goes on."""
     before = after(last - (0.5 - last) / share, last)
-    start, rest = Laws.of(alike(), LAW, pushed(0.5), before).starts(before)
+    start, rest = Laws.of(alike(), LAW, pushed(0.5), before).initial_guesses(before)
     assert_allclose((start - rest)[:-4], share * before.changed[:-4], atol=1e-9)
 
 
 def test_a_contact_beyond_the_rings_is_refused() -> None:
     with pytest.raises(ContactAtZoneEdge, match="last ring"):
-        held(alike(), LAW, loaded(2 * RING_LOAD, 0.0), None, TOLERANCE)
+        solved_state(alike(), LAW, loaded(2 * RING_LOAD, 0.0), None, TOLERANCE)
 
 
 def test_a_prescribed_motion_is_that_of_the_loads() -> None:
     by_force = after(0.6)
     motions = led(by_force.approach, float(by_force.motion[0]))
-    by_motion = held(alike(), LAW, motions, after(), TOLERANCE)
+    by_motion = solved_state(alike(), LAW, motions, after(), TOLERANCE)
     assert_allclose(by_motion.tractions, by_force.tractions, atol=1e-7)
 
 
 def test_one_angle_says_all_of_what_is_the_same_all_around() -> None:
     points = alike()
     still = Loads((None, None, None, RING_LOAD), (0.0, 0.0, 0.0, None))
-    turned = held(points.round, LAW, still, None, TOLERANCE).every_angle(points)
+    turned = solved_state(points.round, LAW, still, None, TOLERANCE).every_angle(points)
     assert_allclose(turned.tractions, after().tractions, atol=1e-7)
     assert_allclose(turned.moved, after().moved, atol=1e-9)

@@ -14,7 +14,7 @@ from scipy.special import hyp2f1, jv
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer, LoadStep, Paraboloid, Scene
 from radial.frictional.coupling import Coupling
 from radial.tangential import ring_energies
-from radial.tangential.harmonic_kernels import alike
+from radial.tangential.harmonic_kernels import equal_order
 from radial.tangential.ring_compliance import ring_compliance
 from radial.tangential.ring_energies import unit_energies
 
@@ -42,7 +42,7 @@ def weber_schafheitlin(mu: int, nu: int, a: float, b: float) -> float:
 
 
 def kernel(name: str, m: int, r: float, s: float) -> float:
-    before, behind = {"alike": (m, m), "shifted": (m - 1, m + 1), "stepped": (m, m + 1)}[name]
+    before, behind = {"equal_order": (m, m), "shifted": (m - 1, m + 1), "stepped": (m, m + 1)}[name]
     if r < s:
         return weber_schafheitlin(before, behind, r, s)
     return weber_schafheitlin(behind, before, s, r)
@@ -54,13 +54,13 @@ def hat(i: int, r: float) -> float:
 
 @pytest.mark.parametrize("ratio", [1e-4, 0.3, 0.69, 0.72, 0.97])
 def test_what_rings_of_a_harmonic_do_to_each_other_is_a_legendre_function(ratio: float) -> None:
-    found = alike(12, np.array([ratio]), np.array([1.0]), np.array([1 - ratio]))[:, 0]
+    found = equal_order(12, np.array([ratio]), np.array([1.0]), np.array([1 - ratio]))[:, 0]
     assert_allclose(
         found, [weber_schafheitlin(m, m, ratio, 1.0) for m in range(13)], rtol=3e-13, atol=0
     )
 
 
-@pytest.mark.parametrize("name", ["alike", "shifted", "stepped"])
+@pytest.mark.parametrize("name", ["equal_order", "shifted", "stepped"])
 @pytest.mark.parametrize(("m", "i", "j"), [(1, 2, 3), (2, 1, 7), (4, 4, 4)])
 def test_energies_of_hats_are_their_kernels_integrated(name: str, m: int, i: int, j: int) -> None:
     def weighted(s: float, r: float) -> float:

@@ -46,8 +46,8 @@ from radial.stress.circle_fit import (
 )
 from radial.stress.loaded_circle import LoadedCircle
 from radial.stress.ray_integrals import below_circle
-from radial.stress.subsurface_circle import BelowCircle
-from radial.stress.subsurface_disc import Below
+from radial.stress.subsurface_circle import SubsurfaceCircle
+from radial.stress.subsurface_disc import SubsurfaceDisc
 from semi_analytical.frf.depth import Level
 from semi_analytical.frf.stack import HalfSpace, Stack, stack_of
 from verification.closed_forms.hamilton_stress import hamilton_stress
@@ -69,8 +69,8 @@ def scene_of(body: Body, indenter: ShapedBody = BALL, force: float = 2.0) -> Sce
     return Scene(indenter=indenter, body=body, loading=(LoadStep(normal_force=force),))
 
 
-def below(body: Body) -> Below:
-    return Below(disc(Bodies.of(scene_of(body)), BALL, 1.0), stack_of(body), 3.0)
+def below(body: Body) -> SubsurfaceDisc:
+    return SubsurfaceDisc(disc(Bodies.of(scene_of(body)), BALL, 1.0), stack_of(body), 3.0)
 
 
 @given(depth=st.floats(1e-3, 5.0))
@@ -205,15 +205,15 @@ def test_a_layer_of_the_same_material_is_none(
 ) -> None:
     x, y = np.random.default_rng(2).uniform(-3, 3, (2, 30))
     x[0], y[0] = circle.centre, 0.0
-    bare = BelowCircle(circle, Stack((), (G, NU)), 5, 5)
-    film = BelowCircle(circle, Stack([(G, NU, 0.5)], (G, NU)), 5, 5)
+    bare = SubsurfaceCircle(circle, Stack((), (G, NU)), 5, 5)
+    film = SubsurfaceCircle(circle, Stack([(G, NU, 0.5)], (G, NU)), 5, 5)
     ours, theirs = film.at([Level(depth, layer)], x, y), bare.at([Level(depth, 0)], x, y)
     assert_allclose(ours, theirs, atol=1e-5)
 
 
 def test_a_stiffer_layer_is_bonded_to_its_base() -> None:
     """Displacement and what acts on the interface are the same from both sides."""
-    film = BelowCircle(ANYHOW, Stack([(3 * G, 0.2, 0.5)], (G, 0.4)), 5, 5)
+    film = SubsurfaceCircle(ANYHOW, Stack([(3 * G, 0.2, 0.5)], (G, 0.4)), 5, 5)
     x, y = np.random.default_rng(3).uniform(-2, 2, (2, 30))
     above, below = film.at([Level(0.5, 0), Level(0.5, 1)], x, y)
     carried = [0, 1, 2, 5, 6, 7]

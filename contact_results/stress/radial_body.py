@@ -89,7 +89,7 @@ class RadialBody:
         from contact_scene import Scene
         from radial.normal.disc import disc
         from radial.response.bodies import Bodies
-        from radial.stress.subsurface_disc import Below
+        from radial.stress.subsurface_disc import SubsurfaceDisc
 
         assert state.pressed is not None
         shape, a, approach = state.pressed
@@ -99,7 +99,7 @@ class RadialBody:
         contact = disc(Bodies.of(scene), shape, a, asked, fineness)
         infinite = contact.profile.apex or contact.edge != 0
         parts = BodyRegions.of(body, a, PRESSED.down, infinite=infinite)
-        below = Below(contact, stack, REACH, fineness)
+        below = SubsurfaceDisc(contact, stack, REACH, fineness)
 
         def fields(levels: Sequence[Level], x: Field, y: Field) -> Field:
             u_r, u_z, rr, tt, zz, rz = np.moveaxis(below.at(levels, x), 1, 0)
@@ -119,7 +119,7 @@ class RadialBody:
             pushed_circle,
             round_circle,
         )
-        from radial.stress.subsurface_circle import BelowCircle
+        from radial.stress.subsurface_circle import SubsurfaceCircle
 
         assert state.pressed is not None
         refuse_infinite(*state.pressed[:2])
@@ -138,7 +138,7 @@ class RadialBody:
         if indenter:
             circle = circle.reversed()
         parts = BodyRegions.of(body, circle.radius, SHEARED.down)
-        below = BelowCircle(circle, stack, REACH, highest, fineness)
+        below = SubsurfaceCircle(circle, stack, REACH, highest, fineness)
         strained = partial(state.strained, indenter=indenter)
         return cls(
             below.at, parts, SHEARED, strained, state.direction, circle.centre, circle.is_round

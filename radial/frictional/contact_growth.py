@@ -7,31 +7,35 @@ import numpy as np
 from contact_scene.array_types import Array
 
 
-def touched(r: Array, begun: float, radius: float) -> Array:
+def contact_fraction(r: Array, start_radius: float, radius: float) -> Array:
     """Return the fraction of an increment in which points at these radii are in contact.
 
     Particles that a growing contact reaches slip from the passage of the edge on.
 
-    begun, radius  of the contact at start and end of the increment [length]
+    start_radius, radius  of the contact at start and end of the increment [length]
     """
     share = np.ones_like(r)
-    if radius > begun:
-        share = np.clip((radius - r) / (radius - begun), 0.0, 1.0)
-        share[r <= begun] = 1.0
+    if radius > start_radius:
+        share = np.clip((radius - r) / (radius - start_radius), 0.0, 1.0)
+        share[r <= start_radius] = 1.0
     return share
 
 
-def front(radius: float, begun: float, through: float, first: float, before: float) -> float:
+def front(
+    radius: float, start_radius: float, stick_through: float, first: float, before: float
+) -> float:
     """Return the stick radius at the end of an increment [length].
 
     The disc that sticks throughout an increment is that of its middle. The radius half an increment
     later is extrapolated linearly from this disc and the preceding one. After a load reversal it is
     the radius of this disc.
 
-    through, before  of the discs that stick throughout this and the preceding increment [length]
-    first, begun     radius of the contact at the start of the preceding and of this one [length]
+    stick_through, before  of the discs that stick throughout this and the preceding increment
+                           [length]
+    first, start_radius    radius of the contact at the start of the preceding and of this one
+                           [length]
     """
-    half, last = 0.5 * (radius - begun), 0.5 * (begun - first)
+    half, last = 0.5 * (radius - start_radius), 0.5 * (start_radius - first)
     if half * last <= 0:
-        return through
-    return min(max(through + (through - before) * half / (half + last), 0.0), radius)
+        return stick_through
+    return min(max(stick_through + (stick_through - before) * half / (half + last), 0.0), radius)

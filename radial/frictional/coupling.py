@@ -85,7 +85,7 @@ class Coupling:
             zr, rz = zr - (at_zeroth * c12) @ q, rz - (at_first * c12) @ p
         return Response(zz, zr, rz, rr)
 
-    def drawn(self, contact: Disc, rings: Rings, fineness: int = 1) -> Array:
+    def frictionless_displacement(self, contact: Disc, rings: Rings, fineness: int = 1) -> Array:
         """Return u_r by the pressure of a frictionless contact, at the rows [length]."""
         a, x = contact.radius, rings.places
         found = -self.crossed * a * np.divide(_carried(contact, x), x, where=x > 0, out=0 * x)

@@ -10,10 +10,10 @@ import numpy as np
 from contact_scene import CoulombFriction
 from contact_scene.array_types import Array
 from radial.frictional.contact_growth import (
+    contact_fraction,
     front,
-    touched,
 )
-from radial.frictional.stick_slip import Rubbed
+from radial.frictional.stick_slip import FrictionalContact
 from radial.normal.pressing import Target
 
 
@@ -21,32 +21,32 @@ from radial.normal.pressing import Target
 class FrictionalState:
     """Contact with friction at the end of an increment.
 
-    end        the contact, with the slip of the increment
-    target     prescribed normal force or approach
-    slip       since first contact of two particles, at the output radii, which are equal in all
-               increments: sticking particles keep their slip exactly [length]
-    begun      contact radius at the start of the increment; 0 for the first one [length]
-    middling   stick radius of the increment as a whole, which is that in its middle [length]
-    front      stick radius at the end [length]
-    worked     work of the load since the start of the history [force length]
-    lost       energy dissipated since the start of the history [force length]
-    uncertain  uncertainty of `lost` by finite increments [force length]
-    power      exponent of the prescribed quantity as a power of the contact radius
-    tried      number of contact radii
-    strain     of the lower body since first contact, equal in all directions
+    end               the contact, with the slip of the increment
+    target            prescribed normal force or approach
+    slip              since first contact of two particles, at the output radii, which are equal in
+                      all increments: sticking particles keep their slip exactly [length]
+    start_radius      contact radius at the start of the increment; 0 for the first one [length]
+    mid_stick_radius  stick radius of the increment as a whole, which is that in its middle [length]
+    front             stick radius at the end [length]
+    work              work of the load since the start of the history [force length]
+    dissipated        energy dissipated since the start of the history [force length]
+    uncertainty       uncertainty of `dissipated` by finite increments [force length]
+    power             exponent of the prescribed quantity as a power of the contact radius
+    iterations        number of contact radii
+    strain            of the lower body since first contact, equal in all directions
     """
 
-    end: Rubbed
+    end: FrictionalContact
     target: Target
     slip: Array
-    begun: float
-    middling: float
+    start_radius: float
+    mid_stick_radius: float
     front: float
-    worked: float
-    lost: float
-    uncertain: float
+    work: float
+    dissipated: float
+    uncertainty: float
     power: float
-    tried: int
+    iterations: int
     strain: float
 
     @property
@@ -57,63 +57,65 @@ class FrictionalState:
     @property
     def approach(self) -> float:
         """Prescribed or computed approach [length]."""
-        asked = self.target.approach
-        return self.target.moved(self.end) if asked is None else asked
+        prescribed = self.target.approach
+        return self.target.actuator_approach(self.end) if prescribed is None else prescribed
 
     def at(self, field: Array, r: Array) -> Array:
         """Interpolate a field of the nodes to radii r, zero outside of the contact."""
         return np.asarray(np.interp(r, self.end.radius * self.end.rings.x, field, right=0.0))
 
 
-def sheared(
+def frictional_state(
     friction: CoulombFriction,
-    end: Rubbed,
+    end: FrictionalContact,
     target: Target,
     radii: Array,
     before: FrictionalState | None,
     power: float,
-    tried: int,
+    iterations: int,
     strain: float,
 ) -> FrictionalState:
     """Compute slip, stick radius and energies of an increment.
 
-    radii         of the output [length]
-    power, tried  see `FrictionalState`
+    radii              of the output [length]
+    power, iterations  see `FrictionalState`
     """
     x, a = end.rings.x, end.radius
-    begun, force, depth = 0.0, 0.0, 0.0
+    start_radius, force, depth = 0.0, 0.0, 0.0
     if before is not None:
-        begun, force, depth = before.end.radius, before.end.load, before.end.approach
+        start_radius, force, depth = before.end.radius, before.end.load, before.end.approach
     r, nothing = a * x, np.zeros_like(x)
     shear, limit = nothing, nothing
     if before is not None:
         shear = before.at(before.end.shear, r)
         limit = friction.limit(before.at(finite_pressure(before.end), r))
-    slipped = touched(r, begun, a) * end.slipped * (end.sliding != 0)
-    slip = np.interp(radii, r, slipped, right=0.0)
+    slip_increment = contact_fraction(r, start_radius, a) * end.slip_increment * (end.sliding != 0)
+    slip = np.interp(radii, r, slip_increment, right=0.0)
     if before is not None:
         slip += before.slip * (radii < a)
-    rubbing = 0.5 * (limit + friction.limit(finite_pressure(end))) * np.abs(slipped)
-    open_ = np.abs(end.shear - shear) * np.abs(slipped)
-    stuck = middling = stick_share(end) * a
+    rubbing = 0.5 * (limit + friction.limit(finite_pressure(end))) * np.abs(slip_increment)
+    open_ = np.abs(end.shear - shear) * np.abs(slip_increment)
+    stick_radius = mid_stick_radius = stick_share(end) * a
     if before is not None:
-        stuck = front(a, begun, middling, before.begun, before.middling)
+        stick_radius = front(
+            a, start_radius, mid_stick_radius, before.start_radius, before.mid_stick_radius
+        )
     # The strain displaces the lower body against its shear.
     more = strain - (before.strain if before else 0.0)
     work = 0.5 * (force + end.load) * (end.approach - depth)
     work -= 0.5 * more * end.over((shear + end.shear) * r)
     return FrictionalState(
-        end, target, slip, begun, middling, stuck,
-        (before.worked if before else 0.0) + work,
-        (before.lost if before else 0.0) + end.over(rubbing),
-        (before.uncertain if before else 0.0) + end.over(open_),
+        end, target, slip, start_radius, mid_stick_radius, stick_radius,
+        (before.work if before else 0.0) + work,
+        (before.dissipated if before else 0.0) + end.over(rubbing),
+        (before.uncertainty if before else 0.0) + end.over(open_),
         power,
-        tried,
+        iterations,
         strain,
     )  # fmt: skip
 
 
-def stick_share(end: Rubbed) -> float:
+def stick_share(end: FrictionalContact) -> float:
     """Return the radius of the circle of the stick area over the contact radius [1].
 
     Slip is proportional to the power 3/2 of the distance from the border of the stick zone.
@@ -122,7 +124,7 @@ def stick_share(end: Rubbed) -> float:
     slides[0] = False
     if not slides[1:-1].any():
         return 1.0
-    rise = np.abs(end.slipped) ** (2 / 3)
+    rise = np.abs(end.slip_increment) ** (2 / 3)
     area, sign = 0.0, 1.0
     for i in np.flatnonzero(slides[1:] != slides[:-1]):
         near, next_ = (i + 1, i + 2) if slides[i + 1] else (i, i - 1)
@@ -134,7 +136,7 @@ def stick_share(end: Rubbed) -> float:
     return sqrt(max(area + (1.0 if sign > 0 else 0.0), 0.0))
 
 
-def finite_pressure(end: Rubbed) -> Array:
+def finite_pressure(end: FrictionalContact) -> Array:
     """Return the pressure, at an apex that of the next node."""
     p = end.pressure
     return p if np.isfinite(p[0]) else np.concatenate([p[1:2], p[1:]])

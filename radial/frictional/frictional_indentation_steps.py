@@ -24,7 +24,7 @@ from radial.frictional.coupling import Coupling
 from radial.frictional.frictional_increment import (
     FrictionalState,
     finite_pressure,
-    sheared,
+    frictional_state,
     stick_share,
 )
 from radial.frictional.rings import (
@@ -33,18 +33,18 @@ from radial.frictional.rings import (
     rings_about,
 )
 from radial.frictional.stick_slip import (
-    Rubbed,
+    FrictionalContact,
     Signs,
-    rubbed,
+    frictional_contact,
 )
 from radial.normal.pressing import (
     LARGEST_STEP,
     LEAST_POWER,
     NEAR,
     ROUND_OFF,
-    Pressed,
+    NormalContact,
     Target,
-    pressed,
+    normal_contact,
 )
 from radial.normal.surface import (
     displacement,
@@ -52,15 +52,15 @@ from radial.normal.surface import (
 )
 from radial.output_points import (
     largest_targets,
+    output_radii,
     refuse_no_disc,
     refuse_round_off,
-    shown_radii,
     undeformed_gap,
 )
 from radial.output_points import target as target_of
 
 COUNT = 64  # rings, apart from those at the front and at the ends
-MAX_TRIED = 40
+MAX_ITERATIONS = 40
 # Largest ratio of the contact radii of two solves, and first radius over that of the first
 # increment.
 GROWTH, FIRST = 1.1, 0.03
@@ -70,7 +70,7 @@ MIDDLE = 0.5  # first guess of the front over the contact radius
 
 
 @dataclass(frozen=True)
-class Rubbing:
+class FrictionalSteps:
     """Solver of the increments of normal loading with friction.
 
     largest  contacts without friction, solved to place the output rings
@@ -82,22 +82,27 @@ class Rubbing:
     tolerance: float
     fineness: float
     radii: Array
-    largest: tuple[Pressed, ...]
+    largest: tuple[NormalContact, ...]
     most_spent: float = inf
 
     @classmethod
-    def of(cls, scene: Scene, asked: RadialDiscretisation, fineness: float) -> Rubbing:
+    def of(
+        cls, scene: Scene, discretisation: RadialDiscretisation, fineness: float
+    ) -> FrictionalSteps:
         """Return the solver of a scene.
 
         fineness  multiple of the number of rings, and of the solves within an increment
         """
         coupling = Coupling.of(scene)
         largest = tuple(
-            pressed(coupling.bodies, scene.indenter, target) for target in largest_targets(scene)
+            normal_contact(coupling.bodies, scene.indenter, target)
+            for target in largest_targets(scene)
         )
-        radii = shown_radii(asked.rings, largest, scene.indenter.rim)
+        radii = output_radii(discretisation.rings, largest, scene.indenter.rim)
         assert scene.friction is not None
-        return cls(scene, coupling, scene.friction, asked.tolerance, fineness, radii, largest)
+        return cls(
+            scene, coupling, scene.friction, discretisation.tolerance, fineness, radii, largest
+        )
 
     def spent(self) -> float:
         """Return 0: work does not limit the bisection."""
@@ -113,49 +118,57 @@ class Rubbing:
         """Return the contact at a fraction of the ramp; raise NotConverged."""
         reached = (start.normal_force, start.approach) if start else (0.0, 0.0)
         target = target_of(self.scene, *ramp.normal.led(fraction, reached))
-        radius, tried = self._first_radius(target, before)
-        begun = before.end.radius if before else FIRST * radius
+        radius, iterations = self._first_radius(target, before)
+        start_radius = before.end.radius if before else FIRST * radius
         last, strain = before.strain if before else 0.0, (ramp.strain(fraction) or UNSTRAINED)[0]
-        for passed in _on_the_way(begun, radius, GROWTH ** (1 / self.fineness)):
-            part = (passed - begun) / (radius - begun)
-            before = self._passed(passed, before, last + part * (strain - last))
-            tried += 1
-        share = before.middling / before.end.radius if before else MIDDLE
+        for passed in _intermediate_radii(start_radius, radius, GROWTH ** (1 / self.fineness)):
+            part = (passed - start_radius) / (radius - start_radius)
+            before = self._intermediate(passed, before, last + part * (strain - last))
+            iterations += 1
+        share = before.mid_stick_radius / before.end.radius if before else MIDDLE
         for _ in range(MAX_LAID):
             rings = rings_about(share, self._count)
             end, more, power = self._reach(target, radius, rings, before, strain)
-            tried, radius = tried + more, end.radius
-            laid, share = share, stick_share(end)
-            if abs(place_of(share) - place_of(laid)) <= 1:
+            iterations, radius = iterations + more, end.radius
+            previous, share = share, stick_share(end)
+            if abs(place_of(share) - place_of(previous)) <= 1:
                 break
-        return sheared(self.friction, end, target, self.radii, before, power, tried, strain)
+        return frictional_state(
+            self.friction, end, target, self.radii, before, power, iterations, strain
+        )
 
     @property
     def _count(self) -> int:
         return round(COUNT * self.fineness)
 
-    def _passed(
+    def _intermediate(
         self, radius: float, before: FrictionalState | None, strain: float
     ) -> FrictionalState:
         """Solve an intermediate contact of an increment, at this radius."""
-        share = before.middling / before.end.radius if before else MIDDLE
+        share = before.mid_stick_radius / before.end.radius if before else MIDDLE
         like = before.end if before else None
-        end = self._at(radius, rings_about(share, self._count), _moved(before, strain), like)
+        end = self._at(
+            radius, rings_about(share, self._count), _reference_displacement(before, strain), like
+        )
         target = Target(None, None)
         power = self._power(target, before)
-        return sheared(self.friction, end, target, self.radii, before, power, 0, strain)
+        return frictional_state(self.friction, end, target, self.radii, before, power, 0, strain)
 
     def _at(
-        self, radius: float, rings: Rings, moved: Callable[[Array], Array], like: Rubbed | None
-    ) -> Rubbed:
+        self,
+        radius: float,
+        rings: Rings,
+        radial_displacement: Callable[[Array], Array],
+        like: FrictionalContact | None,
+    ) -> FrictionalContact:
         """Solve the contact of this radius.
 
-        moved  u_r of the preceding state, as a function of the radius
-        like   contact with a similar slip zone, as an initial guess
+        radial_displacement  u_r of the preceding state, as a function of the radius
+        like                 contact with a similar slip zone, as an initial guess
         """
-        return rubbed(
+        return frictional_contact(
             self.coupling, self.scene.indenter, radius, rings, self.friction,
-            moved(radius * rings.places), _sliding(like, rings),
+            radial_displacement(radius * rings.places), _sliding(like, rings),
         )  # fmt: skip
 
     def _first_radius(self, target: Target, before: FrictionalState | None) -> tuple[float, int]:
@@ -165,9 +178,9 @@ class Rubbing:
         friction.
         """
         if before is None:
-            found = pressed(self.coupling.bodies, self.scene.indenter, target)
-            return found.contact.radius, found.tried
-        further = -target.missed(before.end) / self._power(target, before)
+            found = normal_contact(self.coupling.bodies, self.scene.indenter, target)
+            return found.contact.radius, found.iterations
+        further = -target.residual(before.end) / self._power(target, before)
         return before.end.radius * exp(further), 0
 
     @staticmethod
@@ -184,31 +197,31 @@ class Rubbing:
         rings: Rings,
         before: FrictionalState | None,
         strain: float,
-    ) -> tuple[Rubbed, int, float]:
+    ) -> tuple[FrictionalContact, int, float]:
         """Find the contact at the target by the secant method for the radius.
 
         Return the contact, the number of radii tried, and the exponent of the power law in the
         radius.
         """
-        moved = _moved(before, strain)
+        radial_displacement = _reference_displacement(before, strain)
         like = before.end if before else None
         x, power = log(radius), self._power(target, before)
-        best: Rubbed | None = None
+        best: FrictionalContact | None = None
         nearest, last_x, last = inf, x, inf
-        for tried in range(1, MAX_TRIED + 1):
-            now = like = self._at(exp(x), rings, moved, like)
-            missed = target.missed(now)
-            if best is not None and nearest <= NEAR and abs(missed) >= nearest:
-                return best, tried, power
-            if abs(missed) < nearest:
-                best, nearest = now, abs(missed)
+        for iterations in range(1, MAX_ITERATIONS + 1):
+            now = like = self._at(exp(x), rings, radial_displacement, like)
+            residual = target.residual(now)
+            if best is not None and nearest <= NEAR and abs(residual) >= nearest:
+                return best, iterations, power
+            if abs(residual) < nearest:
+                best, nearest = now, abs(residual)
             if best is not None and nearest <= 10 * ROUND_OFF:
-                return best, tried, power
+                return best, iterations, power
             if last < inf and x != last_x:
-                power = max((missed - last) / (x - last_x), LEAST_POWER)
-            last_x, last = x, missed
-            x -= min(max(missed / power, -LARGEST_STEP), LARGEST_STEP)
-        raise NotConverged("the contact radius", MAX_TRIED, nearest, ROUND_OFF)
+                power = max((residual - last) / (x - last_x), LEAST_POWER)
+            last_x, last = x, residual
+            x -= min(max(residual / power, -LARGEST_STEP), LARGEST_STEP)
+        raise NotConverged("the contact radius", MAX_ITERATIONS, nearest, ROUND_OFF)
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Array:
         """Return the gap without tractions at the rings of an increment [length]."""
@@ -226,26 +239,28 @@ class Rubbing:
         n = end.rings.count
         bare = indenter.initial_gap(places, 0.0)
         clear = bare[n + 1 :] + displacement(end.contact, end.rings.places[n + 1 :])
-        clear += end.raised[n + 1 :] - end.approach
+        clear += end.normal_displacement[n + 1 :] - end.approach
         refuse_no_disc(places[1 : n + 1], end.pressure[1:], np.zeros(n))
         refuse_no_disc(places[n + 1 :], np.ones_like(clear), clear / end.approach)
         force = state.target.force
         limit, q = self.friction.limit(end.pressure[1:]), np.abs(end.shear[1:])
         residuals = Residuals(
-            complementarity=max(end.contact.missed, end.missed),
-            penetration=max(end.contact.missed, end.missed),
+            complementarity=max(end.contact.residual, end.residual),
+            penetration=max(end.contact.residual, end.residual),
             normal_equilibrium=None if force is None else abs(end.load / force - 1),
             friction_cone=max(0.0, float(np.max(q - limit) / np.max(limit))),
             slip_direction=_against(end, self.friction),
         )
-        residuals.require(self.tolerance, "the contact radius", state.tried)
+        residuals.require(self.tolerance, "the contact radius", state.iterations)
         x = r / end.radius
-        p = pressure(end.contact, x) + end.rings.at(end.changed, x)
+        p = pressure(end.contact, x) + end.rings.at(end.pressure_change, x)
         gap = np.zeros_like(r)
         apart = x > 1
-        raised = _beyond(places, end.raised - end.deeper, -end.deeper)
+        normal_displacement = _beyond(
+            places, end.normal_displacement - end.approach_change, -end.approach_change
+        )
         gap[apart] = indenter.initial_gap(r[apart], 0.0) - end.contact.approach
-        gap[apart] += displacement(end.contact, x[apart]) + raised(r[apart])
+        gap[apart] += displacement(end.contact, x[apart]) + normal_displacement(r[apart])
         sticks = np.asarray(state.at(np.abs(end.sliding), r) == 0) & (x < 1)
         stored = end.elastic_energy(bare[: n + 1])
         increment = Increment(
@@ -253,7 +268,7 @@ class Rubbing:
             index=reached.place.index,
             increments_in_step=reached.place.increments_in_step,
             residuals=residuals,
-            iterations=state.tried,
+            iterations=state.iterations,
             halvings=reached.halvings,
             normal_force=state.normal_force,
             approach=state.approach,
@@ -263,11 +278,11 @@ class Rubbing:
             stick_radius=state.front,
             tangential_force=(0.0, 0.0),
             tangential_shift=(0.0, 0.0),
-            dissipated_energy=state.lost,
-            dissipation_uncertainty=state.uncertain,
+            dissipated_energy=state.dissipated,
+            dissipation_uncertainty=state.uncertainty,
             elastic_energy=stored,
-            input_work=stored + state.lost,
-            unresolved_work=state.worked - stored - state.lost,
+            input_work=stored + state.dissipated,
+            unresolved_work=state.work - stored - state.dissipated,
             radii=r,
             pressure=p,
             gap=np.maximum(gap, 0.0),
@@ -288,13 +303,15 @@ class Rubbing:
         return np.asarray(self.friction.limit(p) * state.at(share, r))
 
 
-def _moved(before: FrictionalState | None, strain: float) -> Callable[[Array], Array]:
+def _reference_displacement(
+    before: FrictionalState | None, strain: float
+) -> Callable[[Array], Array]:
     """Return u_r without slip, as a function of the radius: that of the state before, minus the
     strain."""
     if before is None:
         return lambda radii: -strain * radii
     end, more = before.end, strain - before.strain
-    known = _beyond(end.radius * end.rings.places, end.moved, 0.0)
+    known = _beyond(end.radius * end.rings.places, end.radial_displacement, 0.0)
     return lambda radii: known(radii) - more * radii
 
 
@@ -309,27 +326,29 @@ def _beyond(r: Array, field: Array, limit: float) -> Callable[[Array], Array]:
     return at
 
 
-def _on_the_way(begun: float, end: float, growth: float) -> Array:
+def _intermediate_radii(start_radius: float, end: float, growth: float) -> Array:
     """Return radii between the start and the end of an increment. The stick zone depends on them.
 
     growth  largest ratio of adjacent radii
     """
-    steps = max(ceil(abs(log(end / begun)) / log(growth)), 1)
-    return np.geomspace(begun, end, steps + 1)[1:-1]
+    steps = max(ceil(abs(log(end / start_radius)) / log(growth)), 1)
+    return np.geomspace(start_radius, end, steps + 1)[1:-1]
 
 
-def _sliding(was: Rubbed | None, rings: Rings) -> Signs:
+def _sliding(was: FrictionalContact | None, rings: Rings) -> Signs:
     """Return the signs of slip at the same fractions of the radius."""
     if was is None:
         return np.zeros(len(rings.x), dtype=np.int64)
     return np.rint(np.interp(rings.x, was.rings.x, was.sliding)).astype(np.int64)
 
 
-def _against(end: Rubbed, friction: CoulombFriction) -> float:
+def _against(end: FrictionalContact, friction: CoulombFriction) -> float:
     """Return ∫(b|Δs| + q Δs) dA / ∫b|Δs| dA, b the limit, for slip above round-off."""
-    slipped = end.slipped * (end.sliding != 0) * (np.abs(end.slipped) > REST * end.approach)
-    most = end.over(friction.limit(finite_pressure(end)) * np.abs(slipped))
-    return abs(most + end.over(end.shear * slipped)) / most if most > 0 else 0.0
+    slip_increment = (
+        end.slip_increment * (end.sliding != 0) * (np.abs(end.slip_increment) > REST * end.approach)
+    )
+    most = end.over(friction.limit(finite_pressure(end)) * np.abs(slip_increment))
+    return abs(most + end.over(end.shear * slip_increment)) / most if most > 0 else 0.0
 
 
 def _status(state: FrictionalState) -> ContactStatus:

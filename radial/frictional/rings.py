@@ -17,8 +17,8 @@ from scipy.special import ellipe, ellipkm1, j0, j1
 
 from contact_scene.array_types import Array
 from radial.response.array_cache import (
-    MAX_KEPT,
-    kept_within,
+    MAX_CACHED,
+    cached_within,
 )
 from radial.response.quadrature import unit_gauss
 from radial.response.wavenumbers import Waves
@@ -30,7 +30,7 @@ NEAREST = 6.0  # largest |log(c/(a - c))|: distance of a front from axis and edg
 GRADED, TOWARDS, FINEST = 0.5, 0.6, 9
 AT_AXIS, AT_EDGE = 4, 6
 POINTS, WAVE_POINTS = 14, 6  # Gauss points of an element
-KEPT = 64
+CACHED = 64
 MAX_AT_ONCE = 1 << 18  # numbers: 2 MiB
 # Radii outside of the contact with displacements.
 OUTSIDE = 1 + np.array([0.01, 0.03, 0.08, 0.2, 0.4, 0.7, 1.1, 1.6, 2.5, 4.0])
@@ -161,7 +161,7 @@ def _root(x: Array) -> Array:
 Transforms: TypeAlias = tuple[Array, Array, Array, Array]
 
 
-@kept_within(MAX_KEPT)
+@cached_within(MAX_CACHED)
 def _transforms(rings: Rings, waves: Waves) -> Transforms:
     kappa = waves.rule[0]
     length = np.diff(rings.x)[:, None]
@@ -195,20 +195,20 @@ def rings_about(front: float, count: int) -> Rings:
     return _rings(place_of(front), count)
 
 
-@lru_cache(maxsize=KEPT)
+@lru_cache(maxsize=CACHED)
 def _rings(place: int, count: int) -> Rings:
     c = 1 / (1 + exp(-place * SHARED))
     share = 1 / (1 + ((1 - c) / c) ** 0.5)
     inside = max(round(count * share), 8)
     t = np.arange(inside + 1) / inside
-    stuck = c * t**1.5
+    inner = c * t**1.5
     beyond = max(count - inside, 8)
     sliding = c + (1 - c) * np.sin(np.pi / 2 * np.arange(beyond + 1) / beyond)
     near = TOWARDS ** np.arange(FINEST)
-    step_in, step_out = stuck[-1] - stuck[-2], sliding[1] - sliding[0]
+    step_in, step_out = inner[-1] - inner[-2], sliding[1] - sliding[0]
     x = np.concatenate([
-        stuck, sliding,
-        stuck[1] * GRADED ** np.arange(1, AT_AXIS),
+        inner, sliding,
+        inner[1] * GRADED ** np.arange(1, AT_AXIS),
         1 - (1 - sliding[-2]) * GRADED ** np.arange(1, AT_EDGE),
         c - step_in * near[1:], c + step_out * near[1:],
     ])  # fmt: skip

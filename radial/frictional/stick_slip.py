@@ -46,31 +46,31 @@ ALL_AT_ONCE = 8
 
 
 @dataclass(frozen=True)
-class Rubbed:
+class FrictionalContact:
     """Contact with friction. Fields are (n + 1,) at the nodes of the rings unless stated otherwise.
 
-    contact  frictionless contact of the same radius
-    rings    nodes
-    changed  Δp [force/length²]
-    shear    q, outward on the lower body [force/length²]
-    deeper   approach minus that of `contact` [length]
-    raised   u_z by Δp and q, at the rows [length]
-    moved    u_r, at the rows [length]
-    slipped  Δu_r since the previous state [length]
-    sliding  0 at a sticking node, else the sign of q
-    missed   residual of the gap over the approach [1]
+    contact              frictionless contact of the same radius
+    rings                nodes
+    pressure_change      Δp [force/length²]
+    shear                q, outward on the lower body [force/length²]
+    approach_change      approach minus that of `contact` [length]
+    normal_displacement  u_z by Δp and q, at the rows [length]
+    radial_displacement  u_r, at the rows [length]
+    slip_increment       Δu_r since the previous state [length]
+    sliding              0 at a sticking node, else the sign of q
+    residual             residual of the gap over the approach [1]
     """
 
     contact: Disc
     rings: Rings
-    changed: Array
+    pressure_change: Array
     shear: Array
-    deeper: float
-    raised: Array
-    moved: Array
-    slipped: Array
+    approach_change: float
+    normal_displacement: Array
+    radial_displacement: Array
+    slip_increment: Array
     sliding: Signs
-    missed: float
+    residual: float
 
     @property
     def radius(self) -> float:
@@ -80,17 +80,17 @@ class Rubbed:
     @property
     def approach(self) -> float:
         """Approach δ since first contact [length]."""
-        return self.contact.approach + self.deeper
+        return self.contact.approach + self.approach_change
 
     @property
     def load(self) -> float:
         """Load W [force]."""
-        return self.contact.load + self.over(self.changed)
+        return self.contact.load + self.over(self.pressure_change)
 
     @cached_property
     def pressure(self) -> Array:
         """Pressure p, infinite at an apex [force/length²]."""
-        return pressure(self.contact, self.rings.x) + self.changed
+        return pressure(self.contact, self.rings.x) + self.pressure_change
 
     def over(self, field: Array) -> float:
         """Return ∫ f dA of a field given at the nodes."""
@@ -101,13 +101,13 @@ class Rubbed:
 
         gap  f at the nodes [length]
         """
-        by_change = self.over(self.changed * (self.approach - gap))
-        by_shear = self.over(self.shear * self.moved[: len(self.shear)])
+        by_change = self.over(self.pressure_change * (self.approach - gap))
+        by_shear = self.over(self.shear * self.radial_displacement[: len(self.shear)])
         whole = self.contact.elastic_energy
-        return whole + 0.5 * (self.deeper * self.contact.load + by_change + by_shear)
+        return whole + 0.5 * (self.approach_change * self.contact.load + by_change + by_shear)
 
 
-def rubbed(
+def frictional_contact(
     coupling: Coupling,
     indenter: ShapedBody,
     radius: float,
@@ -116,7 +116,7 @@ def rubbed(
     before: Array,
     guess: Signs,
     fineness: int = 1,
-) -> Rubbed:
+) -> FrictionalContact:
     """Solve the contact of this radius [length].
 
     before  u_r of the previous state, at the rows [length]
@@ -124,52 +124,52 @@ def rubbed(
     raises  NotConverged if the sticking nodes cannot be determined, and errors of `disc`
     """
     contact = disc(coupling.bodies, indenter, radius, fineness=fineness)
-    answer = coupling.response(rings, radius, fineness)
-    drawn = coupling.drawn(contact, rings, fineness)
+    response = coupling.response(rings, radius, fineness)
+    frictionless_displacement = coupling.frictionless_displacement(contact, rings, fineness)
     smooth = pressure(contact, rings.x)
     found, sliding = _newton(
-        answer, rings.count, friction, smooth[1:-1], (before - drawn)[1 : rings.count],
-        guess[1:-1], rings.x[1:-1],
+        response, rings.count, friction, smooth[1:-1],
+        (before - frictionless_displacement)[1 : rings.count], guess[1:-1], rings.x[1:-1],
     )  # fmt: skip
     n = rings.count
-    p, q, deeper = found[:n], found[n:-1], float(found[-1])
-    raised = answer.zz @ p + answer.zr @ q
-    moved = drawn + answer.rz @ p + answer.rr @ q
-    depth = contact.approach + deeper
-    return Rubbed(
+    p, q, approach_change = found[:n], found[n:-1], float(found[-1])
+    normal_displacement = response.zz @ p + response.zr @ q
+    radial_displacement = frictionless_displacement + response.rz @ p + response.rr @ q
+    depth = contact.approach + approach_change
+    return FrictionalContact(
         contact,
         rings,
         np.append(p, 0.0),
         np.concatenate([[0.0], q, [0.0]]),
-        deeper,
-        raised,
-        moved,
-        (moved - before)[: n + 1],
+        approach_change,
+        normal_displacement,
+        radial_displacement,
+        (radial_displacement - before)[: n + 1],
         np.concatenate([[0], sliding, [sliding[-1]]]),
-        float(np.max(np.abs(raised[: n + 1] - deeper))) / depth,
+        float(np.max(np.abs(normal_displacement[: n + 1] - approach_change))) / depth,
     )
 
 
 def _newton(
-    answer: Response, n: int, friction: CoulombFriction, smooth: Array, stuck: Array, guess: Signs,
-    places: Array,
+    response: Response, n: int, friction: CoulombFriction, smooth: Array,
+    stick_displacement: Array, guess: Signs, places: Array,
 ) -> tuple[Array, Signs]:  # fmt: skip
     """Return Δp, q and the change of the approach, and the signs of slipping nodes.
 
-    smooth  pressure without friction, at the nodes between axis and edge
-    stuck   u_r by Δp and q that stick requires, at the same nodes
+    smooth              pressure without friction, at the nodes between axis and edge
+    stick_displacement  u_r by Δp and q that stick requires, at the same nodes
     """
-    own = np.abs(np.diag(answer.rr[1:n]))
+    own = np.abs(np.diag(response.rr[1:n]))
     size = 2 * n
     matrix, right = np.zeros((size, size)), np.zeros(size)
-    matrix[: n + 1] = np.column_stack([answer.zz[: n + 1], answer.zr[: n + 1], -np.ones(n + 1)])
-    sticking = np.column_stack([answer.rz[1:n], answer.rr[1:n], np.zeros(n - 1)])
+    matrix[: n + 1] = np.column_stack([response.zz[: n + 1], response.zr[: n + 1], -np.ones(n + 1)])
+    sticking = np.column_stack([response.rz[1:n], response.rr[1:n], np.zeros(n - 1)])
     sliding, contradicting, first, pressure = guess, 1.0, 0.0, smooth
     for step in range(MAX_STEPS):
         slope = friction.slope(pressure)
         limit = friction.limit(pressure) - slope * pressure + slope * smooth
         rows = sticking.copy()
-        right[n + 1 :] = stuck
+        right[n + 1 :] = stick_displacement
         at = np.flatnonzero(sliding)
         rows[at] = 0.0
         rows[at, n + at] = own[at]
@@ -181,11 +181,13 @@ def _newton(
             break
         most = limit + slope * found[1:n]
         pressure = np.maximum(smooth + found[1:n], 0.0)
-        slip = sticking @ found - stuck
-        tried = found[n:-1] - slip / own
+        slip = sticking @ found - stick_displacement
+        trial_shear = found[n:-1] - slip / own
         # A node at the limit, as under a constant load, keeps its state.
         least = most + np.where(sliding == 0, TIE, -TIE) * np.max(most)
-        wrong = np.where(np.abs(tried) < least, 0, np.where(tried > 0, 1, -1)).astype(np.int64)
+        wrong = np.where(np.abs(trial_shear) < least, 0, np.where(trial_shear > 0, 1, -1)).astype(
+            np.int64
+        )
         contradicting = float(np.mean(wrong != sliding))
         if contradicting == 0:
             bent = np.abs(friction.limit(pressure) - np.maximum(most, 0.0))
@@ -195,7 +197,7 @@ def _newton(
             continue
         first = float(np.min(places[wrong != sliding]))
         if step >= ALL_AT_ONCE:
-            by = np.where(wrong != sliding, np.abs(np.abs(tried) - most) / np.abs(most), -1.0)
+            by = np.where(wrong != sliding, np.abs(np.abs(trial_shear) - most) / np.abs(most), -1.0)
             one = int(np.argmax(by))
             wrong = np.where(np.arange(n - 1) == one, wrong, sliding)
         sliding = wrong

@@ -32,8 +32,8 @@ from radial.normal.profile import (
     profile,
 )
 from radial.response.array_cache import (
-    MAX_KEPT,
-    kept_within,
+    MAX_CACHED,
+    cached_within,
 )
 from radial.response.bodies import Bodies
 from radial.response.quadrature import (
@@ -66,7 +66,7 @@ class Disc:
     radius    a [length]
     approach  δ since first contact [length]
     layers    c_n [length]
-    missed    largest error of the equation over the approach [1], a bound of the gap that remains
+    residual  largest error of the equation over the approach [1], a bound of the gap that remains
               within the contact over the approach
     """
 
@@ -75,7 +75,7 @@ class Disc:
     radius: float
     approach: float
     layers: Array
-    missed: float
+    residual: float
 
     @property
     def load(self) -> float:
@@ -141,14 +141,14 @@ class _Galerkin:
         right = -2 / pi * self.scale * (self.bases @ (self.excess * transform))
         return np.asarray(self.scale * cho_solve(self.factor, right, check_finite=False))
 
-    def missed(self, layers: Array, transform: Array) -> float:
+    def residual(self, layers: Array, transform: Array) -> float:
         """Return the largest error of the equation for c_n and the transform of f [length]."""
         polynomials, cosines = _judged(self.waves, self.count)
         exact = -2 / pi * (cosines @ (self.excess * (transform + layers @ self.bases)))
         return float(np.max(np.abs(polynomials @ layers - exact)))
 
 
-@kept_within(MAX_KEPT)
+@cached_within(MAX_CACHED)
 def _judged(waves: Waves, count: int) -> tuple[Array, Array]:
     """Return P_2n and cos κt at the points where the error of the equation is evaluated."""
     t = (np.arange(PLACES) + 0.5) / PLACES
@@ -191,15 +191,15 @@ def disc(
         else:
             depth = approach
         layers = depth * of_approach + of_profile
-        missed = method.missed(layers, depth * method.bases[0] + by_profile)
-        made = Disc(bodies, shape, radius, depth, layers, missed / (abs(depth) or 1.0))
-        if most or missed <= ROUND_OFF * (abs(depth) + float(np.sum(np.abs(layers)))):
+        residual = method.residual(layers, depth * method.bases[0] + by_profile)
+        made = Disc(bodies, shape, radius, depth, layers, residual / (abs(depth) or 1.0))
+        if most or residual <= ROUND_OFF * (abs(depth) + float(np.sum(np.abs(layers)))):
             return made
-        if best is not None and made.missed > 0.5 * best.missed:
+        if best is not None and made.residual > 0.5 * best.residual:
             return best
         best, count = made, 2 * count
         if count > 2 * MAX_ORDERS * fineness:
-            raise NotConverged("the contact on a disc", count // 2, made.missed, ROUND_OFF)
+            raise NotConverged("the contact on a disc", count // 2, made.residual, ROUND_OFF)
 
 
 def orders(thickness: float, apex: bool) -> int:

@@ -16,7 +16,7 @@ from radial.response.bodies import Bodies
 if TYPE_CHECKING:
     from contact_scene.geometry import ShapedBody
 
-MAX_TRIED = 60
+MAX_ITERATIONS = 60
 # Smallest relative error of the force or approach that the iteration can reach.
 ROUND_OFF = 1e-13
 # Relative error at which the iteration may stop without progress, due to round-off with unlike
@@ -52,43 +52,43 @@ class Target:
     approach: float | None
     spring: float = 0.0
 
-    def missed(self, contact: Loaded) -> float:
+    def residual(self, contact: Loaded) -> float:
         """Return log(value of the contact / prescribed value).
 
         Raises UnsupportedScene for a contact beyond the end of the shape, whose load is not
         positive.
         """
-        has, asked = contact.load, self.force
-        if asked is None:
+        has, prescribed = contact.load, self.force
+        if prescribed is None:
             assert self.approach is not None
-            has, asked = self.moved(contact), self.approach
+            has, prescribed = self.actuator_approach(contact), self.approach
         if not (has > 0 and isfinite(has)):
             raise UnsupportedScene(
                 f"no contact of radius {contact.radius:.3g} m carries the load: the contact "
                 "reaches the end of the shape (the equator of a sphere). Use "
                 "a smaller force or approach"
             )
-        return log(has / asked)
+        return log(has / prescribed)
 
     def is_beyond(self, contact: Disc) -> bool:
         """Return true if the prescribed value exceeds that of the contact."""
         if self.force is not None:
             return self.force > contact.load
         assert self.approach is not None
-        return self.approach > self.moved(contact)
+        return self.approach > self.actuator_approach(contact)
 
-    def moved(self, contact: Loaded) -> float:
+    def actuator_approach(self, contact: Loaded) -> float:
         """Return the approach of the far end of the spring [length]."""
         return contact.approach + self.spring * contact.load
 
 
 @dataclass(frozen=True)
-class Pressed:
+class NormalContact:
     """Contact at a target, and the number of contact radii tried."""
 
     contact: Disc
     target: Target
-    tried: int
+    iterations: int
 
     @property
     def normal_force(self) -> float:
@@ -98,11 +98,13 @@ class Pressed:
     @property
     def approach(self) -> float:
         """Return the prescribed or computed approach [length]."""
-        asked = self.target.approach
-        return self.target.moved(self.contact) if asked is None else asked
+        prescribed = self.target.approach
+        return self.target.actuator_approach(self.contact) if prescribed is None else prescribed
 
 
-def pressed(bodies: Bodies, indenter: ShapedBody, target: Target, fineness: int = 1) -> Pressed:
+def normal_contact(
+    bodies: Bodies, indenter: ShapedBody, target: Target, fineness: int = 1
+) -> NormalContact:
     """Solve the contact at a target by the secant method for the radius.
 
     Raises NotConverged, and UnsupportedScene for a gap that is not smooth.
@@ -112,27 +114,29 @@ def pressed(bodies: Bodies, indenter: ShapedBody, target: Target, fineness: int 
     if indenter.rim is not None:
         whole = disc(bodies, indenter, indenter.rim, fineness=fineness)
         if target.is_beyond(whole):
-            return Pressed(_to_the_rim(bodies, indenter, target, whole, fineness), target, 1)
+            return NormalContact(
+                _contact_at_rim(bodies, indenter, target, whole, fineness), target, 1
+            )
     x, power = log(first_radius(bodies, indenter, target)), 2.0
     best, nearest = None, inf
     last_x, last = x, inf
-    for tried in range(1, MAX_TRIED + 1):
+    for iterations in range(1, MAX_ITERATIONS + 1):
         contact = disc(bodies, indenter, exp(x), fineness=fineness)
-        missed = target.missed(contact)
-        if best is not None and nearest <= NEAR and abs(missed) >= nearest:
-            return Pressed(best, target, tried)
-        if abs(missed) < nearest:
-            best, nearest = contact, abs(missed)
+        residual = target.residual(contact)
+        if best is not None and nearest <= NEAR and abs(residual) >= nearest:
+            return NormalContact(best, target, iterations)
+        if abs(residual) < nearest:
+            best, nearest = contact, abs(residual)
         if best is not None and nearest <= ROUND_OFF:
-            return Pressed(best, target, tried)
+            return NormalContact(best, target, iterations)
         if last < inf:
-            power = max((missed - last) / (x - last_x), LEAST_POWER)
-        last_x, last = x, missed
-        x -= min(max(missed / power, -LARGEST_STEP), LARGEST_STEP)
-    raise NotConverged("the contact radius", MAX_TRIED, nearest, ROUND_OFF)
+            power = max((residual - last) / (x - last_x), LEAST_POWER)
+        last_x, last = x, residual
+        x -= min(max(residual / power, -LARGEST_STEP), LARGEST_STEP)
+    raise NotConverged("the contact radius", MAX_ITERATIONS, nearest, ROUND_OFF)
 
 
-def _to_the_rim(
+def _contact_at_rim(
     bodies: Bodies, indenter: ShapedBody, target: Target, whole: Disc, fineness: int
 ) -> Disc:
     """Return the contact bounded by a rim. Its load is linear in the approach.
@@ -144,10 +148,14 @@ def _to_the_rim(
         further = missing / (2 * bodies.modulus * whole.radius)
     else:
         assert target.approach is not None
-        missing = further = target.approach - target.moved(whole)
+        missing = further = target.approach - target.actuator_approach(whole)
     probe = disc(bodies, indenter, whole.radius, whole.approach + further, fineness)
     by_force = target.force is not None
-    has = probe.load - whole.load if by_force else target.moved(probe) - target.moved(whole)
+    has = (
+        probe.load - whole.load
+        if by_force
+        else target.actuator_approach(probe) - target.actuator_approach(whole)
+    )
     further *= missing / has
     return disc(bodies, indenter, whole.radius, whole.approach + further, fineness)
 

@@ -89,10 +89,10 @@ def displacement(contact: Disc, x: Array) -> Array:
     reach = 2.0 ** np.ceil(np.log2(np.max(x)))  # few values, shared by contacts
     waves = contact.bodies.waves(contact.radius, float(reach))
     places, weights = waves.rule
-    felt = weights * contact.bodies.excess(waves, contact.radius)
-    felt *= contact.wave_transform(waves)
+    spectrum = weights * contact.bodies.excess(waves, contact.radius)
+    spectrum *= contact.wave_transform(waves)
     added = np.zeros_like(x)
-    for first in range(0, len(felt), AT_ONCE):
+    for first in range(0, len(spectrum), AT_ONCE):
         some = slice(first, first + AT_ONCE)
-        added += j0(np.multiply.outer(x, places[some])) @ felt[some]
+        added += j0(np.multiply.outer(x, places[some])) @ spectrum[some]
     return np.asarray(2 / pi * (direct + added))

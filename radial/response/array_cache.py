@@ -13,10 +13,10 @@ from typing import Any, ParamSpec, TypeVar
 P = ParamSpec("P")
 R = TypeVar("R")
 
-MAX_KEPT = 24 << 20  # bytes of the results of one function
+MAX_CACHED = 24 << 20  # bytes of the results of one function
 
 
-def kept_within(most: int) -> Callable[[Callable[P, R]], Callable[P, R]]:
+def cached_within(most: int) -> Callable[[Callable[P, R]], Callable[P, R]]:
     """Store the results of a function of hashable arguments: an array or a tuple of arrays.
 
     most  bytes; above it the least recently used results are removed before a new one is computed

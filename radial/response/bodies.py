@@ -23,7 +23,7 @@ REACH = 24.0
 # Ratio of the smallest wavenumber to the one where the softest layer has an effect.
 LONGEST_WAVE = 1e-2
 # Number of cached layer responses: pressure, shear and gap of a contact use the same one.
-KEPT = 4
+CACHED = 4
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ class Bodies:
         return np.asarray(0.5 * self.modulus * (waves.rule[0] / radius) * added)
 
 
-@lru_cache(maxsize=KEPT)
+@lru_cache(maxsize=CACHED)
 def added_by(stack: Stack, waves: Waves, radius: float) -> SurfaceScalars:
     """Return the surface response of a body minus that of a half-space of its outermost material.
 

@@ -15,8 +15,8 @@ from scipy.special import spherical_jn
 
 from contact_scene.array_types import Array
 from radial.response.array_cache import (
-    MAX_KEPT,
-    kept_within,
+    MAX_CACHED,
+    cached_within,
 )
 from radial.response.quadrature import unit_gauss
 
@@ -29,7 +29,7 @@ GROWTH = 3.0
 SHARED = 1.25
 # Number of cached quadratures. A solve needs two; more than a few contacts exceed the processor
 # cache.
-KEPT = 8
+CACHED = 8
 
 
 class Waves(NamedTuple):
@@ -67,7 +67,7 @@ def waves(shortest: float, longest: float, reach: float, fineness: int = 1) -> W
     return Waves(first, widest, ceil(SHARED ** ceil(log(shortest / widest, SHARED))))
 
 
-@lru_cache(maxsize=KEPT)
+@lru_cache(maxsize=CACHED)
 def _rule(chosen: Waves) -> tuple[Array, Array]:
     last = floor(log(chosen.widest) / log(GROWTH))
     growing = GROWTH ** np.arange(chosen.first, last + 1.0)
@@ -78,7 +78,7 @@ def _rule(chosen: Waves) -> tuple[Array, Array]:
     return (edges[:-1, None] + widths * points).ravel(), (widths * weights).ravel()
 
 
-@kept_within(MAX_KEPT)
+@cached_within(MAX_CACHED)
 def _even_transforms(chosen: Waves, count: int) -> Array:
     places = chosen.rule[0]
     found = np.empty((count, len(places)))
@@ -96,7 +96,7 @@ def _even_transforms(chosen: Waves, count: int) -> Array:
     return found
 
 
-@kept_within(MAX_KEPT)
+@cached_within(MAX_CACHED)
 def _shifted_transforms(chosen: Waves, count: int) -> Array:
     half = chosen.rule[0] / 2
     found = np.empty((count, len(half)))

@@ -62,9 +62,9 @@ def below_pressure(contact: Disc, material: HalfSpace, x: Array, depth: float) -
 
 def _waves(contact: Disc, x: Array, depth: float) -> tuple[Array, ...]:
     """Return ∫ G~ exp(-κz) f dκ for f = J₀, κ J₀, κ² J₀, J₁/x, κ J₁/x and κ² J₁/x."""
-    beside, weights = _places(contact, x, depth)
-    t = x[:, None] + beside
-    c, R = _distance(x[:, None], depth, beside)
+    offset, weights = _places(contact, x, depth)
+    t = x[:, None] + offset
+    c, R = _distance(x[:, None], depth, offset)
     by_G, by_rate = weights * contact.transform(t), weights * contact.rate(t)
     end, last = (part[:, 0] for part in _distance(x[:, None], depth, 1 - x[:, None]))
 
@@ -96,11 +96,11 @@ def _places(contact: Disc, x: Array, depth: float) -> tuple[Array, Array]:
     return depth * np.sinh(y), weights
 
 
-def _distance(x: Array, depth: float, beside: Array) -> tuple[Complex, Complex]:
+def _distance(x: Array, depth: float, offset: Array) -> tuple[Complex, Complex]:
     """Return c and R at t = x + beside."""
-    t = x + beside
+    t = x + offset
     c = np.asarray(depth + 1j * t, dtype=np.complex128)
-    return c, np.asarray(np.sqrt(depth**2 - beside * (x + t) + 2j * depth * t))
+    return c, np.asarray(np.sqrt(depth**2 - offset * (x + t) + 2j * depth * t))
 
 
 def _mean(contact: Disc, x: Array) -> Array:

@@ -69,9 +69,9 @@ def _of_angles(r: Array, count: int, fineness: int) -> tuple[Array, Array]:
     v, weights = unit_gauss(ANGLES * fineness)
     edges = _graded(np.clip(width, LEAST, 1.0), count) * (pi / 2)
     lengths = np.diff(edges, axis=1)[..., None]
-    beside = (edges[:, :-1, None] + lengths * v).reshape(len(r), -1)
+    offset = (edges[:, :-1, None] + lengths * v).reshape(len(r), -1)
     weight = (lengths * weights).reshape(len(r), -1)
-    angles = [pi / 2 + beside, pi / 2 - beside, -pi / 2 + beside, -pi / 2 - beside]
+    angles = [pi / 2 + offset, pi / 2 - offset, -pi / 2 + offset, -pi / 2 - offset]
     return np.concatenate(angles, axis=1), np.tile(weight, 4)
 
 

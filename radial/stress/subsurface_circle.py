@@ -35,7 +35,7 @@ LEAST_POINTS = 64  # over the radius
 MAX_AT_ONCE = 1 << 21  # numbers
 
 
-class BelowCircle:
+class SubsurfaceCircle:
     """Fields of one body below a loaded circle.
 
     circle    tractions
@@ -110,10 +110,10 @@ class BelowCircle:
             orders = self._orders(np.multiply.outer(kappa, r))
             for n, level in enumerate(levels):
                 away = (2 * h - level.depth if level.layer == 0 else level.depth) / a
-                felt = int(np.searchsorted(kappa, DIED_OUT / away))
-                if felt:
+                count = int(np.searchsorted(kappa, DIED_OUT / away))
+                if count:
                     polar[n] += _transformed(
-                        descent, level, sources[..., :felt], orders, turns, felt
+                        descent, level, sources[..., :count], orders, turns, count
                     )
         found += _turned(polar, np.cos(theta), np.sin(theta))
 
@@ -125,7 +125,7 @@ def _order(orders: Sequence[Array], m: int) -> Array:
 
 def _transformed(
     descent: Descent, level: Level, sources: Complex, orders: Sequence[Array], turns: Complex,
-    felt: int,
+    count: int,
 ) -> Array:  # fmt: skip
     """Return u_r, u_θ, u_z, σ_rr, θθ, zz, θz, rz, rθ (9, n), summed over harmonics."""
     fields = descent.remainder(level)
@@ -136,21 +136,21 @@ def _transformed(
         along, across = (B - A) / 2, -(A + B) / 2
 
         def by_wave(entries: Array, along: Complex = along, p: Complex = p) -> Complex:
-            return np.asarray(entries[0, :felt] * along + entries[1, :felt] * p)
+            return np.asarray(entries[0, :count] * along + entries[1, :count] * p)
 
         U, W = by_wave(fields.displacement[0]), by_wave(fields.displacement[1])
         s, n = by_wave(fields.traction[0]), by_wave(fields.traction[1])
         lengthwise, sideways = by_wave(plane.along), by_wave(plane.across)
-        V = fields.transverse_displacement[:felt] * across
-        t = fields.transverse_traction[:felt] * across
-        st = plane.shear[:felt] * across
+        V = fields.transverse_displacement[:count] * across
+        t = fields.transverse_traction[:count] * across
+        st = plane.shear[:count] * across
         half = (lengthwise - sideways) / 2
-        level_J = _order(orders, m)[:felt]
+        level_J = _order(orders, m)[:count]
         W, n, mean = (f @ level_J for f in (W, -n, (lengthwise + sideways) / 2))
-        out, out_z = (f @ _order(orders, m + 1)[:felt] for f in (-(U + V), s + t))
-        in_, in_z = (f @ _order(orders, m - 1)[:felt] for f in (U - V, t - s))
-        out_2 = (st - half) @ _order(orders, m + 2)[:felt]
-        in_2 = -(half + st) @ _order(orders, m - 2)[:felt]
+        out, out_z = (f @ _order(orders, m + 1)[:count] for f in (-(U + V), s + t))
+        in_, in_z = (f @ _order(orders, m - 1)[:count] for f in (U - V, t - s))
+        out_2 = (st - half) @ _order(orders, m + 2)[:count]
+        in_2 = -(half + st) @ _order(orders, m - 2)[:count]
         apart = (out_2 + in_2) / 2
         polar = (
             (out + in_) / 2, (out - in_) / 2j, W, mean + apart, mean - apart, n,

@@ -24,7 +24,7 @@ DIED_OUT = 48.0
 BLOCK = 4096  # wavenumbers per block of Bessel functions
 
 
-class Below:
+class SubsurfaceDisc:
     """Fields of one body below a contact on a disc.
 
     In the outermost layer they are those of a half-space (`half_space`) plus the contribution of
@@ -79,10 +79,10 @@ class Below:
                 away = (2 * h - level.depth if level.layer == 0 else level.depth) / a
                 if k[0] * away > DIED_OUT:
                     continue
-                felt = int(np.searchsorted(k, DIED_OUT / away))
+                count = int(np.searchsorted(k, DIED_OUT / away))
                 found[n] += _transformed(
-                    _scalars(descent, level)[:, :felt] * sources[:felt],
-                    *(bessel[:felt] for bessel in (zeroth, first, second)),
+                    _scalars(descent, level)[:, :count] * sources[:count],
+                    *(bessel[:count] for bessel in (zeroth, first, second)),
                 )
 
 

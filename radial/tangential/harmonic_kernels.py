@@ -23,7 +23,7 @@ from contact_scene.array_types import Array
 UPWARDS, ROUND_OFF = 3.0, 18.0
 
 
-def alike(highest: int, r: Array, s: Array, apart: Array) -> Array:
+def equal_order(highest: int, r: Array, s: Array, apart: Array) -> Array:
     """Return G_m for m = 0 … highest, r > 0 and s > 0, shape (highest + 1, …) [1/length].
 
     apart  |r - s|, given separately to avoid cancellation

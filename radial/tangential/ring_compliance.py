@@ -45,8 +45,8 @@ def ring_compliance(
     added = _of_layers(coupling, nodes, radius, highest) if coupling.bodies.layered else None
     for m, block in enumerate(found):
         below = abs(m - 1)
-        pp, qq = mean * unit.alike[below], mean * unit.alike[m + 1]
-        pq, zz = difference * unit.shifted[m], coupling.direct * unit.alike[m]
+        pp, qq = mean * unit.equal_order[below], mean * unit.equal_order[m + 1]
+        pq, zz = difference * unit.shifted[m], coupling.direct * unit.equal_order[m]
         # For m = 0 the transform of P has the order -1: J_{-1} = -J_1.
         zp = crossed * unit.stepped[below].T if m else -crossed * unit.stepped[0]
         zq = -crossed * unit.stepped[m]

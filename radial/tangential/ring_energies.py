@@ -17,7 +17,7 @@ from scipy.special import j0, j1
 
 from contact_scene.array_types import Array
 from radial.response.quadrature import unit_gauss
-from radial.tangential.harmonic_kernels import alike
+from radial.tangential.harmonic_kernels import equal_order
 
 Numbers = NDArray[np.int64]
 # Element of r, element of s, r, s, s - r and weights of pairs of points.
@@ -27,7 +27,7 @@ SAME, TOUCHING = 26, (14, 12)
 APART = ((2, 4, 11), (4, 9, 7))  # range of the distance of two elements, and number of points
 FAR, FAR_POINTS = 9, 5
 WAVE_POINTS = 6
-KEPT = 8
+CACHED = 8
 BEYOND = 32  # orders above the highest, where the downward recurrence starts; J is negligible there
 MAX_AT_ONCE = 1 << 21  # numbers: 16 MiB
 
@@ -35,17 +35,17 @@ MAX_AT_ONCE = 1 << 21  # numbers: 16 MiB
 class Unit(NamedTuple):
     """Galerkin integrals of hats i and j (harmonics, n + 1, n + 1), lengths in units of the radius.
 
-    alike    of G_m, m = 0 … M + 1
-    shifted  of ∫ J_{m-1}(kr_i) J_{m+1}(ks_j) dk, m = 1 … M; for m = 0 it is -alike[1]
-    stepped  of ∫ J_m(kr_i) J_{m+1}(ks_j) dk, m = 0 … M
+    equal_order  of G_m, m = 0 … M + 1
+    shifted      of ∫ J_{m-1}(kr_i) J_{m+1}(ks_j) dk, m = 1 … M; for m = 0 it is -alike[1]
+    stepped      of ∫ J_m(kr_i) J_{m+1}(ks_j) dk, m = 0 … M
     """
 
-    alike: Array
+    equal_order: Array
     shifted: Array
     stepped: Array
 
 
-@lru_cache(maxsize=KEPT)
+@lru_cache(maxsize=CACHED)
 def unit_energies(nodes: tuple[float, ...], highest: int) -> Unit:
     """Compute the integrals for nodes 0 = x_0 < … < x_n and harmonics 0 … M = highest."""
     x = np.array(nodes)
@@ -54,7 +54,7 @@ def unit_energies(nodes: tuple[float, ...], highest: int) -> Unit:
     squares = np.zeros((highest + 2, *size))  # of (r/s) G_m
     steps = np.zeros((highest + 1, *size))
     for inner, outer, r, s, apart, weights in _pairs(x):
-        kernel = alike(highest + 1, r, s, apart) * weights
+        kernel = equal_order(highest + 1, r, s, apart) * weights
         power = weights * r * (r / s) ** np.arange(highest + 1.0)[:, None, None]
         for i, at_r in enumerate(_shapes(x, inner, r)):
             for j, at_s in enumerate(_shapes(x, outer, s)):

@@ -19,18 +19,18 @@ import numpy as np
 from contact_scene import CoulombFriction
 from contact_scene.array_types import Array
 from contact_scene.solver_errors import ContactAtZoneEdge, GrossSliding, NotConverged
-from radial.tangential.limit_load import carried_times
+from radial.tangential.limit_load import limit_load_factor
 from radial.tangential.ring_laws import (
     At,
     Laws,
 )
-from radial.tangential.ring_newton import aimed
+from radial.tangential.ring_newton import newton_iterate
 from radial.tangential.ring_points import Points
 from radial.tangential.ring_state import (
-    ABOUT,
-    DOWN,
-    Held,
+    NORMAL,
+    TORSION,
     Loads,
+    PointState,
 )
 
 MAX_STEPS = 60
@@ -43,14 +43,14 @@ TIE = 1e-9
 AT_ONCE = 12  # first steps without line search: full steps find the slip zone sooner
 
 
-def held(
+def solved_state(
     points: Points,
     friction: CoulombFriction,
     loads: Loads,
-    before: Held | None,
+    before: PointState | None,
     tolerance: float,
     smooth: Array | None = None,
-) -> Held:
+) -> PointState:
     """Solve the state under loads.
 
     before     state at the start of the increment; None before first contact
@@ -59,114 +59,121 @@ def held(
     raises     NotConverged; GrossSliding if T reaches the friction limit, or if T and M exceed the
                limit load of the contact without them; ContactAtZoneEdge at the last ring
     """
-    drag, W = float(np.hypot(*_given(loads)[:2])), loads.forces[DOWN]
+    force, W = float(np.hypot(*_given(loads)[:2])), loads.forces[NORMAL]
     most = None if W is None else friction.carried(W)
-    if drag and most is not None and drag >= most:
-        raise _slides(drag, most)
+    if force and most is not None and force >= most:
+        raise _slides(force, most)
     laws = Laws.of(points, friction, loads, before)
-    for x in _starts(laws, before, tolerance, smooth):
+    for x in _initial_guesses(laws, before, tolerance, smooth):
         at = laws.at(x, points.compliance @ x[:-4])
         for step in range(MAX_STEPS):
             if at.worst <= tolerance:
-                return _ended(laws, at, before, step)
+                return _end_state(laws, at, before, step)
             # A singular iteration diverges to infinite numbers.
             with np.errstate(over="ignore", invalid="ignore"):
-                aim = aimed(laws, at)
+                aim = newton_iterate(laws, at)
                 if aim is None:
                     break
-                aim = _within_reach(laws, at, aim)
-                at = _nearer(laws, at, aim, SHORTEST if step >= AT_ONCE else 1.0)
+                aim = _limited_step(laws, at, aim)
+                at = _line_search(laws, at, aim, SHORTEST if step >= AT_ONCE else 1.0)
     if np.any(_given(loads)):
         _refuse_sliding(points, friction, loads, before, tolerance)
     raise NotConverged("contact and friction on rings", MAX_STEPS, at.worst, tolerance)
 
 
-def _starts(
-    laws: Laws, before: Held | None, tolerance: float, smooth: Array | None
+def _initial_guesses(
+    laws: Laws, before: PointState | None, tolerance: float, smooth: Array | None
 ) -> Iterator[Array]:
-    """Yield initial guesses: those of `Laws.starts`, then a state with the previous rigid motion.
+    """Yield initial guesses: those of `Laws.initial_guesses`, then a state with the previous rigid
+    motion.
 
     The last one helps if all points slip during the iteration, so that the motion is undetermined.
     """
     if before is None:
         if smooth is not None:
             yield smooth
-        yield laws.closed()
+        yield laws.closed_guess()
         return
-    yield from laws.starts(before)
-    if any(force is not None for force in laws.loads.forces[:DOWN]):
+    yield from laws.initial_guesses(before)
+    if any(force is not None for force in laws.loads.forces[:NORMAL]):
         resting = laws.loads.resting(before.motion)
         with suppress(NotConverged):
-            state = held(laws.points, laws.friction, resting, before, tolerance)
+            state = solved_state(laws.points, laws.friction, resting, before, tolerance)
             yield np.append(state.tractions, state.motion)
 
 
 def _given(loads: Loads) -> Array:
     """Return the prescribed T along and across, and M (3,); 0 for prescribed motions."""
-    return np.array([force or 0.0 for force in loads.forces[:DOWN]])
+    return np.array([force or 0.0 for force in loads.forces[:NORMAL]])
 
 
 def _refuse_sliding(
-    points: Points, friction: CoulombFriction, loads: Loads, before: Held | None, tolerance: float
+    points: Points,
+    friction: CoulombFriction,
+    loads: Loads,
+    before: PointState | None,
+    tolerance: float,
 ) -> None:
     """Raise GrossSliding if T and M exceed the limit load of the contact without them."""
-    pressed = held(points, friction, loads.without_shear, before, tolerance)
+    normal_contact = solved_state(points, friction, loads.without_shear, before, tolerance)
     given = _given(loads)
-    limit = friction.limit(np.maximum(pressed.pressure, 0.0))
-    free = np.array([force is not None for force in loads.forces[:DOWN]])
-    times = carried_times(points, limit, given, free)
+    limit = friction.limit(np.maximum(normal_contact.pressure, 0.0))
+    free = np.array([force is not None for force in loads.forces[:NORMAL]])
+    times = limit_load_factor(points, limit, given, free)
     if times > 1:
         return
-    drag, torque = float(np.hypot(*given[:2])), abs(given[ABOUT])
+    force, torque = float(np.hypot(*given[:2])), abs(given[TORSION])
     if not torque:
-        raise _slides(drag, times * drag)
-    if not drag:
+        raise _slides(force, times * force)
+    if not force:
         raise GrossSliding(
             f"torque {torque:.6g} N m, but friction carries less than {times * torque:.6g} N m. "
             "Reduce it, or prescribe the twist"
         )
     raise GrossSliding(
-        f"friction carries {times:.4g} times T = {drag:g} N with a torque of {torque:g} N m: "
+        f"friction carries {times:.4g} times T = {force:g} N with a torque of {torque:g} N m: "
         "the indenter slides and rotates. Reduce them, or prescribe shift and twist"
     )
 
 
-def _within_reach(laws: Laws, at: At, aim: Array) -> Array:
+def _limited_step(laws: Laws, at: At, aim: Array) -> Array:
     """Shorten the step of rigid motions to the range in which the slip zone is representative.
 
     If nearly all points slip, the step under a prescribed force grows without bound.
     """
     points, inside = laws.points, at.z > 0
-    led = np.array([force is not None for force in laws.loads.forces[:DOWN]])
-    if not np.any(led) or not np.any(inside):
+    prescribed = np.array([force is not None for force in laws.loads.forces[:NORMAL]])
+    if not np.any(prescribed) or not np.any(inside):
         return aim
-    further = np.where(led, aim[-4:-1] - at.x[-4:-1], 0.0)
+    further = np.where(prescribed, aim[-4:-1] - at.x[-4:-1], 0.0)
     edge = points.radii[int(np.max(np.flatnonzero(inside))) // points.count]
-    distance = np.hypot(*further[:ABOUT]) + edge * abs(further[ABOUT])
-    slip = np.max(np.hypot(*laws.slipped(at.u, at.x[-4:]).reshape(2, -1)) / points.areas * inside)
+    distance = np.hypot(*further[:TORSION]) + edge * abs(further[TORSION])
+    slip = np.max(
+        np.hypot(*laws.slip_increment(at.u, at.x[-4:]).reshape(2, -1)) / points.areas * inside
+    )
     reach = FURTHEST * (slip + laws.friction.largest * abs(at.x[-1]))
     return aim if distance <= reach else at.x + reach / distance * (aim - at.x)
 
 
-def _nearer(laws: Laws, at: At, aim: Array, shortest: float) -> At:
+def _line_search(laws: Laws, at: At, aim: Array, shortest: float) -> At:
     """Halve the step until the residual decreases or the step is shortest."""
     moved = laws.points.compliance @ aim[:-4]
-    size, length = np.linalg.norm(at.missed), 1.0
-    tried = laws.at(aim, moved)
-    while tried.worst >= at.worst and np.linalg.norm(tried.missed) >= size and length > shortest:
+    size, length = np.linalg.norm(at.residual), 1.0
+    trial = laws.at(aim, moved)
+    while trial.worst >= at.worst and np.linalg.norm(trial.residual) >= size and length > shortest:
         length /= 2
-        tried = laws.at(at.x + length * (aim - at.x), at.u + length * (moved - at.u))
-    return tried
+        trial = laws.at(at.x + length * (aim - at.x), at.u + length * (moved - at.u))
+    return trial
 
 
-def _slides(drag: float, carried: float) -> GrossSliding:
+def _slides(force: float, carried: float) -> GrossSliding:
     return GrossSliding(
-        f"T = {drag:g} N is not below the friction limit {carried:g} N: the indenter slides. "
+        f"T = {force:g} N is not below the friction limit {carried:g} N: the indenter slides. "
         "Reduce it, or prescribe the shift"
     )
 
 
-def _ended(laws: Laws, at: At, before: Held | None, steps: int) -> Held:
+def _end_state(laws: Laws, at: At, before: PointState | None, steps: int) -> PointState:
     points, size = laws.points, len(at.z)
     if np.any(at.limit.reshape(-1, points.count)[-1] > 0):
         raise ContactAtZoneEdge(
@@ -180,7 +187,7 @@ def _ended(laws: Laws, at: At, before: Held | None, steps: int) -> Held:
     share[at_limit] = np.maximum(share[at_limit], 1 + TIE)
     t, motion = at.x[:-4], at.x[-4:]
     changed = at.x - np.append(before.tractions, before.motion) if before else at.x
-    return Held(
-        t, at.u[: 2 * size], laws.slipped(at.u, motion), motion, changed, share,
+    return PointState(
+        t, at.u[: 2 * size], laws.slip_increment(at.u, motion), motion, changed, share,
         0.5 * float(t @ at.u), at.worst, steps,
     )  # fmt: skip

@@ -11,11 +11,11 @@ from contact_scene import CoulombFriction
 from contact_scene.array_types import Array
 from radial.tangential.ring_points import Points
 from radial.tangential.ring_state import (
-    ABOUT,
     ALONG,
-    DOWN,
-    Held,
+    NORMAL,
+    TORSION,
     Loads,
+    PointState,
     carried,
 )
 
@@ -34,7 +34,7 @@ class At(NamedTuple):
     """
 
     x: Array
-    missed: Array
+    residual: Array
     z: Array
     y: Array
     limit: Array
@@ -57,18 +57,18 @@ class Laws:
 
     @classmethod
     def of(
-        cls, points: Points, friction: CoulombFriction, loads: Loads, before: Held | None
+        cls, points: Points, friction: CoulombFriction, loads: Loads, before: PointState | None
     ) -> Laws:
         if before is None:
             return cls(points, friction, loads, np.zeros(2 * len(points.areas)), np.zeros(4))
         return cls(points, friction, loads, before.moved, before.motion)
 
-    def closed(self) -> Array:
+    def closed_guess(self) -> Array:
         """Return an initial guess whose approach closes the gap wherever the load may cause
         contact."""
         points, size, loads = self.points, len(self.points.areas), self.loads
-        depth = points.bare / points.areas
-        force, approach = loads.forces[DOWN], loads.motions[DOWN]
+        depth = points.gap_areas / points.areas
+        force, approach = loads.forces[NORMAL], loads.motions[NORMAL]
         if approach is not None:
             p = np.maximum(approach - depth, 0.0) / np.diag(points.compliance)[2 * size :]
             t = np.concatenate([np.zeros(2 * size), 0.1 * p * points.areas])
@@ -78,23 +78,27 @@ class Laws:
         open_by = (points.compliance @ t)[2 * size :] / points.areas + depth
         return np.append(t, [0.0, 0.0, 0.0, np.max(open_by)])
 
-    def starts(self, before: Held) -> list[Array]:
+    def initial_guesses(self, before: PointState) -> list[Array]:
         """Return initial guesses: the extrapolated last increment, and the previous state.
 
         The last increment is extrapolated only if the loads continue in its direction.
         """
         leads = [force is not None for force in self.loads.forces]
         ends = zip(self.loads.forces, self.loads.motions, strict=True)
-        led = np.array([motion if force is None else force for force, motion in ends], dtype=float)
+        prescribed = np.array(
+            [motion if force is None else force for force, motion in ends], dtype=float
+        )
         x = np.append(before.tractions, before.motion)
         now, last = (
             np.where(leads, carried(self.points, of[:-4]), of[-4:]) for of in (x, before.changed)
         )
-        further = led - now
-        for way in (slice(ALONG, ABOUT), slice(ABOUT, DOWN), slice(DOWN, None)):
-            size = max(np.linalg.norm(further[way]), np.linalg.norm(last[way]))
-            rests = size <= REST * np.linalg.norm(led[way])
-            further[way], last[way] = (0.0 if rests else of[way] / size for of in (further, last))
+        further = prescribed - now
+        for group in (slice(ALONG, TORSION), slice(TORSION, NORMAL), slice(NORMAL, None)):
+            size = max(np.linalg.norm(further[group]), np.linalg.norm(last[group]))
+            rests = size <= REST * np.linalg.norm(prescribed[group])
+            further[group], last[group] = (
+                0.0 if rests else of[group] / size for of in (further, last)
+            )
         if not np.any(last):
             return [x]
         share = float(further @ last) / float(last @ last)
@@ -111,35 +115,35 @@ class Laws:
         points, size, loads = self.points, len(self.points.areas), self.loads
         t, motion = x[:-4], x[-4:]
         q, p = t[: 2 * size], t[2 * size :]
-        gap = u[2 * size :] + points.bare - motion[DOWN] * points.areas
-        slipped = self.slipped(u, motion)
+        gap = u[2 * size :] + points.gap_areas - motion[NORMAL] * points.areas
+        slip_increment = self.slip_increment(u, motion)
         z = p - gap / points.softness[2 * size :]
-        y = (q - slipped / points.softness[: 2 * size]).reshape(2, -1)
+        y = (q - slip_increment / points.softness[: 2 * size]).reshape(2, -1)
         limit = self.friction.limit(np.maximum(z, 0.0))
-        missed = np.concatenate([q - (_shortened(y, limit) * y).ravel(), p - np.maximum(z, 0.0)])
+        residual = np.concatenate([q - (_shortened(y, limit) * y).ravel(), p - np.maximum(z, 0.0)])
         # The error of shear is relative to the limit, that of pressure relative to the pressure.
-        beyond = np.max(np.abs(missed[: 2 * size])) / max(self.friction.largest, LEAST_FRICTION)
+        beyond = np.max(np.abs(residual[: 2 * size])) / max(self.friction.largest, LEAST_FRICTION)
         peak = np.max(np.abs(p))
-        worst = max(beyond, np.max(np.abs(missed[2 * size :]))) / peak if peak > 0 else np.inf
+        worst = max(beyond, np.max(np.abs(residual[2 * size :]))) / peak if peak > 0 else np.inf
         if not np.isfinite(worst):
-            return At(x, missed, z, y, limit, u, np.inf)
+            return At(x, residual, z, y, limit, u, np.inf)
         forces = carried(points, t)
-        most, depth = points.areas @ np.abs(p), abs(motion[DOWN])
+        most, depth = points.areas @ np.abs(p), abs(motion[NORMAL])
         sizes = (most, most, points.levers @ np.abs(p), most)
         reaches = (depth, depth, depth / points.radii[-1], depth)
-        for led, now, of in (
+        for prescribed, now, of in (
             (loads.forces, forces, sizes),
             (loads.motions, motion, reaches),
         ):
-            for wanted, found, size_of in zip(led, now, of, strict=True):
+            for wanted, found, size_of in zip(prescribed, now, of, strict=True):
                 if wanted is not None:
                     worst = max(worst, abs(found - wanted) / size_of)
-        return At(x, missed, z, y, limit, u, float(worst))
+        return At(x, residual, z, y, limit, u, float(worst))
 
-    def slipped(self, u: Array, motion: Array) -> Array:
+    def slip_increment(self, u: Array, motion: Array) -> Array:
         """Return Δs of the increment times area (2 N,) [length³]."""
-        beside = motion[:DOWN] - self.motion[:DOWN]
-        return u[: 2 * len(self.points.areas)] - self.moved - beside @ self.points.ways
+        tangential = motion[:NORMAL] - self.motion[:NORMAL]
+        return u[: 2 * len(self.points.areas)] - self.moved - tangential @ self.points.rigid_motions
 
 
 def _shortened(y: Array, limit: Array) -> Array:

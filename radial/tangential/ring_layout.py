@@ -47,7 +47,7 @@ def places(count: int, reach: float, edges: Sequence[float]) -> tuple[float, ...
     return (0.0, *(float(x) for x in found if x > near[-1] * min(1.0, min(dense) * count)))
 
 
-def laid(
+def lay_out(
     coupling: Coupling,
     indenter: ShapedBody,
     edges: Sequence[float],

@@ -20,7 +20,7 @@ from radial.tangential.ring_laws import (
     At,
     Laws,
 )
-from radial.tangential.ring_state import DOWN
+from radial.tangential.ring_state import NORMAL
 
 Numbers = NDArray[np.int64]
 
@@ -69,14 +69,14 @@ def _free(at: At, m: int, friction: CoulombFriction, units: Array) -> _Free:
     return _Free(points, slips, *(of[:, None] for of in (c, s, share, slopes, rests)))
 
 
-def aimed(laws: Laws, at: At) -> Array | None:
+def newton_iterate(laws: Laws, at: At) -> Array | None:
     """Return tractions and motion after one step.
 
     Return None if the system is singular, or if the normal force is prescribed and all points are
     open.
     """
     points, size = laws.points, len(at.z)
-    if laws.loads.forces[DOWN] is not None and not np.any(at.z > 0):
+    if laws.loads.forces[NORMAL] is not None and not np.any(at.z > 0):
         return None
     # Rings outside the last closed one carry no traction.
     rings = int(np.max(np.flatnonzero(at.z > 0), initial=0)) // points.count + 1
@@ -85,17 +85,17 @@ def aimed(laws: Laws, at: At) -> Array | None:
     free = _free(at, m, laws.friction, units)
     own = free.displacements(m)
     t = points.of_rings(at.x[:-4], rings)
-    led = _led(laws, at, rings, t) / units[:, None]
-    missed = led[own, 4]
-    led[own, 4] = 0.0
+    imposed = _imposed(laws, at, rings, t) / units[:, None]
+    residual = imposed[own, 4]
+    imposed[own, 4] = 0.0
     # Forces of the rigid motions, and of the current tractions, at every displacement and in the
     # directions of the motions.
-    carried = K @ led
-    by_motion = led.T @ carried
+    carried = K @ imposed
+    by_motion = imposed.T @ carried
     carried[:, 4] += t * units
-    by_motion[4] += led.T @ (t * units)
+    by_motion[4] += imposed.T @ (t * units)
     found = _solved(
-        _whole(laws, at, free, K, carried, missed), _loads(laws, at, carried[own], by_motion)
+        _whole(laws, at, free, K, carried, residual), _loads(laws, at, carried[own], by_motion)
     )
     if found is None:
         return None
@@ -108,7 +108,7 @@ def aimed(laws: Laws, at: At) -> Array | None:
     return x
 
 
-def _led(laws: Laws, at: At, rings: int, t: Array) -> Array:
+def _imposed(laws: Laws, at: At, rings: int, t: Array) -> Array:
     """Return displacements times areas by unit rigid motions, and the misfit of tractions t (3 m,
     5)."""
     points, m = laws.points, rings * laws.points.count
@@ -116,23 +116,23 @@ def _led(laws: Laws, at: At, rings: int, t: Array) -> Array:
     whole[:, :m] = t.reshape(3, m)
     same = np.array_equal(whole.ravel(), at.x[:-4])
     u = points.of_rings(at.u if same else points.compliance @ whole.ravel(), rings)
-    tied = points.ways.reshape(3, 2, -1)[:, :, :m].reshape(3, -1)
-    moved = laws.moved.reshape(2, -1)[:, :m].ravel() - laws.motion[:DOWN] @ tied
-    led = np.zeros((3 * m, 5))
-    led[: 2 * m, :3], led[2 * m :, 3] = tied.T, points.areas[:m]
-    led[:, 4] = np.append(moved, -points.bare[:m]) + led[:, :4] @ at.x[-4:] - u
-    return led
+    tied = points.rigid_motions.reshape(3, 2, -1)[:, :, :m].reshape(3, -1)
+    moved = laws.moved.reshape(2, -1)[:, :m].ravel() - laws.motion[:NORMAL] @ tied
+    imposed = np.zeros((3 * m, 5))
+    imposed[: 2 * m, :3], imposed[2 * m :, 3] = tied.T, points.areas[:m]
+    imposed[:, 4] = np.append(moved, -points.gap_areas[:m]) + imposed[:, :4] @ at.x[-4:] - u
+    return imposed
 
 
 def _whole(
-    laws: Laws, at: At, free: _Free, K: Array, carried: Array, missed: Array
+    laws: Laws, at: At, free: _Free, K: Array, carried: Array, residual: Array
 ) -> tuple[Array, Array]:
     """Return the laws of free points as a matrix of the unknowns, and their residuals.
 
     Slipping points have the limit along w and the law across w. Open points have zero pressure.
 
-    carried  tractions by unit rigid motions, and at the iterate
-    missed   misfit of the free displacements
+    carried   tractions by unit rigid motions, and at the iterate
+    residual  misfit of the free displacements
     """
     n, m = len(free.points), len(K) // 3
     c, s, share = free.c, free.s, free.share
@@ -152,7 +152,7 @@ def _whole(
     left[:n, 4] -= free.rests[:, 0]
     rows[across, across] += (share * c)[:, 0]
     rows[across, across - n] -= (share * s)[:, 0]
-    left[across, 4] -= (share * (c * missed[n : 2 * n, None] - s * missed[:n, None]))[:, 0]
+    left[across, 4] -= (share * (c * residual[n : 2 * n, None] - s * residual[:n, None]))[:, 0]
     return rows, left
 
 

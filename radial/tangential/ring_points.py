@@ -66,7 +66,7 @@ class Points:
         return self._at_points(self.weights)
 
     @cached_property
-    def bare(self) -> Array:
+    def gap_areas(self) -> Array:
         """f times the area of every point."""
         return self._at_points(self.gap)
 
@@ -79,7 +79,7 @@ class Points:
         return np.repeat(of_nodes, self.count) * (2 * np.pi / self.count)
 
     @cached_property
-    def ways(self) -> Array:
+    def rigid_motions(self) -> Array:
         """Areas times the displacement (r, θ) by unit rigid motions (3, 2 n count).
 
         The motions are a shift along θ = 0, a shift across, and a twist. Rows excluded by symmetry
@@ -99,7 +99,7 @@ class Points:
     @cached_property
     def compliance(self) -> Array:
         """Matrix from tractions to displacements times areas (3 n count,) * 2 [length^5/force]."""
-        return self._over_harmonics(self._ways, self._energies_of_ways)
+        return self._over_harmonics(self._harmonics, self._harmonic_energies)
 
     @cached_property
     def softness(self) -> Array:
@@ -108,8 +108,8 @@ class Points:
         Both components of shear have their mean, which does not depend on the direction.
         """
         outward, around, down = np.diagonal(self.compliance).reshape(3, -1)
-        beside = (outward + around) / 2
-        return np.concatenate([beside, beside, down])
+        tangential = (outward + around) / 2
+        return np.concatenate([tangential, tangential, down])
 
     def of_rings(self, field: Array, rings: int) -> Array:
         """Restrict a vector (3 n count,) to the innermost rings."""
@@ -128,11 +128,11 @@ class Points:
 
     def _tractions(self, rings: int) -> Array:
         """Invert the compliance harmonic by harmonic. Harmonics are not coupled."""
-        back = np.zeros_like(self._ways)
-        norms = np.sum(self._ways**2, axis=2)
+        back = np.zeros_like(self._harmonics)
+        norms = np.sum(self._harmonics**2, axis=2)
         has = norms > ROUND_OFF * np.max(norms)
-        back[has] = self._ways[has] / norms[has, None]
-        energies = self._energies_of_ways[..., :rings, :rings]
+        back[has] = self._harmonics[has] / norms[has, None]
+        energies = self._harmonic_energies[..., :rings, :rings]
         inverses = np.zeros_like(energies)
         for parts, energy, inverse in zip(has.T, energies, inverses, strict=True):
             kept, n = np.flatnonzero(parts), int(np.sum(parts)) * rings
@@ -148,26 +148,26 @@ class Points:
         return found
 
     @cached_property
-    def _ways(self) -> Array:
+    def _harmonics(self) -> Array:
         """Matrices from values at the angles to harmonics (3, families × (J + 1), count)."""
         return np.concatenate(self.circle.families(self.highest), axis=1)
 
     @cached_property
-    def _energies_of_ways(self) -> Array:
-        """Energies of the harmonics of `_ways`, times their norms (…, 3, 3, n, n)."""
+    def _harmonic_energies(self) -> Array:
+        """Energies of the harmonics of `_harmonics`, times their norms (…, 3, 3, n, n)."""
         norms = np.full(len(self.energies), np.pi)
         norms[[0, -1]] = 2 * np.pi
-        families = self._ways.shape[1] // len(norms)
+        families = self._harmonics.shape[1] // len(norms)
         return np.concatenate([norms[:, None, None, None, None] * self.energies] * families)
 
     @staticmethod
-    def _over_harmonics(ways: Array, of_ways: Array) -> Array:
+    def _over_harmonics(rigid_motions: Array, harmonic_matrices: Array) -> Array:
         """Assemble a matrix between points from the matrices of all harmonics."""
-        (_, count, angles), nodes = ways.shape, of_ways.shape[-1]
+        (_, count, angles), nodes = rigid_motions.shape, harmonic_matrices.shape[-1]
         whole = np.empty((3, nodes, angles, 3, nodes, angles))
         for a, b in np.ndindex(3, 3):
-            both = (ways[a, :, :, None] * ways[b, :, None]).reshape(count, -1)
-            block = of_ways[:, a, b].reshape(count, -1).T @ both
+            both = (rigid_motions[a, :, :, None] * rigid_motions[b, :, None]).reshape(count, -1)
+            block = harmonic_matrices[:, a, b].reshape(count, -1).T @ both
             whole[a, :, :, b] = block.reshape(nodes, nodes, angles, angles).swapaxes(1, 2)
         return whole.reshape(3 * nodes * angles, -1)
 
@@ -184,7 +184,7 @@ class Points:
         """
         return np.repeat(field, self.count, axis=-1)
 
-    def tells(self, pressure: Array) -> bool:
+    def is_resolved(self, pressure: Array) -> bool:
         """Return true if the contact has enough rings to resolve its edge and stick zone."""
         return bool(np.any(pressure[FEWEST * self.count :] > 0))
 
@@ -235,7 +235,7 @@ class Points:
         The stick zone of an axisymmetric contact ends where the share of the limit, linear in r, is
         1. See `stick_border` for other contacts.
 
-        share  |q - Δs/d| over the limit, see `Held`
+        share  |q - Δs/d| over the limit, see `PointState`
         shear  q_r and q_θ (2, n count)
         bound  µp
         """
@@ -255,14 +255,14 @@ class Points:
         return stick_area(self.radii, q, p, sticks)
 
     def shown(self, field: Array, sense: float) -> Array:
-        """Interpolate a field to `shown_angles` by a periodic spline in θ (n, angles).
+        """Interpolate a field to `output_angles` by a periodic spline in θ (n, angles).
 
         sense  1 for a field that is even about θ = 0, -1 for an odd one
         """
-        return self._around(field.reshape(-1, self.count), sense, self.shown_angles)
+        return self._around(field.reshape(-1, self.count), sense, self.output_angles)
 
     @property
-    def shown_angles(self) -> Array:
+    def output_angles(self) -> Array:
         """Output angles; they include the direction of the load."""
         return self.circle.shown(self.highest)
 

@@ -10,8 +10,8 @@ from contact_scene.array_types import Array
 from radial.tangential.ring_points import Points
 
 # Rigid motions and the loads that work on them: T along and across, M about the axis, W.
-ALONG, ACROSS, ABOUT, DOWN = range(4)
-Led = tuple[float | None, ...]
+ALONG, ACROSS, TORSION, NORMAL = range(4)
+Prescribed = tuple[float | None, ...]
 
 
 @dataclass(frozen=True)
@@ -22,45 +22,45 @@ class Loads:
     motions  in the same order: shifts, twist, approach [length, radian]
     """
 
-    forces: Led
-    motions: Led
+    forces: Prescribed
+    motions: Prescribed
 
     @property
     def without_shear(self) -> Loads:
         """Loads with prescribed T and M replaced by zero."""
-        beside = (None if force is None else 0.0 for force in self.forces[:DOWN])
-        return Loads((*beside, self.forces[DOWN]), self.motions)
+        tangential = (None if force is None else 0.0 for force in self.forces[:NORMAL])
+        return Loads((*tangential, self.forces[NORMAL]), self.motions)
 
     def resting(self, motion: Array) -> Loads:
         """Return loads with prescribed T and M replaced by the motion given."""
-        led = zip(self.forces[:DOWN], self.motions[:DOWN], motion, strict=False)
-        beside = (float(was) if force is not None else now for force, now, was in led)
-        return Loads((*(None,) * DOWN, self.forces[DOWN]), (*beside, self.motions[DOWN]))
+        prescribed = zip(self.forces[:NORMAL], self.motions[:NORMAL], motion, strict=False)
+        tangential = (float(was) if force is not None else now for force, now, was in prescribed)
+        return Loads((*(None,) * NORMAL, self.forces[NORMAL]), (*tangential, self.motions[NORMAL]))
 
 
 @dataclass(frozen=True)
-class Held:
+class PointState:
     """State at the end of an increment. N points.
 
-    tractions  q_r, q_θ, p (3 N,) [force/length²]
-    moved      u_r, u_θ times area (2 N,) [length³]
-    slipped    Δs of the increment times area (2 N,) [length³]
-    motion     shifts along and across, twist, approach (4,) [length, radian]
-    changed    change of tractions and motion in the increment (3 N + 4,)
-    share      |q - Δs/d| over the limit: ≤ 1 at sticking points, infinite outside of contact
-    energy     ½ ∫ (p u_z + q·u) dA [force length]
-    missed     residual of the laws over the largest pressure, limit and load
-    steps      of Newton's method
+    tractions       q_r, q_θ, p (3 N,) [force/length²]
+    moved           u_r, u_θ times area (2 N,) [length³]
+    slip_increment  Δs of the increment times area (2 N,) [length³]
+    motion          shifts along and across, twist, approach (4,) [length, radian]
+    changed         change of tractions and motion in the increment (3 N + 4,)
+    share           |q - Δs/d| over the limit: ≤ 1 at sticking points, infinite outside of contact
+    energy          ½ ∫ (p u_z + q·u) dA [force length]
+    residual        residual of the laws over the largest pressure, limit and load
+    steps           of Newton's method
     """
 
     tractions: Array
     moved: Array
-    slipped: Array
+    slip_increment: Array
     motion: Array
     changed: Array
     share: Array
     energy: float
-    missed: float
+    residual: float
     steps: int
 
     @property
@@ -76,13 +76,13 @@ class Held:
     @property
     def approach(self) -> float:
         """Approach [length]."""
-        return float(self.motion[DOWN])
+        return float(self.motion[NORMAL])
 
     def forces(self, points: Points) -> Array:
         """Return T along and across, M and W of the tractions (4,)."""
         return carried(points, self.tractions)
 
-    def every_angle(self, points: Points) -> Held:
+    def every_angle(self, points: Points) -> PointState:
         """Extend an axisymmetric state to all angles of points."""
 
         def parts(field: Array, count: int) -> Array:
@@ -93,7 +93,7 @@ class Held:
             tractions=parts(self.tractions, 3),
             changed=np.append(parts(self.changed[:-4], 3), self.changed[-4:]),
             moved=parts(self.moved, 2) / points.count,
-            slipped=parts(self.slipped, 2) / points.count,
+            slip_increment=parts(self.slip_increment, 2) / points.count,
             share=parts(self.share, 1),
         )
 
@@ -101,4 +101,4 @@ class Held:
 def carried(points: Points, tractions: Array) -> Array:
     """Return T along and across, M and W of tractions (4,)."""
     q, p = np.split(tractions, [2 * len(points.areas)])
-    return np.append(points.ways @ q, points.areas @ p)
+    return np.append(points.rigid_motions @ q, points.areas @ p)

@@ -37,11 +37,13 @@ def stick_area(radii: Array, shear: Array, bound: Array, sticks: Mask) -> float:
     """
     turn = sticks.shape[1]
     angles = 2 * np.pi * np.arange(turn) / turn
-    ways, size = np.arctan2(shear[1], shear[0]) + angles, np.hypot(*shear)
-    along_rays = _borders(ways, size, bound, sticks, ON_HATS, radii, 0)
-    ways, size, limit = (np.concatenate([field.T] * 3) for field in (ways, size, bound))
+    directions, size = np.arctan2(shear[1], shear[0]) + angles, np.hypot(*shear)
+    along_rays = _borders(directions, size, bound, sticks, ON_HATS, radii, 0)
+    directions, size, limit = (np.concatenate([field.T] * 3) for field in (directions, size, bound))
     whole = np.concatenate([sticks.T] * 3)
-    along_rings = _borders(ways, size, limit, whole, ON_HARMONICS, np.arange(3.0 * turn), DEEP)
+    along_rings = _borders(
+        directions, size, limit, whole, ON_HARMONICS, np.arange(3.0 * turn), DEEP
+    )
     along_rings = along_rings[turn : 2 * turn].T
     inner, outer = radii[:-1, None], radii[1:, None]
     across = along_rays * (outer - inner)
@@ -52,7 +54,7 @@ def stick_area(radii: Array, shear: Array, bound: Array, sticks: Mask) -> float:
 
 
 def _borders(
-    ways: Array,
+    directions: Array,
     size: Array,
     bound: Array,
     sticks: Mask,
@@ -65,12 +67,12 @@ def _borders(
 
     It has no meaning where both points stick or both do not.
 
-    ways    angles of the shear
-    size    of the shear
-    table   polynomial of the distance
-    places  of the points along the axis (n,)
-    deep    number of further sticking points required to distinguish the powers. In a narrow zone d
-            decreases towards its other side
+    directions  angles of the shear
+    size        of the shear
+    table       polynomial of the distance
+    places      of the points along the axis (n,)
+    deep        number of further sticking points required to distinguish the powers. In a narrow
+                zone d decreases towards its other side
     """
     found = np.full((len(bound) - 1, *bound.shape[1:]), UNTOLD)
     slips = (bound > 0) & ~sticks
@@ -78,9 +80,11 @@ def _borders(
         inside, beyond = (sticks[:-1], sticks[1:])[::step]
         k, j = np.nonzero(inside & ~beyond)
         at = k if step > 0 else k + 1
-        way, turn = _way(ways, slips, at, step, j)
+        direction, turn = _direction(directions, slips, at, step, j)
         last, before, further, fourth = (
-            _missing(ways, size, bound, sticks, at - step * back, j, way + (1 + back) * turn)
+            _missing(
+                directions, size, bound, sticks, at - step * back, j, direction + (1 + back) * turn
+            )
             for back in (0, 1, 2, deep)
         )
         even = _evenness(places, at, step)
@@ -90,18 +94,18 @@ def _borders(
 
 
 def _missing(
-    ways: Array,
+    directions: Array,
     size: Array,
     bound: Array,
     sticks: Mask,
     near: NDArray[np.intp],
     j: NDArray[np.intp],
-    way: Array,
+    direction: Array,
 ) -> Array:
     """Return d of points (near, j) along angles, NaN where no point sticks."""
     known = (near >= 0) & (near < len(bound))
     near = np.clip(near, 0, len(bound) - 1)
-    d = bound[near, j] - size[near, j] * np.cos(ways[near, j] - way)
+    d = bound[near, j] - size[near, j] * np.cos(directions[near, j] - direction)
     return np.where(known & sticks[near, j] & (d > 0), d, np.nan)
 
 
@@ -132,8 +136,8 @@ def _evenness(places: Array, at: NDArray[np.intp], step: int) -> Array:
     return np.where(known, np.abs((places[at + step] - places[at]) / behind), 1.0)
 
 
-def _way(
-    ways: Array, slips: Mask, at: NDArray[np.intp], step: int, j: NDArray[np.intp]
+def _direction(
+    directions: Array, slips: Mask, at: NDArray[np.intp], step: int, j: NDArray[np.intp]
 ) -> tuple[Array, Array]:
     """Return the angle of the shear of points beyond borders, and its change per point.
 
@@ -143,9 +147,9 @@ def _way(
     within = (two >= 0) & (two < len(slips))
     two = np.clip(two, 0, len(slips) - 1)
     known = slips[one, j]
-    turn = (ways[one, j] - ways[two, j] + np.pi) % (2 * np.pi) - np.pi
+    turn = (directions[one, j] - directions[two, j] + np.pi) % (2 * np.pi) - np.pi
     turn = np.where(known & within & slips[two, j], turn, 0.0)
-    return np.where(known, ways[one, j], ways[at, j]), turn
+    return np.where(known, directions[one, j], directions[at, j]), turn
 
 
 def _shares(sticks: Mask, along_rays: Array, along_rings: Array) -> Array:
@@ -156,15 +160,20 @@ def _shares(sticks: Mask, along_rays: Array, along_rings: Array) -> Array:
     low, high = along_rays, np.roll(along_rays, -1, axis=1)
     left, right = along_rings[:-1], along_rings[1:]
     near, far = sticks[:-1], sticks[1:]
-    held = np.stack([near, far, np.roll(near, -1, axis=1), np.roll(far, -1, axis=1)])
+    sticking = np.stack([near, far, np.roll(near, -1, axis=1), np.roll(far, -1, axis=1)])
     cut = np.stack([low * left, (1 - low) * right, high * (1 - left), (1 - high) * (1 - right)]) / 2
-    count = np.sum(held, axis=0)
-    some = np.sum(np.where(held, cut, 0.0), axis=0)
-    but_some = 1 - np.sum(np.where(held, 0.0, cut), axis=0)
+    count = np.sum(sticking, axis=0)
+    some = np.sum(np.where(sticking, cut, 0.0), axis=0)
+    but_some = 1 - np.sum(np.where(sticking, 0.0, cut), axis=0)
     across, along = (left + right) / 2, (low + high) / 2
     # Two opposite corners are two separate zones.
     two = np.select(
-        [held[0] & held[1], held[2] & held[3], held[0] & held[2], held[1] & held[3]],
+        [
+            sticking[0] & sticking[1],
+            sticking[2] & sticking[3],
+            sticking[0] & sticking[2],
+            sticking[1] & sticking[3],
+        ],
         [across, 1 - across, along, 1 - along],
         some,
     )

@@ -19,9 +19,9 @@ from radial.angular_grid import Circle
 from radial.fields import Increment
 from radial.frictional.coupling import Coupling
 from radial.normal.pressing import (
-    Pressed,
+    NormalContact,
     Target,
-    pressed,
+    normal_contact,
 )
 from radial.normal.surface import pressure
 from radial.output_points import (
@@ -34,19 +34,19 @@ from radial.plan import ELSEWHERE, Plan
 from radial.response.bodies import Bodies
 from radial.tangential.ring_friction import (
     MAX_STEPS,
-    held,
+    solved_state,
 )
-from radial.tangential.ring_layout import laid
+from radial.tangential.ring_layout import lay_out
 from radial.tangential.ring_points import Points
 from radial.tangential.ring_state import (
-    ABOUT,
-    DOWN,
+    NORMAL,
+    TORSION,
     Loads,
 )
 from radial.tangential.tangential_increment import (
-    Pushed,
-    pushed,
+    TangentialState,
     residuals_of,
+    tangential_state,
 )
 
 Pair = tuple[float, float]
@@ -61,7 +61,7 @@ NOTHING = (0.0, 0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
-class Pushing:
+class TangentialSteps:
     """Solver of the increments of a contact at points.
 
     direction  unit vector of the angle 0
@@ -83,35 +83,37 @@ class Pushing:
     def of(
         cls,
         scene: Scene,
-        asked: RadialDiscretisation,
+        discretisation: RadialDiscretisation,
         plan: Plan,
-        around: float = 1.0,
-    ) -> Pushing:
+        angle_factor: float = 1.0,
+    ) -> TangentialSteps:
         """Return the solver of a scene, with its points laid out.
 
-        around  multiple of the number of angles
+        angle_factor  multiple of the number of angles
         """
         assert scene.friction is not None
         assert plan.circle is not None
         friction, circle = scene.friction, plan.circle
-        count, highest = plan.rings, round(plan.highest * around)
+        count, highest = plan.rings, round(plan.highest * angle_factor)
         both = Coupling.of(scene)
 
-        def smooth(led: Target) -> float:
+        def smooth(prescribed: Target) -> float:
             """Return the contact radius without friction."""
-            return pressed(both.bodies, scene.indenter, led).contact.radius
+            return normal_contact(both.bodies, scene.indenter, prescribed).contact.radius
 
         largest = max(map(smooth, largest_targets(scene)))
         # Contacts within the first ring would not be resolved.
-        ends = {smooth(led) for led in set(targets(scene))}
+        ends = {smooth(prescribed) for prescribed in set(targets(scene))}
         edges = [largest, *(edge for edge in sorted(ends) if edge * count < NARROW * largest)]
 
-        def at(circle: Circle) -> Pushing:
+        def at(circle: Circle) -> TangentialSteps:
             harmonics = 0 if circle is Circle.ONE else highest
-            points = laid(
+            points = lay_out(
                 both, scene.indenter, edges, count, harmonics, circle, friction.largest, scene.rig
             )
-            return cls(scene, friction, plan.direction, plan.twists, asked.tolerance, points)
+            return cls(
+                scene, friction, plan.direction, plan.twists, discretisation.tolerance, points
+            )
 
         for _ in range(SETTLED):
             edges = at(Circle.ONE)._radii()
@@ -119,7 +121,7 @@ class Pushing:
 
     def _radii(self) -> list[float]:
         """Return contact radii at the ends of the load steps, under the normal load alone."""
-        state: Pushed | None = None
+        state: TangentialState | None = None
         found = []
         for ramp in self.scene.load_path():
             start = state
@@ -138,11 +140,11 @@ class Pushing:
 
     @staticmethod
     def _normal(
-        ramp: LoadRamp, start: Pushed | None, fraction: float
+        ramp: LoadRamp, start: TangentialState | None, fraction: float
     ) -> tuple[float | None, float | None]:
         """Return the normal force or the approach at a fraction of a ramp; the other one is
         None."""
-        reached = (start.forces[DOWN], start.motions[DOWN]) if start else (0.0, 0.0)
+        reached = (start.forces[NORMAL], start.motions[NORMAL]) if start else (0.0, 0.0)
         return ramp.normal.led(fraction, reached)
 
     def spent(self) -> float:
@@ -150,19 +152,23 @@ class Pushing:
         return float(sum(self.taken))
 
     def advance(
-        self, ramp: LoadRamp, start: Pushed | None, before: Pushed | None, fraction: float
-    ) -> Pushed:
+        self,
+        ramp: LoadRamp,
+        start: TangentialState | None,
+        before: TangentialState | None,
+        fraction: float,
+    ) -> TangentialState:
         """Return the contact at a fraction of the ramp.
 
         Raises NotConverged, GrossSliding and ContactAtZoneEdge.
         """
-        begun = (start.forces, start.motions) if start else (NOTHING, NOTHING)
-        since = self._vector(begun[0]), self._vector(begun[1])
-        beside = [self._from(vector) for vector in ramp.tangential.led(fraction, since)]
-        about = ramp.twisting.led(fraction, (begun[0][ABOUT], begun[1][ABOUT]))
+        start_loads = (start.forces, start.motions) if start else (NOTHING, NOTHING)
+        since = self._vector(start_loads[0]), self._vector(start_loads[1])
+        tangential = [self._from(vector) for vector in ramp.tangential.led(fraction, since)]
+        about = ramp.twisting.led(fraction, (start_loads[0][TORSION], start_loads[1][TORSION]))
         down = self._normal(ramp, start, fraction)
         forces, motions = (
-            (*pair, turn, press) for pair, turn, press in zip(beside, about, down, strict=True)
+            (*pair, turn, press) for pair, turn, press in zip(tangential, about, down, strict=True)
         )
         return self._at(Loads(forces, motions), before)
 
@@ -178,20 +184,20 @@ class Pushing:
         (x, y), (of_x, of_y) = self.direction, vector
         return of_x * x + of_y * y, of_y * x - of_x * y
 
-    def _at(self, loads: Loads, before: Pushed | None) -> Pushed:
+    def _at(self, loads: Loads, before: TangentialState | None) -> TangentialState:
         """Solve the contact under loads."""
-        if before is not None and before.asked == loads:
+        if before is not None and before.prescribed == loads:
             return before
-        beside = (*loads.forces[:ABOUT], *loads.motions[:ABOUT])
-        turned = any(beside) or (before is not None and before.circle is not Circle.ONE)
-        points = self.points if turned else self.points.round
-        self._refuse_within_first(points, loads.motions[DOWN])
-        last = before.held if before else None
+        tangential = (*loads.forces[:TORSION], *loads.motions[:TORSION])
+        angular = any(tangential) or (before is not None and before.circle is not Circle.ONE)
+        points = self.points if angular else self.points.round
+        self._refuse_within_first(points, loads.motions[NORMAL])
+        last = before.end if before else None
         slip = before.slip if before else np.zeros((2, len(points.areas)))
         if last is not None and before is not None and before.circle is not points.circle:
             last, slip = last.every_angle(points), points.every_angle(slip)
         try:
-            end = held(
+            end = solved_state(
                 points, self.friction, _moving(points, loads), last, EXACT * self.tolerance,
                 None if last else self._without_friction(points, loads),
             )  # fmt: skip
@@ -199,17 +205,17 @@ class Pushing:
             self.taken.append(error.iterations)
             raise
         self.taken.append(end.steps)
-        smooth = None if points.tells(end.pressure) else self._smooth_radius(loads)
-        return pushed(points, self.friction, end, last, slip, loads, before, smooth)
+        smooth = None if points.is_resolved(end.pressure) else self._smooth_radius(loads)
+        return tangential_state(points, self.friction, end, last, slip, loads, before, smooth)
 
     def _smooth_radius(self, loads: Loads) -> float:
         """Return the contact radius without friction [length]."""
         return self._pressed(loads).contact.radius
 
-    def _pressed(self, loads: Loads) -> Pressed:
+    def _pressed(self, loads: Loads) -> NormalContact:
         """Solve the contact without friction."""
-        led = target(self.scene, loads.forces[DOWN], loads.motions[DOWN])
-        return pressed(Bodies.of(self.scene), self.scene.indenter, led)
+        prescribed = target(self.scene, loads.forces[NORMAL], loads.motions[NORMAL])
+        return normal_contact(Bodies.of(self.scene), self.scene.indenter, prescribed)
 
     def _without_friction(self, points: Points, loads: Loads) -> Array:
         """Return tractions and motion without friction, as an initial guess.
@@ -219,12 +225,14 @@ class Pushing:
         found = self._pressed(loads)
         p = pressure(found.contact, points.radii / found.contact.radius)
         p[~np.isfinite(p)] = p[1]
-        beside = np.zeros(2 * len(points.areas))
-        return np.concatenate([beside, np.repeat(p, points.count), [0.0, 0.0, 0.0, found.approach]])
+        tangential = np.zeros(2 * len(points.areas))
+        return np.concatenate(
+            [tangential, np.repeat(p, points.count), [0.0, 0.0, 0.0, found.approach]]
+        )
 
     def _refuse_within_first(self, points: Points, approach: float | None) -> None:
         """Raise UnsupportedScene for an approach smaller than the mean gap of every ring."""
-        depth = float(np.min(points.bare / points.areas))
+        depth = float(np.min(points.gap_areas / points.areas))
         if approach is not None and approach <= depth:
             raise UnsupportedScene(
                 f"an approach of {approach:.3g} m is too small for the rings, which are laid out "
@@ -236,11 +244,11 @@ class Pushing:
         """Return the gap without tractions at the rings of an increment [length]."""
         return undeformed_gap(self.scene, last)
 
-    def report(self, reached: Reached[Pushed], last: Increment | None) -> Increment:
+    def report(self, reached: Reached[TangentialState], last: Increment | None) -> Increment:
         """Return the increment on rings and angles; raise NotConverged above the tolerance."""
-        state, end = reached.state, reached.state.held
-        turned = state.circle is not Circle.ONE
-        points = self.points if turned else self.points.round
+        state, end = reached.state, reached.state.end
+        angular = state.circle is not Circle.ONE
+        points = self.points if angular else self.points.round
         if reached.place.index == reached.place.increments_in_step:
             self._refuse_narrow(state, reached.place.step)
         residuals = residuals_of(points, self.friction, state)
@@ -250,14 +258,14 @@ class Pushing:
         s_r, s_t = self._vectors(points, state.slip)
         depth = end.approach * points.areas
         u_z = (points.compliance @ end.tractions)[2 * len(points.areas) :]
-        gap = np.where(end.pressure > 0, 0.0, (u_z + points.bare - depth) / points.areas)
+        gap = np.where(end.pressure > 0, 0.0, (u_z + points.gap_areas - depth) / points.areas)
         force = self._vector(state.forces)
         down, along = compliances(self.scene.rig)
-        in_springs = down * state.forces[DOWN] ** 2 + along * float(np.dot(force, force))
+        in_springs = down * state.forces[NORMAL] ** 2 + along * float(np.dot(force, force))
         stored = end.energy - 0.5 * in_springs
         share = np.where(np.isfinite(end.share), end.share, 2.0)
         p, gap = np.maximum(p, 0.0), np.maximum(self._scalar(points, gap), 0.0)
-        if turned:
+        if angular:
             q_r, q_t = self._admissible(points, np.stack([q_r, q_t]), self.friction.limit(p))
         increment = Increment(
             step=reached.place.step,
@@ -266,34 +274,34 @@ class Pushing:
             residuals=residuals,
             iterations=end.steps,
             halvings=reached.halvings,
-            normal_force=state.forces[DOWN],
-            approach=state.motions[DOWN],
+            normal_force=state.forces[NORMAL],
+            approach=state.motions[NORMAL],
             contact_radius=state.radius,
             peak_pressure=float(np.max(p)),
             status=state.status,
-            stick_radius=state.stuck,
+            stick_radius=state.stick_radius,
             tangential_force=self._vector(state.forces),
             tangential_shift=self._vector(state.motions),
-            torque=state.forces[ABOUT] if self.twists else None,
-            twist=state.motions[ABOUT] if self.twists else None,
-            dissipated_energy=state.lost,
-            dissipation_uncertainty=state.uncertain,
+            torque=state.forces[TORSION] if self.twists else None,
+            twist=state.motions[TORSION] if self.twists else None,
+            dissipated_energy=state.dissipated,
+            dissipation_uncertainty=state.uncertainty,
             elastic_energy=stored,
-            input_work=stored + state.lost,
-            unresolved_work=state.worked - end.energy - state.lost,
+            input_work=stored + state.dissipated,
+            unresolved_work=state.work - end.energy - state.dissipated,
             radii=points.radii,
-            angles=points.shown_angles if turned else None,
+            angles=points.output_angles if angular else None,
             pressure=p,
             gap=np.where(p > 0, 0.0, gap),
             shear_radial=q_r,
-            shear_circumferential=q_t if turned or self.twists else None,
+            shear_circumferential=q_t if angular or self.twists else None,
             slip_radial=s_r,
-            slip_circumferential=s_t if turned or self.twists else None,
+            slip_circumferential=s_t if angular or self.twists else None,
             in_stick=(self._scalar(points, share) < 1) & (p > 0),
         )
         return of_contact(increment, self.scene.rig)
 
-    def _refuse_narrow(self, state: Pushed, step: int) -> None:
+    def _refuse_narrow(self, state: TangentialState, step: int) -> None:
         """Raise UnsupportedScene if the slip annulus after normal loading is narrower than a ring.
 
         Tractions at the border of this annulus and at the edge would be inaccurate.
@@ -313,16 +321,19 @@ class Pushing:
 
         Interpolation exceeds the limit near the border of the stick zone.
         """
-        angles = points.shown_angles
+        angles = points.output_angles
         cos, sin, one = np.cos(angles), np.sin(angles), np.ones_like(angles)
-        ways = np.stack([[cos, -sin], [sin, cos], [0 * one, one]])
+        resultants = np.stack([[cos, -sin], [sin, cos], [0 * one, one]])
         shares = one / (2 * points.highest)
         if points.circle is Circle.HALF:
-            ways, shares = ways[:1], np.append(1.0, np.append(2 * one[2:], 1.0)) * shares
+            resultants, shares = (
+                resultants[:1],
+                np.append(1.0, np.append(2 * one[2:], 1.0)) * shares,
+            )
         within = shear
         for _ in range(PROJECTIONS):
-            missing = np.einsum("kcj,cnj,j->kn", ways, shear - within, shares)
-            moved = within + np.einsum("kcj,kn->cnj", ways, missing)
+            missing = np.einsum("kcj,cnj,j->kn", resultants, shear - within, shares)
+            moved = within + np.einsum("kcj,kn->cnj", resultants, missing)
             size = np.hypot(*moved)
             within = moved * np.minimum(1.0, limit / np.maximum(size, np.finfo(float).tiny))
         return within
@@ -341,24 +352,24 @@ class Pushing:
         """Interpolate radial and circumferential components to the output angles."""
         if points.count == 1:
             # The axis has no direction.
-            outward, around = vector * (points.radii > 0)
-            return outward, around
-        outward, around = points.shown(vector[0], 1.0), points.shown(vector[1], -1.0)
+            outward, angle_factor = vector * (points.radii > 0)
+            return outward, angle_factor
+        outward, angle_factor = points.shown(vector[0], 1.0), points.shown(vector[1], -1.0)
         q_r, q_t = vector[:, : points.count]
         cos, sin = np.cos(points.angles), np.sin(points.angles)
         along = np.mean(q_r * cos - q_t * sin)
         # On a half circle the component across is zero by symmetry.
         across = np.mean(q_r * sin + q_t * cos) if points.circle is Circle.WHOLE else 0.0
-        cos, sin = np.cos(points.shown_angles), np.sin(points.shown_angles)
-        outward[0], around[0] = along * cos + across * sin, across * cos - along * sin
-        return outward, around
+        cos, sin = np.cos(points.output_angles), np.sin(points.output_angles)
+        outward[0], angle_factor[0] = along * cos + across * sin, across * cos - along * sin
+        return outward, angle_factor
 
 
 def _moving(points: Points, loads: Loads) -> Loads:
     """Replace loads on motions that symmetry excludes by a prescribed zero motion."""
-    has = [*np.any(points.ways, axis=1), True]
+    has = [*np.any(points.rigid_motions, axis=1), True]
     forces, motions = (
-        tuple(value if moves else rest for moves, value in zip(has, led, strict=True))
-        for led, rest in ((loads.forces, None), (loads.motions, 0.0))
+        tuple(value if moves else rest for moves, value in zip(has, prescribed, strict=True))
+        for prescribed, rest in ((loads.forces, None), (loads.motions, 0.0))
     )
     return Loads(forces, motions)

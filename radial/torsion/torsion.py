@@ -90,19 +90,19 @@ class Torsion:
         return self.friction / (self.modulus * self.contact.radius)
 
     @cached_property
-    def whole(self) -> Slipped:
+    def whole(self) -> PartialSlip:
         """State of incipient slip at the edge: the contact sticks."""
-        return self.slipped(1.0)
+        return self.partial_slip(1.0)
 
     @cached_property
-    def none(self) -> Slipped:
+    def none(self) -> PartialSlip:
         """State with the smallest stick radius considered."""
-        return self.slipped(NO_STICK)
+        return self.partial_slip(NO_STICK)
 
     @cached_property
     def largest(self) -> float:
         """Torque of gross slip [force length]."""
-        return self.slipped(0.0).torque
+        return self.partial_slip(0.0).torque
 
     @cached_property
     def waves(self) -> tuple[Array, Array]:
@@ -116,13 +116,13 @@ class Torsion:
         added = np.sum([added_by(stack, waves, a).csh for stack in self.layered], axis=0)
         return places, np.asarray(weights * self.modulus * places / a * added)
 
-    def slipped(self, stick: float) -> Slipped:
+    def partial_slip(self, stick: float) -> PartialSlip:
         """Return the state whose stick disc has a radius of `stick` contact radii, 0 <= stick <=
         1."""
         panels = self._panels(max(stick, AXIS))
         if stick == 0:
-            return Slipped(self, 0.0, np.inf, np.zeros(1), panels)
-        places, felt = self.waves
+            return PartialSlip(self, 0.0, np.inf, np.zeros(1), panels)
+        places, wave_weights = self.waves
         count = 1
         if len(places):
             thickness = min(stack.layers[0].thickness for stack in self.layered)
@@ -131,14 +131,16 @@ class Torsion:
         odd = legendre.legvander(t, 2 * count - 1)[:, 1::2]
         bases = stick * (odd.T * weights) @ np.sin(np.multiply.outer(stick * t, places))
         by_annulus = sum((panel.transform(places) for panel in panels), np.zeros_like(places))
-        matrix = 2 / pi * (bases * felt) @ bases.T
-        right = np.stack([4 / pi * stick * matrix[:, 0], 2 / pi * bases @ (felt * by_annulus)])
+        matrix = 2 / pi * (bases * wave_weights) @ bases.T
+        right = np.stack(
+            [4 / pi * stick * matrix[:, 0], 2 / pi * bases @ (wave_weights * by_annulus)]
+        )
         mass = stick / (4 * np.arange(count) + 3)
         by_twist, alone = np.linalg.solve(matrix + np.diag(mass), right.T).T
         edge = stick * float(self.limit(np.array([stick]))[0])
         twist = (edge + np.sum(alone)) / (4 / pi * stick - np.sum(by_twist))
         layers = twist * by_twist + alone
-        return Slipped(self, stick, float(twist), layers, panels)
+        return PartialSlip(self, stick, float(twist), layers, panels)
 
     def _panels(self, stick: float) -> list[Panel]:
         """Return panels of the slip annulus, not wider than their distance from the axis."""
@@ -177,7 +179,7 @@ class Panel:
 
 
 @dataclass(frozen=True)
-class Slipped:
+class PartialSlip:
     """State of partial slip.
 
     of      the contact
@@ -223,8 +225,8 @@ class Slipped:
     def elastic_energy(self) -> float:
         """½ ∫ q u dA = π G a³ [(π/2) ∫ N² dt + ∫ (Y - 1) N~² dκ] [force length]."""
         squares = sum(panel.integral(0, 2) for panel in (*self._disc, *self.panels))
-        _, felt = self.of.waves
-        by_layers = float(np.sum(felt * self.transform**2)) if len(felt) else 0.0
+        _, wave_weights = self.of.waves
+        by_layers = float(np.sum(wave_weights * self.transform**2)) if len(wave_weights) else 0.0
         scale = pi * self.of.modulus * self.of.contact.radius**3
         return scale * (pi / 2 * squares + by_layers)
 
@@ -285,10 +287,10 @@ class Slipped:
         moved = (pi / 2 - border[:, 0]) * (t * self.of.limit(t) * np.sin(angle) @ weights)
         if self.stick:
             angle = border * v
-            held = self.inside(rho * np.sin(angle)) * np.sin(angle)
-            moved += border[:, 0] * (held @ weights)
-        places, felt = self.of.waves
+            sticking = self.inside(rho * np.sin(angle)) * np.sin(angle)
+            moved += border[:, 0] * (sticking @ weights)
+        places, wave_weights = self.of.waves
         if len(places):
-            moved += j1(np.multiply.outer(rho[:, 0], places)) @ (felt * self.transform)
+            moved += j1(np.multiply.outer(rho[:, 0], places)) @ (wave_weights * self.transform)
         found[slips] = self.of.contact.radius * (moved - self.twist * rho[:, 0])
         return found

@@ -16,7 +16,7 @@ from contact_scene.stepping.load_stepping import (
     Solver,
 )
 from radial.fields import Increment
-from radial.normal.pressing import Pressed
+from radial.normal.pressing import NormalContact
 from radial.output_points import undeformed_gap
 from radial.plan import ELSEWHERE
 from radial.torsion.torsion import Torsion
@@ -27,33 +27,33 @@ NO_ANNULUS = 1e-9
 
 
 @dataclass(frozen=True)
-class Twisted:
+class TorsionState:
     """Contact at the end of an increment.
 
-    pressed  frictionless contact
-    path     state of torsion
-    asked    kind of control, with the prescribed torque [force length] or twist [radian]
+    normal_contact  frictionless contact
+    path            state of torsion
+    prescribed      kind of control, with the prescribed torque [force length] or twist [radian]
     """
 
-    pressed: Pressed
+    normal_contact: NormalContact
     path: TwistPath
-    asked: tuple[ControlKind, float]
+    prescribed: tuple[ControlKind, float]
 
     @property
     def torque(self) -> float:
         """Prescribed or computed torque [force length]."""
-        kind, value = self.asked
+        kind, value = self.prescribed
         return value if kind is ControlKind.FORCE else self.path.torque
 
     @property
     def twist(self) -> float:
         """Prescribed or computed twist [radian]."""
-        kind, value = self.asked
+        kind, value = self.prescribed
         return self.path.twist if kind is ControlKind.FORCE else value
 
 
 @dataclass(frozen=True)
-class Twisting:
+class TorsionSteps:
     """Solver of the increments of normal load and torsion.
 
     pressing   solver of the normal problem, which does not depend on the twist
@@ -63,7 +63,7 @@ class Twisting:
     """
 
     scene: Scene
-    pressing: Solver[Pressed, Increment]
+    pressing: Solver[NormalContact, Increment]
     friction: float
     fineness: int
     tolerance: float
@@ -74,56 +74,60 @@ class Twisting:
         return 0.0
 
     def advance(
-        self, ramp: LoadRamp, start: Twisted | None, before: Twisted | None, fraction: float
-    ) -> Twisted:
+        self,
+        ramp: LoadRamp,
+        start: TorsionState | None,
+        before: TorsionState | None,
+        fraction: float,
+    ) -> TorsionState:
         """Return the contact at a fraction of the ramp; raise GrossSliding."""
-        begun = start.pressed if start else None
-        held = before is not None and ramp.normal.start == ramp.normal.end
-        if held and before is not None:
-            pressed = before.pressed
+        start_contact = start.normal_contact if start else None
+        constant = before is not None and ramp.normal.start == ramp.normal.end
+        if constant and before is not None:
+            normal_contact = before.normal_contact
         else:
-            pressed = self.pressing.advance(ramp, begun, None, fraction)
+            normal_contact = self.pressing.advance(ramp, start_contact, None, fraction)
         since = (start.torque, start.twist) if start else (0.0, 0.0)
         torque, twist = ramp.twisting.led(fraction, since)
-        if held and before is not None:
+        if constant and before is not None:
             path = before.path
         else:
-            torsion = Torsion.of(self.scene, pressed.contact, self.friction, self.fineness)
+            torsion = Torsion.of(self.scene, normal_contact.contact, self.friction, self.fineness)
             path = TwistPath(torsion)
         if twist is None:
             assert torque is not None
-            return Twisted(pressed, path.to_torque(torque), (ControlKind.FORCE, torque))
-        return Twisted(pressed, path.to_twist(twist), (ControlKind.DISPLACEMENT, twist))
+            return TorsionState(normal_contact, path.to_torque(torque), (ControlKind.FORCE, torque))
+        return TorsionState(normal_contact, path.to_twist(twist), (ControlKind.DISPLACEMENT, twist))
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Array:
         """Return the gap without tractions at the rings of an increment [length]."""
         return undeformed_gap(self.scene, last)
 
-    def report(self, reached: Reached[Twisted], last: Increment | None) -> Increment:
+    def report(self, reached: Reached[TorsionState], last: Increment | None) -> Increment:
         """Return the increment with its fields at the rings.
 
         Raises UnsupportedScene if slip does not begin at the edge, NotConverged above the
         tolerance.
         """
         state, before = reached.state, reached.before
-        pressed = Reached(
+        normal_contact = Reached(
             reached.place,
-            before.pressed if before else None,
-            state.pressed,
+            before.normal_contact if before else None,
+            state.normal_contact,
             reached.halvings,
             reached.spent,
         )
-        made = self.pressing.report(pressed, last)
-        x = made.radii / state.pressed.contact.radius
+        made = self.pressing.report(normal_contact, last)
+        x = made.radii / state.normal_contact.contact.radius
         shear, slip = self._fields(state.path, x, made.pressure)
         torque, twist = (last.torque or 0.0, last.twist or 0.0) if last else (0.0, 0.0)
         assert made.trapezoidal_work is not None
         assert made.elastic_energy is not None
-        worked = made.trapezoidal_work + 0.5 * (torque + state.torque) * (state.twist - twist)
+        work = made.trapezoidal_work + 0.5 * (torque + state.torque) * (state.twist - twist)
         stored = made.elastic_energy + state.path.work - state.path.dissipated
-        lost = state.path.dissipated
+        dissipated = state.path.dissipated
         stick = state.path.stick
-        kind, asked = state.asked
+        kind, prescribed = state.prescribed
         largest = self.friction * float(np.max(made.pressure)) or 1.0
         excess = float(np.max(np.abs(shear) - self.friction * made.pressure)) / largest
         if excess > NO_ANNULUS:
@@ -135,22 +139,22 @@ class Twisting:
         residuals = replace(
             made.residuals,
             friction_cone=max(excess, 0.0),
-            torque_equilibrium=abs(state.path.torque - asked) / (state.path.of.largest or 1.0)
+            torque_equilibrium=abs(state.path.torque - prescribed) / (state.path.of.largest or 1.0)
             if kind is ControlKind.FORCE
             else None,
         )
-        residuals.require(self.tolerance, "torsion", state.pressed.tried)
+        residuals.require(self.tolerance, "torsion", state.normal_contact.iterations)
         return replace(
             made,
             residuals=residuals,
             status=_status(stick),
             torque=state.torque,
             twist=state.twist,
-            stick_radius=stick * state.pressed.contact.radius,
-            dissipated_energy=lost,
+            stick_radius=stick * state.normal_contact.contact.radius,
+            dissipated_energy=dissipated,
             elastic_energy=stored,
-            input_work=stored + lost,
-            unresolved_work=worked - stored - lost,
+            input_work=stored + dissipated,
+            unresolved_work=work - stored - dissipated,
             shear_circumferential=shear,
             slip_circumferential=slip,
             in_stick=x < stick,

@@ -16,7 +16,7 @@ from scipy.optimize import brentq
 from contact_scene.solver_errors import GrossSliding
 from radial.torsion.torsion import (
     NO_STICK,
-    Slipped,
+    PartialSlip,
     Torsion,
 )
 
@@ -37,7 +37,7 @@ class Branch:
 
     sense: float
     weight: float
-    state: Slipped | None = None
+    state: PartialSlip | None = None
 
     def size(self, of: str) -> float:
         """Return twist, torque, work or dissipated energy of the equivalent first twist."""
@@ -92,7 +92,7 @@ class TwistPath:
         if target == getattr(self, of):
             return self
         sense = 1.0 if target > getattr(self, of) else -1.0
-        branches, lost, work = list(self.branches), self.dissipated, self.work
+        branches, dissipated, work = list(self.branches), self.dissipated, self.work
         if not branches or branches[-1].sense != sense:
             branches.append(Branch(sense, 2.0 if branches else 1.0))
         while True:
@@ -102,10 +102,10 @@ class TwistPath:
             state = others[-1].state if closes else reached(self.of, of, needed, last.state)
             assert state is not None
             ended = replace(last, state=state)
-            lost += last.weight * (state.dissipated - last.size("dissipated"))
+            dissipated += last.weight * (state.dissipated - last.size("dissipated"))
             work += _work(others, ended) - _work(others, last)
             if not closes:
-                return TwistPath(self.of, (*others, ended), lost, work)
+                return TwistPath(self.of, (*others, ended), dissipated, work)
             left = others.pop()
             branches = [replace(ended, weight=1.0)] if left.weight == 1 else others
 
@@ -116,11 +116,13 @@ def _sum(branches: list[Branch] | tuple[Branch, ...], of: str) -> float:
 
 def _work(others: list[Branch], branch: Branch) -> float:
     """Return ∫ M dφ along a branch [force length]."""
-    held = branch.sense * branch.weight * branch.size("twist") * _sum(others, "torque")
-    return held + branch.weight**2 * branch.size("work")
+    linear = branch.sense * branch.weight * branch.size("twist") * _sum(others, "torque")
+    return linear + branch.weight**2 * branch.size("work")
 
 
-def reached(torsion: Torsion, of: Named, needed: float, since: Slipped | None = None) -> Slipped:
+def reached(
+    torsion: Torsion, of: Named, needed: float, since: PartialSlip | None = None
+) -> PartialSlip:
     """Return the state of the first twist whose twist [radian] or torque [force length] is
     `needed`.
 
@@ -132,10 +134,10 @@ def reached(torsion: Torsion, of: Named, needed: float, since: Slipped | None = 
         part = needed / getattr(whole, of)
         return replace(whole, twist=part * whole.twist, layers=part * whole.layers)
     if needed >= getattr(none, of):
-        return replace(torsion.slipped(0.0), twist=needed if of == "twist" else none.twist)
+        return replace(torsion.partial_slip(0.0), twist=needed if of == "twist" else none.twist)
     most = 1.0 if since is None or since.stick == 0 else min(1.0, since.stick * (1 + NO_STICK))
 
     def missing(stick: float) -> float:
-        return float(getattr(torsion.slipped(stick), of)) - needed
+        return float(getattr(torsion.partial_slip(stick), of)) - needed
 
-    return torsion.slipped(float(brentq(missing, NO_STICK, most, xtol=1e-15, rtol=1e-15)))
+    return torsion.partial_slip(float(brentq(missing, NO_STICK, most, xtol=1e-15, rtol=1e-15)))

@@ -11,7 +11,7 @@ from contact_scene import RIGID, FlatPunch
 from radial.normal.disc import disc
 from radial.normal.pressing import (
     Target,
-    pressed,
+    normal_contact,
 )
 from radial.normal.surface import pressure
 from radial.plan import MAX_CONTRAST
@@ -76,7 +76,7 @@ def _ball(place: Sequence[float], fineness: int) -> Found:
     shear = MODULUS * (1 - ratio) / 2
     film, base = (moduli * shear, ratio, thickness), (shear, ratio)
     bodies = Bodies([Stack([film], base)], moduli * MODULUS)
-    contact = pressed(bodies, BALL, Target(FORCE, None), fineness).contact
+    contact = normal_contact(bodies, BALL, Target(FORCE, None), fineness).contact
     p0 = float(pressure(contact, np.zeros(1))[0])
     return Found((contact.radius, p0, contact.approach), abs(contact.load / FORCE - 1))
 

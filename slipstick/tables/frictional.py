@@ -24,7 +24,7 @@ from contact_scene import (
 )
 from contact_scene.stepping.load_stepping import resumable_increments
 from radial.frictional.frictional_increment import FrictionalState
-from radial.frictional.frictional_indentation_steps import Rubbing
+from radial.frictional.frictional_indentation_steps import FrictionalSteps
 from radial.normal.surface import pressure
 from radial.plan import PATH_INCREMENTS
 from slipstick.tables.table import Found
@@ -58,7 +58,7 @@ def scene(place: Sequence[float]) -> Scene:
 def pressed(place: tuple[float, ...], increments: int, fineness: int) -> FrictionalState:
     """Solve a contact; `fineness` multiplies the number of rings."""
     asked = scene(place)
-    solver = Rubbing.of(asked, RadialDiscretisation(), fineness)
+    solver = FrictionalSteps.of(asked, RadialDiscretisation(), fineness)
     *_, (_, mark) = resumable_increments(asked, (increments,), solver, None)
     assert mark.state is not None  # in contact
     return mark.state
@@ -80,7 +80,7 @@ def tractions(place: Sequence[float], fineness: int) -> Found:
 
     def both(at: float) -> tuple[float, float]:
         places = np.array([at])
-        p = pressure(end.contact, places) + end.rings.at(end.changed, places)
+        p = pressure(end.contact, places) + end.rings.at(end.pressure_change, places)
         return float(p[0]), float(end.rings.at(end.shear, places)[0]) / friction
 
     here = both(x)

@@ -21,7 +21,7 @@ from contact_scene import Body, IsotropicMaterial, Layer, Paraboloid
 from contact_scene.quantities.residuals import worst
 from radial.stress.circle_fit import round_circle
 from radial.stress.loaded_circle import LoadedCircle
-from radial.stress.subsurface_circle import BelowCircle
+from radial.stress.subsurface_circle import SubsurfaceCircle
 from semi_analytical.frf.depth import Level as Depth
 from semi_analytical.frf.stack import stack_of
 from semi_analytical.grid import SurfaceGrid
@@ -420,7 +420,7 @@ def _tension_by_rays(result: Any, _: int, problem: Problem) -> float:
     still = round_circle(end.radii, end.contact_radius, nothing, nothing, end.pressure)
     p = np.broadcast_to(still.smooth[2], (still.smooth.shape[1], 4))
     sliding = LoadedCircle(still.radius, 0.0, np.stack([FRICTION * p, 0 * p, p]))
-    below = BelowCircle(sliding, stack_of(problem.scene.body), REACH, 1)
+    below = SubsurfaceCircle(sliding, stack_of(problem.scene.body), REACH, 1)
     stress = below.at((Depth(0.0, 0),), np.array([-still.radius]), np.zeros(1))[0, 3:]
     return float(principal_stresses(stress)[0, 0]) / P0
 
