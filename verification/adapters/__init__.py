@@ -1,1 +1,1 @@
-"""Codes that answer challenges, one file each, all by the same door."""
+"""Adapters of codes to the challenges, one module per code, with one interface."""

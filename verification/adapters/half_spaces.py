@@ -1,4 +1,4 @@
-"""Codes for half-spaces on cells: aspher, tamaas, ContactMechanics, by the drivers of the bench."""
+"""Adapters of half-space codes on cells: aspher, tamaas, ContactMechanics, by the bench drivers."""
 
 from __future__ import annotations
 
@@ -25,8 +25,11 @@ SOURCES = Path(__file__).parents[2]
 
 
 def driven(python: Path, peer: Peer, request: Mapping[str, Any]) -> dict[str, Any]:
-    """What the driver found, on one thread; raises CannotDo as it says so, RuntimeError with its
-    last words."""
+    """Run the driver on one thread and return its results.
+
+    Raises CannotDo if the driver refuses the request, RuntimeError with the last line of its
+    errors.
+    """
     done = subprocess.run(
         [str(python), "-m", peer.driver], input=json.dumps(request), capture_output=True,
         text=True, check=False, timeout=SECONDS_ALLOWED,
@@ -44,7 +47,7 @@ COARSEST, TOLERANCE = 32, 1e-8
 
 
 def answering(python: Path, peer: Peer) -> Callable[[Posed, int], Answer]:
-    """A solver by a code that is installed for this Python."""
+    """Create a solver that calls a code installed for this Python."""
 
     def solve(posed: Posed, level: int) -> Answer:
         request, length, stress = _request(posed, COARSEST * 2**level, peer)
@@ -55,7 +58,10 @@ def answering(python: Path, peer: Peer) -> Callable[[Posed, int], Answer]:
 
 
 def _request(posed: Posed, cells: int, peer: Peer) -> tuple[dict[str, Any], float, float]:
-    """What its driver reads, with the units of length and stress: tamaas is sensitive to them."""
+    """Return the request for the driver, and the units of length and stress.
+
+    The request is dimensionless, because tamaas is sensitive to the units.
+    """
     scene = posed.scene
     if "indenter" not in scene:
         raise CannotDo("contacts only, no given tractions")

@@ -1,4 +1,4 @@
-"""What our solvers have in common: scenes of challenges, and numbers of increments."""
+"""Common functions of the adapters of this program: scenes of challenges, numbers of increments."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from verification.observed.ring_errors import at_radii
 
 
 def scene_of(posed: Posed) -> Scene:
-    """As our solvers read it; raises CannotDo where the tractions are given."""
+    """Convert a challenge to a scene; raise CannotDo for prescribed tractions."""
     if "indenter" not in posed.scene:
         raise CannotDo("contacts only, no given tractions")
     return Scene.model_validate(posed.scene)
 
 
 def given_up(posed: Posed, fineness: int, error: Exception) -> Answer:
-    """Of a level whose history did not get to its end: nothing of it is trusted.
+    """Return the answer of a level whose history was not completed: all its results are rejected.
 
     fineness  cells or elements over a contact radius, which is about a third of the window
     """
@@ -34,8 +34,10 @@ def given_up(posed: Posed, fineness: int, error: Exception) -> Answer:
 
 
 def in_increments(scene: Scene, number: int) -> Scene:
-    """With friction the way matters: steps that name no increments take this many, so that finer
-    levels do not stall at the error of the path."""
+    """Set the increments of steps without a number, for scenes with friction.
+
+    The increments then refine with the levels, so that the increment error falls as well.
+    """
     if scene.friction is None:
         return scene
     steps = (s.model_copy(update={"increments": s.increments or number}) for s in scene.loading)
@@ -43,7 +45,7 @@ def in_increments(scene: Scene, number: int) -> Scene:
 
 
 def number(posed: Posed, key: Key, steps: Sequence[State]) -> float | None:
-    """By the name that a result has for it; None where it has none."""
+    """Return a number of a result by its name; None for an absent number."""
     quantity, step = key
     end = steps[step - 1]
     if quantity in ("shift_x", "shift_y"):
@@ -67,7 +69,7 @@ TRACTIONS = {
 
 
 def answer_on_rings(posed: Posed, steps: Any, h: float) -> Answer:
-    """From the increments at the end of every loading step; what they do not have is left out."""
+    """Create the answer from the last increments of all load steps, without absent quantities."""
     scalars: dict[Key, float] = {}
     for key in posed.asked:
         value = number(posed, key, steps)
@@ -87,19 +89,20 @@ def answer_on_rings(posed: Posed, steps: Any, h: float) -> Answer:
                 steps[key[1] - 1], traction, np.hypot(places[:, 0], places[:, 1])
             )
     if not scalars and not fields and not points:
-        raise CannotDo("stress below the surface, of which rings have none here")
+        raise CannotDo("the ring results contain no stress below the surface")
     return Answer(h, scalars, fields, points=points)
 
 
 def _traction(steps: Any, key: Key) -> Vector | None:
-    """One function of the radius; None where there is none, or it depends on the angle too."""
+    """Return a traction that is a function of the radius; None if absent or dependent on the
+    angle."""
     end = steps[key[1] - 1]
     found = getattr(end, TRACTIONS.get(key[0], ""), None)
     return None if found is None or np.ndim(found) != 1 else found
 
 
 def between(end: Any, traction: Vector) -> Field:
-    """At points of Gauss between the rings, each standing for its part of the ring."""
+    """Interpolate a traction to Gauss points between the rings, with their areas."""
     inside = end.radii <= 1.05 * end.contact_radius
     r0 = end.radii[:-1][inside[:-1]]
     r1 = end.radii[1:][inside[:-1]]

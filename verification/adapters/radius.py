@@ -1,4 +1,4 @@
-"""Our solver of functions of the radius as anybody's code."""
+"""Adapter of the radial solver to the challenges."""
 
 from __future__ import annotations
 
@@ -18,7 +18,10 @@ INCREMENTS = 10  # on the coarsest, of steps that name none
 
 
 def answer(posed: Posed, level: int) -> Answer:
-    """On COARSEST rings over the contact, twice as many, …; CannotDo where it refuses."""
+    """Solve a challenge on COARSEST rings over the contact, doubled per level.
+
+    Raises CannotDo if the solver does not support the scene.
+    """
     rings = COARSEST * 2**level
     try:
         scene = in_increments(scene_of(posed), INCREMENTS * 2**level)

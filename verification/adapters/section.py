@@ -1,4 +1,4 @@
-"""Our finite elements as anybody's code."""
+"""Adapter of the finite elements to the challenges."""
 
 from __future__ import annotations
 
@@ -20,8 +20,10 @@ HARMONICS = 8
 
 
 def answer(posed: Posed, level: int) -> Answer:
-    """On COARSEST elements over the contact radius, twice as many, …; CannotDo where there is no
-    axis."""
+    """Solve a challenge on COARSEST elements per contact radius, doubled per level.
+
+    Raises CannotDo if the scene is not axisymmetric.
+    """
     elements = COARSEST * 2**level
     on = FiniteElementDiscretisation(elements_per_radius=elements, harmonics=HARMONICS)
     try:
@@ -38,8 +40,11 @@ def answer(posed: Posed, level: int) -> Answer:
 
 
 def _refined(scene: Scene, level: int) -> Scene:
-    """Where the way matters, the increments of the plan on the coarsest mesh, twice as many, …, so
-    that finer levels do not stall at the error of the path; as many as the scene names."""
+    """Double the increments of path-dependent steps per level, so that the increment error falls
+    too.
+
+    Steps with a number of increments keep this number.
+    """
     decided = plan(scene)
     steps = tuple(
         step.model_copy(update={"increments": count * 2**level})

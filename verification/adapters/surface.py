@@ -1,4 +1,4 @@
-"""Our semi-analytical method as anybody's code: scene in, numbers and cells out."""
+"""Adapter of the semi-analytical method to the challenges: scene in, numbers and cells out."""
 
 from __future__ import annotations
 
@@ -28,7 +28,8 @@ MOVED = {
 
 
 def stress_at(result: Result, end: Increment, places: Vector) -> Vector:
-    """(6, places), cubic between the cells below which it is computed [force/length²]."""
+    """Compute the stress (6, places) by cubic interpolation between cell centres
+    [force/length²]."""
     grid = result.grid
     depths, of = np.unique(places[:, 2], return_inverse=True)
     field = subsurface(result.scene, grid, end.pressure, shear_of(end), list(depths)).stress
@@ -44,7 +45,8 @@ def stress_at(result: Result, end: Increment, places: Vector) -> Vector:
 
 
 def under_a_patch(posed: Posed) -> Answer:
-    """Influence coefficients: the patch is a cell, the places are centres of others."""
+    """Return influence coefficients: the patch is a cell, the positions are centres of other
+    cells."""
     side, traction = (posed.scene["patch"][name] for name in ("side", "traction"))
     body = Body.model_validate(posed.scene["body"])
     points: dict[Key, Vector] = {}
@@ -67,12 +69,13 @@ TOLERANCE = 1e-8
 
 
 def answer(posed: Posed, level: int) -> Answer:
-    """On COARSEST, twice as many, … cells a side; raises what `solve` raises."""
+    """Solve a challenge on COARSEST cells along a side, doubled per level; raises as `solve`
+    does."""
     return _answer(posed, level, "off")
 
 
 def answer_with_edges(posed: Posed, level: int) -> Answer:
-    """The same with the edge of the contact inside the cells, where the plan knows how."""
+    """Solve a challenge as `answer`, with the edge correction where the plan supports it."""
     return _answer(posed, level, "last")
 
 
@@ -114,7 +117,7 @@ def _traction(quantity: str, end: Increment, grid: SurfaceGrid) -> Vector:
 
 
 def _at(places: Vector, key: Key, result: Result) -> Vector:
-    """Tractions at radii of a round contact, or stress below the surface."""
+    """Evaluate tractions at radii of a round contact, or stress below the surface."""
     quantity, end, grid = key[0], result.steps[key[1] - 1], result.grid
     if quantity.startswith("stress"):
         return stress_at(result, end, places)[COMPONENTS.index(quantity.removeprefix("stress_"))]

@@ -197,7 +197,7 @@ def coated_paraboloid(
 
 
 def unlike_ratios(film: float, substrate: float) -> Problem:
-    """Pose the ball on a layer with another Poisson's ratio than the substrate.
+    """Return the problem of a ball on a layer with another Poisson's ratio than the substrate.
 
     Young's modulus is uniform, so that only the ratios differ. The reference takes constants that
     are written here again: a stack made from the scene would share the errors of the product.

@@ -651,7 +651,7 @@ class Goodman:
 def _goodman(
     title: str, nu: float, friction: float, increments: int, uncertainty: Callable[[float], float]
 ) -> Problem:
-    """Pose the indentation by a rigid ball with friction, coupled one way.
+    """Return the problem of a rigid ball pressed with friction, coupled one way.
 
     uncertainty  relative, of the closed form, as a function of Dundurs' constant β
     """

@@ -188,7 +188,8 @@ def shears_along_x(stops: dict[int, float]) -> list[Drawn]:
 
 
 def _under_cone(*parts: float) -> Problem:
-    """Pose the cone of cone_contact with ν = 0 under tangential forces, as fractions of µW."""
+    """Return the problem of the cone of cone_contact, ν = 0, with tangential forces in fractions
+    of µW."""
 
     def pressed(load: float) -> ConeContact:
         return ConeContact.under_load(load, SLOPE, paper.CONTACT_MODULUS)
@@ -322,7 +323,7 @@ def near_sliding(level: Level = Level.QUICK, cells: int = 0) -> Case:
 
 
 def _sliding(material: IsotropicMaterial) -> Problem:
-    """Pose gross slip under a prescribed shift."""
+    """Return the problem of gross slip under a prescribed shift."""
     beyond, at_sliding = 5.0, paper.partial_slip(material, 0.0).sliding_shift
     scene = paper.frictional(
         f"Dragged to {beyond:g} sliding shifts, ν = {material.poisson_ratio:g}",

@@ -226,7 +226,7 @@ ECCENTRICITY, SHEARED = 0.14, 0.5
 
 
 def eccentric(name: str) -> Problem:
-    """Pose a contact with a strain of the lower body in proportion to T, both along x."""
+    """Return the problem of a strain of the lower body in proportion to T, both along x."""
     radii = SHAPES[name]
     contact = EllipticalContact.under_load(paper.NORMAL_FORCE, radii, paper.CONTACT_MODULUS)
     a, b = contact.semi_axes
@@ -313,8 +313,8 @@ class Strained:
 
 
 def _coated() -> Problem:
-    """Pose a frictionless contact that is pressed and then strained: the pressure does not
-    change."""
+    """Return the problem of a frictionless contact that is pressed, then strained: constant
+    pressure."""
     layer = Layer(thickness=0.2e-3, material=HARD)
     scene = paper.frictionless(
         "Coated body, strained", paper.paraboloid(NU_ZERO), paper.STEEL, paper.pressing(1)

@@ -217,7 +217,7 @@ def _limit(r: Field) -> Field:
 
 @cache
 def twisted_coated() -> Problem:
-    """Pose the coated balls under a normal force and a torque raised in steps."""
+    """Return the problem of coated balls under a normal force and a torque raised in steps."""
     normal = exact_contact(BODY, BALL)
     surface = TorsionalSurface(_compliance, COATING.shear_modulus / 2, LAYERS[0].thickness)
     a = normal.contact_radius

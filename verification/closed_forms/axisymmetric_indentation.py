@@ -1,10 +1,10 @@
 """Indentation by an arbitrary axisymmetric profile, semi-closed (Galin 1946; Sneddon 1965).
 
-With the Abel-type integral S(s) = s ∫₀ˢ f'(r)/√(s²-r²) dr of the profile f(r), contact radius a:
-approach = S(a), load = 2E* ∫₀ᵃ (S(a) - S(s)) ds, and pressure and gap are one more Abel integral.
-Valid when the contact area is the full disc r < a (S increasing) and slopes are small, for
-frictionless faces or uncoupled pairs. Substitutions make every integrand smooth before Gauss's
-rule is applied; for profiles smooth on [0, a] the error is at rounding level.
+With S(s) = s ∫₀ˢ f'(r)/√(s²-r²) dr of the profile f(r) and the contact radius a: approach = S(a),
+load = 2E* ∫₀ᵃ (S(a) - S(s)) ds; pressure and gap are Abel integrals of S. Valid if the contact is
+the full disc r < a (S increasing) and slopes are small, for frictionless faces or uncoupled pairs.
+Substitutions make every integrand smooth for Gauss's rule; for profiles smooth on [0, a] the error
+is rounding.
 """
 
 from collections.abc import Callable
@@ -35,12 +35,13 @@ class AxisymmetricProfile:
     curvature: RadialFunction
 
     def penetration(self, s: ArrayLike) -> NDArray[np.float64]:
-        """S(s) = s ∫₀^{π/2} f'(s sin φ) dφ [length]: approach needed for contact radius s."""
+        """Compute S(s) = s ∫₀^{π/2} f'(s sin φ) dφ [length]: the approach for the contact radius
+        s."""
         r, weights = _arc(s)
         return np.asarray(np.asarray(s) * (self.slope(r) * weights).sum(axis=-1))
 
     def penetration_rate(self, s: ArrayLike) -> NDArray[np.float64]:
-        """Derivative dS/ds [1]."""
+        """Compute the derivative dS/ds [1]."""
         r, weights = _arc(s)
         return np.asarray(((self.slope(r) + r * self.curvature(r)) * weights).sum(axis=-1))
 
@@ -56,9 +57,9 @@ class AxisymmetricIndentation:
     approach: float
 
     def pressure(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Pressure (E*/π) ∫ᵣᵃ S'(s)/√(s²-r²) ds [force/length²], zero outside.
+        """Compute the pressure (E*/π) ∫ᵣᵃ S'(s)/√(s²-r²) ds [force/length²], zero outside.
 
-        r = 0 is admitted unless the profile has an apex, where the pressure is infinite.
+        r = 0 is allowed unless the profile has an apex, where the pressure is infinite.
         """
         a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
         chord = np.sqrt(np.maximum((a - rho) * (a + rho), 0))[..., None]
@@ -70,7 +71,7 @@ class AxisymmetricIndentation:
         return np.asarray(self.contact_modulus / pi * integral)
 
     def gap(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Deformed gap (2/π) ∫ₐʳ (S(s) - S(a))/√(r²-s²) ds [length], zero inside."""
+        """Compute the deformed gap (2/π) ∫ₐʳ (S(s) - S(a))/√(r²-s²) ds [length], zero inside."""
         a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
         outside = np.maximum(rho, a)
         start = np.arcsin(a / outside)[..., None]
@@ -83,7 +84,7 @@ class AxisymmetricIndentation:
 def axisymmetric_indentation(
     profile: AxisymmetricProfile, contact_radius: float, contact_modulus: float
 ) -> AxisymmetricIndentation:
-    """Load, approach and fields of a profile pressed to a contact radius (Sneddon 1965).
+    """Compute load, approach and fields of a profile at a contact radius (Sneddon 1965).
 
     contact_radius   a > 0 [length]
     contact_modulus  E* > 0 [force/length²]

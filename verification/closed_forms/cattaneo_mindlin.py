@@ -1,13 +1,14 @@
-"""Cattaneo–Mindlin: Hertz point contact, constant load, tangential force raised from zero.
+"""Cattaneo and Mindlin: Hertz point contact, constant load, tangential force raised from zero.
 
-Needs an uncoupled pair (identical bodies, both incompressible, or Dundurs' second constant zero).
+The pair of bodies must be uncoupled (identical bodies, both incompressible, or Dundurs' second
+constant zero).
 
-Caveat for Poisson's ratio other than zero: the shear keeps a constant displacement in the stick
-zone for every nu, but in the slip annulus it is parallel to the force while the slip it produces
-is not, so Coulomb's direction law is met only for nu = 0. With the full vector law, identical
-bodies and nu = 0.3, the transverse shear reaches 4.5 % of the peak µp, the slip traction turns by
-up to 7.5°, and stick vanishes between 0.987 and 0.9996 µW rather than at µW. Compare tightly with
-nu = 0, and with nu = 0.3 in a band of 1–5 %. `slip` is therefore given for nu = 0 only.
+For any ν the shear gives a constant displacement in the stick zone. In the slip annulus the shear
+is parallel to the force, but for ν > 0 the slip is not, so that the direction law of Coulomb holds
+only for ν = 0. With the full vector law, identical bodies and ν = 0.3, the transverse shear reaches
+4.5 % of the peak µp, the shear of slipping points turns by up to 7.5°, and the last stick vanishes
+between 0.987 and 0.9996 µW instead of at µW. Compare with small tolerances for ν = 0, and with 1 to
+5 % for ν = 0.3. `slip` is therefore defined for ν = 0 only.
 """
 
 from collections.abc import Callable
@@ -78,10 +79,11 @@ class PartialSlip:
 
     @property
     def dissipated_energy(self) -> float:
-        """Energy lost to friction since T = 0 [force*length], a quarter of a full cycle's.
+        """Energy dissipated by friction since T = 0 [force*length], a quarter of that of a full
+        cycle.
 
         (6/5) sliding_shift µW f with f = (1-y)³(1+3y+y²)/6, y = c/a: the bracket of Mindlin and
-        Deresiewicz (1953) for the cycle, factored so that it does not cancel for small T.
+        Deresiewicz (1953) for the cycle, factored to avoid cancellation for small T.
         """
         ratio = self._force_ratio
         slipped = 1.0 if ratio == 1 else -expm1(log1p(-ratio) / 3)
@@ -89,7 +91,7 @@ class PartialSlip:
         return self.sliding_shift * self.friction_limit * slipped**3 * (1 + 3 * y + y**2) / 5
 
     def shear(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Shear traction on the lower body [force/length²], parallel to the force."""
+        """Compute the shear on the lower body, parallel to the force [force/length²]."""
         a, c = self.contact_radius, self.stick_radius
         rho = np.abs(np.asarray(r, dtype=float))
         full = np.sqrt(np.maximum((a - rho) * (a + rho), 0))
@@ -98,10 +100,11 @@ class PartialSlip:
         return np.asarray(copysign(slope, self.tangential_force) * (full - taken_off))
 
     def slip(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Slip of the lower surface relative to the indenter, for nu = 0 and r <= a [length].
+        """Compute the slip of the lower surface relative to the indenter, for ν = 0 and r <= a
+        [length].
 
-        It is the gap that the Hertz contact of radius c leaves at r, scaled from normal to
-        tangential displacement by µE*/G*, and opposes the shear (cf. Jäger 1998).
+        The slip is the gap at r of the Hertz contact of radius c, scaled from normal to tangential
+        displacement by µE*/G*. It opposes the shear (cf. Jäger 1998).
         """
         a, c = self.contact_radius, self.stick_radius
         rho = np.clip(np.abs(np.asarray(r, dtype=float)), c, a)
@@ -115,7 +118,7 @@ class PartialSlip:
 
 
 class NormalContact(Protocol):
-    """What the superposition asks of a normal contact; positions are (r) or (x, y)."""
+    """Normal contact as required by the superposition; positions are (r) or (x, y)."""
 
     @property
     def load(self) -> float:
@@ -157,18 +160,19 @@ class Superposition:
         return self._signed * self.modulus_ratio * (self.full.approach - self.stick.approach)
 
     def shear(self, *position: ArrayLike) -> NDArray[np.float64]:
-        """Shear traction on the lower body at (r) or (x, y) [force/length²].
+        """Compute the shear on the lower body at (r) or (x, y) [force/length²].
 
-        Under an apex both pressures are infinite; ask at a distance from it.
+        Both pressures are infinite at an apex; evaluate at a distance from the apex.
         """
         return np.asarray(
             self._signed * (self.full.pressure(*position) - self.stick.pressure(*position))
         )
 
     def slip(self, *position: ArrayLike) -> NDArray[np.float64]:
-        """Slip of the lower surface relative to the indenter, nu = 0, inside the contact [length].
+        """Compute the slip of the lower surface relative to the indenter, ν = 0, in the contact
+        [length].
 
-        It opposes the shear and is the gap left by the stick contact, scaled by µ E*/G*.
+        The slip opposes the shear and is the gap of the stick contact, scaled by µ E*/G*.
         """
         opened = self.stick.gap(*position) - self.full.gap(*position)
         return np.asarray(-self._signed * self.modulus_ratio * opened)
@@ -185,9 +189,9 @@ def superpose(
     friction_coefficient: float,
     modulus_ratio: float,
 ) -> Superposition:
-    """Partial slip of the contact that `contact_under_load` describes.
+    """Return the partial slip of a contact with the given normal solution.
 
-    contact_under_load    normal load [force], from zero, to the contact it makes
+    contact_under_load    contact as a function of the normal load [force] >= 0
     load                  W > 0 [force]
     tangential_force      T, |T| <= µW [force]
     friction_coefficient  µ > 0

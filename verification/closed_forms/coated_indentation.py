@@ -1,16 +1,16 @@
 """Frictionless indentation of a layered half-space by an axisymmetric indenter, semi-closed.
 
-With the pressure's transform written as p~(k) = ∫₀ᵃ g(s) cos ks ds, contact on the disc r < a is a
+The transform of the pressure is p~(k) = ∫₀ᵃ g(s) cos ks ds. Contact on the disc r < a is then a
 Fredholm equation of the second kind for g (Lebedev and Ufliand 1958; for layers, Perriot and
 Barthel 2004):
 
     (π/E*) g(s) + (2/E*) ∫₀ᵃ K(s, t) g(t) dt = approach - S(s),
-    K(s, t) = ∫₀^∞ (X(k) - 1) cos ks cos kt dk,   X(k) = k E* F(k) / 2,
+    K(s, t) = ∫₀^∞ (X(k) - 1) cos ks cos kt dk,   X(k) = k E* F(k) / 2.
 
-with F(k) the normal displacement per unit pressure of wavenumber k, E* the contact modulus that it
-tends to for short waves, and S(s) = s ∫₀ˢ f'(r)/√(s²-r²) dr of the profile f: s²/R for a
-paraboloid, 0 for a flat punch. K is smooth on the scale of the layer's thickness, so Gauss's
-rule converges geometrically. Without layers K = 0.
+F(k) is the normal displacement per unit pressure of wavenumber k, E* the contact modulus for short
+waves, and S(s) = s ∫₀ˢ f'(r)/√(s²-r²) dr of the profile f: s²/R for a paraboloid, 0 for a flat
+punch. K is smooth on the scale of the layer thickness, so that Gauss's rule converges
+geometrically. Without layers K = 0.
 """
 
 from collections.abc import Callable
@@ -39,11 +39,11 @@ PRESSURE_ORDER = 20
 
 @dataclass(frozen=True)
 class LayeredSurface:
-    """What the surface of two layered bodies answers to pressure.
+    """Normal response of the surfaces of two layered bodies.
 
     compliance       F(k) of both bodies together [length³/force], vectorised
     contact_modulus  E* of their outermost materials [force/length²]
-    thickness        of the thinner outermost layer: how soon F becomes 2/(k E*) [length]
+    thickness        of the thinner outermost layer: scale of the change of F to 2/(k E*) [length]
     """
 
     compliance: Compliance
@@ -54,7 +54,8 @@ class LayeredSurface:
         require_positive(contact_modulus=self.contact_modulus, thickness=self.thickness)
 
     def excess(self, k: Array) -> Array:
-        """X(k) - 1: what the layers add to the outermost material's half-space [1]."""
+        """Compute X(k) - 1, the effect of the layers on a half-space of the outermost material
+        [1]."""
         return np.asarray(k * self.contact_modulus * self.compliance(k) / 2 - 1)
 
 
@@ -65,7 +66,7 @@ class LayeredIndentation:
     radius       R of the paraboloid [length]; infinite for a flat punch
     approach     since first touch [length]
     load         normal load [force]
-    transform    (X - 1) p~ at the wavenumbers, times the weight of each [force/length]
+    transform    (X - 1) p~ at the wavenumbers, times their quadrature weights [force/length]
     wavenumbers  of Gauss's rule [1/length]
     """
 
@@ -78,7 +79,7 @@ class LayeredIndentation:
     wavenumbers: Array
 
     def pressure(self, r: ArrayLike) -> Array:
-        """Pressure at distance r from the axis [force/length²], zero outside."""
+        """Compute the pressure at distance r from the axis [force/length²], zero outside."""
         a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
         chord = np.sqrt(np.maximum((a - rho) * (a + rho), 0))
         smooth = chebyshev.chebval(2 * np.minimum(rho / a, 1) ** 2 - 1, self._smooth)
@@ -100,7 +101,7 @@ class LayeredIndentation:
         )
 
     def _pressure_at(self, r: Array, chord: Array) -> Array:
-        """g(a)/√(a²-r²) - ∫ᵣᵃ g'(s)/√(s²-r²) ds."""
+        """Compute g(a)/√(a²-r²) - ∫ᵣᵃ g'(s)/√(s²-r²) ds."""
         v, weights = unit_gauss(
             PRESSURE_ORDER + _order(self.contact_radius, self.surface.thickness)
         )
@@ -126,18 +127,18 @@ class LayeredIndentation:
 
 
 def flat_punch(surface: LayeredSurface, contact_radius: float) -> LayeredIndentation:
-    """A flat punch at unit approach; its load is the contact stiffness."""
+    """Solve a flat punch at unit approach, whose load is the contact stiffness."""
     return _solved(surface, contact_radius, np.inf)
 
 
 def paraboloid(surface: LayeredSurface, radius: float, contact_radius: float) -> LayeredIndentation:
-    """A paraboloid pressed to a contact radius."""
+    """Solve a paraboloid with a given contact radius."""
     require_positive(radius=radius)
     return _solved(surface, contact_radius, radius)
 
 
 def paraboloid_under(load: float, surface: LayeredSurface, radius: float) -> LayeredIndentation:
-    """A paraboloid under a load [force]."""
+    """Solve a paraboloid under a load [force]."""
     require_positive(load=load, radius=radius)
     hertz = float(np.cbrt(3 * load * radius / (4 * surface.contact_modulus)))
 
@@ -180,12 +181,15 @@ def _solved(surface: LayeredSurface, a: float, radius: float) -> LayeredIndentat
 
 
 def _order(a: float, thickness: float) -> int:
-    """Nodes that resolve what varies on the scale of the thickness."""
+    """Return the number of nodes that resolves the scale of the layer thickness."""
     return 50 + int(4 * a / thickness)
 
 
 def _wavenumbers(a: float, thickness: float) -> tuple[Array, Array]:
-    """Gauss points and weights on 0 < k < REACH/h: panels double in width until cos ka limits."""
+    """Return Gauss points and weights on 0 < k < REACH/h.
+
+    The panels double in width up to the limit by the oscillation of cos ka.
+    """
     limit, step = REACH / thickness, PANEL_PHASE / (a + thickness)
     first = LONGEST_WAVE / (a + thickness)
     doublings = first * 2.0 ** np.arange(np.ceil(np.log2(step / first)) + 1)

@@ -1,18 +1,19 @@
 """Torsion of a circular contact of coated bodies in partial slip, semi-closed.
 
-Torsion makes shear waves alone (SH), which no pressure couples with. With the Hankel transform of
-the circumferential shear written as q~(k) = ∫₀ᵃ h(s) sin ks ds, so that h is Abel's transform
+Torsion makes only shear waves (SH), which are uncoupled from the pressure. The Hankel transform of
+the circumferential shear is q~(k) = ∫₀ᵃ h(s) sin ks ds, where h is the Abel transform
 
-    h(s) = (2/π) s ∫ₛᵃ q(r)/√(r²-s²) dr,
+    h(s) = (2/π) s ∫ₛᵃ q(r)/√(r²-s²) dr.
 
-a disc r < c that turns rigidly by φ demands (Lubkin 1951 for h without layers)
+For a rigid rotation φ of the disc r < c the equation for s < c is (Lubkin 1951 for h without
+layers)
 
-    h(s) + ∫₀ᵃ K(s, t) h(t) dt = (4/π) G φ s,   K(s, t) = (2/π) ∫₀^∞ (X(k) - 1) sin ks sin kt dk
+    h(s) + ∫₀ᵃ K(s, t) h(t) dt = (4/π) G φ s,   K(s, t) = (2/π) ∫₀^∞ (X(k) - 1) sin ks sin kt dk,
 
-for s < c, and in the slipping annulus h is that of the friction limit. X(k) = k G F(k), with F(k)
-the displacement per unit shear across the wavenumber k and G the torsional modulus for short waves.
-The shear is finite at the edge of the stick disc if h is continuous there, which gives φ. The
-torque is 4π ∫₀ᵃ h(s) s ds. Without layers K = 0.
+and in the slip annulus h is that of the friction limit. X(k) = k G F(k), with F(k) the displacement
+per unit shear across the wavenumber k and G the torsional modulus for short waves. The shear is
+finite at the edge of the stick disc if h is continuous there, which gives φ. The torque is 4π ∫₀ᵃ
+h(s) s ds. Without layers K = 0.
 """
 
 from collections.abc import Callable
@@ -40,7 +41,7 @@ ORDER = 80
 
 @dataclass(frozen=True)
 class TorsionalSurface:
-    """What the surface of two coated bodies answers to torsion.
+    """Torsional response of the surfaces of two coated bodies.
 
     compliance         F(k) of both bodies together [length³/force], vectorised
     torsional_modulus  reciprocal of the sum of 1/G of their outermost materials [force/length²]
@@ -55,13 +56,16 @@ class TorsionalSurface:
         require_positive(torsional_modulus=self.torsional_modulus, thickness=self.thickness)
 
     def excess(self, k: Array) -> Array:
-        """X(k) - 1: what the layers add to the half-space of the outermost material [1]."""
+        """Compute X(k) - 1, the effect of the layers on a half-space of the outermost material
+        [1]."""
         return np.asarray(k * self.torsional_modulus * self.compliance(k) - 1)
 
 
 def one_layer(k: Array, thickness: float, shear_modulus: float, base_modulus: float) -> Array:
-    """F(k) of one layer bonded to a half-space: 1/(Gk) (1 + χ e^(-2kh))/(1 - χ e^(-2kh)) with
-    χ = (G - G_base)/(G + G_base) [length³/force]."""
+    """Compute F(k) of one layer bonded to a half-space [length³/force].
+
+    F = 1/(Gk) (1 + χ e^(-2kh))/(1 - χ e^(-2kh)) with χ = (G - G_base)/(G + G_base).
+    """
     chi = (shear_modulus - base_modulus) / (shear_modulus + base_modulus)
     reflected = chi * np.exp(-2 * k * thickness)
     return np.asarray((1 + reflected) / (1 - reflected) / (shear_modulus * k))
@@ -69,7 +73,7 @@ def one_layer(k: Array, thickness: float, shear_modulus: float, base_modulus: fl
 
 @dataclass(frozen=True)
 class CoatedTorsion:
-    """Contact twisted monotonically from zero.
+    """Contact under a torque that grows from zero.
 
     surface         the two bodies
     contact_radius  a > 0 [length]
@@ -99,8 +103,10 @@ class CoatedTorsion:
         contact_radius: float,
         limit: Callable[[Array], Array],
     ) -> "CoatedTorsion":
-        """State under a torque [force*length]; ValueError where the stick radius has no value in
-        the range."""
+        """Return the state under a torque [force*length].
+
+        Raises ValueError if the stick radius is outside its range.
+        """
 
         def excess(part: float) -> float:
             state = cls(surface, contact_radius, limit, part * contact_radius)
@@ -111,7 +117,7 @@ class CoatedTorsion:
 
     @property
     def sliding_torque(self) -> float:
-        """2π ∫ µp r² dr, where all slips [force*length]."""
+        """Torque of gross slip, 2π ∫ µp r² dr [force*length]."""
         a = self.contact_radius
         v, weights = unit_gauss(ORDER)
         r, chord = a * np.sin(pi / 2 * v), a * np.cos(pi / 2 * v)
@@ -134,7 +140,7 @@ class CoatedTorsion:
         return self._solved[1]
 
     def displacement(self, r: Array) -> Array:
-        """Circumferential displacement at distances 0 < r <= c [length]: φr if all is right.
+        """Compute the circumferential displacement at 0 < r <= c [length], which must be φr.
 
         ∫₀^∞ sin ks J₁(kr) dk = s/(r√(r²-s²)) for s < r, and 0 beyond.
         """
@@ -146,7 +152,7 @@ class CoatedTorsion:
         return np.asarray((half_space + layers) / self.surface.torsional_modulus)
 
     def _h(self, s: Array) -> Array:
-        """h in the stick disc, from its equation."""
+        """Solve for h in the stick disc."""
         k, weight = self._wavenumbers
         G = self.surface.torsional_modulus
         by_layers = np.sin(np.multiply.outer(s, k)) @ (weight * self._spectrum)
@@ -177,13 +183,13 @@ class CoatedTorsion:
         return twist, np.append(twist * h[:, 0] + h[:, 1], annulus)
 
     def _kernel(self, s: Array, t: Array) -> Array:
-        """K(s, t)."""
+        """Compute K(s, t)."""
         k, weight = self._wavenumbers
         weighted = weight * self.surface.excess(k)
         return np.asarray(2 / pi * (np.sin(np.outer(s, k)) * weighted) @ np.sin(np.outer(k, t)))
 
     def _sliding_transform(self, s: Array) -> Array:
-        """h of the friction limit; r² = s² + (a²-s²) sin² θ removes the root."""
+        """Compute h of the friction limit; r² = s² + (a²-s²) sin² θ removes the root."""
         v, weights = unit_gauss(ORDER)
         chord = np.sqrt(self.contact_radius**2 - s**2)[:, None]
         r = np.hypot(s[:, None], chord * np.sin(pi / 2 * v))
@@ -192,7 +198,7 @@ class CoatedTorsion:
 
     @property
     def _order(self) -> int:
-        """Nodes in each zone that resolve what varies on the scale of the thickness."""
+        """Number of nodes in each zone that resolves the scale of the layer thickness."""
         return ORDER + int(4 * self.contact_radius / self.surface.thickness)
 
     @cached_property

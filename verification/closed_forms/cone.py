@@ -33,7 +33,7 @@ class ConeContact:
 
     @classmethod
     def under_load(cls, load: float, slope_angle: float, contact_modulus: float) -> "ConeContact":
-        """Contact under a normal load W >= 0 [force]: a² = 2W/(πE* tan(slope))."""
+        """Return the contact under a normal load W >= 0 [force]: a² = 2W/(πE* tan(slope))."""
         require_non_negative(load=load)
         require_positive(contact_modulus=contact_modulus)
         _require_slope(slope_angle)
@@ -51,7 +51,8 @@ class ConeContact:
         return pi / 2 * self.contact_radius * tan(self.slope_angle)
 
     def pressure(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Pressure (E*/2) tan(slope) arccosh(a/r) [force/length²]; infinite at the apex."""
+        """Compute the pressure (E*/2) tan(slope) arccosh(a/r) [force/length²]; infinite at the
+        apex."""
         a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
         inside = rho < a
         with np.errstate(divide="ignore"):
@@ -59,7 +60,7 @@ class ConeContact:
         return np.asarray(self.contact_modulus / 2 * tan(self.slope_angle) * np.arccosh(ratio))
 
     def surface_displacement(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Normal displacement, both bodies added, inside and outside [length]."""
+        """Compute the normal displacement, sum of both bodies, inside and outside [length]."""
         a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
         outside = np.maximum(rho, a)
         root = np.sqrt((outside - a) * (outside + a))
@@ -68,7 +69,7 @@ class ConeContact:
         return np.asarray(tan(self.slope_angle) * np.where(rho < a, inside, far))
 
     def gap(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Deformed gap tan(slope) [√(r²-a²) - a arccos(a/r)] [length], zero inside."""
+        """Compute the deformed gap tan(slope) [√(r²-a²) - a arccos(a/r)] [length], zero inside."""
         a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
         outside = np.maximum(rho, a)
         root = np.sqrt((outside - a) * (outside + a))

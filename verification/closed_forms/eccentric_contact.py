@@ -1,11 +1,11 @@
-"""Partial slip of a Hertz contact whose lower body is strained while it is sheared, for ν = 0.
+"""Partial slip of a Hertz contact under a tangential force and a strain of the lower body, ν = 0.
 
-Elastically similar bodies with ν = 0 respond alike along and across a shear, and to pressure and
-shear by the same operator. A bulk strain exx = ε and a force T along x that grow in proportion
+Elastically similar bodies with ν = 0 have equal compliances along and across a shear, and the same
+operator for pressure and shear. A bulk strain exx = ε and a force T along x that grow in proportion
 require the relative displacement δ - ε x of the stick zone. The gap of a smaller Hertz contact has
-the same form, x²/2R moved by e: the corrective traction is µ times the pressure of a contact of the
-same shape under the load W - T/µ, centred at e = ε R/µ. The slip is the gap of that contact, so
-it has one sign, and Coulomb's law holds exactly where the ellipses are nested. The plane limit is
+the same form, x²/2R shifted by e: the corrective traction is µ times the pressure of a contact of
+the same shape under the load W - T/µ, centred at e = ε R/µ. The slip is the gap of that contact, so
+that it has one sign, and Coulomb's law holds exactly if the ellipses are nested. The plane limit is
 Hills and Nowell's (1987) e/a = σ/4µp₀.
 """
 
@@ -61,7 +61,7 @@ class EccentricContact:
         return float(np.sqrt(a * b))
 
     def shear(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
-        """Shear along x on the lower body [force/length²]."""
+        """Compute the shear along x on the lower body [force/length²]."""
         xs = np.asarray(x, dtype=float)
         lacking = self.stick.pressure(xs - self.eccentricity, y)
         return self.friction * (self.contact.pressure(xs, y) - lacking)

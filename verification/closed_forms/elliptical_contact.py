@@ -17,10 +17,10 @@ from verification.closed_forms.validity import require_non_negative, require_pos
 
 
 def axis_ratio(radius_x: float, radius_y: float) -> float:
-    """Ratio k = b/a of the semi-axes along y and x (Hertz 1882).
+    """Solve for the ratio k = b/a of the semi-axes along y and x (Hertz 1882).
 
-    Solves Rx/Ry = R_D(1, 0, k²)/R_D(k², 0, 1), which is the classical
-    B/A = [(a/b)²E - K]/[K - E] after cancelling the common factor 1 - k².
+    Solves Rx/Ry = R_D(1, 0, k²)/R_D(k², 0, 1), which is the classical B/A = [(a/b)²E - K]/[K - E]
+    after cancelling the common factor 1 - k².
     """
     require_positive(radius_x=radius_x, radius_y=radius_y)
     if radius_x == radius_y:
@@ -54,7 +54,8 @@ class EllipticalContact:
     def under_load(
         cls, load: float, radii: tuple[float, float], contact_modulus: float
     ) -> "EllipticalContact":
-        """Contact under a normal load W >= 0 [force]; raises ValueError outside the range."""
+        """Return the contact under a normal load W >= 0 [force]; raise ValueError outside the
+        range."""
         require_non_negative(load=load)
         require_positive(contact_modulus=contact_modulus)
         k = axis_ratio(*radii)
@@ -87,13 +88,13 @@ class EllipticalContact:
         )
 
     def pressure(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
-        """Pressure at (x, y) [force/length²], broadcast; zero outside the ellipse."""
+        """Compute the pressure at (x, y) [force/length²], broadcast; zero outside the ellipse."""
         xs, ys = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
         room = self.semi_axes[0] ** 2 - xs**2 - (ys / self.axis_ratio) ** 2
         return np.asarray(self._pressure_slope * np.sqrt(np.maximum(room, 0)))
 
     def surface_displacement(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
-        """Normal displacement, both bodies added, inside and outside [length].
+        """Compute the normal displacement, sum of both bodies, inside and outside [length].
 
         Potential of the ellipsoidal density: the integrals start at the parameter of the confocal
         ellipse through (x, y), which is zero inside. Needs a load above zero.
@@ -115,7 +116,7 @@ class EllipticalContact:
         return np.asarray(scale * potential)
 
     def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
-        """Deformed gap [length], zero inside to rounding."""
+        """Compute the deformed gap [length], zero inside to rounding."""
         xs, ys = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
         undeformed = xs**2 / (2 * self.radii[0]) + ys**2 / (2 * self.radii[1])
         if self.semi_axes[0] == 0:

@@ -34,7 +34,8 @@ class FlatPunchContact:
     def under_load(
         cls, load: float, contact_radius: float, contact_modulus: float
     ) -> "FlatPunchContact":
-        """Contact under a normal load [force]; same order of arguments as the other contacts."""
+        """Return the contact under a normal load [force]; the arguments are ordered as for other
+        contacts."""
         return cls(contact_radius, contact_modulus, load)
 
     @property
@@ -43,28 +44,31 @@ class FlatPunchContact:
         return self.load / (2 * self.contact_modulus * self.contact_radius)
 
     def pressure(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Pressure W/(2πa√(a²-r²)) [force/length²]; infinite at the rim, zero outside."""
+        """Compute the pressure W/(2πa√(a²-r²)) [force/length²]; infinite at the rim, zero
+        outside."""
         return _rim_singular(self.load, self.contact_radius, r)
 
     def surface_displacement(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Normal displacement [length]: the approach inside, (2/π) approach asin(a/r) outside."""
+        """Compute the normal displacement, which is (2/π) approach asin(a/r) outside the rim
+        [length]."""
         a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
         return np.asarray(2 / pi * self.approach * np.arcsin(a / np.maximum(rho, a)))
 
     def gap(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Gap [length]: zero under the punch, infinite beside it, where there is no face."""
+        """Return the gap [length]: zero under the punch and infinite outside, where there is no
+        surface."""
         rho = np.abs(np.asarray(r, dtype=float))
         return np.asarray(np.where(rho <= self.contact_radius, 0.0, np.inf))
 
     def shear(self, r: ArrayLike, tangential_force: float) -> NDArray[np.float64]:
-        """Shear of the stuck punch under T [force/length²] (Mindlin 1949).
+        """Compute the shear of the stuck punch under T [force/length²] (Mindlin 1949).
 
-        It has the shape of the pressure, so nothing slips before |T| = µW and then all of it does.
+        The shear has the profile of the pressure, so that all points start to slip at |T| = µW.
         """
         return _rim_singular(tangential_force, self.contact_radius, r)
 
     def shift(self, tangential_force: float, tangential_modulus: float) -> float:
-        """Tangential shift T/2G*a of the stuck punch [length] (Mindlin 1949)."""
+        """Compute the tangential shift T/2G*a of the stuck punch [length] (Mindlin 1949)."""
         require_positive(tangential_modulus=tangential_modulus)
         return tangential_force / (2 * tangential_modulus * self.contact_radius)
 
@@ -78,15 +82,15 @@ def _rim_singular(force: float, a: float, r: ArrayLike) -> NDArray[np.float64]:
 
 @dataclass(frozen=True)
 class TiltedPunch:
-    """State of a flat punch whose load acts at (x, y) = eccentricity (Sneddon 1951, § 52).
+    """State of a flat punch under an eccentric load (Sneddon 1951, § 52).
 
-    A pressure ∝ x/√(a²-r²) moves the disc below it like a plane, as one ∝ 1/√(a²-r²) moves it
-    like a constant (Galin's theorem for a polynomial of first degree).
+    A pressure ∝ x/√(a²-r²) displaces the disc below as a plane, and a pressure ∝ 1/√(a²-r²) by a
+    constant (Galin's theorem for a polynomial of first degree).
 
     contact_radius   punch radius a [length]
     contact_modulus  E* [force/length²]
     load             normal load W > 0 [force]
-    eccentricity     (e_x, e_y) [length]; ValueError beyond a/3, where the punch lifts off
+    eccentricity     (e_x, e_y) of the load [length]; ValueError above a/3, where one side lifts off
     """
 
     contact_radius: float
@@ -119,8 +123,10 @@ class TiltedPunch:
         return self.load * e_x / stiffness, self.load * e_y / stiffness
 
     def pressure(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
-        """W/(2πa√(a²-r²)) (1 + 3 (e_x x + e_y y)/a²) [force/length²]; infinite at the rim, zero
-        outside."""
+        """Compute W/(2πa√(a²-r²)) (1 + 3 (e_x x + e_y y)/a²) [force/length²].
+
+        The pressure is infinite at the rim and zero outside.
+        """
         a, (e_x, e_y) = self.contact_radius, self.eccentricity
         X, Y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
         r = np.hypot(X, Y)

@@ -1,12 +1,12 @@
-"""First-order influence of a film on the stiffness of a flat punch (Gao, Chiu and Lee 1992).
+"""First-order effect of a film on the stiffness of a flat punch (Gao, Chiu and Lee 1992).
 
-For film and substrate that differ little the contact stiffness S = W/approach of a flat punch of
-radius a is, with xi = h/a and derivatives at equal materials,
+For a film that differs little from its substrate the contact stiffness S = W/approach of a flat
+punch of radius a has, with xi = h/a and derivatives at equal materials,
 
     d ln S / d ln G1 = I0(xi),    (1 - nu) d ln S / d nu1 at fixed G1 = I1(xi).
 
-Analytic and layered, and sharing nothing with a layered FRF: differences of any solver for film on
-substrate must reproduce them.
+The result is analytic and does not use a layered FRF. Differences of any solver for a film on a
+substrate must reproduce the derivatives.
 """
 
 from math import atan, log, pi
@@ -15,7 +15,7 @@ from verification.closed_forms.validity import require_positive
 
 
 def modulus_weight(xi: float, poisson_ratio: float) -> float:
-    """I0: share of the film's shear modulus in the stiffness [1]."""
+    """Compute I0, the weight of the film's shear modulus in the stiffness [1]."""
     require_positive(xi=xi)
     nu = poisson_ratio
     logarithm = (1 - 2 * nu) * xi * log((1 + xi**2) / xi**2)
@@ -23,6 +23,6 @@ def modulus_weight(xi: float, poisson_ratio: float) -> float:
 
 
 def ratio_weight(xi: float) -> float:
-    """I1: share of the film's Poisson ratio in the stiffness [1]."""
+    """Compute I1, the weight of the film's Poisson ratio in the stiffness [1]."""
     require_positive(xi=xi)
     return 2 / pi * atan(xi) + xi / pi * log((1 + xi**2) / xi**2)

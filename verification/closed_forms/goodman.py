@@ -1,13 +1,14 @@
-"""Pressing with friction if shear does not act on the pressure (Goodman 1962; Spence 1975).
+"""Indentation with friction without effect of the shear on the pressure (Goodman; Spence).
 
-A rigid indenter pressed on a half-space: pressure draws the surface towards the axis, friction
-holds a disc in the middle, outside it slips. The state is self-similar in the load, so the stick
-radius over the contact radius is one number for flat punch, cone and paraboloid:
+A rigid indenter is pressed on a half-space. The pressure moves the surface towards the axis;
+friction prevents slip in a central disc. The state is self-similar in the load, so that the ratio
+of stick and contact radius is one number for flat punch, cone and paraboloid:
 
     (a/2c) ln((a + c)/(a - c)) = (µ/β) K'(c/a)
 
-Valid for µ > 0, β > 0 under a load that only grows, with the shear of the stick disc remembering
-the way there, and with the normal displacement by shear neglected: a relative error of order β².
+The equation holds for µ > 0, β > 0 under an increasing load. The shear in the stick disc depends on
+the load path. The normal displacement by the shear is neglected, which is a relative error of order
+β² (Goodman 1962; Spence 1975).
 """
 
 from math import atanh, exp
@@ -22,17 +23,17 @@ SMALLEST, LARGEST = -340.0, -(2.0**-52)
 
 
 def stick_ratio(friction: float, dundurs_beta: float) -> float:
-    """c/a, between 0 (nothing sticks) and 1 (all sticks).
+    """Compute c/a, between 0 (gross slip) and 1 (full stick).
 
     friction      µ > 0
     dundurs_beta  β > 0; (1 - 2ν)/(2(1 - ν)) under a rigid indenter
 
-    Where c/a is closer to 0 or 1 than a double can tell, it is given as that limit.
+    A ratio that differs from 0 or 1 by less than double precision is returned as 0 or 1.
     """
     require_positive(friction=friction, dundurs_beta=dundurs_beta)
 
     def excess(log_c: float) -> float:
-        """Grows with c: what friction has to hold in the stick disc, less what it can."""
+        """Compute the difference of both sides of the equation, which grows with c."""
         c = exp(log_c)
         # K of the modulus √(1 - c²), from its complementary parameter c².
         return float(atanh(c) / c - friction / dundurs_beta * ellipkm1(c * c))

@@ -1,9 +1,9 @@
-"""Stress below a sliding Hertz contact, all components anywhere below the surface.
+"""Stress of a sliding Hertz contact: all components at any point below the surface.
 
-Hamilton (1983) gives it in closed form. Here it is one integral of the same potentials, which knows
-no special places: the pressure √(a²-r²) is the sum over -a < s < a of point sources of strength
-(a²-s²)/4 at the complex depth -is, so that every potential of a point force, taken at the depth
-z + is, gives that of the contact (Sackfield and Hills 1983 use the same shift).
+Hamilton (1983) has a closed form. Here the stress is one integral of the same potentials, without
+special cases. The pressure √(a²-r²) is the sum over -a < s < a of point sources of strength
+(a²-s²)/4 at the complex depth -is. Every potential of a point force at the depth z + is therefore
+gives that of the contact (Sackfield and Hills 1983 use the same shift).
 """
 
 import numpy as np
@@ -23,13 +23,13 @@ def hamilton_stress(
     peak_shear: float,
     poisson_ratio: float,
 ) -> NDArray[np.float64]:
-    """Stress (6, …), order xx, yy, zz, yz, xz, xy, tension positive [force/length²].
+    """Compute the stress (6, …), order xx, yy, zz, yz, xz, xy, tension positive [force/length²].
 
-    x, y, z     place, z > 0 into the body, broadcast together [length]
+    x, y, z     position, z > 0 into the body, broadcast together [length]
     peak_shear  q0 of the shear q0 √(1-r²/a²) along +x on the body [force/length²]
 
-    The integrand turns within z of s = r; s = r + z sinh u makes that a length of one. Raises
-    ValueError at the surface, where the integral is not one.
+    The integrand varies within a distance z of s = r; with s = r + z sinh u this distance is of
+    order one. Raises ValueError for z <= 0, where the integral does not exist.
     """
     require_positive(contact_radius=contact_radius)
     nu, a = poisson_ratio, 1.0
@@ -57,9 +57,11 @@ def _point_stress(
     deep: NDArray[np.complex128],
     nu: float,
 ) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
-    """By 2π times a unit force along z and along x: Boussinesq's and Cerruti's solutions (Johnson
-    1985, sections 3.2 and 3.6), with the potentials 1/ρ, -ln(ρ+z), z ln(ρ+z)-ρ at a depth of their
-    own."""
+    """Return 2π times the stress of a unit force along z and along x (Boussinesq; Cerruti).
+
+    The potentials are 1/ρ, -ln(ρ+z) and z ln(ρ+z)-ρ at a separate, complex depth (Johnson 1985,
+    sections 3.2 and 3.6).
+    """
     rho = np.sqrt(x * x + y * y + deep * deep)
     add = rho + deep
     a1, a3, a5 = 1 / rho, rho**-3, 3 * rho**-5

@@ -17,7 +17,7 @@ ElasticConstants = tuple[float, float]
 
 
 def contact_modulus(*bodies: ElasticConstants) -> float:
-    """Modulus E* of normal contact: 1/E* = sum of (1 - nu²)/E [force/length²].
+    """Return the modulus E* of normal contact: 1/E* = sum of (1 - ν²)/E [force/length²].
 
     The contact stiffness dW/d(approach) of a circular contact is 2 E* a (Johnson 1985, ch. 4).
     """
@@ -25,7 +25,7 @@ def contact_modulus(*bodies: ElasticConstants) -> float:
 
 
 def tangential_modulus(*bodies: ElasticConstants) -> float:
-    """Modulus G* of tangential contact: 1/G* = sum of (2 - nu)/(4 G) [force/length²].
+    """Return the modulus G* of tangential contact: 1/G* = sum of (2 - ν)/(4 G) [force/length²].
 
     The tangential stiffness of a stuck circular contact is 2 G* a (Mindlin 1949).
     """
@@ -64,14 +64,14 @@ class PointContact:
 
     @classmethod
     def under_load(cls, load: float, radius: float, contact_modulus: float) -> "PointContact":
-        """Contact under a normal load W >= 0 [force]: a³ = 3WR/4E*."""
+        """Return the contact under a normal load W >= 0 [force]: a³ = 3WR/4E*."""
         require_non_negative(load=load)
         require_positive(radius=radius, contact_modulus=contact_modulus)
         return cls(radius, contact_modulus, float(np.cbrt(3 * load * radius / contact_modulus / 4)))
 
     @classmethod
     def at_approach(cls, approach: float, radius: float, contact_modulus: float) -> "PointContact":
-        """Contact at an approach >= 0 of distant points [length]: a² = R * approach."""
+        """Return the contact at an approach >= 0 of distant points [length]: a² = R * approach."""
         require_non_negative(approach=approach)
         require_positive(radius=radius, contact_modulus=contact_modulus)
         return cls(radius, contact_modulus, sqrt(radius * approach))
@@ -92,14 +92,15 @@ class PointContact:
         return 2 * self.contact_modulus * self.contact_radius / (pi * self.radius)
 
     def pressure(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Pressure at distance r from the axis [force/length²], zero outside the contact."""
+        """Compute the pressure at distance r from the axis [force/length²], zero outside the
+        contact."""
         a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
         # p0/a = 2E*/πR does not involve a, so first touch needs no special case.
         slope = 2 * self.contact_modulus / (pi * self.radius)
         return np.asarray(slope * np.sqrt(np.maximum((a - rho) * (a + rho), 0)))
 
     def surface_displacement(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Normal displacement, both bodies added, positive into the bodies [length].
+        """Compute the normal displacement, sum of both bodies, positive into the bodies [length].
 
         Inside: approach - r²/2R. Outside: the field of the Hertz pressure (Johnson 1985, ch. 3.4).
         """
@@ -110,7 +111,8 @@ class PointContact:
         return np.asarray(np.where(rho < a, self.approach - rho**2 / (2 * self.radius), far))
 
     def gap(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Deformed gap r²/2R - approach + displacement [length], exactly zero inside."""
+        """Compute the deformed gap r²/2R - approach + displacement [length], exactly zero
+        inside."""
         a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
         outside = np.maximum(rho, a)
         root = np.sqrt((outside - a) * (outside + a))

@@ -1,7 +1,7 @@
-"""Subsurface stress of a Hertz point contact, tension positive.
+"""Stress of a Hertz point contact, tension positive.
 
 Cylindrical components at radius r and depth z >= 0 in a homogeneous half-space under the Hertz
-pressure alone, and on the axis under the shear of full sliding.
+pressure alone, and stress on the axis and the x axis under the shear of gross slip.
 """
 
 from dataclasses import dataclass
@@ -33,14 +33,14 @@ class AxisymmetricStress:
 def huber_stress(
     r: ArrayLike, z: ArrayLike, contact_radius: float, peak_pressure: float, poisson_ratio: float
 ) -> AxisymmetricStress:
-    """Stress under the Hertz pressure p0 √(1-r²/a²) (Huber 1904).
+    """Compute the stress under the Hertz pressure p0 √(1-r²/a²) (Huber 1904).
 
     r, z            radius and depth >= 0 [length], broadcast together
     contact_radius  a > 0 [length]
     peak_pressure   p0 > 0 [force/length²]
 
     u is the positive root of r²/(a²+u) + z²/u = 1 and t = z/√u. With t² = 1 - r²/(a²+u) the
-    classical terms in a²/r² lose their singularity on the axis. Raises ValueError for z < 0.
+    classical terms in a²/r² have no singularity on the axis. Raises ValueError for z < 0.
     """
     _require_half_space(contact_radius, peak_pressure, poisson_ratio)
     rho, depth = np.asarray(r, dtype=float), np.asarray(z, dtype=float)
@@ -70,7 +70,8 @@ def huber_stress(
 def axis_stress(
     z: ArrayLike, contact_radius: float, peak_pressure: float, poisson_ratio: float
 ) -> AxisymmetricStress:
-    """Stress on the axis under the Hertz pressure (Huber 1904; Johnson 1985, ch. 3.4)."""
+    """Compute the stress on the axis under the Hertz pressure (Huber 1904; Johnson 1985, ch.
+    3.4)."""
     _require_half_space(contact_radius, peak_pressure, poisson_ratio)
     depth, arc = _depth(z, contact_radius)
     axial = -peak_pressure / (1 + depth**2)
@@ -81,9 +82,9 @@ def axis_stress(
 def sliding_axis_shear(
     z: ArrayLike, contact_radius: float, peak_shear: float
 ) -> NDArray[np.float64]:
-    """Stress τ_xz on the axis under the shear q0 √(1-r²/a²) along +x on the body (Hamilton 1983).
+    """Compute τ_xz on the axis under the shear q0 √(1-r²/a²) along +x on the body (Hamilton 1983).
 
-    peak_shear  q0 = µ p0 in full sliding [force/length²]; independent of Poisson's ratio
+    peak_shear  q0 = µ p0 at gross slip [force/length²]; Poisson's ratio has no effect
     """
     require_positive(contact_radius=contact_radius)
     depth, arc = _depth(z, contact_radius)
@@ -91,7 +92,7 @@ def sliding_axis_shear(
 
 
 def _depth(z: ArrayLike, a: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Depth over a, and that times arctan of its reciprocal."""
+    """Return the depth over a, and its product with the arctan of its reciprocal."""
     depth = np.asarray(z, dtype=float) / a
     if not np.all(depth >= 0):
         raise ValueError(f"depth down to {np.min(depth) * a!r}: the body occupies z >= 0")
@@ -107,15 +108,16 @@ def _require_half_space(a: float, p0: float, nu: float) -> None:
 def stress_by_hertz_shear(
     x: ArrayLike, contact_radius: float, peak_shear: float, poisson_ratio: float
 ) -> NDArray[np.float64]:
-    """σ_xx at (x, 0, 0) under the shear q0 √(1-r²/a²) along +x on the body [force/length²].
+    """Compute σ_xx at (x, 0, 0) under the shear q0 √(1-r²/a²) along +x on the body [force/length²].
 
     contact_radius  a > 0 [length]
     peak_shear      q0, of any sign [force/length²]
 
-    Within the circle it is -(π/8)(4+ν) q0 x/a (Hamilton and Goodman 1966). Beyond it, integrate the
-    stress -(Q/π)[3ν X³/R⁵ + (1-2ν) X/R³] by a force Q on the surface (Cerruti) over the rays
-    through the circle: along the ray at the angle φ to the x axis the shear over R adds up to
-    π (x cos φ - √(x²-a²)) q0/a, and of φ from 0 to m = arcsin(a/x) elementary integrals are left.
+    Within the circle the result is -(π/8)(4+ν) q0 x/a (Hamilton and Goodman 1966). Outside, the
+    stress -(Q/π)[3ν X³/R⁵ + (1-2ν) X/R³] by a force Q on the surface (Cerruti) is integrated over
+    the rays through the circle. Along the ray at the angle φ to the x axis the integral of the
+    shear over R is π (x cos φ - √(x²-a²)) q0/a. The integrals over φ from 0 to m = arcsin(a/x) are
+    elementary.
     """
     require_positive(contact_radius=contact_radius)
     nu = poisson_ratio
@@ -133,14 +135,17 @@ def stress_by_hertz_shear(
 def stress_by_hertz_pressure(
     x: ArrayLike, contact_radius: float, peak_pressure: float, poisson_ratio: float
 ) -> NDArray[np.float64]:
-    """σ_xx at (x, 0, 0) under the pressure p0 √(1-r²/a²): the radial stress of Huber (1904)."""
+    """Compute σ_xx at (x, 0, 0) under the pressure p0 √(1-r²/a²): Huber's radial stress (1904)."""
     return huber_stress(np.abs(x), 0.0, contact_radius, peak_pressure, poisson_ratio).radial
 
 
 def trailing_edge_tension(
     peak_pressure: float, friction_coefficient: float, poisson_ratio: float
 ) -> float:
-    """Largest tension of a sliding Hertz contact [force/length²], at its trailing edge: p0
-    [(1-2ν)/3 + (π/8)(4+ν) µ] (Hamilton and Goodman 1966; Johnson 1985, section 7.1)."""
+    """Compute the largest tensile stress of a sliding Hertz contact [force/length²].
+
+    The maximum p0 [(1-2ν)/3 + (π/8)(4+ν) µ] is at the trailing edge (Hamilton and Goodman 1966;
+    Johnson 1985, section 7.1).
+    """
     nu, mu = poisson_ratio, friction_coefficient
     return peak_pressure * ((1 - 2 * nu) / 3 + pi / 8 * (4 + nu) * mu)

@@ -1,8 +1,8 @@
-"""Ruiz's fretting parameters of a Hertz contact under a force that cycles between ±T*, ν = 0.
+"""Ruiz's fretting parameters of a Hertz contact under a tangential force between ±T*, ν = 0.
 
 F1 = τ δ and F2 = σ_T τ δ (Ruiz, Boddington and Chen 1984, Exp. Mech. 24, 208-217), with τ the
-largest shear at a place in a cycle, δ half the range of slip and σ_T the largest stress of the
-surface along the force at the ends of the cycle. Assumptions as in `cattaneo_mindlin`.
+largest shear at a position in a cycle, δ half the range of slip and σ_T the largest surface stress
+along the force at the ends of the cycle. Assumptions as in `cattaneo_mindlin`.
 """
 
 from dataclasses import dataclass
@@ -34,16 +34,19 @@ class CycledContact:
     peak_pressure: float
 
     def slip_amplitude(self, r: ArrayLike) -> Values:
-        """δ at r <= a [length]: by Masing's rule a reversal slips twice as far as the first
-        loading, which is the whole range."""
+        """Compute δ at r <= a [length].
+
+        By Masing's rule the slip of a reversal, which is the whole range, is twice that of the
+        first loading.
+        """
         return np.abs(self.end.slip(r))
 
     def largest_shear(self, r: ArrayLike) -> Values:
-        """τ at r: that at ±T*, µp where it slips [force/length²]."""
+        """Compute τ at r: the shear at ±T*, which is µp in the slip annulus [force/length²]."""
         return np.abs(self.end.shear(r))
 
     def surface_tension(self, x: ArrayLike) -> Values:
-        """σ_T at (x, 0): the larger of the two ends of the cycle [force/length²]."""
+        """Compute σ_T at (x, 0), the larger value of the two ends of the cycle [force/length²]."""
         a, c = self.end.contact_radius, self.end.stick_radius
         q0 = self.end.friction_coefficient * self.peak_pressure
         sheared = stress_by_hertz_shear(x, a, q0, 0.0)
@@ -58,8 +61,10 @@ class CycledContact:
 
     @property
     def largest_f2(self) -> float:
-        """Largest σ_T τ δ on the surface [force²/length³]; at given r the tension is largest on the
-        line through the centre along the force."""
+        """Largest σ_T τ δ on the surface [force²/length³].
+
+        At a given r the tensile stress is largest on the line through the centre along the force.
+        """
         r = self._radii()
         return float(np.max(np.maximum(self.surface_tension(r), 0.0) * self._f1(r)))
 
@@ -67,6 +72,6 @@ class CycledContact:
         return self.largest_shear(r) * self.slip_amplitude(r)
 
     def _radii(self) -> Values:
-        """From the stick zone to the edge."""
+        """Return radii from the stick zone to the edge."""
         a, c = self.end.contact_radius, self.end.stick_radius
         return np.asarray(a - (a - c) * np.linspace(1.0, 0.0, PLACES) ** 2)

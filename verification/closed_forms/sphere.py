@@ -1,11 +1,11 @@
 """Rigid ball with its exact circular arc on a half-space.
 
-Hertz replaces the arc R - √(R²-r²) by the paraboloid r²/2R. Keeping the arc in the same linear
-half-space changes the results by O(a²/R²). To first order the factors are, at equal contact radius,
-1 + (2/5) a²/R² on load, 1 + (1/3) a²/R² on approach, 1 + (2/9) a²/R² on peak pressure; at equal
-load, 1 - (2/15) a²/R² on contact radius, 1 + (1/15) a²/R² on approach, 1 + (4/45) a²/R² on peak
-pressure. Valid for contact radius < R; slopes must still be small, so this measures the paraboloid
-approximation and is not a large-strain theory.
+Hertz replaces the arc R - √(R²-r²) by the paraboloid r²/2R. The arc in the same linear half-space
+changes the results by O(a²/R²). To first order the factors are, at equal contact radius, 1 + (2/5)
+a²/R² on load, 1 + (1/3) a²/R² on approach, 1 + (2/9) a²/R² on peak pressure; at equal load, 1 -
+(2/15) a²/R² on contact radius, 1 + (1/15) a²/R² on approach, 1 + (4/45) a²/R² on peak pressure.
+Valid for contact radius < R. Slopes must be small: the result is the error of the paraboloid, not a
+theory of large strains.
 """
 
 from dataclasses import dataclass
@@ -45,7 +45,8 @@ class SphereContact:
 
     @classmethod
     def under_load(cls, load: float, radius: float, contact_modulus: float) -> "SphereContact":
-        """Contact under a normal load W >= 0 [force]; raises ValueError when a would reach R."""
+        """Return the contact under a normal load W >= 0 [force]; raise ValueError if a reaches
+        R."""
         require_non_negative(load=load)
         require_positive(radius=radius, contact_modulus=contact_modulus)
         target = load / (contact_modulus * radius**2)
@@ -76,7 +77,7 @@ class SphereContact:
         return float(self.pressure(0.0))
 
     def pressure(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Pressure (E*/π) ∫ᵣᵃ S'(s)/√(s²-r²) ds with S = s artanh(s/R) [force/length²].
+        """Compute the pressure (E*/π) ∫ᵣᵃ S'(s)/√(s²-r²) ds, S = s artanh(s/R) [force/length²].
 
         The second term of S' integrates in closed form, the first by Gauss's rule.
         """
@@ -92,7 +93,7 @@ class SphereContact:
         )
 
     def gap(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Deformed gap [length]: zero inside, infinite for r > R where there is no surface."""
+        """Compute the deformed gap [length]: zero inside, infinite for r > R without a surface."""
         R, a = self.radius, self.contact_radius
         rho = np.abs(np.asarray(r, dtype=float))
         outside = np.clip(rho, a, R)
@@ -105,7 +106,8 @@ class SphereContact:
 
 
 def _reduced_load(x: float) -> float:
-    """W/(E*R²) = (1+x²) artanh x - x; by its power series where the difference cancels."""
+    """Compute W/(E*R²) = (1+x²) artanh x - x, by its power series for small x to avoid
+    cancellation."""
     if x >= SERIES_BELOW:
         return (1 + x**2) * atanh(x) - x
     k = np.arange(SERIES_TERMS, 0, -1)

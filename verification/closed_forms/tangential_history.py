@@ -1,9 +1,9 @@
 """Any history of the tangential force at constant load, by Masing's rule with return-point memory.
 
-A branch after a reversal is the first-loading curve with force and displacement doubled; when the
-force returns to an earlier turning point, the loop closes and is forgotten. For Hertz point
-contact this is exact under the assumptions of `cattaneo_mindlin` (Mindlin and Deresiewicz 1953;
-Jäger 1998).
+A branch after a reversal is the curve of the first loading with force and displacement doubled.
+When the force returns to an earlier reversal, the loop closes and both reversals are removed. For
+Hertz point contact this is exact under the assumptions of `cattaneo_mindlin` (Mindlin and
+Deresiewicz 1953; Jäger 1998).
 """
 
 from dataclasses import dataclass, replace
@@ -20,9 +20,9 @@ class TangentialHistory:
     """State after a history of tangential forces.
 
     virgin             the contact without tangential force
-    turning_points     forces at remembered reversals, differences shrinking [force]
+    turning_points     forces at the reversals of open loops, with decreasing differences [force]
     tangential_force   current T [force]
-    dissipated_energy  energy lost to friction since the start [force*length]
+    dissipated_energy  energy dissipated by friction since the start [force*length]
     """
 
     virgin: PartialSlip
@@ -35,7 +35,8 @@ class TangentialHistory:
             raise ValueError("a history starts from a contact without tangential force")
 
     def loaded_to(self, force: float) -> "TangentialHistory":
-        """Next state after T moves monotonically to `force`; ValueError when |force| > µW."""
+        """Return the state after a monotonic change of T to `force`; raise ValueError for
+        |force| > µW."""
         replace(self.virgin, tangential_force=force)
         if force == self.tangential_force:
             return self
@@ -59,14 +60,15 @@ class TangentialHistory:
         return sum(scale * state.shift for scale, state in self.branches())
 
     def shear(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Shear traction on the lower body [force/length²]."""
+        """Compute the shear on the lower body [force/length²]."""
         total = np.zeros_like(np.asarray(r, dtype=float))
         for scale, state in self.branches():
             total = total + scale * state.shear(r)
         return total
 
     def slip(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Slip of the lower surface relative to the indenter, nu = 0, r <= a [length]."""
+        """Compute the slip of the lower surface relative to the indenter, ν = 0, r <= a
+        [length]."""
         total = np.zeros_like(np.asarray(r, dtype=float))
         for scale, state in self.branches():
             total = total + scale * state.slip(r)
@@ -78,7 +80,7 @@ class TangentialHistory:
         return self.branches()[-1][1].stick_radius
 
     def branches(self) -> list[tuple[float, PartialSlip]]:
-        """The first loading and every branch since, with the factors by which they add up."""
+        """Return the first loading and all later branches, with their factors in the sum."""
         forces = (*self.turning_points, self.tangential_force)
         branches = [(1.0, replace(self.virgin, tangential_force=forces[0]))]
         for start, end in pairwise(forces):
@@ -86,7 +88,7 @@ class TangentialHistory:
         return branches
 
     def _lost(self, points: tuple[float, ...], force: float) -> float:
-        """Energy lost on the branch from the last turning point to `force`."""
+        """Compute the energy dissipated on the branch from the last reversal to `force`."""
         if not points:
             return replace(self.virgin, tangential_force=force).dissipated_energy
         half = (force - points[-1]) / 2

@@ -1,7 +1,7 @@
 """Torsion of a circular contact: full stick, and partial slip of a Hertz contact.
 
-Torsion is always uncoupled from the normal problem, whatever the materials. A stuck disc in the
-middle turns rigidly; around it the shear is µ times the Hertz pressure.
+Torsion is uncoupled from the normal problem for all materials. A central stick disc rotates as a
+rigid body; outside this disc the shear is µ times the Hertz pressure.
 """
 
 from dataclasses import dataclass
@@ -41,7 +41,8 @@ class StuckTorsion:
         return 3 * self.moment / (16 * self.contact_radius**3 * self.torsional_modulus)
 
     def shear(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Circumferential shear 3Mr/(4πa³√(a²-r²)) [force/length²]; infinite at r = a."""
+        """Compute the circumferential shear 3Mr/(4πa³√(a²-r²)) [force/length²]; infinite at r =
+        a."""
         a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
         room = np.where(rho <= a, (a - rho) * (a + rho), np.inf)
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -88,7 +89,8 @@ class TorsionalPartialSlip:
         friction_coefficient: float,
         torsional_modulus: float,
     ) -> "TorsionalPartialSlip":
-        """State under a moment 0 <= M < (3π/16) µWa [force*length]; ValueError outside."""
+        """Return the state under a moment 0 <= M < (3π/16) µWa [force*length]; raise ValueError
+        outside."""
         stuck = cls(
             contact_radius,
             peak_pressure,
@@ -134,10 +136,11 @@ class TorsionalPartialSlip:
         return traction * difference / (2 * self.torsional_modulus)
 
     def shear(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Circumferential shear [force/length²]: µp in the annulus, less than that in the middle.
+        """Compute the circumferential shear [force/length²]: µp in the annulus, less in the stick
+        disc.
 
-        What is taken off in the middle is (2/π) µ p0 ∫ E(√(1 - r²/(a cos φ)²)) dφ from 0 to
-        arccos(r/c), from inverting the Abel integral with the twist of a rigid disc.
+        The reduction in the stick disc is (2/π) µ p0 ∫ E(√(1 - r²/(a cos φ)²)) dφ from 0 to
+        arccos(r/c), by inversion of the Abel integral with the twist of a rigid disc.
         """
         a, c = self.contact_radius, self.stick_radius
         rho = np.abs(np.asarray(r, dtype=float))
@@ -154,7 +157,7 @@ class TorsionalPartialSlip:
 
 
 def _reduced_moment(ratio: float) -> float:
-    """M/(µ p0 a³) as a function of c/a."""
+    """Compute M/(µ p0 a³) as a function of c/a."""
     v, weights = unit_gauss(ORDER)
     s = ratio + (1 - ratio) * v
     return 8 / 3 * (1 - ratio) * float((s**2 * ellipe((1 - s) * (1 + s)) * weights).sum())

@@ -1,4 +1,4 @@
-"""Range of validity: arguments outside it are refused by name."""
+"""Validation of arguments: ValueError with the name of an argument outside its range."""
 
 import math
 from functools import cache

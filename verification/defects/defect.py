@@ -1,4 +1,4 @@
-"""A defect, and how it is planted: names of the product are replaced for a while."""
+"""Defects, which replace names of the product temporarily."""
 
 from __future__ import annotations
 
@@ -31,24 +31,26 @@ Wrap = Callable[[Any], Any]
 
 
 class Patches:
-    """Replacements, each undone by `restore`."""
+    """Replacements of attributes and functions, undone by `restore`."""
 
     def __init__(self) -> None:
         self._undo: list[Callable[[], None]] = []
 
     def attribute(self, owner: type | ModuleType, name: str, value: Any) -> None:
-        """Give a class another attribute: a method, a property or a class method; or a module
-        another name of its own, where others keep what they have."""
+        """Replace an attribute of a class, or a name in one module only.
+
+        The attribute of a class is a method, a property or a class method.
+        """
         here, before = name in vars(owner), vars(owner).get(name)
         setattr(owner, name, value)
         self._undo.append(lambda: setattr(owner, name, before) if here else delattr(owner, name))
 
     def method(self, owner: type, name: str, wrap: Wrap) -> None:
-        """Replace a method by what `wrap` makes of it."""
+        """Replace a method by `wrap(method)`."""
         self.attribute(owner, name, wrap(getattr(owner, name)))
 
     def function(self, module: ModuleType, name: str, wrap: Wrap) -> None:
-        """Replace a function wherever the product has imported it."""
+        """Replace a function in all modules of the product that have imported it."""
         before = getattr(module, name)
         after = wrap(before)
         _exchange(before, after)
@@ -56,19 +58,19 @@ class Patches:
         self._undo.append(lambda: _exchange(after, before))
 
     def restore(self) -> None:
-        """Undo everything, the last first."""
+        """Undo all replacements in reverse order."""
         while self._undo:
             self._undo.pop()()
 
 
 @dataclass(frozen=True)
 class Defect:
-    """Something broken.
+    """Seeded error of the product.
 
     name    letters, digits and hyphens
-    broken  what is broken, in a sentence
-    cases   of the catalogue that ought to see it, cheap ones
-    plant   breaks it
+    broken  one sentence that describes the error
+    cases   inexpensive cases of the catalogue that must detect the error
+    plant   function that applies the replacements
     """
 
     name: str
@@ -79,8 +81,7 @@ class Defect:
 
 @contextmanager
 def planted(defect: Defect) -> Iterator[None]:
-    """The product with a defect. What functions remember of before, and of the defect afterwards,
-    is forgotten."""
+    """Run the product with a defect, and clear the caches of its functions before and after."""
     patches = Patches()
     try:
         defect.plant(patches)
@@ -92,7 +93,7 @@ def planted(defect: Defect) -> Iterator[None]:
 
 
 def forget_remembered() -> None:
-    """Empty the caches of all functions that solve, refer or judge."""
+    """Clear the caches of all functions that solve, judge or give references."""
     for module in product_modules():
         if not module.__name__.startswith(REMEMBERING):
             continue
@@ -103,7 +104,7 @@ def forget_remembered() -> None:
 
 
 def product_modules() -> list[ModuleType]:
-    """All modules of the product that are loaded."""
+    """Return all loaded modules of the product."""
     return [
         module
         for name, module in list(sys.modules.items())

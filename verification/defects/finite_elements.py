@@ -1,4 +1,4 @@
-"""Defects of the finite elements."""
+"""Defects of the finite elements and of the radial solver."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ DRAWN_IN = 4e-3
 
 
 def _weight_of_element(patches: Patches) -> None:
-    """The radius in the weight of an energy is that of the element's middle."""
+    """Weight the energy by the radius of the middle of the element."""
 
     def wrap(whole: Any) -> Any:
         def basis(section: Any, *more: Any) -> Any:
@@ -42,7 +42,7 @@ def _weight_of_element(patches: Patches) -> None:
 
 
 def _resultant_weight(patches: Patches) -> None:
-    """The load of a hat is counted at the outer radius of its ring."""
+    """Weight the load of a hat function by the outer radius of its ring."""
 
     def wrap(whole: Any) -> Any:
         def on(nodes: Any, reach: float = np.inf) -> Any:
@@ -148,7 +148,7 @@ def _slip_reversed(patches: Patches) -> None:
 
 
 class _Level(CoulombFriction):
-    """A limit whose slope is said to be zero."""
+    """Friction limit with a slope of zero."""
 
     def slope(self, *given: Any, **more: Any) -> Any:
         return 0.0 * super().slope(*given, **more)
@@ -182,7 +182,7 @@ FINITE_ELEMENTS = (
         "point.", ("fem_hertz",), _weight_of_element,
     ),
     Defect(
-        "fe-resultant-weight", "The share of a ring in the load is counted at its outer radius.",
+        "fe-resultant-weight", "The weight of a ring in the load is taken at its outer radius.",
         ("fem_hertz",), _resultant_weight,
     ),
     Defect(
@@ -190,11 +190,11 @@ FINITE_ELEMENTS = (
         "sign.", ("fem_partial_slip",), _circumferential_shear,
     ),
     Defect(
-        "fe-hoop-strain", "The circumferential displacement is left out of the hoop strain.",
+        "fe-hoop-strain", "The circumferential displacement is omitted from the hoop strain.",
         ("fem_partial_slip",), _hoop_strain,
     ),
     Defect(
-        "fe-far-field", "The far field is left out: the section's outer boundary is held.",
+        "fe-far-field", "The far field is omitted: the outer boundary of the section is fixed.",
         ("fem_hertz",), _no_far_field,
     ),
     Defect(
@@ -202,11 +202,11 @@ FINITE_ELEMENTS = (
         _deformed_radius,
     ),
     Defect(
-        "fe-upper-body", "The compliance of the indenter is left out.", ("fem_hertz",),
+        "fe-upper-body", "The compliance of the indenter is omitted.", ("fem_hertz",),
         _upper_body_rigid,
     ),
     Defect(
-        "fe-coupling-sign", "Pressure draws the surface away from the axis.", ("fem_indentation",),
+        "fe-coupling-sign", "Pressure moves the surface away from the axis.", ("fem_indentation",),
         lambda patches: _coupling(patches, -1.0),
     ),
     Defect(
@@ -218,11 +218,11 @@ FINITE_ELEMENTS = (
         ("fem_partial_slip",), _friction,
     ),
     Defect(
-        "fe-history-dropped", "Every increment starts from surfaces that remember nothing.",
+        "fe-history-dropped", "Every increment starts from surfaces without history.",
         ("fem_partial_slip",), _forgetful,
     ),
     Defect(
-        "fe-dissipation-sign", "Friction gives energy instead of taking it.",
+        "fe-dissipation-sign", "The dissipated energy has the wrong sign.",
         ("fem_partial_slip",), _slip_reversed,
     ),
     Defect(
@@ -230,11 +230,11 @@ FINITE_ELEMENTS = (
         ("fem_penalty_indentation",), _tangent,
     ),
     Defect(
-        "fe-penalty-soft", "The penalty is a tenth of what it is said to be.",
+        "fe-penalty-soft", "The penalty is a tenth of the stated penalty.",
         ("fem_penalty_hertz",), _soft,
     ),
     Defect(
-        "fe-penalty-not-augmented", "Augmentations change nothing.", ("fem_penalty_hertz",),
+        "fe-penalty-not-augmented", "Augmentations have no effect.", ("fem_penalty_hertz",),
         _not_augmented,
     ),
 )  # fmt: skip

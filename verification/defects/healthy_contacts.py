@@ -1,6 +1,7 @@
-"""Healthy contacts of many kinds: other loads, bodies, windows and places of the grid.
+"""Random correct contacts of several families, with random loads, bodies, windows and grid
+positions.
 
-Each is drawn by the number of its draw, and has an exact or semi-closed solution.
+Each contact is drawn from a seed and has an exact or semi-closed solution.
 """
 
 from __future__ import annotations
@@ -60,7 +61,7 @@ NARROWEST, WIDEST = 2.6, 3.6  # window over contact radius
 
 
 def on_grids(name: str, problem: Problem, random: Random, *rows: Row) -> Case:
-    """On grids that fall anywhere on the contact, of a window of any size."""
+    """Build a case on grids with a random window, in random positions relative to the contact."""
     window = random.uniform(NARROWEST, WIDEST)
     grids = [on_cells(problem, (n,), window, offsets=(_anywhere(random),)) for n in LEVELS]
     rungs = [rung for grid in grids for rung in grid.rungs]
@@ -68,19 +69,19 @@ def on_grids(name: str, problem: Problem, random: Random, *rows: Row) -> Case:
 
 
 def _anywhere(random: Random) -> tuple[float, float]:
-    """A place in a cell."""
+    """Draw a position in a cell."""
     return float(random.uniform(-0.5, 0.5)), float(random.uniform(-0.5, 0.5))
 
 
 def pressed(indenter: Paraboloid | Cone | FlatPunch, body: Body, load: float) -> Scene:
-    """Pressed once, without friction."""
+    """Return the scene of one normal load without friction."""
     return Scene(
         title="Pressed", indenter=indenter, body=body, loading=(LoadStep(normal_force=load),)
     )
 
 
 def part_of_cell(part: float) -> Callable[[RefinementLevel], float]:
-    """A part of a cell, over the radius, for a window of three radii."""
+    """Return a fraction of a cell over the radius, for a window of three radii."""
     return lambda rung: part * 3.0 / rung.count
 
 
@@ -94,19 +95,19 @@ RADIUS_WITHIN = Refined(
 
 
 def any_material(random: Random) -> IsotropicMaterial:
-    """Of any stiffness, and ν from 0 to ½."""
+    """Draw a material of any modulus, with ν from 0 to ½."""
     return IsotropicMaterial(
         young_modulus=between(random, 1e9, 1e12), poisson_ratio=float(random.uniform(0.0, 0.5))
     )
 
 
 def constants(material: IsotropicMaterial) -> tuple[float, float]:
-    """E and ν."""
+    """Return E and ν."""
     return material.young_modulus, material.poisson_ratio
 
 
 def between(random: Random, low: float, high: float) -> float:
-    """A number whose logarithm is uniform."""
+    """Draw a number with a uniform logarithm."""
     return float(np.exp(random.uniform(np.log(low), np.log(high))))
 
 
@@ -117,7 +118,7 @@ RESOLVED = (
 
 
 def hertz(random: Random) -> Case:
-    """Two balls of any materials."""
+    """Build the case of two balls of random materials."""
     one, other = any_material(random), any_material(random)
     radius, load = between(random, 1e-3, 1.0), between(random, 1e-1, 1e4)
     exact = PointContact.under_load(load, radius, contact_modulus(constants(one), constants(other)))
@@ -127,7 +128,7 @@ def hertz(random: Random) -> Case:
 
 
 def cone(random: Random) -> Case:
-    """A cone of any slope on any materials."""
+    """Build the case of a random cone on random materials."""
     one, other = any_material(random), any_material(random)
     slope, load = radians(random.uniform(0.3, 3.0)), between(random, 1e-1, 1e4)
     exact = ConeContact.under_load(load, slope, contact_modulus(constants(one), constants(other)))
@@ -137,7 +138,8 @@ def cone(random: Random) -> Case:
 
 
 def partial_slip(random: Random) -> Case:
-    """Cattaneo and Mindlin's contact: two alike bodies of ν = 0, any friction and force."""
+    """Build the case of Cattaneo and Mindlin's contact of equal bodies with ν = 0 and random
+    friction."""
     material = IsotropicMaterial(young_modulus=between(random, 1e9, 1e12), poisson_ratio=0.0)
     radius, load = between(random, 1e-3, 1.0), between(random, 1e-1, 1e4)
     friction, part = random.uniform(0.05, 0.8), random.uniform(0.2, 0.9)
@@ -165,13 +167,15 @@ def partial_slip(random: Random) -> Case:
 
 
 def coated(random: Random) -> Case:
-    """A ball on one layer of any stiffness and ratio, and a thickness that all grids resolve."""
+    """Build the case of a ball on one random layer that all grids resolve."""
     return _coated("coated", random, (RESOLVED, 3.0))
 
 
 def coated_thinly(random: Random) -> Case:
-    """A ball on a thin layer, which the coarser grids do not resolve: their errors are of no one
-    order."""
+    """Build the case of a ball on a thin layer.
+
+    Coarse grids do not resolve the layer, so that the errors have no constant order.
+    """
     return _coated("coated_thinly", random, (0.3, RESOLVED))
 
 
@@ -194,7 +198,7 @@ def _coated(name: str, random: Random, thickness: tuple[float, float]) -> Case:
 
 
 def flat_punch(random: Random) -> Case:
-    """A flat punch of any size; its tolerances are those of the case flat_punch."""
+    """Build the case of a random flat punch, with the tolerances of the case flat_punch."""
     one, other = any_material(random), any_material(random)
     radius, load = between(random, 1e-4, 1e-2), between(random, 1e-1, 1e4)
     exact = FlatPunchContact(radius, contact_modulus(constants(one), constants(other)), load)
@@ -209,7 +213,7 @@ def flat_punch(random: Random) -> Case:
 
 
 def fem_hertz(random: Random) -> Case:
-    """Two balls of any materials by finite elements."""
+    """Build the case of two balls of random materials by finite elements."""
     one, other = any_material(random), any_material(random)
     radius, load = between(random, 1e-3, 1.0), between(random, 1e-1, 1e4)
     exact = PointContact.under_load(load, radius, contact_modulus(constants(one), constants(other)))

@@ -1,5 +1,5 @@
-"""Defects that show only where a history turns, unloads, or leaves the x axis, and of what is told
-beside tractions and motions."""
+"""Defects of histories with reversals, unloading or loads off the x axis, and of derived
+results."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def _reversal_forgotten(patches: Patches) -> None:
 
 
 def _limit_by_direction(patches: Patches) -> None:
-    """The limit is an ellipse, and the residuals know no better."""
+    """Replace the friction limit by an ellipse, and set the friction residuals to zero."""
     patches.function(
         admissible_shear, "magnitude", lambda whole: lambda v: whole(np.stack([v[0], 1.01 * v[1]]))
     )
@@ -90,7 +90,7 @@ def _approach_when_unloading(patches: Patches) -> None:
 
 
 def _grown(patches: Patches, name: str, factor: float) -> None:
-    """What slip adds to a field is multiplied."""
+    """Multiply the contribution of slip to a field."""
 
     def wrap(whole: Any) -> Any:
         def advanced(model: Any, pressure: Any, bound: Any, last: Any, *rest: Any) -> Any:
@@ -210,19 +210,20 @@ def _strain_of_wrong_layer(patches: Patches) -> None:
 
 HISTORIES = (
     Defect(
-        "spring-energy", "The energy of a rig's springs is counted as that of the bodies.",
+        "spring-energy", "The energy of a rig's springs is added to that of the bodies.",
         ("series_spring",), _energy_of_springs,
     ),
     Defect(
-        "actuator-shift", "The shift of the actuator is told for that of the contact.",
+        "actuator-shift", "The shift of the actuator is returned as that of the contact.",
         ("series_spring",), _shift_of_actuator,
     ),
     Defect(
-        "contact-for-actuator", "A loop's δ* is the shift of the contact, not of the actuator.",
+        "contact-for-actuator", "The shift δ* of a loop is that of the contact instead of the "
+        "actuator.",
         ("series_spring",), _contact_for_actuator,
     ),
     Defect(
-        "strain-work", "The work of a bulk strain is left out of the balance.",
+        "strain-work", "The work of a bulk strain is omitted from the energy balance.",
         ("eccentric_contact",), _work_of_strain,
     ),
     Defect(
@@ -230,28 +231,31 @@ HISTORIES = (
         ("strained_ball",), _strain_of_wrong_layer,
     ),
     Defect(
-        "reversal-forgotten", "Coupled bodies forget where they were when the shear turns back.",
+        "reversal-forgotten", "Coupled bodies lose their tangential displacement when the "
+        "tangential force is reversed.",
         ("coupled_history",), _reversal_forgotten,
     ),
     Defect(
-        "limit-by-direction", "Friction carries 1 % less along y, and its residuals are zero.",
+        "limit-by-direction", "The friction limit is 1 % smaller along y, and its residuals are "
+        "zero.",
         ("load_paths",), _limit_by_direction,
     ),
     Defect(
-        "approach-when-unloading", "The approach is told 5 % too small while the force falls.",
+        "approach-when-unloading", "The approach is 5 % too small while the force falls.",
         ("hertz_unloading",), _approach_when_unloading,
     ),
     Defect(
-        "dissipation-map", "The map of the energy lost is 5 % too large, its sum is not.",
+        "dissipation-map", "The map of the dissipated energy is 5 % too large, its sum is not.",
         ("load_paths",), _dissipation_map,
     ),
     Defect(
-        "slip-before-touch", "Slip counts from the start of the increment, not from the touch.",
+        "slip-before-touch", "Slip is counted from the start of the increment instead of first "
+        "contact.",
         ("coupled_history",), _before_touch,
     ),
-    Defect("way-slipped", "The way slipped is twice what it is.", ("load_paths",), _way_slipped),
+    Defect("way-slipped", "The accumulated slip is doubled.", ("load_paths",), _way_slipped),
     Defect(
-        "loss-with-coupling", "Coupled bodies tell 1 % too much of the energy lost.",
+        "loss-with-coupling", "The dissipated energy of coupled bodies is 1 % too large.",
         ("coupled_history",), _loss_with_coupling,
     ),
     Defect(
@@ -259,11 +263,11 @@ HISTORIES = (
         ("same_surface",), _map_transposed,
     ),
     Defect(
-        "elements-stored-energy", "Finite elements tell 5 % too much of the energy stored.",
+        "elements-stored-energy", "The elastic energy by finite elements is 5 % too large.",
         ("hertz_unloading",), _stored_by_elements,
     ),
     Defect(
-        "elements-work", "Finite elements tell 20 % too little of the work put in.",
+        "elements-work", "The input work by finite elements is 20 % too small.",
         ("fem_partial_slip",), _work_on_elements,
     ),
 )  # fmt: skip
@@ -351,7 +355,7 @@ def _force_not_met(patches: Patches) -> None:
 
 
 def _blind(patches: Patches) -> None:
-    """Pressures are found to 1 %, and nobody notices."""
+    """Solve pressures to 1 %, and set the contact residuals to zero."""
     for name in ("complementarity", "penetration"):
         patches.function(residuals, name, lambda whole: lambda *given: 0.0)
     patches.function(
@@ -362,7 +366,7 @@ def _blind(patches: Patches) -> None:
 
 
 def _blind_to_friction(patches: Patches) -> None:
-    """Shears are found to 3 %, and nobody notices."""
+    """Solve shears to 3 %, and set the friction residuals to zero."""
     for name in ("friction_cone", "slip_direction"):
         patches.function(residuals, name, lambda whole: lambda *given: 0.0)
     patches.function(
@@ -437,7 +441,7 @@ CONTACT_AND_FRICTION = (
         ("dissimilar_bodies", "hertz_approach_control"), _deeper,
     ),
     Defect(
-        "force-scaled", "The normal force that is led to is 0.3 % below the one prescribed.",
+        "force-scaled", "The normal force of an increment is 0.3 % below the prescribed force.",
         ("dissimilar_bodies",), _lighter,
     ),
     Defect(
@@ -445,12 +449,14 @@ CONTACT_AND_FRICTION = (
         ("dissimilar_bodies",), _force_not_met,
     ),
     Defect(
-        "residual-zero-of-contact", "The residuals of contact are always zero, pressures rough.",
+        "residual-zero-of-contact", "The residuals of contact are zero, and pressures are "
+        "inaccurate.",
         # Where edges are corrected, the repeated solves leave no rough pressure.
         ("hertz_approach_control",), _blind,
     ),
     Defect(
-        "residual-zero-of-friction", "The residuals of friction are always zero, shears rough.",
+        "residual-zero-of-friction", "The residuals of friction are zero, and shears are "
+        "inaccurate.",
         ("cattaneo_mindlin",), _blind_to_friction,
     ),
     Defect(
@@ -458,11 +464,11 @@ CONTACT_AND_FRICTION = (
         ("cattaneo_mindlin", "near_sliding"), _friction,
     ),
     Defect(
-        "history-dropped", "Every increment starts from surfaces that remember nothing.",
+        "history-dropped", "Every increment starts from surfaces without history.",
         LOOP, _forgetful,
     ),
     Defect(
-        "one-increment", "A loading step takes one increment, whatever is asked for.",
+        "one-increment", "A load step has one increment, instead of the requested number.",
         ("goodman_indentation",), _few_increments,
     ),
     Defect(
@@ -470,11 +476,11 @@ CONTACT_AND_FRICTION = (
         ("cattaneo_mindlin",), _slip_reversed,
     ),
     Defect(
-        "dissipation-halved", "Only half of the energy that friction takes is counted.",
+        "dissipation-halved", "Only half of the dissipated energy is counted.",
         LOOP, _cold,
     ),
     Defect(
-        "work-halved", "The work of the loads is half of what it is.", LOOP, _half_work,
+        "work-halved", "The work of the loads is halved.", LOOP, _half_work,
     ),
     Defect(
         "tilt-axes", "Tilts about the two axes are exchanged.",
@@ -489,7 +495,8 @@ CONTACT_AND_FRICTION = (
         LOOP, _whole_range,
     ),
     Defect(
-        "tension-across", "Ruiz's tension is taken across the tangential force.",
+        "tension-across", "The tensile stress of Ruiz's parameter is taken across the tangential "
+        "force.",
         LOOP, _tension_across,
     ),
     Defect(
@@ -501,7 +508,7 @@ CONTACT_AND_FRICTION = (
         ("subsurface_stress",), lambda patches: _stress(patches, _planes_exchanged),
     ),
     Defect(
-        "in-plane-shear-halved", "Below the surface σ_xy is half of what it is.",
+        "in-plane-shear-halved", "Below the surface σ_xy is halved.",
         ("subsurface_stress",), lambda patches: _stress(patches, _in_plane_halved),
     ),
 )  # fmt: skip
@@ -531,7 +538,7 @@ def _indenter_couples_in_elements(patches: Patches) -> None:
 
 
 def _elements_look_at_bases(patches: Patches) -> None:
-    """Of a coated indenter finite elements see the base alone."""
+    """Determine the coupling by finite elements from the base of a coated indenter alone."""
     plan = import_module("fem_reference.plan")  # its function of this name hides it
     whole = plan.coupling
 
@@ -554,7 +561,7 @@ def _no_tilt_about_y(patches: Patches) -> None:
 
 
 def _taken_over(patches: Patches, kind: ControlKind) -> None:
-    """A step that takes over from the other control begins 2 % beside where that ended."""
+    """Start a step of another kind of control with an error of 2 %."""
 
     def wrap(whole: Any) -> Any:
         def led(self: Control[Any], fraction: float, reached: Any) -> Any:
@@ -604,40 +611,41 @@ def _fewer_increments(patches: Patches) -> None:
 
 CONTROLS_AND_BODIES = (
     Defect(
-        "coupling-of-the-indenter", "A deformable indenter on a rigid body couples as if it lay "
-        "below.", ("exchanged_bodies",), _indenter_couples_as_the_body,
+        "coupling-of-the-indenter", "A deformable indenter on a rigid body has the coupling of a "
+        "lower body.", ("exchanged_bodies",), _indenter_couples_as_the_body,
     ),
     Defect(
         "fe-coupling-of-the-indenter", "In finite elements a deformable indenter on a rigid body "
-        "couples as if it lay below.", ("exchanged_bodies",), _indenter_couples_in_elements,
+        "has the coupling of a lower body.", ("exchanged_bodies",), _indenter_couples_in_elements,
     ),
     Defect(
-        "fe-coated-indenter-uncoupled", "Finite elements take a coated indenter on a body of its "
-        "base for alike bodies.", ("exchanged_bodies",), _elements_look_at_bases,
+        "fe-coated-indenter-uncoupled", "Finite elements treat a coated indenter on a body of "
+        "its base material as equal bodies.", ("exchanged_bodies",), _elements_look_at_bases,
     ),
     Defect(
-        "tilt-about-y", "A tilt about y changes nothing.", ("tilted_punch", "eccentric_ball"),
+        "tilt-about-y", "A tilt about y has no effect.", ("tilted_punch", "eccentric_ball"),
         _no_tilt_about_y,
     ),
     Defect(
-        "approach-taken-over", "A step of approach begins 2 % deeper than the force before it "
-        "pressed.", ("led_histories",),
+        "approach-taken-over", "A step of prescribed approach starts at an approach 2 % above "
+        "the end of the force step before it.", ("led_histories",),
         lambda patches: _taken_over(patches, ControlKind.DISPLACEMENT),
     ),
     Defect(
-        "force-taken-over", "A step of force begins 2 % above the force that the approach before "
-        "it took.", ("led_histories",), lambda patches: _taken_over(patches, ControlKind.FORCE),
+        "force-taken-over", "A step of prescribed force starts at a force 2 % above the end of "
+        "the approach step before it.",
+        ("led_histories",), lambda patches: _taken_over(patches, ControlKind.FORCE),
     ),
     Defect(
-        "torque-far-field", "Far away a torque turns the bodies half as much as it does.",
+        "torque-far-field", "The far-field rotation by a torque is halved.",
         ("fem_far_field",), _torque_far_away,
     ),
     Defect(
-        "heights-half-a-cell-off", "A map of heights is read half a spacing beside its place.",
+        "heights-half-a-cell-off", "A map of heights is shifted by half a spacing.",
         ("same_surface",), _half_a_cell_off,
     ),
     Defect(
-        "increments-halved", "A step takes half of the increments that it names.",
+        "increments-halved", "A step has half of its prescribed increments.",
         ("led_histories",), _fewer_increments,
     ),
 )  # fmt: skip

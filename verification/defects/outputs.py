@@ -1,4 +1,4 @@
-"""Defects of what healthy solvers return: errors of three kinds, and results that are none."""
+"""Defects of results: errors of three kinds, incomplete results, and wrong reports."""
 
 from __future__ import annotations
 
@@ -99,25 +99,26 @@ BY_HAND, BY_FILES = ("worked_examples",), ("written_files",)
 
 TOLD = (
     Defect(
-        "uncertainty-shown-halved", "The uncertainty of a reference is shown halved.", BY_HAND,
+        "uncertainty-shown-halved", "The printed uncertainty of a reference is halved.", BY_HAND,
         lambda patches: _shown_halved(patches, "uncertainty_text", "reference_uncertainty"),
     ),
     Defect(
-        "allowed-shown-halved", "What is allowed is shown halved.", BY_HAND,
+        "allowed-shown-halved", "The printed tolerance is halved.", BY_HAND,
         lambda patches: _shown_halved(patches, "_allowed_text", "allowed"),
     ),
     Defect("coverage-doubled", "Tolerances are U = 4u.", BY_HAND, _coverage),
     Defect(
-        "finest-levels-exchanged", "Richardson's value takes the two finest levels for each other.",
+        "finest-levels-exchanged", "Richardson extrapolation exchanges the two finest levels.",
         BY_HAND, _finest_exchanged,
     ),
-    Defect("interval-one-sided", "95 % intervals leave out 5 % on either side.", BY_HAND,
+    Defect("interval-one-sided", "95 % intervals omit 5 % on either side.", BY_HAND,
            _one_sided),
     Defect("variance-inverted", "Fits weight levels by h^p instead of its inverse.", BY_HAND,
            _weights_inverted),
     Defect("torque-for-twist", "The columns of torque and twist are exchanged.", BY_FILES,
            _torque_for_twist),
-    Defect("place-of-f1-turned", "Of the place of Ruiz's parameters x and y are exchanged.",
+    Defect("place-of-f1-turned", "The coordinates x and y of the position of Ruiz's parameters "
+    "are exchanged.",
            BY_FILES, _place_turned),
     Defect("sides-exchanged", "Above and below an interface are exchanged.", BY_FILES,
            _sides_exchanged),
@@ -135,7 +136,7 @@ Change = Callable[[Any], Any]
 
 
 def _returned(patches: Patches, change: Change) -> None:
-    """Change what both solvers return."""
+    """Change the results of both solvers."""
     for package in (semi_analytical, fem_reference):
         patches.function(
             package,
@@ -145,7 +146,7 @@ def _returned(patches: Patches, change: Change) -> None:
 
 
 def _times(factor: Callable[[Any], float]) -> Change:
-    """Multiply what a solver finds, apart from the load, by a factor of the result."""
+    """Multiply the results of a solver, except the load, by a factor that depends on the result."""
 
     def change(result: Any) -> Any:
         by = factor(result)
@@ -167,19 +168,19 @@ def _multiplied(increment: Any, by: float) -> Any:
 
 
 def _cell(result: Any) -> float:
-    """Side of a cell or an element over the contact radius."""
+    """Return the side of a cell or element over the contact radius."""
     if isinstance(result, semi_analytical.Result):
         return max(result.grid.spacing) / result.increments[-1].contact_radius
     return 1 / float(result.discretisation.elements_per_radius)
 
 
 def _first_order(result: Any) -> float:
-    """An error that refinement lowers, but only as the cell."""
+    """Return a factor with an error of first order in the cell."""
     return 1 + FIRST_ORDER * _cell(result)
 
 
 def _floor(result: Any) -> float:
-    """An error that refinement does not lower: up or down as the grid falls."""
+    """Return a factor with an error that refinement does not reduce, of alternating sign."""
     return 1 + FLOOR * (-1) ** round(1 / _cell(result))
 
 
@@ -202,7 +203,7 @@ def _last_step_missing(result: Any) -> Any:
 
 
 def _truncated(patches: Patches) -> None:
-    """Half of a record reaches the disk."""
+    """Write only half of a record to the disk."""
 
     def wrap(whole: Any) -> Any:
         def save(self: Any, case: Any, record: Any) -> None:
@@ -222,15 +223,15 @@ PLANTED_IN = ("hertz_point", "cattaneo_mindlin", "fem_hertz")
 
 PLANTED = (
     Defect(
-        "first-order-error", "What is found is too large by 0.1 h/a: an error of first order.",
+        "first-order-error", "Results are too large by 0.1 h/a: an error of first order.",
         PLANTED_IN, lambda patches: _returned(patches, _times(_first_order)),
     ),
     Defect(
-        "error-floor", "What is found is wrong by 0.05 % on any grid, up or down.",
+        "error-floor", "Results have an error of ± 0.05 % on any grid.",
         PLANTED_IN, lambda patches: _returned(patches, _times(_floor)),
     ),
     Defect(
-        "bias", "What is found is too large by 0.3 %.",
+        "bias", "Results are too large by 0.3 %.",
         PLANTED_IN, lambda patches: _returned(patches, _times(lambda r: 1 + BIAS)),
     ),
 )  # fmt: skip

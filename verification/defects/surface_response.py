@@ -1,4 +1,4 @@
-"""Defects of what the surfaces answer to tractions, in the semi-analytical method."""
+"""Defects of the surface response in the semi-analytical method."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ COUPLING: tuple[str, ...] = ("xz", "yz")
 
 
 def scaled(patches: Patches, pairs: tuple[str, ...], factor: float) -> None:
-    """Operators whose responses of some components are multiplied by a factor."""
+    """Multiply the responses of some components by a factor."""
 
     def wrap(whole: Any) -> Any:
         def spectrum(coefficients: Any, pair: str, reach: Any) -> KernelSpectrum:
@@ -92,8 +92,11 @@ def _coupling_added(patches: Patches) -> None:
 
 
 def _kappa_for_chi(patches: Patches) -> None:
-    """Waves across the plane of propagation reflect by χ = (k-1)/(k+1), the others by
-    κ = (k-1)/(k+3-4ν), k being the stiffness below over that of the layer."""
+    """Use the reflection coefficient κ = (k-1)/(k+3-4ν) for shear waves, instead of χ =
+    (k-1)/(k+1).
+
+    k is the stiffness below the layer over that of the layer.
+    """
 
     def wrap(whole: Any) -> Any:
         def underside(body: stack.Stack, alpha: Any) -> Any:
@@ -165,7 +168,8 @@ def _minus_ratio(patches: Patches) -> None:
 
 SURFACE_RESPONSE = (
     Defect(
-        "coupling-sign", "Pressure draws the surface away from the load instead of towards it.",
+        "coupling-sign", "Pressure moves the surface away from the load instead of towards the "
+        "load.",
         ("frictional_indentation",), lambda patches: scaled(patches, COUPLING, -1.0),
     ),
     Defect(
@@ -178,7 +182,7 @@ SURFACE_RESPONSE = (
         ("forced_effects",), _coupling_added,
     ),
     Defect(
-        "nyquist-row-kept", "Odd kernels keep a Nyquist row, where they have no partner.",
+        "nyquist-row-kept", "Odd kernels keep the Nyquist row, which must vanish.",
         ("coupled_history",), _with_nyquist_row,
     ),
     Defect(
@@ -213,11 +217,11 @@ SURFACE_RESPONSE = (
         ("torsion",), _minus_ratio,
     ),
     Defect(
-        "upper-body-sheared-not", "The tangential compliance of the upper body is left out.",
+        "upper-body-sheared-not", "The tangential compliance of the upper body is omitted.",
         ("cattaneo_mindlin",), lambda patches: _one_body(patches, ("xx", "yy", "xy")),
     ),
     Defect(
-        "upper-body-pressed-not", "The normal compliance of the upper body is left out.",
+        "upper-body-pressed-not", "The normal compliance of the upper body is omitted.",
         ("hertz_approach_control",), lambda patches: _one_body(patches, ("zz",)),
     ),
     Defect(
@@ -225,7 +229,7 @@ SURFACE_RESPONSE = (
         ("layered_reference", "torsion_coated"), _kappa_for_chi,
     ),
     Defect(
-        "plane-stress", "Kolosov's constant of the substrate is that of plane stress.",
+        "plane-stress", "The substrate has Kolosov's constant of plane stress.",
         ("layered_reference", "layered_identities"), _plane_stress,
     ),
     Defect(
@@ -233,7 +237,8 @@ SURFACE_RESPONSE = (
         ("coated_unlike_ratios",), _substrate_ratio_in_layer,
     ),
     Defect(
-        "layer-far-only", "Near the load a layered body answers like its outermost material.",
+        "layer-far-only", "Near the load a layered body has the response of its outermost "
+        "material.",
         ("layered_reference",), _half_space_only,
     ),
     Defect(

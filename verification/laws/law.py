@@ -1,4 +1,4 @@
-"""A law that every surface FRF obeys, and its worst violation over random bodies."""
+"""Laws of every surface FRF, and their largest violation for random bodies."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ ROUNDING = 1e-14
 
 @dataclass(frozen=True)
 class Law:
-    """A law and how it is measured.
+    """Law and its measure.
 
     name       for verdicts
     number     in the list of properties, P1 to P20
-    statement  what holds, in words
-    violation  by how much it fails on one random body, 0 if it holds
-    allowed    what rounding, or the law's own next order, may leave
-    draws      random bodies it is tried on
+    statement  of the law, in words
+    violation  of one random body, 0 if the law holds
+    allowed    violation by rounding or by the law's next order
+    draws      number of random bodies
     """
 
     name: str
@@ -39,24 +39,25 @@ class Law:
 
 
 def worst_violation(law: Law) -> float:
-    """Largest violation over random bodies, the same ones every time; NaN wins."""
+    """Return the largest violation for random bodies, which are equal in every call; NaN if any
+    is NaN."""
     rng = np.random.default_rng([SEED, *law.name.encode()])
     return float(np.max([law.violation(rng) for _ in range(law.draws)]))
 
 
 def apart(F: NDArray[np.complex128], expected: NDArray[np.complex128]) -> float:
-    """Largest difference over the largest entry."""
+    """Return the largest difference over the largest entry."""
     return float(np.abs(F - expected).max() / np.abs(expected).max())
 
 
 def deficit(larger: NDArray[np.complex128], smaller: NDArray[np.complex128]) -> float:
-    """By how much larger - smaller fails to be positive semidefinite (Loewner order)."""
+    """Return the violation of larger - smaller >= 0 (Loewner order), relative."""
     least = float(np.linalg.eigvalsh(larger - smaller).min())
     return max(0.0, -least / float(np.abs(larger).max()))
 
 
 def frf_matrix(stack: Stack, m: ArrayLike, n: ArrayLike) -> NDArray[np.complex128]:
-    """FRF of one body whose z axis points into it, fields varying as exp(+i(m x + n y)).
+    """Compute the FRF of a body whose z axis points into it, for fields exp(+i(m x + n y)).
 
     m, n     wavenumbers along x and y [1/length], broadcast together, not both zero
     returns  (..., 3, 3): row = displacement (x, y, z), column = traction (q_x, q_y, p)
@@ -69,9 +70,9 @@ def frf_matrix(stack: Stack, m: ArrayLike, n: ArrayLike) -> NDArray[np.complex12
 def composite_frf_matrix(
     lower: Stack, upper: Stack, m: ArrayLike, n: ArrayLike
 ) -> NDArray[np.complex128]:
-    """FRF of the relative displacement of two bodies, F1 + J F2 J with J = diag(1, 1, -1).
+    """Compute the FRF of the relative displacement of two bodies, F1 + J F2 J, J = diag(1, 1, -1).
 
-    Tractions are those on the lower body; see `frf_matrix` for the rest.
+    Tractions act on the lower body. Arguments and result are those of `frf_matrix`.
     """
     m, n = _wave_vector(m, n)
     alpha = np.hypot(m, n)
@@ -79,7 +80,7 @@ def composite_frf_matrix(
 
 
 def combined(lower: SurfaceScalars, upper: SurfaceScalars) -> SurfaceScalars:
-    """Scalars of the relative displacement of two bodies: coupling subtracts, the rest adds."""
+    """Return the scalars of two bodies: the coupling is subtracted, the others are added."""
     signs = (1, -1, 1, 1)
     return SurfaceScalars(*(a + sign * b for a, sign, b in zip(lower, signs, upper, strict=True)))
 
@@ -87,7 +88,7 @@ def combined(lower: SurfaceScalars, upper: SurfaceScalars) -> SurfaceScalars:
 def rotated(
     response: SurfaceScalars, m: NDArray[np.float64], n: NDArray[np.float64]
 ) -> NDArray[np.complex128]:
-    """Scalars of the frame along the wave vector, turned into the axes of the scene."""
+    """Rotate scalars from the frame of the wave vector to the axes of the scene."""
     alpha = np.hypot(m, n)
     mm, nn = m / alpha, n / alpha
     c11, c12, c22, csh = response
@@ -104,7 +105,7 @@ def rotated(
 
 
 def _wave_vector(m: ArrayLike, n: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Both components, of one shape."""
+    """Return both components with one shape."""
     m, n = np.broadcast_arrays(np.asarray(m, np.float64), np.asarray(n, np.float64))
     return m, n
 
@@ -113,28 +114,28 @@ SPECIAL_RATIOS = (0.0, 0.3, 0.5)
 
 
 def decades(rng: Generator, low: float, high: float) -> float:
-    """A number between two powers of ten, every decade alike."""
+    """Draw a number between two powers of ten with a uniform logarithm."""
     return float(10 ** rng.uniform(low, high))
 
 
 def half_space(rng: Generator) -> HalfSpace:
-    """Any material: contrasts to 1e6, ν from -0.95 to exactly one half."""
+    """Draw a material with contrasts to 1e6, and ν from -0.95 to exactly one half."""
     ratio = rng.choice(SPECIAL_RATIOS) if rng.random() < 0.3 else rng.uniform(-0.95, 0.5)
     return HalfSpace(decades(rng, -3, 3), float(ratio))
 
 
 def film(rng: Generator) -> Film:
-    """Any layer."""
+    """Draw a layer."""
     return Film(*half_space(rng), decades(rng, -2, 2))
 
 
 def stack(rng: Generator, most_layers: int = 5) -> Stack:
-    """One to five layers on a half-space or, one time in four, on a rigid base."""
+    """Draw one to five layers on a half-space or, with probability 1/4, on a rigid base."""
     films = [film(rng) for _ in range(rng.integers(1, most_layers, endpoint=True))]
     return Stack(films, None if rng.random() < 0.25 else half_space(rng))
 
 
 def wave_vector(rng: Generator) -> tuple[float, float]:
-    """Any direction, wavenumbers from 1e-4 to 1e4."""
+    """Draw a wave vector of any direction, with a wavenumber from 1e-4 to 1e4."""
     alpha, angle = decades(rng, -4, 4), rng.uniform(-np.pi, np.pi)
     return float(alpha * np.cos(angle)), float(alpha * np.sin(angle))

@@ -1,4 +1,4 @@
-"""Laws of the surface FRF about limits, bounds and monotonicity: P9, P10, P12 to P18."""
+"""Laws of the surface FRF: limits, bounds, monotonicity and symmetries."""
 
 import numpy as np
 from numpy.random import Generator
@@ -27,7 +27,7 @@ ECHO = 50.0
 
 
 def _thin(rng: Generator) -> float:
-    """Difference of the observed order from one, for contrasts up to a hundred."""
+    """Compute the difference of the observed order from 1, for contrasts up to 100."""
     base = half_space(rng)
     coating = base.shear_modulus * decades(rng, -2, 2), half_space(rng).poisson_ratio
     limit = np.array(scalars(Stack((), base), 1.0))
@@ -40,7 +40,7 @@ def _thin(rng: Generator) -> float:
 
 
 def _thick(rng: Generator) -> float:
-    """Distance from the outer half-space, over its bound."""
+    """Compute the difference from the half-space of the outer layer, over its bound."""
     body, x = stack(rng), rng.uniform(1, 300)
     alpha = x / body.layers[0].thickness
     outer = half_space_scalars(body.outer, alpha)
@@ -88,7 +88,7 @@ def _between(rng: Generator) -> float:
 
 
 def _rigid_limit(rng: Generator) -> float:
-    """Difference of the observed order from one."""
+    """Compute the difference of the observed order from 1."""
     films = [film(rng) for _ in range(rng.integers(1, 4))]
     x = decades(rng, -2, 1)
     alpha = x / films[-1].thickness
@@ -125,7 +125,7 @@ def _incompressible(rng: Generator) -> float:
 
 
 def _echo(rng: Generator) -> float:
-    """Remainder of a body with one layer, over its bound."""
+    """Compute the remainder of a body with one layer, over its bound."""
     body, x = stack(rng, most_layers=1), rng.uniform(1, 300)
     G, _, h = body.layers[0]
     echo = np.array(remainder_scalars(body, x / h)) * (x / h) * G
@@ -140,7 +140,8 @@ def _overflow(rng: Generator) -> float:
 
 
 def _depth(rng: Generator) -> float:
-    """Surface traction and FRF found again at z = 0, and both sides of interfaces compared."""
+    """Compare traction and FRF at z = 0 with those of the surface, and both sides of each
+    interface."""
     body = stack(rng, most_layers=3)
     alpha = np.array([rng.uniform(0.1, 3) / sum(f.thickness for f in body.layers)])
     descent = Descent(body, alpha)
@@ -167,25 +168,29 @@ def _with_film(body: Stack, place: int, new: Film) -> Stack:
 
 
 LIMIT_LAWS = (
-    Law("thin_layer_order", "P9", "a vanishing layer leaves the substrate at first order in h; "
-        "distance of the observed order from one", _thin, 0.02),
-    Law("thick_layer", "P10", "short waves feel the outer layer alone; distance over the bound "
-        "50 (1 + x²) e⁻²ˣ / αG, x = αh", _thick, 1.0),
-    Law("stiffer", "P12", "stiffer material anywhere yields less (Loewner order)", _stiffer),
-    Law("less_compressible", "P12", "a larger ν at fixed G yields less", _less_compressible),
-    Law("thicker", "P13", "a thicker soft layer yields more", _thicker),
+    Law("thin_layer_order", "P9", "the effect of a thin layer vanishes at first order in h; "
+    "distance of the observed order from one", _thin, 0.02),
+    Law("thick_layer", "P10", "short waves depend only on the outer layer; distance over the "
+    "bound 50 (1 + x²) e⁻²ˣ / αG, x = αh", _thick, 1.0),
+    Law("stiffer", "P12", "a stiffer material in any layer reduces the compliance (Loewner "
+    "order)", _stiffer),
+    Law("less_compressible", "P12", "a larger ν at fixed G reduces the compliance",
+    _less_compressible),
+    Law("thicker", "P13", "a thicker soft layer increases the compliance", _thicker),
     Law("between", "P13", "the response lies between those of the two half-spaces", _between),
     Law("rigid_limit_order", "P14", "a rigid base is the limit of stiff ones at first order in "
         "1/G; distance of the observed order from one", _rigid_limit, 0.02),
     Law("long_waves", "P14", "long waves over a rigid base shear and squeeze every layer "
         "uniformly", _long_waves, 1e-8),
-    Law("incompressible", "P15", "nothing happens at ν = ½: the difference to ν = ½ - 1e-13",
+    Law("incompressible", "P15", "the response is continuous at ν = ½: the difference from ν = ½ "
+    "- 1e-13",
         _incompressible, 1e-12),
-    Law("echo", "P16", "the remainder of one layer dies like its echo; over the bound", _echo, 1.0),
-    Law("finite", "P17", "nothing overflows up to αh = 1e8: entries that are not finite", _overflow,
+    Law("echo", "P16", "the remainder of one layer decays as its echo; over the bound", _echo, 1.0),
+    Law("finite", "P17", "the response is finite up to αh = 1e8: number of entries that are not "
+    "finite", _overflow,
         0.5),
-    Law("depth", "P18", "at z = 0 the applied traction and the FRF are found again; traction and "
-        "displacement are continuous at interfaces", _depth, 1e-12),
+    Law("depth", "P18", "traction and displacement at z = 0 are the applied traction and the "
+    "FRF; traction and displacement are continuous at interfaces", _depth, 1e-12),
 )  # fmt: skip
 
 
@@ -270,8 +275,11 @@ def _work(rng: Generator) -> float:
 
 
 def _symmetric_operator(rng: Generator) -> float:
-    """Displacement is taken at the centre of a cell: of waves between one and two to a cell it has
-    the wrong sign, and on wider cells a stiff film that floats on a soft one answers these most."""
+    """Compute the asymmetry or negative eigenvalue of the influence coefficients.
+
+    The displacement is that of the cell centre. It has the wrong sign for waves with one to two
+    waves per cell, and on wide cells a stiff film on a soft one responds most to these waves.
+    """
     body = stack(rng, 3)
     side = decades(rng, -2, 0) * sum(film.thickness for film in body.layers)
     K = LayeredCoefficients(body, (side, side * rng.uniform(0.2, 1)), (4, 3))
@@ -282,7 +290,7 @@ def _symmetric_operator(rng: Generator) -> float:
 
 
 def dense_operator(K: LayeredCoefficients, shape: tuple[int, int]) -> np.ndarray:
-    """All three displacements of every cell by all three tractions on every cell."""
+    """Assemble the matrix of all displacements of all cells by all tractions on all cells."""
     i, j = (index.ravel() for index in np.indices(shape))
     di, dj = i[:, None] - i, j[:, None] - j
     at = abs(di), abs(dj)
@@ -317,15 +325,17 @@ SYMMETRY_LAWS = (
     Law("rotation", "P5", "F(Qk) = Q F(k) Qᵀ for rotations and reflections of the axes", _turns),
     Law("isotropy", "P6", "exchanging x and y exchanges the entries", _isotropic),
     Law("scaling", "P7", "lengths and moduli scale out: α G F depends on α h and ratios", _scales),
-    Law("homogeneous", "P8", "layers of the substrate's material are no layers", _homogeneous),
-    Law("cutting", "P11", "cutting a layer into pieces changes nothing", _cut, 1e-11),
-    Law("no_thickness", "P11", "a layer of any material without thickness changes nothing",
+    Law("homogeneous", "P8", "layers of the substrate's material have no effect", _homogeneous),
+    Law("cutting", "P11", "the division of a layer into layers of its material has no effect",
+    _cut, 1e-11),
+    Law("no_thickness", "P11", "a layer of any material with vanishing thickness has no effect",
         _nothing_inserted),
     Law("energy", "P19", "any traction does positive work", _work),
-    Law("discrete_symmetry", "P19", "the matrix of influence coefficients of all three components "
-        "is symmetric and does positive work, on cells no wider than the layers are thick in all",
+    Law("discrete_symmetry", "P19", "the matrix of influence coefficients of all three "
+    "components is symmetric and positive, on cells no wider than the total thickness of the "
+    "layers",
         _symmetric_operator, 1e-11, 40),
     Law("identical_bodies", "P20", "two identical bodies do not couple", _identical),
-    Law("half_stiffness", "P20", "two identical half-spaces are one of half the stiffness, "
-        "uncoupled", _halved),
+    Law("half_stiffness", "P20", "two identical half-spaces have the response of one uncoupled "
+    "half-space of half the stiffness", _halved),
 )  # fmt: skip

@@ -1,9 +1,9 @@
-"""What it costs to take the influence coefficients of a coated body from its sampled FRF.
+"""Errors of influence coefficients of a coated body that are computed from samples of its FRF.
 
-The usual route multiplies the FRF by the transform of one loaded cell, samples the product and
-transforms back. Two parameters have to be chosen: how much finer than the cells the surface is
-sampled (else short waves alias), and how far the period exceeds the window (else the images of
-the load are felt). Here the result is compared with coefficients that need neither.
+The usual method multiplies the FRF by the transform of one loaded cell, samples the product and
+transforms back. It has two parameters: samples per cell side, against aliasing of short waves, and
+the period over the window, against images of the load. The result is compared with the exact
+coefficients, which have no parameter.
 """
 
 from dataclasses import dataclass
@@ -22,15 +22,15 @@ Coefficients = tuple[Field, Field]
 
 @dataclass(frozen=True)
 class SamplingErrors:
-    """Errors of sampled coefficients, signed and relative to the exact coefficient itself.
+    """Errors of sampled coefficients, signed and relative to the exact coefficient.
 
     own         normal displacement of the loaded cell
     neighbour   of the next cell along x
     far         of the last cell of the window along x
-    far_shape   of the same, after the difference at half that distance is taken off as a constant,
-                as a free rigid approach would do
-    coupling    normal displacement by shear: largest error over largest coefficient; zero where
-                nothing couples
+    far_shape   of the last cell, after subtraction of the difference at half that distance as a
+                constant, like a free rigid approach
+    coupling    normal displacement by shear: largest error over largest coefficient; zero without
+                coupling
     """
 
     own: float
@@ -43,7 +43,7 @@ class SamplingErrors:
 def sampling_errors(
     stack: Stack, spacing: float, cells: int, refinement: int, extension: int
 ) -> SamplingErrors:
-    """Errors of the sampling route for a square window of square cells.
+    """Compute the errors of sampled coefficients for a square window of square cells.
 
     spacing     cell side [length]
     cells       cells along each side of the window
@@ -56,7 +56,7 @@ def sampling_errors(
 
 
 def errors_between(sampled: Coefficients, exact: Coefficients) -> SamplingErrors:
-    """Of the coefficients (zz, zx) at offsets (i, j) of a square window."""
+    """Compute the errors of the coefficients (zz, zx) at offsets (i, j) of a square window."""
     (zz, zx), (exact_zz, exact_zx) = sampled, exact
     error, coefficient = (zz - exact_zz)[:, 0], exact_zz[:, 0]
     relative = error / coefficient
@@ -73,7 +73,8 @@ def errors_between(sampled: Coefficients, exact: Coefficients) -> SamplingErrors
 def sampled_coefficients(
     stack: Stack, spacing: float, cells: int, refinement: int, extension: int
 ) -> tuple[Field, Field]:
-    """Coefficients (zz, zx) at offsets (i, j) < cells by inverse FFT of the sampled FRF."""
+    """Compute the coefficients (zz, zx) at offsets (i, j) < cells by an inverse FFT of the
+    sampled FRF."""
     step = spacing / refinement
     count = cells * extension * refinement
     m = 2 * np.pi * np.fft.fftfreq(count, step)[:, None]
@@ -98,9 +99,9 @@ def sampled_coefficients(
 
 
 def _mean_about_zero(stack: Stack, width: float) -> SurfaceScalars:
-    """Mean of the FRF over the square of one sample about alpha = 0.
+    """Compute the mean of the FRF over the square of one sample about alpha = 0.
 
-    For long waves the FRF is a constant over alpha, whose mean is 4 asinh(1) / width of it.
+    For long waves the FRF is a constant over alpha; the mean is 4 asinh(1) / width of the constant.
     """
     alpha = 1e-6 * width
     return SurfaceScalars(*(4 * asinh(1) / width * alpha * c for c in scalars(stack, alpha)))

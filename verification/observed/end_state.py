@@ -1,4 +1,4 @@
-"""The numbers that cases read off the end of a run, or of one of its loading steps."""
+"""Numbers at the end of a run or of a load step, as judged by the cases."""
 
 from __future__ import annotations
 
@@ -16,25 +16,26 @@ if TYPE_CHECKING:
 
 
 def normal_force(result: Result) -> float:
-    """Normal force [force]."""
+    """Return the normal force [force]."""
     return float(result.steps[-1].normal_force)
 
 
 def approach(result: Result) -> float:
-    """Approach since first touch [length]."""
+    """Return the approach since first touch [length]."""
     return float(result.steps[-1].approach)
 
 
 def peak_pressure(result: Result) -> float:
-    """Largest pressure of any cell or ring [force/length²]."""
+    """Return the largest pressure of all cells or rings [force/length²]."""
     return float(result.steps[-1].peak_pressure)
 
 
 def central_pressure(result: Any, step: int = -1) -> float:
-    """Pressure on the axis; below a stiff thin coating it is not the largest [force/length²].
+    """Return the pressure on the axis [force/length²].
 
-    On cells the mean of those nearest to the axis, or where edges are corrected, as for the peak,
-    the value on the axis of p₀ - c r² through these and the next cells.
+    Below a stiff thin coating this is not the largest pressure. On cells the result is the mean of
+    the cells nearest to the axis. With the edge correction it is the value on the axis of p₀ - c r²
+    through these cells and the next.
     """
     end = result.steps[step]
     pressure = end.pressure
@@ -51,14 +52,14 @@ def central_pressure(result: Any, step: int = -1) -> float:
 
 
 def contact_radius(result: Result) -> float:
-    """√(contact area / π) [length]."""
+    """Return √(contact area / π) [length]."""
     return float(result.steps[-1].contact_radius)
 
 
 def stick_radius(result: Result, step: int = -1) -> float:
-    """√(stick area / π) [length]; NaN without friction.
+    """Return √(stick area / π) [length]; NaN without friction.
 
-    step  index of the loading step
+    step  index of the load step
     """
     radius = result.steps[step].stick_radius
     return float("nan") if radius is None else float(radius)

@@ -1,4 +1,4 @@
-"""What any solver returns, against all laws."""
+"""Laws of contact and friction for the results of any solver."""
 
 from __future__ import annotations
 
@@ -9,10 +9,11 @@ from verification.observed.surfaces import surface_imbalance, surface_violation
 
 
 def observed(result: Any) -> tuple[float, float | None]:
-    """The largest violation of a law of contact and friction in any increment of a result, and the
-    largest part of the energy that any cannot account for; both dimensionless, and infinite if a
-    number is not finite. The second is None where bodies have no energy because they are coupled
-    one way."""
+    """Return the largest violation of a law and the largest energy imbalance of any increment.
+
+    Both are dimensionless, and infinite if a number is not finite. The imbalance is None if the
+    bodies are coupled one way, because they then have no energy.
+    """
     if isinstance(result, semi_analytical.Result):
         return surface_violation(result), surface_imbalance(result)
     if result.solver == "radial":

@@ -1,4 +1,4 @@
-"""Whether steps end under the loads that a scene prescribes for them."""
+"""Comparison of the loads at the ends of the load steps with the prescribed loads."""
 
 from __future__ import annotations
 
@@ -15,11 +15,13 @@ if TYPE_CHECKING:
 
 
 def missed(scene: Scene, steps: Sequence[Any]) -> Iterator[float]:
-    """How far the end of every step is from what is prescribed: forces over the normal force,
-    motions over the approach, rotations and moments by the contact radius. Without friction
-    nothing sideways or around z is solved for, and none of it is asked here.
+    """Yield the deviations of the ends of all steps from the prescribed loads or motions.
 
-    steps  the last increment of every loading step, of either solver
+    Forces are relative to the normal force, displacements to the approach, moments and rotations to
+    these with the contact radius as arm. Without friction tangential loads and torques are skipped,
+    because no solver computes them.
+
+    steps  last increment of every load step, of any solver
     """
     for ramp, end in zip(scene.load_path(), steps, strict=True):
         force, motion, arm = end.normal_force, abs(end.approach), end.contact_radius
@@ -39,7 +41,7 @@ def missed(scene: Scene, steps: Sequence[Any]) -> Iterator[float]:
 def _missed(
     control: ScalarControl | VectorControl, force: Any, motion: Any, *scales: float
 ) -> float:
-    """What a solver does not tell is zero: it says so of what is not there in a scene."""
+    """Compute the deviation of one load or motion; a value that a solver omits is zero."""
     by_force = control.kind is ControlKind.FORCE
     told, scale = (force, scales[0]) if by_force else (motion, scales[1])
     return float(np.max(np.abs(np.subtract(0.0 if told is None else told, control.end)))) / scale

@@ -1,13 +1,13 @@
-"""Laws of contact, recomputed from the fields that the radial solver returns.
+"""Laws of contact, evaluated from the fields of the radial solver.
 
-Within a disc r = a sin φ integrals are those of a spline in φ, since tractions fall to zero or rise
-like a root at the edge. Tractions at points on rings are hats (piecewise linear in r); their
-integrals are exact. Angles of points have equal weights. The solver interpolates between the
-points' angles: there the shear is within its limit, but opposite to slip only approximately.
+On a disc r = a sin φ integrals are those of a spline in φ, because tractions fall to zero or rise
+as a root at the edge. Tractions at points on rings are hat functions (piecewise linear in r), which
+are integrated exactly. The angles of the points have equal weights. Between these angles the solver
+interpolates: there the shear is within its limit, but opposite to the slip only approximately.
 
-Without friction while it is pressed, a contact has the normal displacement δ - f and the
-tangential displacement of slip and rigid motion. Otherwise particles move past each other before
-they touch, and the stored energy is not recomputed.
+Without friction during indentation a contact has the normal displacement δ - f, and a tangential
+displacement of slip and rigid motion. Otherwise particles move relative to each other before first
+contact, and the stored energy is not recomputed.
 """
 
 from __future__ import annotations
@@ -34,9 +34,11 @@ GAUSS = np.polynomial.legendre.leggauss(4)
 
 
 def ring_laws(result: Result) -> tuple[float, float]:
-    """Return the largest violation of a law in any increment, and the largest part of the energy
-    that differs from what the fields give; both dimensionless, infinite if a number is not
-    finite."""
+    """Return the largest violation of a law and the largest energy difference of any increment.
+
+    The energy difference is that of the fields from the stated energies. Both are dimensionless,
+    and infinite if a number is not finite.
+    """
     nows = [_Surface.of(increment, result) for increment in result.increments]
     befores: list[_Surface | None] = [None, *nows]
     pairs = list(zip(befores, nows, strict=False))
@@ -53,16 +55,16 @@ def ring_laws(result: Result) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class _Surface:
-    """The fields of an increment at its places (rings, angles).
+    """Fields of an increment at positions (rings, angles).
 
-    arm      distance from the axis, on hats its mean [length]
-    weights  area of the places [length^2]; None where there are too few to integrate
-    f        undeformed gap, on hats its mean; zero without pressure [length]
-    q, s     shear and slip, outward and around the axis (2, rings, angles)
+    arm      distance from the axis, on hat functions its mean [length]
+    weights  area of the positions [length^2]; None for contacts with too few rings
+    f        undeformed gap, on hat functions its mean; zero without pressure [length]
+    q, s     shear and slip, radial and circumferential (2, rings, angles)
     limit    of friction [force/length^2]
     along    unit vector at angle zero
-    on_disc  whether fields are those of a disc, not of hats
-    rubs     whether pressing alone makes particles slip
+    on_disc  true for fields on a disc, false for hat functions
+    rubs     true if particles slip during indentation
     """
 
     told: Increment
@@ -114,17 +116,17 @@ class _Surface:
         )
 
     def over(self, field: Field) -> float:
-        """∫ f dA."""
+        """Compute ∫ f dA."""
         assert self.weights is not None
         return float(np.sum(self.weights * field))
 
     def resisted(self, strained: Increment) -> float:
-        """∫ q_r r dA times the strain of an increment [force length]."""
+        """Compute ∫ q_r r dA times the strain of an increment [force length]."""
         strain = 0.0 if strained.bulk_strain is None else strained.bulk_strain[0]
         return strain * self.over(self.arm * self.q[0]) if strain else 0.0
 
     def divided(self, before: _Surface | None) -> bool:
-        """Whether the solver took states in between, which it does not return."""
+        """Return true if the solver used intermediate states, which the result does not contain."""
         last = None if before is None else before.told
         grown = last is None or self.told.contact_radius > GROWTH * last.contact_radius
         return self.told.halvings > 0 or (self.on_disc and self.rubs and grown)
@@ -147,15 +149,15 @@ class _Surface:
 
 
 def is_small(now: Increment, result: Result) -> bool:
-    """Whether a contact has too few rings inside to integrate anything."""
+    """Return true if the contact has too few rings for integrals."""
     fewest = FEWEST if result.plan.circle is None else FEWEST_HATS
     return bool(np.count_nonzero(now.radii < now.contact_radius) < fewest)
 
 
 def _weights_on_disc(r: Field, radius: float, *, ends: bool) -> Field:
-    """Weights of rings in the integral over a disc.
+    """Compute the weights of rings in the integral over a disc.
 
-    ends  whether tractions fall to zero at the edge
+    ends  true if tractions fall to zero at the edge
     """
     inside = (r < radius) & (r > 0)
     phi = np.arcsin(r[inside] / radius)
@@ -169,7 +171,7 @@ def _weights_on_disc(r: Field, radius: float, *, ends: bool) -> Field:
 
 
 def _over_hats(r: Field, function: Callable[[Field], Field]) -> Field:
-    """2π ∫ ψ g r dr of the hats ψ of the rings."""
+    """Compute 2π ∫ ψ g r dr for the hat functions ψ of the rings."""
     nodes, shares = GAUSS
     v, length = (1 + nodes) / 2, np.diff(r)[:, None]
     at = r[:-1, None] + length * v
@@ -178,7 +180,7 @@ def _over_hats(r: Field, function: Callable[[Field], Field]) -> Field:
 
 
 def _shares(angles: Field | None) -> Field:
-    """Shares of a circle at these angles: over all of it, or over half of it with both ends."""
+    """Return the weights of the angles, of a full circle or of a half circle with both ends."""
     if angles is None:
         return np.ones(1)
     shares = np.ones(len(angles))
@@ -255,7 +257,7 @@ def _energies(before: _Surface | None, now: _Surface) -> Iterator[tuple[str, flo
 
 
 def _power(of: Increment, moved: Increment) -> float:
-    """Work of tangential force and torque of an increment on the motions of another."""
+    """Compute the work of tangential force and torque of an increment on the motions of another."""
     force, shift = of.tangential_force or (0.0, 0.0), moved.tangential_shift or (0.0, 0.0)
     turned = (of.torque or 0.0) * (moved.twist or 0.0)
     return force[0] * shift[0] + force[1] * shift[1] + turned

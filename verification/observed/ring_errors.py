@@ -1,4 +1,4 @@
-"""Tractions over the radius as finite elements give them, and their errors."""
+"""Tractions over the radius of finite elements, and their errors."""
 
 from __future__ import annotations
 
@@ -21,7 +21,10 @@ IN_ELEMENT = 40  # points of a sum that stands for an integral
 
 
 def at_radii(increment: Increment, traction: Field, r: Field) -> Field:
-    """Values between the rings; towards an edge the square of a traction is nearly linear in r²."""
+    """Interpolate a traction between rings.
+
+    The square of the traction is linear in r² between rings, as it nearly is towards an edge.
+    """
     squared = np.interp(np.square(r), increment.radii**2, np.sign(traction) * traction**2)
     return np.asarray(np.sign(squared) * np.sqrt(np.abs(squared)))
 
@@ -30,8 +33,10 @@ def largest_error(
     increment: Increment, traction: Field, answer: Any, exact: Callable[[Field], Field],
     start: float, end: float,
 ) -> float:  # fmt: skip
-    """Between two radii, against a field of an answer: at the rings, or at the radii that the
-    answer is tabulated at; dimension of the traction."""
+    """Compute the largest error between two radii, in the dimension of the traction.
+
+    The points are the rings, or the radii of the reference if the reference is tabulated.
+    """
     tabulated = getattr(answer, "radii", None)
     r = increment.radii if tabulated is None else tabulated
     found = traction if tabulated is None else at_radii(increment, traction, r)
@@ -40,7 +45,7 @@ def largest_error(
 
 
 def between_rings(increment: Increment, radius: float) -> Field:
-    """Radii out to a tenth beyond this one, many in every element [length]."""
+    """Return radii up to 1.1 times a radius, with many points in every element [length]."""
     judged = increment.radii[:-1] < SHOWN * radius
     starts, sides = increment.radii[:-1][judged], np.diff(increment.radii)[judged]
     parts = (np.arange(IN_ELEMENT) + 0.5) / IN_ELEMENT
@@ -50,7 +55,7 @@ def between_rings(increment: Increment, radius: float) -> Field:
 def relative_l2(
     increment: Increment, traction: Field, exact: Callable[[Field], Field], radius: float
 ) -> float:
-    """√∫(traction - exact)² r dr / √∫ exact² r dr, linear between the rings as it is meant [1]."""
+    """Compute √∫(traction - exact)² r dr / √∫ exact² r dr, linear between the rings [1]."""
     r = between_rings(increment, radius)
     known = exact(r)
     error = np.interp(r, increment.radii, traction) - known
@@ -60,7 +65,7 @@ def relative_l2(
 def relative_l1(
     increment: Increment, traction: Field, exact: Callable[[Field], Field], radius: float
 ) -> float:
-    """∫|traction - exact| r dr / ∫p r dr, to be divided by a friction coefficient [1]."""
+    """Compute ∫|traction - exact| r dr / ∫p r dr, to be divided by a friction coefficient [1]."""
     r = between_rings(increment, radius)
     error = np.interp(r, increment.radii, traction) - exact(r)
     pressure = np.interp(r, increment.radii, increment.pressure)
@@ -68,19 +73,23 @@ def relative_l1(
 
 
 def judged_within(elements: int) -> float:
-    """Part of the contact radius where tractions are judged: 0.9, or less on coarse meshes, where
-    the ripple of the last five elements at the edge reaches further in."""
+    """Return the fraction of the contact radius within which tractions are judged.
+
+    The fraction is 0.9, or less on coarse meshes, where the edge ripple of the last five elements
+    extends further inward.
+    """
     return min(0.9, 1 - 5 / elements)
 
 
 def tractions_at(
     increment: Increment, x: Field, y: Field, direction: tuple[float, float] = (1.0, 0.0)
 ) -> tuple[Field, Field]:
-    """Shear (2, …) along x and y, and pressure (…), at points of any shape.
+    """Evaluate the shear (2, …) along x and y, and the pressure (…), at points of any shape.
 
-    direction  of the tangential load, as the plan has it
-    Linear between rings and the trigonometric polynomial through the points on a ring, as the
-    solution itself; zero beyond the last ring.
+    direction  of the tangential load in the plan
+
+    The interpolation is that of the solution: linear between rings, the trigonometric polynomial
+    through the points of a ring, and zero beyond the last ring.
     """
     r, theta = np.hypot(x, y), np.arctan2(y, x)
     load = np.arctan2(direction[1], direction[0])
@@ -115,7 +124,7 @@ def _grid_of(increment: Increment) -> AngularGrid:
 
 
 def _between_rings(amplitudes: Field, radii: Field, r: Field) -> Field:
-    """Amplitudes (points, harmonics) at radii r."""
+    """Interpolate amplitudes (points, harmonics) to radii r."""
     return np.stack([np.interp(r, radii, f, right=0.0) for f in amplitudes.T], axis=1)
 
 
@@ -123,18 +132,19 @@ DIRECTIONS = 16
 
 
 def outward(shear: Field, grid: SurfaceGrid) -> Field:
-    """Component away from the axis (nx, ny) of a shear (2, nx, ny)."""
+    """Compute the radial component (nx, ny) of a shear (2, nx, ny)."""
     x, y = grid.coordinates()
     r = np.hypot(x, y)
     return np.asarray((shear[0] * x + shear[1] * y) / np.where(r > 0, r, 1.0))
 
 
 def along_radii(field: Field, grid: SurfaceGrid, r: Field) -> Field:
-    """Values (distances, directions) at distances r from the axis, in 16 directions.
+    """Interpolate a field to (distances, directions) at distances r from the axis, in 16
+    directions.
 
-    field  (nx, ny), not negative, falling like a square root towards the edge of the contact
+    field  (nx, ny), not negative, falling as a square root towards the edge of the contact
 
-    The square of such a field is nearly linear at the edge, so that is interpolated.
+    The square of such a field is nearly linear at the edge, so that the square is interpolated.
     """
     angle = (np.arange(DIRECTIONS) + 0.5) * 2 * np.pi / DIRECTIONS
     x, y = r[:, None] * np.cos(angle), r[:, None] * np.sin(angle)

@@ -1,7 +1,7 @@
-"""Forces and motions of the surfaces of finite elements, worked out anew from their tractions.
+"""Forces and motions of the surfaces of finite elements, computed again from the tractions.
 
-Displacements come from the compliances of the sections and are means over the hat functions of the
-rings, as gap and slip are defined there.
+Displacements are computed with the compliances of the sections and averaged over the hat functions
+of the rings, as gap and slip are.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ PLACES, PARTS = np.polynomial.legendre.leggauss(2)
 
 
 def model_of(result: Result, length: float) -> ContactModel:
-    """The bodies of a result.
+    """Create the contact model of the bodies of a result.
 
-    length  that is one in its sections [length]
+    length  unit of length of its sections [length]
     """
     scales = Scales(length, outermost_modulus(result.scene))
     bodies = result.scene.model_copy(update={"rig": None})  # increments tell its motions apart
@@ -33,22 +33,23 @@ def model_of(result: Result, length: float) -> ContactModel:
 
 
 def section_radii(result: Result) -> Field:
-    """Of the nodes of either section, corner and midside alternating [1]."""
+    """Return the radii of the nodes of a section, corner and midside alternating [1]."""
     return next(np.asarray(s.radii) for s in result.sections if s is not None)
 
 
 def along_load(model: ContactModel) -> Field:
-    """Mean around the axis of the displacement along the load, per nodal force along it."""
+    """Compute the mean displacement along the load around the axis, per nodal force along the
+    load."""
     C = model.compliance(1).matrix
     return np.asarray(0.5 * (C[0, :, 0] - C[0, :, 1] - C[1, :, 0] + C[1, :, 1]))
 
 
 @dataclass(frozen=True)
 class Rings:
-    """Points on rings and angles. Fields are (rings, angles), vectors (2, rings, angles) in r, θ.
+    """Points on rings and angles; fields are (rings, angles), vectors (2, rings, angles) in r, θ.
 
     path    of the result
-    angles  of the half circle, ends included; a single one where nothing depends on them
+    angles  of the half circle, ends included; one angle for axisymmetric fields
     """
 
     model: ContactModel
@@ -57,7 +58,7 @@ class Rings:
 
     @classmethod
     def of(cls, result: Result) -> Rings:
-        """Those that the increments of a result are told on."""
+        """Create the rings of the increments of a result."""
         last = result.increments[-1]
         corners = section_radii(result)[::2]
         model = model_of(result, float(last.radii[-1] / corners[len(last.radii) - 1]))
@@ -65,8 +66,10 @@ class Rings:
 
     @cached_property
     def driven(self) -> Field:
-        """How a unit of the indenter's shift along the load, or of its twist, moves the points;
-        zero where nothing drives it sideways. A twist by the mean over a ring [length]."""
+        """Motion of the points per unit shift along the load, or per unit twist, of the indenter.
+
+        Zero without a tangential load. The motion by a twist is the mean over a ring [length].
+        """
         if self.path is Path.TWISTING:
             hats = self.model.hats
             return np.stack([self.on_grid(None), self.on_grid(hats.arms / hats.weights)])
@@ -86,23 +89,24 @@ class Rings:
         return self.on_grid(hats.of(self.model.gap) / hats.weights)
 
     def on_grid(self, values: Field | None) -> Field:
-        """What is told of a ring holds at all its angles; nothing told is zero."""
+        """Extend values of the rings to all angles; None is zero."""
         if values is None:
             return np.zeros(self._shape)
         return np.broadcast_to(values if values.ndim == 2 else values[:, None], self._shape)
 
     def stretched(self, told: Increment) -> Field:
-        """Displacement by the strain of the lower body; the mean over a ring [length]."""
+        """Compute the displacement by the strain of the lower body, averaged over a ring
+        [length]."""
         strain = 0.0 if told.bulk_strain is None else told.bulk_strain[0]
         hats = self.model.hats
         return np.stack([self.on_grid(strain * hats.arms / hats.weights), self.on_grid(None)])
 
     def shear(self, told: Increment) -> Field:
-        """q of an increment."""
+        """Return q of an increment."""
         return self._vector(told, "shear")
 
     def slip(self, told: Increment) -> Field:
-        """s of an increment."""
+        """Return s of an increment."""
         return self._vector(told, "slip")
 
     def _vector(self, told: Increment, name: str) -> Field:
@@ -113,7 +117,7 @@ class Rings:
         return np.stack([self.on_grid(component) for component in around])
 
     def integral(self, values: Field) -> float:
-        """Over the surface, of values that are linear between rings."""
+        """Integrate values that are linear between rings over the surface."""
         radii, on_ring = self.model.hats.radii, values @ self._around
         share, width = 0.5 * (1 + PLACES), np.diff(radii)[:, None]
         r = radii[:-1, None] + width * share
@@ -121,7 +125,8 @@ class Rings:
         return float(np.sum(0.5 * width * PARTS * r * at_points))
 
     def displacement(self, p: Field, q: Field) -> tuple[Field, Field]:
-        """u along the surface and u_z of the lower body past the indenter [length]."""
+        """Compute u along the surface and u_z of the lower body relative to the indenter
+        [length]."""
         if self.path is Path.SHEARING:
             return np.stack([self._along_load(q[0]), self.on_grid(None)]), self._pressed(p)
         if self.path is Path.TWISTING:
@@ -145,7 +150,7 @@ class Rings:
 
     @cached_property
     def _around(self) -> Field:
-        """What part of the circle each angle stands for: the trapezium rule."""
+        """Weights of the angles: the trapezium rule."""
         if len(self.angles) == 1:
             return np.array([2 * np.pi])
         share = np.full(len(self.angles), 2 * self.angles[1])
@@ -153,14 +158,15 @@ class Rings:
         return share
 
     def _waves(self, n: int) -> Field:
-        """How r, θ and z components of harmonic n go around (3, angles)."""
+        """Return the angular functions of the r, θ and z components of harmonic n (3, angles)."""
         inner = (self.angles > 0) & (np.arange(len(self.angles)) < len(self.angles) - 1)
         cos, sin = np.cos(n * self.angles), np.where(inner, np.sin(n * self.angles), 0.0)
         # There are as many angles as harmonics, so that the last sine vanishes on all of them.
         return np.stack([cos, sin if n < len(self.angles) - 1 else 0.0 * sin, cos])
 
     def _amplitudes(self, n: int, tractions: Field) -> Field:
-        """(3, rings) of harmonic n; the trapezium rule is exact for them."""
+        """Compute the amplitudes (3, rings) of harmonic n, for which the trapezium rule is
+        exact."""
         waves = self._waves(n)
         norms = np.sum(self._around * waves**2, axis=1)
         found = np.einsum("cra,ca,a->cr", tractions, waves, self._around)
@@ -175,15 +181,15 @@ class Rings:
         return self._means(self.model.compliance(0).matrix[1, :, 1], p[:, 0])[:, None]
 
     def _along_load(self, q: Field) -> Field:
-        """Mean over a ring of what shear along the load does along it."""
+        """Compute the displacement along the load by shear along the load, averaged over a ring."""
         return self._means(along_load(self.model), q[:, 0])[:, None]
 
     def _around_axis(self, q: Field) -> Field:
-        """What circumferential shear does around the axis."""
+        """Compute the circumferential displacement by circumferential shear."""
         return self._means(self.model.torsion().matrix[0, :, 0], q[:, 0])[:, None]
 
     def _join_on_axis(self, u: Field) -> None:
-        """Give the points of the ring in the middle the one motion they have as a whole."""
+        """Replace the motions of the points on the axis by their common mean."""
         share, direction = self._around / (2 * np.pi), self.driven[:, 0]
         u[:2, 0] = np.sum(share * u[:2, 0] * direction) * direction
         u[2, 0] = np.sum(share * u[2, 0])

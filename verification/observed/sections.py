@@ -1,7 +1,7 @@
-"""The laws of contact and friction, looked for in what finite elements return.
+"""Laws of contact and friction for the results of finite elements.
 
-The gap as it is told has no overlap, and the slip no memory: both are worked out anew from the
-tractions. Springs that stand for a penalty add what they yield.
+The stated gap contains no overlap. Gap and relative motion are therefore computed again from the
+tractions. The springs of a penalty add their deformation.
 """
 
 from __future__ import annotations
@@ -29,10 +29,12 @@ Field = NDArray[np.float64]
 
 
 def section_laws(result: Result) -> tuple[float, float]:
-    """The largest violation of a law of contact and friction in any increment, and the largest
-    part of the energy that any cannot account for; infinite if a number is not finite.
+    """Return the largest violation of a law and the largest energy imbalance of any increment.
 
-    Raises ValueError where springs on harmonics were augmented: how far they yield is not told.
+    Both are infinite if a number is not finite.
+
+    Raises ValueError for augmented springs on harmonics, whose deformation the result does not
+    contain.
     """
     penalty = result.increments[-1].overlap is not None
     if penalty and result.plan.path is not Path.HARMONICS:
@@ -61,12 +63,12 @@ def _on_rings(result: Result, penalty: bool) -> tuple[list[float], list[Energeti
 
 @dataclass(frozen=True)
 class _Surface:
-    """An increment on points.
+    """Increment at points on rings.
 
-    gap      with what the springs yield [length]
-    slip     as it is told [length]
-    passed   motion of the body's particles past the indenter's since nothing moved [length];
-             None where that of the indenter is undefined
+    gap      including the deformation of springs [length]
+    slip     as stated [length]
+    passed   motion of the particles of the body relative to the indenter since the start [length];
+             None if the motion of the indenter is undefined
     force    along the load [force], or the torque [force length]
     stored   energy in bodies and springs [force length]
     """
@@ -112,12 +114,12 @@ class _Surface:
 
     @property
     def sheared(self) -> bool:
-        """Whether there can be shear."""
+        """True if the increment can have shear."""
         return self.told.dissipated_energy is not None or bool(np.any(self.shear))
 
     @property
     def energetic(self) -> EnergeticState:
-        """What the first law is about."""
+        """State for the energy balance."""
         return EnergeticState(
             self.told, self.rings.weights, self.stored, self.rings.undeformed, self.pressure,
             self.gap, self.shear, self.rings.model.friction.limit(self.pressure), self.passed,

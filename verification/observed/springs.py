@@ -1,9 +1,9 @@
-"""The laws of springs of a penalty at Gauss points, looked for in what comes back.
+"""Laws of contact and friction for the springs of a penalty at Gauss points.
 
 After an augmentation the pressure is p = ⟨λ + εv⟩, with v the overlap and λ the pressure of the
-pass before, which is not told. What must hold whatever λ ≥ 0 has been: nothing overlaps by more
-than p/ε, and with λ = p − εv no shear has changed between the passes by more than the friction
-limits of p and λ together.
+preceding pass, which the result does not contain. For every λ ≥ 0 the overlap is at most p/ε. With
+λ = p − εv the change of the shear between the passes is at most the sum of the friction limits of p
+and λ.
 """
 
 from __future__ import annotations
@@ -26,17 +26,17 @@ Field = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class EnergeticState:
-    """An increment as its energy sees it; q, passed and slip (components, points).
+    """Increment for the energy balance; q, passed and slip are (components, points).
 
     weights     area of the points [length^2]
     stored      in the bodies, and in springs that obey no other law [force length]
     undeformed  gap before any load [length]
     limit       of friction [force/length^2]
-    gap         what the motion of the indenter leaves between the surfaces [length]
-    passed      motion of the body's particles past the indenter's since the start [length]; None
-                where undefined
-    slip        as it is told [length]; less than the motion where particles first met on the way
-    yields      whether springs take up what is left of overlap and motion
+    gap         between the surfaces by the motion of the indenter [length]
+    passed      motion of the particles of the body relative to the indenter since the start
+                [length]; None if undefined
+    slip        as stated [length]; less than the motion where particles first met in an increment
+    yields      true if springs carry the remaining overlap and motion
     """
 
     told: Increment
@@ -53,7 +53,10 @@ class EnergeticState:
 
 
 def energy_missing(states: Sequence[EnergeticState]) -> Iterator[Imbalance]:
-    """What any increment cannot account for, or tells otherwise, over the largest energy so far."""
+    """Yield the energy differences of all increments, over the largest energy so far.
+
+    The differences are those of the energy balance and of the fields from the stated energies.
+    """
     before, worked, lost = None, 0.0, 0.0
     largest = 0.0
     for number, state in enumerate(states, start=1):
@@ -104,7 +107,7 @@ def _missing(
 
 
 def _at_rest(state: EnergeticState) -> EnergeticState:
-    """Before first touch, on the points of a state."""
+    """Return the state before first touch, at the points of a state."""
     nothing, still = np.zeros_like(state.pressure), np.zeros_like(state.shear)
     return EnergeticState(
         state.told, state.weights, 0.0, state.undeformed, nothing, state.undeformed, still, nothing,
@@ -113,7 +116,7 @@ def _at_rest(state: EnergeticState) -> EnergeticState:
 
 
 def spring_stiffness(result: Result, element: float) -> float:
-    """ε = c E*/h, E* of the outermost materials [force/length^3].
+    """Compute ε = c E*/h with E* of the outermost materials [force/length^3].
 
     element  length of a contact edge [length]
     """
@@ -127,12 +130,12 @@ def spring_stiffness(result: Result, element: float) -> float:
 
 @dataclass(frozen=True)
 class SpringSurface:
-    """Gauss points, what forces on them displace, and the springs.
+    """Gauss points, displacements by the forces at these points, and springs.
 
     by_force  (n, n) per component of displacement and force, "z", "t": normal, tangential
-    moves     how a unit of the indenter's shift or twist moves its points along the shear: 1, r
+    moves     motion of the points along the shear per unit shift or twist of the indenter: 1, r
               [length], or 0
-    twists    whether it is a twist
+    twists    true for a twist
     along     unit vector of the load
     """
 
@@ -147,7 +150,7 @@ class SpringSurface:
 
     @classmethod
     def of(cls, result: Result) -> SpringSurface:
-        """Of the increments of a result."""
+        """Create the surface for the increments of a result."""
         radii, nodes = result.increments[-1].radii, section_radii(result)
         middle = float(radii[0] + radii[2]) / 2  # of the first element
         model = model_of(result, middle / float(nodes[1]))
@@ -178,20 +181,21 @@ class SpringSurface:
         )
 
     def displaced(self, component: str, p: Field, q: Field | None) -> Field:
-        """By pressure and shear [length]."""
+        """Compute the displacement by pressure and shear [length]."""
         nothing = np.zeros((len(p), len(p)))
         by_shear = 0.0 if q is None else self.by_force.get(component + "t", nothing) @ q
         return np.asarray(self.by_force.get(component + "z", nothing) @ p + by_shear)
 
     def motion(self, told: Increment) -> float | None:
-        """Shift of the indenter along the load [length], or its twist; None where undefined."""
+        """Return the shift of the indenter along the load [length], or its twist; None if
+        undefined."""
         if self.twists:
             return told.twist
         shift = told.tangential_shift
         return None if shift is None else float(np.dot(shift, self.along))
 
     def force(self, told: Increment) -> float:
-        """Along the load [force], or the torque [force length]."""
+        """Return the force along the load [force], or the torque [force length]."""
         if self.twists:
             return told.torque or 0.0
         return float(np.dot(told.tangential_force or (0.0, 0.0), self.along))
@@ -199,11 +203,11 @@ class SpringSurface:
 
 @dataclass(frozen=True)
 class SpringState:
-    """An increment at the points.
+    """Increment at the Gauss points.
 
     overlap  v [length]
-    passed   how far the indenter's points have gone past the body's along the shear [length];
-             None without shear, and where the motion of the indenter is undefined
+    passed   motion of the indenter's points relative to the body along the shear [length]; None
+             without shear, or if the motion of the indenter is undefined
     """
 
     told: Increment
@@ -232,7 +236,7 @@ class SpringState:
         return cls(told, p, q, slip, overlap, passed)
 
     def energetic(self, surface: SpringSurface) -> EnergeticState:
-        """What the first law is about."""
+        """Create the state for the energy balance."""
         p, q = self.p, np.zeros_like(self.p) if self.q is None else self.q
         u_z, u_t = (surface.displaced(component, p, self.q) for component in "zt")
         stored = 0.5 * float(np.sum(surface.weights * (p * u_z + q * u_t)))
@@ -255,12 +259,13 @@ SLIP_ROUNDING = 1e-8
 
 
 def least_slip(friction: float, approach: float) -> float:
-    """What slip is judged relative to where there is less of it [length]."""
+    """Return the smallest scale for violations of slip [length]."""
     return max(LEAST_SLIP * friction, SLIP_ROUNDING) * abs(approach)
 
 
 def observed_springs(result: Result) -> tuple[list[float], list[EnergeticState]]:
-    """Violations in all increments of a result at Gauss points, and what its energy is about."""
+    """Return the violations in all increments at Gauss points, and the states for the energy
+    balance."""
     surface = SpringSurface.of(result)
     states = [SpringState.of(told, surface) for told in result.increments]
     violations: list[float] = []
@@ -273,7 +278,7 @@ def observed_springs(result: Result) -> tuple[list[float], list[EnergeticState]]
 
 
 def energy_won(before: Increment | None, now: Increment) -> Iterator[float]:
-    """What friction gives back in an increment, as a part of all it took."""
+    """Yield the decrease of the dissipated energy in an increment, over the total."""
     most = now.dissipated_energy
     last = 0.0 if before is None else before.dissipated_energy
     if most is not None and last is not None:
@@ -281,8 +286,9 @@ def energy_won(before: Increment | None, now: Increment) -> Iterator[float]:
 
 
 def other_than_motion(slip: Field, passed: Field, touched: Mask) -> Field:
-    """By how much slip is not the motion past each other in an increment, nor a part of it where
-    surfaces have met on the way [length].
+    """Compute the difference of the slip from the relative motion in an increment [length].
+
+    Points that came into contact in the increment may have a fraction of the motion as slip.
 
     slip, passed  (components, points)
     touched       before the increment
@@ -328,7 +334,8 @@ def _of_shear(
 def _of_slip(
     before: SpringState | None, now: SpringState, surface: SpringSurface
 ) -> Iterator[float]:
-    """Slip opposes shear at its limit, and is the motion but for what the springs yield."""
+    """Check that slip opposes the shear at its limit and equals the motion, less the spring
+    deformation."""
     assert now.q is not None
     assert now.slip is not None
     assert now.passed is not None

@@ -1,4 +1,4 @@
-"""What the semi-analytical method returns, against the laws: from its fields and nothing else."""
+"""Laws of contact and friction for the fields of the semi-analytical method."""
 
 from __future__ import annotations
 
@@ -19,9 +19,11 @@ EDGES = 0.125  # of (h/a)²: the energy error of a point contact; ten times as m
 
 
 def surface_imbalance(result: Result) -> float | None:
-    """The largest part of the energy that any increment cannot account for, or tells otherwise,
-    relative to the largest energy so far; infinite if a number is not finite. None where shear is
-    solved for without acting back on the pressure: such bodies have no energy."""
+    """Return the largest energy imbalance of any increment, over the largest energy so far.
+
+    The imbalance includes differences from the stated energies. It is infinite if a number is not
+    finite, and None for one-way coupling, for which the bodies have no energy.
+    """
     if result.plan.coupling is Coupling.ONE_WAY:
         return None
     return largest_of(_imbalances(result))
@@ -29,12 +31,12 @@ def surface_imbalance(result: Result) -> float | None:
 
 @dataclass(frozen=True)
 class _State:
-    """An increment as its energy sees it.
+    """Increment for the energy balance.
 
-    u        displacements (3, nx, ny), zero where nothing presses [length]
-    slip     as it is told; passed with the motion before first touch (2, nx, ny) [length]
+    u        displacements (3, nx, ny), zero without pressure [length]
+    slip     as stated; passed includes the motion before first contact (2, nx, ny) [length]
     limit    of friction (nx, ny)
-    forces   W, T_x, T_y, M_x, M_y, M_z, and moments that resist a strain; motions theirs
+    forces   W, T_x, T_y, M_x, M_y, M_z, and moments against a strain; motions are conjugate
     """
 
     tractions: Field
@@ -116,8 +118,12 @@ def _imbalances(result: Result) -> Iterator[Imbalance]:
 
 
 def _before_touch(first: Increment, undeformed: Field) -> Field:
-    """How far particles move past each other until they touch in the first increment (2, nx, ny):
-    where there is a gap (p/p₀)² of the motion is slip, as p² grows with the way of the edge."""
+    """Compute the relative motion of particles before first contact in the first increment (2, nx,
+    ny).
+
+    Where there is a gap, the slip is (p/p₀)² of the motion, as p² grows with the motion of the
+    edge.
+    """
     if first.slip is None:
         return np.zeros((2, *undeformed.shape))
     p = first.pressure
@@ -126,7 +132,7 @@ def _before_touch(first: Increment, undeformed: Field) -> Field:
 
 
 def _told(now: Increment) -> tuple[float, float, float]:
-    """Work put in, dissipated and left to the increments since the start [force length]."""
+    """Return the input, dissipated and unresolved work since the start [force length]."""
     return now.trapezoidal_work or 0.0, now.dissipated_energy or 0.0, now.unresolved_work or 0.0
 
 
@@ -161,9 +167,11 @@ def _missing(
 
 
 def _unresolved(state: _State, after: _State) -> float:
-    """What the finite increment leaves open: loads are taken as straight lines where gaps close
-    or open, and so is the shear (see `semi_analytical.increments.energy`); with what is
-    dissipated."""
+    """Compute the work that a finite increment does not resolve, including dissipation.
+
+    Loads are linear in time where gaps close or open, and so is the shear (see
+    `semi_analytical.increments.energy`).
+    """
     p0, p1 = state.tractions[2], after.tractions[2]
     begins, ends = (p0 == 0) & (p1 > 0), (p0 > 0) & (p1 == 0)
     closing = float(np.sum(p1[begins] * state.gap[begins]))
@@ -181,12 +189,12 @@ INNER = 0.1  # of the change, to which the solves of the correction end
 
 
 def surface_violation(result: Result) -> float:
-    """The largest violation of a law in any increment, dimensionless; infinite if a number is not
+    """Return the largest violation of a law in any increment [1]; infinite if a number is not
     finite.
 
-    With corrected edges, complementarity and the forces hold to the last change of the
-    correction: these violations are relative to that change over the tolerance. Slip is that before
-    the correction, and is not compared.
+    With the edge correction, complementarity and forces hold to the last change of the correction:
+    the violations are relative to that change over the tolerance. The slip is that before the
+    correction and is not compared.
     """
     place = _Place.of(result)
     befores: list[Increment | None] = [None, *result.increments]
@@ -198,9 +206,9 @@ def surface_violation(result: Result) -> float:
 
 @dataclass(frozen=True)
 class _Place:
-    """Where the fields are.
+    """Positions and material data of the fields.
 
-    friction   its law
+    friction   friction law on the cells
     tolerance  of the solve
     """
 
@@ -211,7 +219,7 @@ class _Place:
     tolerance: float
 
     def eased(self, now: Increment, times: float = 1.0) -> float:
-        """Tolerance over that of corrected fields."""
+        """Return the tolerance over that of corrected fields."""
         return self.tolerance / max(self.tolerance, times * (now.edge_change or 0.0))
 
     @classmethod
@@ -254,13 +262,13 @@ def _violations(before: Increment | None, now: Increment, place: _Place) -> Iter
 
 
 def _tilted(now: Increment, place: _Place) -> Field:
-    """How far the indenter has come nearer at each place [length]."""
+    """Compute the approach of the indenter at each cell in contact [length]."""
     phi_x, phi_y = (0.0, 0.0) if now.tilt is None else now.tilt
     return np.asarray((now.approach + phi_x * place.y + phi_y * place.x)[now.pressure > 0])
 
 
 def _moments(now: Increment, place: _Place) -> Iterator[float]:
-    """Σ p (y, x) = M and Σ (q_y x - q_x y) = M_z."""
+    """Check Σ p (y, x) = M and Σ (q_y x - q_x y) = M_z."""
     p, arm = now.pressure, np.hypot(place.x, place.y)
     if now.moment is not None:
         carried = np.array([np.sum(p * place.y), np.sum(p * place.x)]) * place.cell_area
@@ -272,7 +280,7 @@ def _moments(now: Increment, place: _Place) -> Iterator[float]:
 
 
 def _traces(before: Increment | None, now: Increment, place: _Place) -> Iterator[float]:
-    """What slip leaves on the surface adds up to what is told of the whole."""
+    """Compare the sums of the fields of dissipation and slip with the stated numbers."""
     assert now.dissipated_energy is not None
     if now.dissipation is None or now.slip_distance is None or now.slip is None:
         return
@@ -289,7 +297,7 @@ def _traces(before: Increment | None, now: Increment, place: _Place) -> Iterator
 
 
 def _slip_violations(before: Increment | None, now: Increment, limit: Field) -> Iterator[float]:
-    """Slip opposes shear at its limit, and dissipates."""
+    """Check that slip opposes the shear at its limit and dissipates energy."""
     assert now.slip is not None
     assert now.shear is not None
     assert now.dissipated_energy is not None

@@ -1,4 +1,4 @@
-"""Increments that cannot be held against every law, as what they return does not tell enough."""
+"""Numbers of increments whose results are insufficient for some of the laws."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ SHEAR = "shear", "shear_radial", "shear_along_load", "shear_circumferential"
 
 @dataclass(frozen=True)
 class Unseen:
-    """How many increments of how many.
+    """Numbers of increments that are excluded from a law, out of `increments`.
 
-    slip    with shear, whose slip is not held against it: they were halved, and slip may have
-            turned on the way, or the motion of the indenter is undefined
-    energy  not held against the first law: they were halved, or follow one with shear whose motion
-            is undefined
-    told    in these the stored energy and what the increment leaves open are taken as told, as a
-            contact with friction has grown since it was first pressed: on a surface grid, and
-            wherever coupled bodies are on radii
-    small   on radii: too few rings inside the contact to integrate anything
-    edges   with corrected edges, or after one: compared with energies before the correction
-    shear   with corrected shear, while slip is that before the correction
+    slip    slip not compared with the shear: the increment was bisected, so that slip may have
+            turned, or the motion of the indenter is undefined
+    energy  energy balance not evaluated: the increment was bisected, or follows an increment with
+            shear of undefined motion
+    told    stored energy and unresolved work taken as stated, because a contact with friction has
+            grown: on a surface grid, and for coupled bodies by the radial solver
+    small   radial solver: too few rings in the contact for integrals
+    edges   with the edge correction, or after such an increment: energies are those before the
+            correction
+    shear   with corrected shear: slip is that before the correction
     """
 
     increments: int = 0
@@ -50,7 +50,7 @@ class Unseen:
 
     @property
     def of_slip(self) -> str:
-        """In words; empty if all are seen."""
+        """Text on increments without comparison of slip; empty if there are none."""
         return _words(
             (self.slip, "slip is not held against shear"),
             (self.shear, "slip is that before the edge correction"),
@@ -60,7 +60,7 @@ class Unseen:
 
     @property
     def of_energy(self) -> str:
-        """In words; empty if all are seen."""
+        """Text on increments without energy balance; empty if there are none."""
         return _words(
             (self.energy, "this is not looked at"),
             (self.told, "a contact with friction has grown, and what is stored and left open is "
@@ -72,7 +72,7 @@ class Unseen:
 
 
 def unseen(result: Any) -> Unseen:
-    """In a result of any solver."""
+    """Count the excluded increments in a result of any solver."""
     increments = result.increments
     if getattr(result, "solver", None) == "radial":
         from verification.observed.radii import is_small
@@ -101,18 +101,21 @@ def unseen(result: Any) -> Unseen:
 
 
 def is_corrected(now: semi_analytical.Increment) -> bool:
-    """Whether the edges of contact and stick zone are inside the cells."""
+    """Return true if the increment has the edge correction."""
     return now.edge_report is not None and now.edge_report.cause is None
 
 
 def has_shear(told: Any) -> bool:
-    """Whether an increment of either solver tells a shear."""
+    """Return true if an increment of any solver contains a shear."""
     return any(getattr(told, name, None) is not None for name in SHEAR)
 
 
 def has_grown(increments: Iterable[semi_analytical.Increment]) -> Iterator[bool]:
-    """Whether a contact with friction has grown since it was first pressed, or on the way there in
-    halves, for each increment."""
+    """Yield, for each increment, true if a contact with friction has grown since the first
+    increment.
+
+    A bisected first increment counts as growth.
+    """
     before, grown = None, False
     for now in increments:
         if now.shear is not None:

@@ -1,4 +1,4 @@
-"""Cattaneo and Mindlin's contact: pressed, then sheared with stops on the way; exact for ν = 0."""
+"""Cattaneo and Mindlin's contact with stops along the tangential load; exact for ν = 0."""
 
 from __future__ import annotations
 
@@ -20,7 +20,11 @@ def sheared(
     material: IsotropicMaterial = NU_ZERO,
     increments: int = 1,
 ) -> Problem:
-    """To these parts of µW, in so many increments each."""
+    """Return the problem of tangential steps to fractions of µW.
+
+    parts       of µW, at the ends of the steps
+    increments  per tangential step
+    """
     steps = (paper.tangential_step(part, increments) for part in parts)
     stops = tuple(paper.partial_slip(material, part * FRICTION_LIMIT) for part in parts)
     sliding = stops[0].sliding_shift

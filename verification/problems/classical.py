@@ -16,7 +16,7 @@ SOURCE = "Hertz 1882; Johnson 1985, ch. 4"
 
 
 def hertzian(scene: Scene) -> Problem:
-    """A scene whose single step ends in the paper's contact."""
+    """Create the problem of a scene with one step that ends in the paper's contact."""
     return Problem(
         scene,
         (HERTZ,),
@@ -69,7 +69,7 @@ PUNCH = Problem(
 
 
 def mean_pressure(of: Problem) -> float:
-    """Of a round contact under the paper's force [force/length²]."""
+    """Return the mean pressure of a round contact under the paper's force [force/length²]."""
     return NORMAL_FORCE / (pi * of.radius**2)
 
 

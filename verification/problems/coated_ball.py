@@ -27,7 +27,7 @@ BARE = hertzian(pressed("Rigid ball on the uncoated half-space", rigid_ball(), c
 
 
 def coated_ball(row: Mapping[str, Any]) -> Problem:
-    """By a row of the reference."""
+    """Create the problem of a row of the reference."""
     contact = TabulatedContact(row)
     ratio, thickness = row["E1_over_E2"], row["h_over_aH"]
     title = f"Rigid ball on a coating, E1/E2 = {ratio:g}, h = {thickness:g} a_H"
@@ -44,7 +44,7 @@ def coated_ball(row: Mapping[str, Any]) -> Problem:
 
 
 def solved_here(problem: Problem) -> Problem:
-    """The same by the semi-closed solution, which has the pressure at every radius."""
+    """Replace the answer by the semi-closed solution, which gives the pressure at every radius."""
     exact = exact_contact(problem.scene.body)
     return replace(
         problem, ends=(exact,), radius=exact.contact_radius, source=FREDHOLM,

@@ -1,4 +1,4 @@
-"""Pressing with friction: contacts whose answer is a row of a reference, each with its body."""
+"""Indentation with friction: contacts with a tabulated reference solution."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ REFERENCE_ERROR = 1e-7  # of radii and approach, relative
 
 @dataclass(frozen=True, eq=False)
 class Indentation(TabulatedContact):
-    """One row of a reference, and the body it is about.
+    """Row of a reference, and the body of the row.
 
-    name        for people; file_name for files
-    increments  how many make the shear as accurate as is asked
+    name        label; file_name is the label in file names
+    increments  number that the accuracy target of the shear requires
     """
 
     name: str
@@ -38,7 +38,7 @@ class Indentation(TabulatedContact):
         return float(self.row["c_over_a"])
 
     def problem(self, increments: int) -> Problem:
-        """The rigid ball pressed on the body in so many increments."""
+        """Create the problem of the rigid ball pressed on the body in a number of increments."""
         title = f"Rigid ball pressed with friction: {self.name}"
         return Problem(
             pressed(title, rigid_ball(), self.body, pressing(increments), friction=self.friction),

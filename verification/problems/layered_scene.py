@@ -1,4 +1,4 @@
-"""The paper's coated scene: its bodies, and what their surfaces answer in the semi-closed form."""
+"""Scenes of the paper's coated bodies, and their semi-closed solution."""
 
 from __future__ import annotations
 
@@ -40,7 +40,10 @@ SEMI_CLOSED_ERROR = 1e-12
 
 
 def film(modulus_ratio: float, thickness_over_radius: float) -> Layer:
-    """A coating: Young's modulus over the substrate's, thickness over the Hertz radius."""
+    """Return a coating.
+
+    The modulus is relative to that of the substrate, the thickness to the Hertz radius.
+    """
     material = IsotropicMaterial(
         young_modulus=modulus_ratio * SUBSTRATE.young_modulus, poisson_ratio=0.3
     )
@@ -48,17 +51,17 @@ def film(modulus_ratio: float, thickness_over_radius: float) -> Layer:
 
 
 def coated(*layers: Layer) -> Body:
-    """The substrate under these layers, outermost first."""
+    """Return the substrate with layers, outermost first."""
     return Body(material=SUBSTRATE, layers=layers)
 
 
 def rigid_ball() -> Paraboloid:
-    """The paper's ball as a rigid paraboloid."""
+    """Return the paper's ball as a rigid paraboloid."""
     return Paraboloid(radius=paper.RADIUS, material=RIGID)
 
 
 def half_space(poisson_ratio: float) -> Body:
-    """Of the paper's E* under a rigid indenter."""
+    """Return a half-space that has the paper's E* under a rigid indenter."""
     modulus = paper.CONTACT_MODULUS * (1 - poisson_ratio**2)
     return Body(material=IsotropicMaterial(young_modulus=modulus, poisson_ratio=poisson_ratio))
 
@@ -66,9 +69,9 @@ def half_space(poisson_ratio: float) -> Body:
 def pressed(
     title: str, indenter: Indenter, body: Body, *loading: LoadStep, friction: float | None = None
 ) -> Scene:
-    """Indenter on a body under the paper's force unless loads are given.
+    """Return the scene of an indenter on a body under the given loads, or the paper's force.
 
-    friction  µ; None or zero: without
+    friction  µ; None or zero: no friction
     """
     return Scene(
         title=title,
@@ -80,15 +83,18 @@ def pressed(
 
 
 def pressed_and_pushed(title: str, body: Body) -> Scene:
-    """The rigid ball with the paper's friction in 15 increments, then pushed by 0.95 µW in 20: the
-    paper's figures 3 and 4."""
+    """Return the scene of the paper's figures 3 and 4.
+
+    The rigid ball is pressed with friction in 15 increments, then loaded tangentially to 0.95 µW in
+    20.
+    """
     push = LoadStep(tangential_force=(0.95 * paper.FRICTION_LIMIT, 0.0), increments=20)
     return pressed(title, rigid_ball(), body, pressing(15), push, friction=paper.FRICTION)
 
 
 @cache
 def surface_of(*bodies: Body) -> LayeredSurface:
-    """The answer of two bodies, or of one under a rigid one, to pressure."""
+    """Return the normal response of two bodies, or of one body under a rigid indenter."""
     stacks = [stack_of(body) for body in bodies if body.deforms]
 
     def compliance(k: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -101,10 +107,10 @@ def surface_of(*bodies: Body) -> LayeredSurface:
 
 @cache
 def exact_contact(*bodies: Body) -> LayeredIndentation:
-    """The paper's ball on these bodies under the paper's force, semi-closed."""
+    """Solve the paper's ball on these bodies under the paper's force, semi-closed."""
     return paraboloid_under(paper.NORMAL_FORCE, surface_of(*bodies), paper.RADIUS)
 
 
 def semi_closed(value: float) -> Reference:
-    """A number of the semi-closed solution."""
+    """Return a number of the semi-closed solution as a reference."""
     return Reference(value, ReferenceKind.SEMI_CLOSED, FREDHOLM, SEMI_CLOSED_ERROR * abs(value))

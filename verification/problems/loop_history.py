@@ -1,4 +1,4 @@
-"""The fretting loop of the paper's figure 1, and its closed form at every increment."""
+"""Fretting loop of the paper's figure 1, and its closed form at every increment."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ WINDOW_PER_RADIUS = 2.2  # the contact fills 1/1.1 of the window: cells beside i
 
 
 def loop_steps(quarter: int) -> tuple[LoadStep, ...]:
-    """T from 0 to T*, to -T* and back, in `quarter` increments per T*."""
+    """Return the load steps from 0 to T*, -T* and T*, with `quarter` increments per T*."""
     return (
         paper.tangential_step(AMPLITUDE, quarter),
         paper.tangential_step(-AMPLITUDE, 2 * quarter),
@@ -81,7 +81,7 @@ class ExactLoop:
                 yield increment, state
 
     def largest_shear_error(self, result: Result) -> float:
-        """Largest Σ|q - q_exact| / Σµp of any increment [1]."""
+        """Return the largest Σ|q - q_exact| / Σµp of any increment [1]."""
         r = np.hypot(*result.grid.coordinates())
         return float(np.max([
             shear_error(shear_of(i), exact.shear(r), FRICTION * i.pressure)
@@ -89,7 +89,8 @@ class ExactLoop:
         ]))  # fmt: skip
 
     def largest_shift_error(self, result: Result) -> float:
-        """Largest difference of the shift from the closed form over any increment [length]."""
+        """Return the largest difference of the shift from the closed form in any increment
+        [length]."""
         return float(np.max([abs(shift_along_x(i) - e.shift) for i, e in self.along(result)]))
 
     @property
@@ -99,7 +100,8 @@ class ExactLoop:
         return CycledContact(paper.partial_slip(self.material, force), paper.HERTZ.peak_pressure)
 
     def largest_slip_amplitude_error(self, result: Result) -> float:
-        """Largest difference of the slip amplitude from the closed form in the contact [length]."""
+        """Return the largest difference of the slip amplitude from the closed form in the
+        contact [length]."""
         a = paper.HERTZ.contact_radius
         r = np.hypot(*result.grid.coordinates())
         expected = self.cycled.slip_amplitude(np.minimum(r, a))
@@ -107,8 +109,11 @@ class ExactLoop:
         return float(np.max(error[r < a]))
 
     def largest_slip_distance_error(self, result: Result) -> float:
-        """Largest difference of the way slipped from the closed form in the contact [length]: slip
-        turns nowhere but where the force does, at plus and minus its amplitude."""
+        """Return the largest difference of the accumulated slip from the closed form in the contact
+        [length].
+
+        The slip reverses only where the force does, at ± its amplitude.
+        """
         a, way = paper.HERTZ.contact_radius, result.steps[-1].slip_distance
         assert way is not None
         r = np.hypot(*result.grid.coordinates())
@@ -116,15 +121,17 @@ class ExactLoop:
         return float(np.max(np.abs(way - expected)[r < a]))
 
     def largest_stick_radius_error(self, result: Result) -> float:
-        """Largest difference of the stick radius from the closed form [length]."""
+        """Return the largest difference of the stick radius from the closed form [length]."""
         return float(np.max([
             abs((i.stick_radius or 0.0) - e.stick_radius) for i, e in self.along(result)
         ]))  # fmt: skip
 
 
 def fretting_loop(title: str, material: IsotropicMaterial, quarter: int) -> Problem:
-    """The paper's ball on a body of its material, T* in `quarter` increments. The answer is that to
-    the whole loop; it is exact for ν = 0."""
+    """Create the problem of the loop of the paper's ball, with `quarter` increments per T*.
+
+    The answer is that of the whole loop, and exact for ν = 0.
+    """
     exact = ExactLoop(material)
     slip = float(exact.cycled.slip_amplitude(HERTZ.contact_radius))
     return Problem(
@@ -147,12 +154,12 @@ def fretting_loop(title: str, material: IsotropicMaterial, quarter: int) -> Prob
 
 
 def loop_energy(result: Result) -> float:
-    """Energy dissipated from T* to -T* and back [force*length]."""
+    """Return the energy dissipated from T* to -T* and back [force*length]."""
     return energy_between(result, LOADED, RELOADED)
 
 
 def loop_cycle(result: Result) -> FrettingCycle:
-    """What the loop does to the surface."""
+    """Return the fretting cycle of the loop."""
     from contact_results.cycles import fretting_cycles
 
     (cycle,) = fretting_cycles(result)
@@ -160,12 +167,12 @@ def loop_cycle(result: Result) -> FrettingCycle:
 
 
 def largest_f2(result: Result) -> float:
-    """Ruiz's second parameter of the loop [force²/length³]."""
+    """Return the largest value of Ruiz's second parameter of the loop [force²/length³]."""
     f2 = loop_cycle(result).ruiz_f2
     assert f2 is not None
     return float(np.max(f2))
 
 
 def largest_imbalance(result: Result) -> float:
-    """Largest part of the energy that any increment cannot account for [1]."""
+    """Return the largest energy imbalance of any increment, relative [1]."""
     return max(i.energy_imbalance for i in result.increments if i.energy_imbalance is not None)

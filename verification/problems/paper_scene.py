@@ -1,9 +1,9 @@
-"""The paper's ball on a half-space: its data, the bodies that give it, and grids around it.
+"""Data of the paper: a ball on a half-space, bodies with the paper's E*, and grids.
 
-The paper prints a contact radius of 0.388 mm and a peak pressure of 3.1684 GPa under 1 kN, which
-is the compliance of one body of E = 210 GPa, ν = 0.3. Two identical bodies of 420 GPa have it
-together and are uncoupled, as the closed form assumes; so have two bodies with ν = 0 and
-E = 2 E*, for which the closed form of the tangential problem is exact.
+The paper prints a contact radius of 0.388 mm and a peak pressure of 3.1684 GPa under 1 kN. These
+belong to the compliance of one body of E = 210 GPa, ν = 0.3. Two identical bodies of 420 GPa have
+the same total compliance and are uncoupled, as the closed form assumes. Two bodies with ν = 0 and E
+= 2 E* have it as well; for these the closed form of the tangential problem is exact.
 """
 
 import math
@@ -35,31 +35,32 @@ WINDOW_PER_RADIUS = 3.0
 
 
 def square_grid(cells: int, half_width: float) -> SurfaceGrid:
-    """A square grid on a window that reaches `half_width` to every side of the origin."""
+    """Return a square grid on the window |x|, |y| <= `half_width`."""
     return SurfaceGrid((cells, cells), (2 * half_width, 2 * half_width))
 
 
 def hertz_grid(cells: int) -> SurfaceGrid:
-    """A square grid on a window of three Hertz radii."""
+    """Return a square grid on a window of three Hertz radii."""
     return square_grid(cells, WINDOW_PER_RADIUS / 2 * HERTZ.contact_radius)
 
 
 def paraboloid(material: IsotropicMaterial) -> Paraboloid:
-    """The ball as Hertz sees it."""
+    """Return the ball as a paraboloid, as in Hertz's theory."""
     return Paraboloid(radius=RADIUS, material=material)
 
 
 def frictionless(title: str, indenter: Indenter, body: IsotropicMaterial, load: LoadStep) -> Scene:
-    """Indenter on a half-space, pressed once."""
+    """Return the scene of an indenter on a half-space under one load step."""
     return Scene(title=title, indenter=indenter, body=Body(material=body), loading=(load,))
 
 
 def frictional(
     title: str, indenter: Indenter, body: IsotropicMaterial, *loading: LoadStep
 ) -> Scene:
-    """Indenter on a half-space with the paper's friction, pressed by its force and then `loading`.
+    """Return the scene of an indenter with the paper's friction and force, followed by `loading`.
 
-    Uncoupled bodies: the pressure does not depend on the way there, so one increment will do.
+    The bodies are uncoupled: the pressure does not depend on the load path, so that one increment
+    is sufficient for the normal force.
     """
     return Scene(
         title=title,
@@ -71,18 +72,18 @@ def frictional(
 
 
 def pressing(increments: int | None = None) -> LoadStep:
-    """The paper's force."""
+    """Return the load step of the paper's force."""
     return LoadStep(normal_force=NORMAL_FORCE, increments=increments)
 
 
 def tangential_step(part_of_limit: float, increments: int) -> LoadStep:
-    """Tangential force along x up to a part of µW."""
+    """Return the load step of a tangential force along x to a fraction of µW."""
     force = part_of_limit * FRICTION_LIMIT
     return LoadStep(tangential_force=(force, 0.0), increments=increments)
 
 
 def partial_slip(material: IsotropicMaterial, tangential_force: float) -> PartialSlip:
-    """Cattaneo-Mindlin for two identical bodies of this material."""
+    """Return the Cattaneo-Mindlin state of two identical bodies of a material."""
     constants = (material.young_modulus, material.poisson_ratio)
     modulus = tangential_modulus(constants, constants)
     limited = math.copysign(min(abs(tangential_force), FRICTION_LIMIT), tangential_force)

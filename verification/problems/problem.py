@@ -1,4 +1,4 @@
-"""A problem whose answer is known: what is solved, and who says what comes out."""
+"""Problems with a known answer: the scene, the reference and its source."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ ROUNDING = 1e-12  # relative uncertainty of a closed form in double precision
 
 
 class ReferenceKind(StrEnum):
-    """Where a reference comes from."""
+    """Kind of source of a reference."""
 
     CLOSED_FORM = "closed form"
     SEMI_CLOSED = "semi-closed"
@@ -30,7 +30,7 @@ class ReferenceKind(StrEnum):
 
 @dataclass(frozen=True)
 class Reference:
-    """A number somebody else vouches for.
+    """Number from another source than the run.
 
     uncertainty  standard uncertainty u_ref, in the unit of the value
     """
@@ -42,13 +42,14 @@ class Reference:
 
 
 def closed_form(value: float, source: str, scale: float | None = None) -> Reference:
-    """A closed form, uncertain by rounding of itself or of the scale it is compared on."""
+    """Return a closed form whose uncertainty is rounding, of its value or of the scale of the
+    comparison."""
     uncertainty = ROUNDING * abs(value if scale is None else scale)
     return Reference(value, ReferenceKind.CLOSED_FORM, source, uncertainty)
 
 
 def identity(value: float, source: str) -> Reference:
-    """A value that follows from the equations themselves."""
+    """Return a value that follows from the equations."""
     return Reference(value, ReferenceKind.IDENTITY, source)
 
 
@@ -58,14 +59,14 @@ OVER_RADIUS, OVER_PEAK = "the contact radius", "p_H"
 
 @dataclass(frozen=True)
 class Problem:
-    """A scene and its answer.
+    """Scene and its answer.
 
-    ends         exact answer at the end of every loading step: records whose attributes are called
-                 like the quantities of a result, fields being functions of the distance from the
-                 axis, or of x and y where the contact is not round
+    ends         exact answer at the end of every load step: records with the attribute names of the
+                 quantities of a result; fields are functions of the distance from the axis, or of x
+                 and y where the contact is not round
     radius       of the contact, or its semi-axis along x [length]
-    source       who vouches for the answer
-    scales       what errors may be relative to, by name, beside the contact radius
+    source       source of the answer
+    scales       scales of errors by name, in addition to the contact radius
     uncertainty  of the numbers, relative to their scale
     across       semi-axis along y; None where the contact is round [length]
     equations    governing equations of the answer, in LaTeX
@@ -82,26 +83,27 @@ class Problem:
     equations: tuple[str, ...] = ()
 
     def scale(self, name: str) -> float:
-        """What errors are divided by; raises KeyError for a name that is not known."""
+        """Return the scale of errors by name; raise KeyError for an unknown name."""
         return self.radius if name == OVER_RADIUS else self.scales[name]
 
     def on_surface(self, exact: Callable[..., Field], x: Field, y: Field | float) -> Field:
-        """A field of the answer at positions on the surface [length]."""
+        """Evaluate a field of the answer at positions on the surface [length]."""
         return exact(np.hypot(x, y)) if self.across is None else exact(x, y)
 
     def reference(self, value: float, scale: float | None = None) -> Reference:
-        """A number of the answer, uncertain relative to itself or to the scale of its errors."""
+        """Return a number of the answer; its uncertainty is relative to the number or to the
+        error scale."""
         uncertainty = self.uncertainty * abs(value if scale is None else scale)
         return Reference(value, self.kind, self.source, uncertainty)
 
     def no_error(self, scale: float) -> Reference:
-        """Reference of the norm of an error: zero, as uncertain as the answer is."""
+        """Return the reference of an error norm: zero, with the uncertainty of the answer."""
         return Reference(0.0, self.kind, self.source, self.uncertainty * scale)
 
 
 @dataclass(frozen=True, eq=False)
 class TabulatedContact:
-    """Numbers of a contact, and profiles at a few radii.
+    """Tabulated numbers of a contact, with profiles at a few radii.
 
     row  of the reference: numbers relative to Hertz's contact of the substrate
     """
@@ -129,14 +131,14 @@ class TabulatedContact:
         return np.array(self.row["r_over_a"]) * self.contact_radius
 
     def pressure(self, r: Field) -> Field:
-        """At the radii of the row, and linear between [force/length²]."""
+        """Interpolate the pressure linearly between the radii of the row [force/length²]."""
         return np.interp(r, self.radii, np.array(self.row["p_over_pH"]) * HERTZ.peak_pressure)
 
     def shear(self, r: Field) -> Field:
-        """Outward, at the radii of the row, and linear between [force/length²]."""
+        """Interpolate the outward shear linearly between the radii of the row [force/length²]."""
         limit = self.friction * HERTZ.peak_pressure
         return np.interp(r, self.radii, np.array(self.row["q_over_mu_pH"]) * limit)
 
     def size_of_shear(self, r: Field) -> Field:
-        """Of either sign [force/length²]."""
+        """Return the absolute value of the shear [force/length²]."""
         return np.abs(self.shear(r))

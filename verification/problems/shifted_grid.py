@@ -1,4 +1,4 @@
-"""Grids that fall on the contact elsewhere than with a corner of cells on its axis."""
+"""Grids whose centre is at a prescribed position of a cell."""
 
 from dataclasses import dataclass
 
@@ -16,7 +16,7 @@ UNLIKE = ((0.5, 0.0), (0.25, 0.25))
 
 @dataclass(frozen=True)
 class ShiftedGrid(SurfaceGrid):
-    """A grid whose origin is not where the contact is: the centre falls anywhere in its cell.
+    """Grid with an offset between its centre and the axis of the contact.
 
     offset  of the grid's centre from the contact's axis, in cells
     """

@@ -1,4 +1,4 @@
-"""The paper's ball twisted under its force, and a flat punch that sticks while it is twisted."""
+"""Torsion of the paper's ball under its normal force, and of a flat punch with full stick."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ AMPLITUDE = 0.9  # of the sliding torque, in the loop
 
 
 def virgin(torque: float) -> TorsionalPartialSlip:
-    """The paper's ball, twisted for the first time by a torque >= 0."""
+    """Return the paper's ball in its first torsion, by a torque >= 0."""
     return TorsionalPartialSlip.under_moment(
         torque, HERTZ.contact_radius, HERTZ.peak_pressure, FRICTION, MODULUS
     )
@@ -31,16 +31,18 @@ LARGEST = virgin(AMPLITUDE * SLIDING_TORQUE)
 
 
 def torque_step(part: float) -> LoadStep:
-    """Torque up to a part of the sliding torque in one increment: exact, as the load goes
-    straight."""
+    """Return a load step to a fraction of the torque at gross slip.
+
+    One increment is exact, because the load path is linear.
+    """
     return LoadStep(torque=part * SLIDING_TORQUE, increments=1)
 
 
 @dataclass(frozen=True)
 class Twisted:
-    """The end of a step of the loop: what is known of it.
+    """Exact state at the end of a step of the loop.
 
-    energy_per_cycle  lost since the first torque of + AMPLITUDE, at its second [force*length]
+    energy_per_cycle  dissipated from the first to the second torque of + AMPLITUDE [force*length]
     """
 
     twist: float
@@ -74,8 +76,10 @@ LED = _problem(
 
 
 def _loop() -> tuple[Twisted, ...]:
-    """The virgin curve gives the loop: from a reversal at M* on, the twist changes by twice what
-    half the change of torque would give (Masing)."""
+    """Derive the loop from the first loading by Masing's rule.
+
+    After a reversal at M* the change of the twist is twice that of half the change of the torque.
+    """
     reached = LARGEST.twist
     back = reached - 2 * virgin(0.5 * AMPLITUDE * SLIDING_TORQUE).twist
     # Area of the loop: 4 φ* M* - 8 ∫ φ dM along the virgin curve.

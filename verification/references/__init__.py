@@ -1,4 +1,4 @@
-"""Reference numbers made outside the product; README.md beside them states how and how well."""
+"""Reference numbers of other programs; README.md in this folder states methods and accuracy."""
 
 import json
 from importlib.resources import files
@@ -6,9 +6,9 @@ from typing import Any
 
 
 def load_reference(name: str) -> dict[str, Any]:
-    """Content of `<name>.json` from this folder.
+    """Load `<name>.json` from this folder.
 
-    Raises ValueError for an unknown name, listing those there are.
+    Raises ValueError for an unknown name, with the list of available names.
     """
     folder = files(__name__)
     available = sorted(

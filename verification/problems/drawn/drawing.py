@@ -177,17 +177,17 @@ def without_poisson(rng: Rng, a: float) -> Body:
 
 
 def below_rigid(lower: Lower) -> Pair:
-    """Pair a body with a rigid indenter."""
+    """Create pairs of a body and a rigid indenter."""
     return lambda rng, a: (lower(rng, a), Body(material=RIGID))
 
 
 def alike(lower: Lower) -> Pair:
-    """Pair a body with an indenter of its own materials, so that nothing couples."""
+    """Create pairs of a body and an indenter of equal materials, which are uncoupled."""
     return lambda rng, a: (lower(rng, a),) * 2
 
 
 def unlike(lower: Lower) -> Pair:
-    """Pair a body with an uncoated indenter."""
+    """Create pairs of a body and an uncoated indenter."""
     return lambda rng, a: (lower(rng, a), bare(rng, a))
 
 

@@ -44,12 +44,13 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Family:
-    """Scenes drawn alike.
+    """Scenes drawn from the same distributions.
 
-    shapes, pairs  one of each is drawn: of the indenter, and of the materials of both bodies
+    shapes, pairs  distributions of the indenter shape and of the materials of both bodies, of which
+                   each scene draws one
     rule           for the answer
     count          scenes above the quick level, which takes one of each family
-    forces         after pressing, over the friction limit; None for none
+    forces         after the normal force, over the friction limit; None for none
     twists         whether these are torques
     friction       whether there is friction without them
     finest         cells per contact radius, at most
@@ -110,7 +111,8 @@ def _one_of(rng: Rng, ways: Sequence[T]) -> T:
 
 
 def _reach(scene: Scene, load: float, a: float) -> tuple[float, float]:
-    """Semi-axes of the contact without friction; about a where no reference has them."""
+    """Return the semi-axes of the contact without friction, approximately a for shapes without
+    reference."""
     shape = scene.indenter
     if isinstance(shape, Ellipsoid):
         return EllipticalContact.under_load(load, shape.radii, contact_modulus(scene)).semi_axes
