@@ -1,7 +1,6 @@
 """Requested accuracy of a run: the table `[accuracy]`, or the text of an option."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 from re import fullmatch
 from typing import TYPE_CHECKING, Any
 
@@ -89,10 +88,9 @@ class AccuracyRequest(_Named):
         return LARGEST_TENSION in self.named
 
 
-def accuracy_texts(text: str, option: str) -> dict[str, Any]:
+def accuracy_texts(text: str) -> dict[str, Any]:
     """Convert a text such as "0.1%" or "peak_pressure 0.1%, approach 1%" to a table.
 
-    option  name of the option, for messages
     Raises `SceneError` for other texts. Names and limits are not checked.
     """
     table: dict[str, Any] = {}
@@ -102,14 +100,9 @@ def accuracy_texts(text: str, option: str) -> dict[str, Any]:
         if found is None or name is None or name in table:
             wrong = f"got {shown(item)}" if name is None else f"{name} is given twice"
             expected = '"0.1%" or names such as "peak_pressure 0.1%, approach 1%"'
-            raise SceneError([Problem(("accuracy",), wrong, expected, file=option)])
+            raise SceneError([Problem(("accuracy",), wrong, expected)])
         try:
             table[name] = float(found[2])
         except ValueError:
             table[name] = found[2]
     return table
-
-
-def of_option(error: SceneError, option: str) -> SceneError:
-    """Return the error with the option as the source of all problems."""
-    return SceneError([replace(problem, file=option) for problem in error.problems])

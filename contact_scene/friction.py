@@ -5,9 +5,9 @@ from types import EllipsisType
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Discriminator, Tag, model_validator
 
+from contact_scene.array_types import Field
 from contact_scene.height_map import PairOfSpacings, interpolate_between
 from contact_scene.reading.array_file import (
     FileKey,
@@ -20,7 +20,6 @@ from contact_scene.reading.quantity import (
 )
 from contact_scene.reading.validator_error import refusal
 
-Field = NDArray[np.float64]
 Pair = tuple[float, float]
 Where = tuple[slice, slice] | EllipsisType
 

@@ -8,7 +8,7 @@ from typing import TypeVar
 
 from contact_scene.body import Body, Layer
 from contact_scene.body_pair import coupling
-from contact_scene.geometry import Ellipsoid, Indenter, Paraboloid
+from contact_scene.geometry import Ellipsoid, Paraboloid
 from contact_scene.loading import LoadStep
 from contact_scene.scene import Scene
 from contact_scene.stepping.load_path import (
@@ -30,7 +30,11 @@ def normal_form(scene: Scene) -> Scene:
       default: free shift, fixed twist, fixed tilt.
     - Friction that is zero everywhere is removed if no load shears the contact.
     """
-    indenter, ramps = _round(scene.indenter), scene.load_path()
+    indenter, ramps = scene.indenter, scene.load_path()
+    if isinstance(indenter, Ellipsoid) and indenter.is_of_revolution:
+        indenter = Paraboloid(
+            material=indenter.material, layers=indenter.layers, radius=indenter.radii[0]
+        )
     merged = {"indenter": _merged(indenter), "body": _merged(scene.body)}
     shears = any(any(ramp.tangential.end) or ramp.twisting.end for ramp in ramps)
     friction = scene.friction
@@ -41,13 +45,6 @@ def normal_form(scene: Scene) -> Scene:
     steps = tuple(_without(step, unnamed) for step in scene.loading)
     found = found.model_copy(update={"loading": steps})
     return scene if found == scene else found
-
-
-def _round(indenter: Indenter) -> Indenter:
-    if not isinstance(indenter, Ellipsoid) or not indenter.is_of_revolution:
-        return indenter
-    radius = indenter.radii[0]
-    return Paraboloid(material=indenter.material, layers=indenter.layers, radius=radius)
 
 
 def _merged(body: B) -> B:

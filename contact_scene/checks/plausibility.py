@@ -108,8 +108,7 @@ def unlikely(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
     unusual = chain.from_iterable(map(_unusual, parts))
     return (
         *unusual,
-        *_steep(scene),
-        *_measured(scene),
+        *(_of_map(scene.indenter) if isinstance(scene.indenter, HeightMap) else ()),
         *_too_small(scene, pressed, fineness),
         *_of_no_effect(scene, pressed),
         *(_far(pressed) if compliances(scene.rig)[1] == 0 else ()),
@@ -164,24 +163,17 @@ def _without_units(scene: Scene) -> bool:
     return max(moduli) < _SOFTEST and min(radii, default=1.0) >= _LARGEST
 
 
-def _steep(scene: Scene) -> Iterator[str]:
-    if isinstance(indenter := scene.indenter, HeightMap):
-        rows, (dx, dy) = indenter.heights, indenter.spacing
-        # Row by row, without a second array of equal size.
-        along_x = max(float(np.max(np.abs(b - a))) for a, b in pairwise(rows)) / dx
-        along_y = max(float(np.max(np.abs(np.diff(row)))) for row in rows) / dy
-        if (steepest := max(along_x, along_y)) > _STEEP:
-            range_ = quantity(float(np.ptp(rows)), "m")
-            yield (
-                f"indenter.file: the heights differ by {range_}, adjacent heights by "
-                f"{steepest:.2g} times their distance. Set indenter.height_unit unless the unit is "
-                "metres"
-            )
-
-
-def _measured(scene: Scene) -> Iterator[str]:
-    if not isinstance(indenter := scene.indenter, HeightMap):
-        return
+def _of_map(indenter: HeightMap) -> Iterator[str]:
+    rows, (dx, dy) = indenter.heights, indenter.spacing
+    # Row by row, without a second array of equal size.
+    along_x = max(float(np.max(np.abs(b - a))) for a, b in pairwise(rows)) / dx
+    along_y = max(float(np.max(np.abs(np.diff(row)))) for row in rows) / dy
+    if (steepest := max(along_x, along_y)) > _STEEP:
+        range_ = quantity(float(np.ptp(rows)), "m")
+        yield (
+            f"indenter.file: the heights differ by {range_}, adjacent heights by {steepest:.2g} "
+            "times their distance. Set indenter.height_unit unless the unit is metres"
+        )
     if indenter.lowest_on_rim:
         yield (
             "indenter.file: the lowest point, at which contact begins, lies on the rim of the map. "

@@ -1,12 +1,12 @@
 """Check of the strains of a result against the limit of linear elasticity."""
 
 from collections.abc import Iterable, Iterator
-from typing import Protocol
 
 import numpy as np
 
 from contact_scene.body import Body, Layer
 from contact_scene.material import IsotropicMaterial
+from contact_scene.quantities.increment import State
 from contact_scene.scene import Scene
 
 # The relative error of linear elasticity is of the order of the strain. A Hertzian ball reaches
@@ -14,20 +14,7 @@ from contact_scene.scene import Scene
 SMALL_STRAIN = 0.1
 
 
-class StepEnd(Protocol):
-    """State at the end of a load step, from a solver or a summary."""
-
-    @property
-    def normal_force(self) -> float: ...
-    @property
-    def approach(self) -> float: ...
-    @property
-    def contact_area(self) -> float: ...
-    @property
-    def contact_radius(self) -> float: ...
-
-
-def beyond_linear_theory(scene: Scene, ends: Iterable[StepEnd]) -> tuple[str, ...]:
+def beyond_linear_theory(scene: Scene, ends: Iterable[State]) -> tuple[str, ...]:
     """Return a warning about the largest strain if it exceeds linear theory in any load step."""
     found = [
         (strain, where, step)
@@ -43,7 +30,7 @@ def beyond_linear_theory(scene: Scene, ends: Iterable[StepEnd]) -> tuple[str, ..
     )
 
 
-def _strains(scene: Scene, end: StepEnd) -> Iterator[tuple[float, str]]:
+def _strains(scene: Scene, end: State) -> Iterator[tuple[float, str]]:
     """Estimate strains to an order of magnitude, with their locations; none without contact."""
     if end.contact_area <= 0 or end.normal_force <= 0:
         return

@@ -1,13 +1,13 @@
 """Load cycles: parts of a load history between steps that end with equal loads."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import chain
+from typing import Any
 
 from contact_scene.stepping.load_path import (
     ControlKind,
     LoadRamp,
-    ScalarControl,
-    VectorControl,
 )
 
 # Decimals of loads, relative to the largest of their kind, that equal loads have in common.
@@ -20,7 +20,8 @@ DIGITS = 9
 LED_BY_FORCE = 16
 LED_BY_MOTION = 32
 
-State = tuple[tuple[str, tuple[float, ...]], ...]
+Kind = tuple[int, str]
+State = tuple[tuple[Kind, tuple[float, ...]], ...]
 
 
 @dataclass(frozen=True)
@@ -70,32 +71,26 @@ def _of_loop(ramp: LoadRamp) -> int:
     return LED_BY_MOTION if by_motion else LED_BY_FORCE if moving else 1
 
 
-def _controls(ramp: LoadRamp) -> tuple[ScalarControl | VectorControl, ...]:
-    return ramp.normal, ramp.tangential, ramp.twisting, ramp.tilting
+def _loads(ramp: LoadRamp) -> Iterator[tuple[Kind, tuple[float, ...]]]:
+    """Yield the values of all controls at the end of a ramp, by coordinate and kind."""
+    controls: tuple[Any, ...] = (ramp.normal, ramp.tangential, ramp.twisting, ramp.tilting)
+    for coordinate, control in enumerate(controls):
+        end = control.end if isinstance(control.end, tuple) else (control.end,)
+        yield (coordinate, control.kind.value), end
+    yield (len(controls), "strain"), ramp.stretch[1] if ramp.stretch else ()
 
 
-def _values(control: ScalarControl | VectorControl) -> tuple[float, ...]:
-    return control.end if isinstance(control.end, tuple) else (control.end,)
-
-
-def _scales(ramps: list[LoadRamp]) -> list[dict[str, float]]:
+def _scales(ramps: list[LoadRamp]) -> dict[Kind, float]:
     """Compute the largest value of every coordinate, separately of forces and displacements."""
-    scales: list[dict[str, float]] = [{} for _ in _controls(ramps[0])] if ramps else []
-    for ramp in ramps:
-        for scale, control in zip(scales, _controls(ramp), strict=True):
-            size = max(map(abs, _values(control)))
-            scale[control.kind.value] = max(scale.get(control.kind.value, 0.0), size)
-    strains = [abs(value) for ramp in ramps if ramp.stretch for value in ramp.stretch[1]]
-    return [*scales, {"strain": max(strains, default=0.0)}]
+    scales: dict[Kind, float] = {}
+    for kind, values in chain.from_iterable(map(_loads, ramps)):
+        scales[kind] = max(scales.get(kind, 0.0), *map(abs, values), 0.0)
+    return scales
 
 
-def _state(ramp: LoadRamp, scales: list[dict[str, float]]) -> State:
+def _state(ramp: LoadRamp, scales: Mapping[Kind, float]) -> State:
     """Return the kinds and rounded relative values of all controls at the end of a ramp."""
-    state = []
-    for scale, control in zip(scales, _controls(ramp), strict=False):
-        size = scale[control.kind.value] or 1.0
-        values = tuple(round(value / size, DIGITS) for value in _values(control))
-        state.append((control.kind.value, values))
-    strain = ramp.stretch[1] if ramp.stretch else ()
-    largest = scales[-1]["strain"] or 1.0
-    return *state, ("strain", tuple(round(value / largest, DIGITS) for value in strain))
+    return tuple(
+        (kind, tuple(round(value / (scales[kind] or 1.0), DIGITS) for value in values))
+        for kind, values in _loads(ramp)
+    )

@@ -5,8 +5,8 @@ from math import pi
 from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field, Mask
 from contact_scene.quantities.field_metadata import (
     Kind,
     Reported,
@@ -14,8 +14,6 @@ from contact_scene.quantities.field_metadata import (
 from contact_scene.quantities.increment import ReportedIncrement
 from contact_scene.quantities.summary import ContactStatus
 
-Field = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 Pair = tuple[float, float]
 F = Kind.FIELD
 

@@ -10,8 +10,8 @@ from dataclasses import fields, replace
 from typing import Any, TypeVar, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_scene.array_types import Field
 from contact_scene.bulk_strain import Strain
 from contact_scene.height_map import lowest_point
 from contact_scene.quantities.residuals import Residuals
@@ -23,7 +23,6 @@ from contact_scene.stepping.load_path import (
     LoadRamp,
 )
 
-Field = NDArray[np.float64]
 Reported = TypeVar("Reported")
 
 # Attributes for the positions of an increment in space and in the history.

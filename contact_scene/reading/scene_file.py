@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 
 from pydantic import TypeAdapter, ValidationError
 
-from contact_scene.accuracy import AccuracyRequest, accuracy_texts, of_option
+from contact_scene.accuracy import AccuracyRequest, accuracy_texts
 from contact_scene.checks.consistency import inconsistencies
 from contact_scene.reading.description import Description
 from contact_scene.reading.document import SceneFile
@@ -92,9 +92,9 @@ def read_accuracy(text: str, option: str) -> AccuracyRequest:
     Raises `SceneError` with every mistake.
     """
     try:
-        return _valid(_Accuracy, {"accuracy": accuracy_texts(text, option)}, {}).accuracy
+        return _valid(_Accuracy, {"accuracy": accuracy_texts(text)}, {}).accuracy
     except SceneError as error:
-        raise of_option(error, option) from None
+        raise SceneError(replace(problem, file=option) for problem in error.problems) from None
 
 
 class _Accuracy(Description):

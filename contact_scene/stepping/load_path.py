@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 from math import hypot
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 from contact_scene.bulk_strain import UNSTRAINED, Strain, strain_under
 from contact_scene.loading import LoadStep
@@ -58,19 +58,14 @@ class Control(Generic[Value]):
             begin = reached[0] if by_force else reached[1]
         if begin is None:
             raise motion_undefined()
-        value = _between(begin, self.end, fraction)
+        value = _ramped(begin, self.end, fraction)
         return (value, None) if by_force else (None, value)
 
 
-def _between(begin: Value, end: Value, fraction: float) -> Value:
-    match begin, end:
-        case (float(), float()):
-            return _ramped(begin, end, fraction)
-        case _:
-            return _ramped(begin[0], end[0], fraction), _ramped(begin[1], end[1], fraction)
-
-
-def _ramped(begin: float, end: float, fraction: float) -> float:
+def _ramped(begin: Any, end: Any, fraction: float) -> Any:
+    """Interpolate between two numbers, or component by component between two tuples."""
+    if isinstance(end, tuple):
+        return tuple(_ramped(*ends, fraction) for ends in zip(begin, end, strict=True))
     return end if fraction == 1 or begin == end else begin + (end - begin) * fraction
 
 
@@ -102,10 +97,8 @@ class LoadRamp:
 
     def strain(self, fraction: float) -> Strain | None:
         """Interpolate the bulk strain at a fraction of the step; None without one."""
-        if self.stretch is None:
-            return None
-        xx, yy, xy = (_ramped(*ends, fraction) for ends in zip(*self.stretch, strict=True))
-        return xx, yy, xy
+        strain: Strain | None = self.stretch and _ramped(*self.stretch, fraction)
+        return strain
 
     @property
     def strains(self) -> bool:

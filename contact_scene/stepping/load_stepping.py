@@ -7,9 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Generic, Protocol, TypeVar
 
-import numpy as np
-from numpy.typing import NDArray
-
+from contact_scene.array_types import Field
 from contact_scene.bulk_strain import with_strain
 from contact_scene.quantities.separation import (
     continued,
@@ -31,8 +29,6 @@ from contact_scene.stepping.load_path import (
 )
 
 MAX_HALVINGS = 4
-
-Field = NDArray[np.float64]
 
 S = TypeVar("S")
 Report = TypeVar("Report")
