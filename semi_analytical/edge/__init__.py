@@ -1,8 +1,7 @@
-"""The edge of a contact inside the cells.
+"""Sub-cell geometry of contact edges, and displacements by tractions that vary within cells.
 
-Towards the edge of a smooth contact the pressure falls like a power of the distance, so
-phi = p^(1/alpha), alpha the exponent, passes through zero with a finite slope: phi is smooth where
-p is not. On layers thinner than a few cells it is a function of its own of the distance (`film`),
-and phi is made of p over what that function has over the root. Everything here is in index
-coordinates: cells are unit squares about whole numbers.
+Towards the edge of a smooth contact the pressure falls like a power α of the distance. The function
+φ = p^(1/α) passes smoothly through zero and can be fitted by quadratics. On layers thinner than a
+few cells the pressure follows the law of `film`; φ is then computed from the pressure over the
+ratio of this law to the root. Coordinates are indices: cells are unit squares about integers.
 """

@@ -1,7 +1,7 @@
-"""Cell means of a power of a linear function, cut off where it is negative, and their inverse.
+"""Cell means of a power of the positive part of a linear function, and their inverse.
 
-Over the unit cell the mean of (f + f_x x + f_y y)_+^a is, with b, c the moduli of the slopes, the
-second difference of F(s) = s_+^(a+2)/((a+1)(a+2) b c) over the corners f ± b/2 ± c/2.
+The mean of (f + f_x x + f_y y)_+^a over the unit cell is the second difference of
+F(s) = s_+^(a+2)/((a+1)(a+2) b c) over the corners f ± b/2 ± c/2, with b = |f_x|, c = |f_y|.
 """
 
 from typing import Any
@@ -11,27 +11,28 @@ from numpy.typing import NDArray
 
 from contact_scene.array_types import Field
 
-# One for all places, or of each.
+# One exponent for all places, or one per place.
 Exponent = float | Field
 
-# Below this part of the larger slope the smaller one is integrated by points, not by differences.
+# Ratio of the slopes below which Gauss points replace the difference along the smaller one.
 STRAIGHT = 1e-4
-# So many times the sum of the slopes above zero the cell sees a smooth function.
+# Value at the centre over the sum of the slopes above which the binomial series is used.
 DEEP = 3.0
 POINTS, WEIGHTS = (half / 2 for half in np.polynomial.legendre.leggauss(4))
-MAX_TURNS = 80
-SMOOTH_TURNS = 5
-# The next turn would leave its square.
+MAX_NEWTON_STEPS = 80
+FIXED_POINT_STEPS = 5
+# Relative Newton step at which the iteration stops; convergence is quadratic.
 SETTLED = 1e-3
 
 
 def mean_power(f: Field, f_x: Field, f_y: Field, exponent: Exponent) -> Field:
-    """Mean over a cell of (f + f_x x + f_y y)_+^exponent, shape of f.
+    """Compute the mean of (f + f_x x + f_y y)_+^exponent over a cell, shape of f.
+
+    The derivative with respect to f is exponent * mean_power(…, exponent - 1).
 
     f         value at the centre
     f_x, f_y  slopes per cell
-    exponent  above -1; 0 gives the part of the cell where the function is positive, and
-              a mean_power(…, a - 1) is the derivative of mean_power(…, a) with respect to f
+    exponent  above -1; with 0 the mean is the fraction of the cell with a positive function
     """
     f, f_x, f_y, _ = np.broadcast_arrays(f, f_x, f_y, exponent)
     b, c = np.maximum(np.abs(f_x), np.abs(f_y)), np.minimum(np.abs(f_x), np.abs(f_y))
@@ -39,7 +40,7 @@ def mean_power(f: Field, f_x: Field, f_y: Field, exponent: Exponent) -> Field:
     loaded = f > -(b + c) / 2
     deep = loaded & (f > DEEP * (b + c))
     cut = loaded & ~deep
-    for where, mean in ((deep, mean_of_smooth), (cut, _cut)):
+    for where, mean in ((deep, mean_of_smooth), (cut, mean_of_cut)):
         if np.any(where):
             a = _among(exponent, f.shape, where)
             result[where] = mean(f[where], b[where], c[where], a)
@@ -47,7 +48,7 @@ def mean_power(f: Field, f_x: Field, f_y: Field, exponent: Exponent) -> Field:
 
 
 def power(base: Field, exponent: Exponent) -> Field:
-    """base^exponent, shape of base; halves of whole numbers by roots, ten times as fast."""
+    """Compute base^exponent, shape of base; roots make multiples of 1/2 ten times faster."""
     if isinstance(exponent, np.ndarray) or exponent < 0 or 2 * exponent % 1:
         return np.asarray(base**exponent)
     whole = int(exponent)
@@ -57,26 +58,30 @@ def power(base: Field, exponent: Exponent) -> Field:
 
 
 def _among(exponent: Exponent, shape: tuple[int, ...], where: NDArray[Any]) -> Exponent:
-    """The exponents at some of the places; one for all remains a number."""
+    """Select the exponents at some of the places; a number remains a number."""
     return np.broadcast_to(exponent, shape)[where] if np.ndim(exponent) else exponent
 
 
 def mean_of_smooth(f: Field, f_x: Field, f_y: Field, a: Exponent) -> Field:
-    """`mean_power` where f is at least 1.5 times the sum of the slopes, to 3e-7."""
-    mean = _series(1 / f**2, *_bends(f_x, f_y, a))
+    """Compute `mean_power` for f >= 1.5 times the sum of the slopes, with an error of 3e-7."""
+    mean = _series(1 / f**2, *_series_terms(f_x, f_y, a))
     mean *= power(f, a)
     return mean
 
 
 def mean_of_cut(f: Field, f_x: Field, f_y: Field, a: Exponent) -> Field:
-    """`mean_power` where f is above minus half of the sum of the slopes and less than a few of
-    them, all of shape (n,); the slopes are not negative."""
-    return _cut(f, np.maximum(f_x, f_y), np.minimum(f_x, f_y), a)
+    """Compute `mean_power` for f between -1/2 and a few times the sum of the slopes, shape (n,).
+
+    The slopes must not be negative.
+    """
+    return _cut_with_slope(f, np.maximum(f_x, f_y), np.minimum(f_x, f_y), a)[0]
 
 
-def _bends(b: Field, c: Field, a: Exponent) -> tuple[Field, Field, Field]:
-    """Of 1/f² to 1/f⁶ in the mean of (f + b x + c y)^a over f^a: the binomial series with the means
-    of (b x + c y) to the second, fourth and sixth."""
+def _series_terms(b: Field, c: Field, a: Exponent) -> tuple[Field, Field, Field]:
+    """Return the coefficients of 1/f², 1/f⁴ and 1/f⁶ in the mean of (f + b x + c y)^a over f^a.
+
+    They are those of the binomial series with the means of powers of b x + c y.
+    """
     b, c = b**2, c**2
     second = a * (a - 1) / 2
     fourth = second * (a - 2) * (a - 3) / 12
@@ -89,7 +94,7 @@ def _bends(b: Field, c: Field, a: Exponent) -> tuple[Field, Field, Field]:
 
 
 def _series(inverse: Field, second: Field, fourth: Field, sixth: Field) -> Field:
-    """inverse  1/f²"""
+    """Sum the binomial series; `inverse` is 1/f²."""
     total = inverse * sixth
     for term in (fourth, second):
         total += term
@@ -98,12 +103,11 @@ def _series(inverse: Field, second: Field, fourth: Field, sixth: Field) -> Field
     return np.asarray(total)
 
 
-def _cut(f: Field, b: Field, c: Field, a: Exponent) -> Field:
-    return _cut_with_slope(f, b, c, a)[0]
-
-
 def _cut_with_slope(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
-    """The mean and its derivative with respect to f, where the cell may be cut, shape (n,)."""
+    """Compute the mean and its derivative with respect to f in cells that may be cut, shape (n,).
+
+    b, c  larger and smaller slope, not negative
+    """
     straight = c < STRAIGHT * b
     if not np.any(straight):
         return _oblique(f, b, c, a)
@@ -114,7 +118,7 @@ def _cut_with_slope(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, F
 
 
 def _straight(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
-    """In closed form along the larger slope, by Gauss points across."""
+    """Integrate in closed form along the larger slope and by Gauss points along the smaller one."""
     mean, slope = np.zeros(f.shape), np.zeros(f.shape)
     for y, weight in zip(POINTS, WEIGHTS, strict=True):
         for side in (1, -1):
@@ -126,8 +130,8 @@ def _straight(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
 
 
 def _oblique(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
+    """Compute the second differences over the corners."""
     outer, inner = (b + c) / 2, (b - c) / 2
-    # Those of which two are added, and those of which two are taken away.
     corners = np.maximum(np.array([f + outer, f - outer, f + inner, f - inner]), 0.0)
     of_corners = power(corners, a + 1)
     slope = _differences(of_corners) / ((a + 1) * b * c)
@@ -142,34 +146,38 @@ def _differences(corners: Field) -> Field:
 def centre_value(
     mean: Field, f_x: Field, f_y: Field, exponent: Exponent, near: Field | None = None
 ) -> Field:
-    """The f for which `mean_power` gives a mean, all of one shape (n,).
+    """Compute the f with a given `mean_power`, all of one shape (n,).
 
-    mean  of the power over the cell, positive
-    near  values about which to look where the cell may be cut; None where nothing is known
-    Between mean^(1/exponent) ± half the sum of the slopes.
+    The result lies within half the sum of the slopes of mean^(1/exponent).
+
+    mean  mean of the power over the cell, positive
+    near  initial guess of f for cells that may be cut
     """
     f_x, f_y = np.abs(f_x), np.abs(f_y)
     b, c = np.maximum(f_x, f_y), np.minimum(f_x, f_y)
     f = power(mean, np.divide(1, exponent))
     deep = f > DEEP * (b + c)
-    for where, inverse in ((deep, _smooth_centre), (~deep, _cut_centre)):
-        about = None if near is None else near[where]
-        f[where] = inverse(f[where], b[where], c[where], _among(exponent, f.shape, where), about)
+    slopes, a = (b[deep], c[deep]), _among(exponent, f.shape, deep)
+    f[deep] = _smooth_centre(f[deep], *slopes, a)
+    cut, a = ~deep, _among(exponent, f.shape, ~deep)
+    f[cut] = _cut_centre(f[cut], b[cut], c[cut], a, None if near is None else near[cut])
     return f
 
 
-def _smooth_centre(target: Field, b: Field, c: Field, a: Exponent, near: Field | None) -> Field:
-    """By iterations, each of which leaves a two-hundredth of the error: no value near the result
-    is needed."""
-    f, terms = target, _bends(b, c, a)
-    for _ in range(SMOOTH_TURNS):
+def _smooth_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
+    """Solve for f by fixed-point iteration; a step divides the error by 200."""
+    f, terms = target, _series_terms(b, c, a)
+    for _ in range(FIXED_POINT_STEPS):
         f = target / power(_series(1 / f**2, *terms), np.divide(1, a))
     return f
 
 
-def _first_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
-    """Near the f that is asked for: where the edge cuts off a corner, exactly; where it cuts off
-    two, by the larger slope alone; else the value without slopes."""
+def _initial_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
+    """Return an initial guess of f.
+
+    The guess is exact if only one corner of the cell is positive. If two corners are, the smaller
+    slope is neglected. Otherwise both slopes are neglected.
+    """
     mean = (a + 1) * b * power(target, a)
     corner, side = power((a + 2) * c * mean, 1 / (a + 2)), power(mean, 1 / (a + 1))
     f = np.where(side <= b, side - b / 2, target)
@@ -177,20 +185,17 @@ def _first_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
 
 
 def _cut_centre(target: Field, b: Field, c: Field, a: Exponent, near: Field | None) -> Field:
-    """By Newton's method on mean^(1/a), which is almost linear in f.
-
-    target  mean^(1/a)
-    """
+    """Solve mean^(1/a) = target, which is almost linear in f, by Newton's method with bisection."""
     half = (b + c) / 2
     low, high = -half, target + half
-    f = _first_centre(target, b, c, a) if near is None else np.clip(near, low, high)
-    for _ in range(MAX_TURNS):
+    f = _initial_centre(target, b, c, a) if near is None else np.clip(near, low, high)
+    for _ in range(MAX_NEWTON_STEPS):
         found, slope = _cut_with_slope(f, b, c, a)
         value = power(found, np.divide(1, a))
-        missing = target - value
-        low, high = np.where(missing > 0, f, low), np.where(missing > 0, high, f)
+        residual = target - value
+        low, high = np.where(residual > 0, f, low), np.where(residual > 0, high, f)
         with np.errstate(divide="ignore", invalid="ignore"):
-            newton = f + missing * a * found / (value * slope)
+            newton = f + residual * a * found / (value * slope)
         last, f = f, np.where((newton >= low) & (newton <= high), newton, (low + high) / 2)
         if np.all(np.abs(f - last) <= SETTLED * (target + half)):
             break

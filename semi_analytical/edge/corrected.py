@@ -1,4 +1,4 @@
-"""A state whose tractions have their edges inside the cells."""
+"""Results of the edge correction of a state."""
 
 from dataclasses import dataclass
 
@@ -9,16 +9,16 @@ from semi_analytical.edge.subcell_tractions import SubcellTractions
 
 @dataclass(frozen=True)
 class CorrectedShear:
-    """The tangential part; fields on the whole window.
+    """Shear with a sub-cell stick border; fields on the full window.
 
-    shear         (2, nx, ny) its mean over each cell [force/length^2]
-    within        what it is within the cells, along x and y
-    slip          (2, nx, ny) its direction where cells slip, and there nearest to where they stick
-    displacement  (2, nx, ny) u_t at the centres of the cells [length]
-    shift         (2,) of the indenter [length]; None at the friction limit under force control
+    shear         (2, nx, ny) mean over each cell [force/length^2]
+    within        variation within the cells, of the components x and y
+    slip          (2, nx, ny) direction of the shear in the slip zone, extended to the other cells
+    displacement  (2, nx, ny) u_t at the cell centres [length]
+    shift         (2,) shift of the indenter [length]; None at the friction limit in force control
     stick         (nx, ny) cells whose centre sticks
     stick_cells   area of the stick zone in cells
-    change        of the shear in the last round, Σ|Δq|/Σµp
+    change        relative change of the shear in the last iteration, Σ|Δq|/Σµp
     """
 
     shear: Field
@@ -35,12 +35,12 @@ class CorrectedShear:
 class EdgeReport:
     """Outcome of the edge correction of a state: relative changes in its last iteration.
 
-    cause     for which the state could not be corrected; None where it is corrected
-    response  of the approach, or of the normal force where the approach is prescribed
-    peak      of the largest pressure
-    radius    of the contact radius
-    ridge     whether the peak lies on a ridge, not on a cap
-    border    whether the stick border of uncoupled bodies is corrected, too, or there is none
+    cause     reason why the state is not corrected; None for a corrected state
+    response  change of the approach, or of the normal force at a prescribed approach
+    peak      change of the largest pressure
+    radius    change of the contact radius
+    ridge     True if the peak lies on a ridge, False on a cap
+    border    False if the stick border of uncoupled bodies remains uncorrected
     """
 
     cause: str | None = None
@@ -53,21 +53,22 @@ class EdgeReport:
 
 @dataclass(frozen=True)
 class Corrected:
-    """A state with its edges inside the cells; fields on the whole window.
+    """Corrected state; fields on the full window.
 
-    pressure       (nx, ny) its mean over each cell, also over those that the contact reaches into
-                   from outside their centre [force/length^2]
-    peak           the largest pressure at a point [force/length^2]
-    gap            (nx, ny) at the centres of the cells [length]
-    approach       of the bodies [length]
+    pressure       (nx, ny) mean over each cell, also over partly covered cells whose centre is
+                   outside the contact [force/length^2]
+    peak           largest pressure at a point [force/length^2]
+    gap            (nx, ny) gap at the cell centres [length]
+    approach       approach of the bodies [length]
     contact_cells  area of the contact in cells
-    change         of the pressure in the last iteration, Σ|Δp|/Σp
-    edge           the pressure in the cells along the edge of the contact
+    change         relative change of the pressure in the last iteration, Σ|Δp|/Σp
+    edge           pressure in the cells along the contact edge
     report         changes in the last iteration
-    tilt           of the indenter (x, y); None where nothing tilts
-    shear          (2, nx, ny) that follows the pressure [force/length^2]; None without friction
-    sheared        the tangential part with the border of stick inside the cells; None where bodies
-                   couple, without shear, or where that border is not fitted
+    tilt           tilt of the indenter (x, y); None for an indenter that does not tilt
+    shear          (2, nx, ny) shear at the corrected pressure [force/length^2]; None without
+                   friction
+    sheared        shear with a sub-cell stick border; None for coupled bodies, without shear, or
+                   if the border cannot be fitted
     """
 
     pressure: Field

@@ -1,4 +1,4 @@
-"""What tractions do within their cells, and the displacement by it."""
+"""Displacements by tractions that vary within their cells."""
 
 from __future__ import annotations
 
@@ -15,23 +15,23 @@ from semi_analytical.operator.operator import Array, Response, response
 from semi_analytical.operator.spectra import KernelSpectrum
 from semi_analytical.operator.transforms import Convolutions, Transforms
 
-# Of displacements by tractions.
+# Sign and kernels of a component: rows are displacements, columns tractions.
 Matrix = Sequence[Sequence[tuple[int, EdgeKernels]]]
 
-# A slope of one per cell has a twelfth of a moment; that of its parts is a little less.
+# Slope over the first moment: 12 for a linear function, corrected for constant subcells.
 MOMENT = 12 / (1 - 1 / PARTS**2)
 X, Y = (at.ravel() for at in np.meshgrid(part_centres(), part_centres(), indexing="ij"))
-# One and both places at the parts of a cell: what mean and slopes go with.
+# Basis 1, x, y of linear functions at the subcells of a cell.
 LINEAR = np.stack([np.ones(PARTS**2), X, Y], axis=-1)
 
 
 @dataclass(frozen=True)
 class Within:
-    """A traction within its cells, beside its means.
+    """Variation of a traction about its cell means: slopes, and a remainder in edge cells.
 
-    slopes  (2, nx, ny) change from side to side of a cell, along x and y [force/length^2]
-    i, j    cells in which it is more than a slope, (n,)
-    rest    (n, PARTS, PARTS) what mean and slope leave of its parts there [force/length^2]
+    slopes  (2, nx, ny) change across a cell along x and y [force/length^2]
+    i, j    edge cells (n,)
+    rest    (n, PARTS, PARTS) subcell values there minus mean and slopes [force/length^2]
     """
 
     slopes: Field
@@ -48,21 +48,24 @@ class Within:
         parts: Field,
         domain: ReducedDomain = WINDOW,
     ) -> Within:
-        """From means (nx, ny) by central differences, and in the cells (i, j) by parts.
+        """Compute slopes by central differences of means, in edge cells from their subcells.
 
-        domain  that all are on
+        means   (nx, ny) cell means on the domain
+        i, j    edge cells (n,)
+        parts   (n, PARTS, PARTS) subcell values of the edge cells
         """
         slopes = domain.differences(means) * (means != 0)
         values = parts.reshape(-1, PARTS**2)
-        told = values @ (LINEAR / [1, 1 / MOMENT, 1 / MOMENT] / PARTS**2)
-        slopes[:, i, j] = told[:, 1:].T
-        rest = values - told @ LINEAR.T
+        linear = values @ (LINEAR / [1, 1 / MOMENT, 1 / MOMENT] / PARTS**2)
+        slopes[:, i, j] = linear[:, 1:].T
+        rest = values - linear @ LINEAR.T
         return cls(slopes, i, j, rest.reshape(parts.shape))
 
     def along(self, n: Field, component: Field) -> Within:
-        """Within a component of a vector of this size and direction n (nx, ny).
+        """Return the variation of a component n v of a vector with the magnitude v.
 
-        component  its means over the cells (nx, ny)
+        n          direction cosine (nx, ny)
+        component  cell means of the component (nx, ny)
         """
         slopes = np.stack(list(np.gradient(component)))
         at = self.i, self.j
@@ -70,13 +73,13 @@ class Within:
         return Within(slopes, self.i, self.j, n[at][:, None, None] * self.rest)
 
     @classmethod
-    def nothing(cls, cells: tuple[int, ...]) -> Within:
-        """Of no traction on these cells."""
+    def zero(cls, cells: tuple[int, ...]) -> Within:
+        """Return the variation of a zero traction."""
         none = np.zeros(0, dtype=int)
         return cls(np.zeros((2, *cells)), none, none, np.zeros((0, PARTS, PARTS)))
 
     def extended(self, domain: ReducedDomain) -> Within:
-        """Extend what an even traction is within the cells of a domain to the window."""
+        """Extend the variation of an even traction from a domain to the window."""
         at, rest = np.stack([self.i, self.j]), self.rest
         for axis in domain.planes:
             count = self.slopes.shape[1 + axis]
@@ -89,8 +92,10 @@ class Within:
 
     @classmethod
     def summed(cls, slopes: Field, terms: Sequence[tuple[Field, Within]]) -> Within:
-        """These slopes, and the rests times fields (nx, ny) that hardly change from cell to cell;
-        once where several have the same cell, or each turn of a load would add its own."""
+        """Combine given slopes with the sum of remainders times smooth fields (nx, ny).
+
+        Remainders of the same cell are added, so that load cycles do not accumulate cells.
+        """
         ny = slopes.shape[2]
         some = [factor[w.i, w.j] != 0 for factor, w in terms]
         each = [(w.i * ny + w.j)[of] for of, (_, w) in zip(some, terms, strict=True)]
@@ -103,10 +108,9 @@ class Within:
 
 
 class EdgeOperator:
-    """Displacements by what tractions do within their cells, of one component of the influence
-    coefficients or, transformed together, of several.
+    """Operator from variations of tractions within cells to displacements at the cell centres.
 
-    A call is half a convolution for every displacement and one for every traction.
+    A call costs one half of a convolution per displacement and one convolution per traction.
     """
 
     def __init__(
@@ -117,13 +121,15 @@ class EdgeOperator:
         known: Mapping[str, KernelSpectrum] | None = None,
         domain: ReducedDomain = WINDOW,
     ) -> None:
-        """kernels  rows are displacements, columns tractions: sign and kernels of a component
-        known    spectra of components of the coefficients that are even along both sides
-        domain   that all are on; below the window for pressures alone
+        """Prepare the spectra.
+
+        shape    cells of the domain
+        known    spectra of components of the coefficients that are even along both axes
+        domain   domain of all fields; a reduced domain is for pressures only
         """
         self._transforms = Transforms(shape, ReducedDomain(domain.mirrors), counter)
         columns, self._counter, self._domain = len(kernels[0]), counter, domain
-        # The slopes of a scalar have the parities of a vector, and such responses.
+        # The slopes of a scalar field have the parities of a vector.
         reduced = domain.images > 1
         inputs = "xy" if reduced else "zz" * columns
         self._sides = self._transforms.sides(inputs, "z" * len(kernels))
@@ -146,8 +152,7 @@ class EdgeOperator:
         ]
 
     def __call__(self, *within: Within) -> Field:
-        """The displacements (rows, nx, ny) at the centres of the cells by one `Within` per column
-        [length]."""
+        """Compute displacements (rows, nx, ny) by one `Within` per column [length]."""
         slopes = np.concatenate([w.slopes for w in within])
         self._counter.count += 0.5 * (len(self._matrix) + len(slopes))
         u = self._transforms.filtered(slopes, *self._sides, self._multiplied)
@@ -170,15 +175,16 @@ class EdgeOperator:
 
 
 def around(within: Within, near: Field, count: int) -> Field:
-    """Displacements (count, nx + 2 REACH, ny + 2 REACH) of the cells about each by its rest.
+    """Sum displacements by the remainders of edge cells at the cells within REACH.
 
-    near  (count of offsets, PARTS²) displacement by each part, one displacement after the other
+    The result has the shape (count, nx + 2 REACH, ny + 2 REACH).
+    near  (count * offsets, PARTS²) displacement by unit traction on each subcell
     """
     shape = np.array(within.slopes.shape[1:]) + 2 * REACH
-    seen = near @ within.rest.reshape(-1, PARTS**2).T
+    moved = near @ within.rest.reshape(-1, PARTS**2).T
     offset = np.arange(2 * REACH + 1)
     at = (within.i + offset[:, None])[:, None] * shape[1] + (within.j + offset[:, None])
     u = np.empty((count, *shape))
-    for total, one in zip(u, seen.reshape(count, -1), strict=True):
+    for total, one in zip(u, moved.reshape(count, -1), strict=True):
         total.flat = np.bincount(at.ravel(), weights=one, minlength=total.size)
     return u

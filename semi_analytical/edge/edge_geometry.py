@@ -1,8 +1,9 @@
-"""The edge of a region as a line: where it is next to cells, and how far places are from it."""
+"""Edge of a region as a set of points with normals and curvatures, and distances from the edge."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -10,22 +11,22 @@ from contact_scene.array_types import Field, Indices
 from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.operator.domain import ReducedDomain
 
-# Places see the line from so many of its cells, the last of them with no weight: of cells that are
-# equally far none is to be preferred, or a mirror image would not be one.
-SEEN = 5
-# Of the slope of phi inside, of that at the edge, at least; and of 1 - κ s.
-LEAST_SLOPE, LEAST_TURN = 0.1, 0.3
+# Number of nearest edge points that determine the geometry at a place. The farthest has zero
+# weight, so that the choice among equally distant points does not matter (mirror symmetry).
+NEIGHBOURS = 5
+# Lower bounds of the slope inside over that at the edge, and of 1 - κ s.
+MIN_SLOPE_RATIO, MIN_JACOBIAN = 0.1, 0.3
 
 
 @dataclass(frozen=True)
-class Seen:
-    """The edge as places see it, all of one shape.
+class LocalEdge:
+    """Geometry of the edge relative to given places, all of one shape.
 
-    distance   s from it, negative outside
-    normal     (2, …) unit vector inwards, there
-    slope      of phi at the edge, along the normal
-    bend       second derivative of phi along the normal
-    curvature  κ of the edge, positive about what is convex
+    distance   distance s of the places from the edge, negative outside
+    normal     (2, …) inward unit normal of the edge
+    slope      slope of φ along the normal at the edge
+    bend       second derivative of φ along the normal
+    curvature  curvature κ of the edge, positive for a convex region
     """
 
     distance: Field
@@ -35,14 +36,14 @@ class Seen:
     curvature: Field
 
     @property
-    def slope_here(self) -> Field:
-        """Of phi at the places."""
+    def slope_at_place(self) -> Field:
+        """Slope of φ along the normal at the places."""
         inside = self.slope + self.bend * self.distance
-        return np.maximum(inside, LEAST_SLOPE * self.slope)
+        return np.maximum(inside, MIN_SLOPE_RATIO * self.slope)
 
     @property
     def foot(self) -> Field:
-        """From the places to the edge (2, …)."""
+        """Vectors from the places to the nearest points of the edge (2, …)."""
         return -self.distance * self.normal
 
 
@@ -50,10 +51,10 @@ class Seen:
 class EdgeLine:
     """Points of the edge, one per cell along it, shape (n,), in index coordinates.
 
-    at           (2, n) the cells
-    x, y         points of the edge nearest to them
-    normal       (2, n); this and the rest as of `Seen`
-    stretched    lengths of the sides of a cell, the units of lengths
+    at           (2, n) indices of the cells
+    x, y         points of the edge nearest to the cells
+    normal       (2, n); slope, bend and curvature as in `LocalEdge`
+    stretched    sides of a cell along x and y in the unit of distances
     """
 
     at: Field
@@ -67,13 +68,13 @@ class EdgeLine:
 
     @classmethod
     def of(cls, phi: Quadratic, stretched: tuple[float, float]) -> EdgeLine:
-        """The edge next to the middles of quadratics."""
+        """Compute the edge points nearest to the origins of quadratics."""
         q = phi.scaled(*stretched)
         steep = np.maximum(q.slope, np.finfo(float).tiny)
         n_x, n_y = q.f_x / steep, q.f_y / steep
         bend = q.f_xx * n_x**2 + 2 * q.f_xy * n_x * n_y + q.f_yy * n_y**2
         along = q.f_xx * n_y**2 - 2 * q.f_xy * n_x * n_y + q.f_yy * n_x**2
-        slope = np.sqrt(np.maximum(steep**2 - 2 * q.f * bend, (LEAST_SLOPE * steep) ** 2))
+        slope = np.sqrt(np.maximum(steep**2 - 2 * q.f * bend, (MIN_SLOPE_RATIO * steep) ** 2))
         s = 2 * q.f / (steep + slope)
         return cls(
             np.stack([phi.x, phi.y]),
@@ -86,61 +87,52 @@ class EdgeLine:
             stretched,
         )
 
-    def evened(self) -> EdgeLine:
-        """With the same curvature everywhere, and bends in the same ratio to slopes: the medians,
-        where second derivatives are not to be believed yet."""
+    def with_medians(self) -> EdgeLine:
+        """Replace the curvature and the ratio of bend to slope by their medians along the edge."""
         bend = self.slope * np.median(self.bend / self.slope)
         curvature = np.full_like(bend, np.median(self.curvature))
         return replace(self, bend=bend, curvature=curvature)
 
     def with_images(self, domain: ReducedDomain) -> EdgeLine:
-        """With the images of its points beyond the mirror planes of a domain."""
+        """Append the mirror images of the points beyond the mirror planes of a domain."""
         line = self
         for axis in domain.planes:
-            line = line._beside(line._mirrored(axis))
+            one, image = vars(line), vars(line._mirrored(axis))
+            both: dict[str, Any] = {
+                name: np.concatenate([one[name], image[name]], axis=-1)
+                for name in one.keys() - {"stretched"}
+            }
+            line = replace(line, **both)
         return line
 
     def _mirrored(self, axis: int) -> EdgeLine:
-        """At a plane half a cell before the first."""
+        """Mirror the points at a plane half a cell before the first cell."""
         at, normal, places = self.at.copy(), self.normal.copy(), [self.x, self.y]
         at[axis], normal[axis], places[axis] = -1 - at[axis], -normal[axis], -1 - places[axis]
         return replace(self, at=at, x=places[0], y=places[1], normal=normal)
 
-    def _beside(self, other: EdgeLine) -> EdgeLine:
-        """Both."""
-        at, normal = (
-            np.concatenate(pair, axis=1)
-            for pair in ((self.at, other.at), (self.normal, other.normal))
-        )
-        x, y, slope, bend, curvature = (
-            np.concatenate(pair)
-            for pair in (
-                (self.x, other.x),
-                (self.y, other.y),
-                (self.slope, other.slope),
-                (self.bend, other.bend),
-                (self.curvature, other.curvature),
-            )
-        )
-        return EdgeLine(at, x, y, normal, slope, bend, curvature, self.stretched)
+    def at_cells(self, i: Indices, j: Indices) -> LocalEdge:
+        """Compute the geometry at cells (n,) as a weighted mean over the nearest edge points."""
+        from scipy.spatial import KDTree  # its import takes as long as a small contact
 
-    def seen_from(self, i: Indices, j: Indices) -> Seen:
-        """From cells (n,), each by the points that are nearest."""
-        from scipy.spatial import KDTree  # as long to import as a small contact takes
-
-        count = min(SEEN, len(self.x))
+        count = min(NEIGHBOURS, len(self.x))
         far, which = KDTree(self.at.T).query(np.stack([i, j], axis=-1), k=count)
         weight = far[:, -1:] ** 2 - far**2 + 1e-9
         weight /= np.sum(weight, axis=1, keepdims=True)
-        each = self.seen_by(which, i[:, None], j[:, None])
+        each = self.at_places(which, i[:, None], j[:, None])
         s, n_x, n_y, slope, bend, curvature = (
             np.sum(weight * part, axis=-1)
             for part in (each.distance, *each.normal, each.slope, each.bend, each.curvature)
         )
-        return Seen(s, np.stack([n_x, n_y]) / np.hypot(n_x, n_y), slope, bend, curvature)
+        return LocalEdge(s, np.stack([n_x, n_y]) / np.hypot(n_x, n_y), slope, bend, curvature)
 
-    def seen_by(self, which: Indices | slice, x: Field | Indices, y: Field | Indices) -> Seen:
-        """As places that broadcast with these see the points `which`."""
+    def at_places(
+        self, which: Indices | slice, x: Field | Indices, y: Field | Indices
+    ) -> LocalEdge:
+        """Compute the geometry at places (x, y) from the edge points `which`, by broadcasting.
+
+        The edge near a point is a circular arc; distances are of first order in its curvature.
+        """
         dx, dy = (
             (at - of[which]) * side
             for at, of, side in zip((x, y), (self.x, self.y), self.stretched, strict=True)
@@ -148,10 +140,10 @@ class EdgeLine:
         n_x, n_y = self.normal[:, which]
         curvature = self.curvature[which]
         inwards, across = n_x * dx + n_y * dy, n_x * dy - n_y * dx
-        turn = curvature * across / np.maximum(1 - curvature * inwards, LEAST_TURN)
-        normal = np.stack([n_x + turn * n_y, n_y - turn * n_x]) / np.sqrt(1 + turn**2)
+        tangent = curvature * across / np.maximum(1 - curvature * inwards, MIN_JACOBIAN)
+        normal = np.stack([n_x + tangent * n_y, n_y - tangent * n_x]) / np.sqrt(1 + tangent**2)
         slope, bend, curvature = (
             np.broadcast_to(part[which], dx.shape)
             for part in (self.slope, self.bend, self.curvature)
         )
-        return Seen(inwards - turn * across / 2, normal, slope, bend, curvature)
+        return LocalEdge(inwards - tangent * across / 2, normal, slope, bend, curvature)

@@ -1,18 +1,18 @@
-"""The pressure towards the edge of a contact of layered bodies, as a function of the distance.
+"""Wiener-Hopf solution for the pressure near the contact edge of layered bodies.
 
-Near its edge a contact is plane. With X(k) = k E* F_zz/2 (F_zz of both bodies, E* of the outermost
-materials: 1 for short waves) pressure p and slope u' of the displacement obey
+Near its edge a contact is plane. Let s be the distance inwards from the edge, and
+X(k) = k E* F_zz/2, with F_zz of both bodies and E* of the outermost materials (X = 1 for short
+waves). Pressure p and slope u' of the displacement obey
 
-    i sign(k) X(|k|) p~(k) = u'~(k),    p = 0 for s < 0,    u' smooth for s > 0,
+    i sign(k) X(|k|) p~(k) = u'~(k),    p = 0 for s < 0,    u' smooth for s > 0
 
-s the distance inwards from the edge. With X = X+ X-, each analytic in half of the plane (Wiener and
-Hopf), pressures that end smoothly are sums of
+With X = X+ X-, each factor analytic in a half-plane, pressures that end smoothly are sums of
 
     Φn(s) = L⁻¹[z^(-n-1/2)/X+(iz)](s), n = 1, 2, …,    ln X+(iz) = (z/π) ∫₀^∞ ln X(k)/(k² + z²) dk
 
-with L Laplace's transform; Φn+1 is the integral of Φn. Without layers Φ1 = 2 √(s/π). With them it
-is that within the thickness of the outermost, and farther in 1/√X(0) of it. Along an edge of
-curvature κ it is (1 - κ s/2) p that they make up, to first order (J₀ for large arguments).
+L is the Laplace transform; Φn+1 is the integral of Φn. Without layers Φ1 = 2 √(s/π). With layers Φ1
+has this value at distances below the thickness of the outermost layer, and 1/√X(0) times this value
+far inside. Along an edge of curvature κ the Φn represent (1 - κ s/2) p, to first order in κ.
 """
 
 from __future__ import annotations
@@ -33,37 +33,39 @@ from semi_analytical.frf.surface import remainder_scalars
 if TYPE_CHECKING:
     from scipy.interpolate import CubicSpline
 
-# X of wavenumbers times the thickness.
+# X as a function of the wavenumber times the thickness.
 Response = Callable[[Field], Field]
 
-# Of logarithms of wavenumbers and distances, in units of the thickness.
+# Step and ranges of the logarithms of wavenumbers and distances, scaled by the thickness.
 STEP = 0.05
 WAVES, DISTANCES = (log(1e-8), log(1e8)), (log(1e-5), log(1e6))
-# Half of the terms of the sum that inverts Laplace's transform (Abate and Whitt 1995): to 1e-7.
+# Half the number of terms of the numerical Laplace inversion (Abate and Whitt 1995), error 1e-7.
 TERMS = 14
-# A square so many times as far inside the edge as it is wide has the mean of two points.
+# Distance from the edge over the width of a square beyond which two points yield its mean.
 DEEP = 2.0
 POINTS, WEIGHTS = (half / 2 for half in np.polynomial.legendre.leggauss(4))
-# Radius of a contact over the thickness: the edge of a narrower one is not plane over that, and a
-# root, which the film alone calls for, is nearer (films of .3 to 20 times their base's modulus).
+# Least contact radius over the thickness. The edge of a narrower contact is not plane over the
+# thickness; the root of a homogeneous film is then more accurate (moduli 0.3 to 20 times the base).
 NARROW = 2.0
-# Of the root of its width, below which the mean of the root tells nothing.
+# Mean of the root over the root of the width below which the ratio of the means is set to 1.
 TOUCHED = 1e-6
 
-# Sides of a cell: an outermost layer that is thicker is a half-space to the few cells of an edge.
+# Thickness of the outermost layer in cell sides beyond which the edge cells see a half-space.
 THICK = 16.0
-# Relative difference of X from 1, or of two materials, below which an edge does not show a layer.
+# Relative difference of X from 1, or of two materials, below which a layer is neglected.
 LEAST_CONTRAST = 1e-3
 SAMPLED = np.geomspace(1e-3, 10.0, 41)
 
 
 @dataclass(frozen=True)
 class FilmLaw:
-    """Pressures Φ1 + c (Φ2 - ⅔ s Φ1), to be taken in place of √s: what bends √s alike, a factor
-    1 + ⅔ c s, is left to what is fitted.
+    """Edge pressure Φ1 + c (Φ2 - ⅔ s Φ1), which replaces √s.
+
+    Without layers the law is √s for all c: a factor 1 + ⅔ c s is fitted with φ instead.
+    Distances s are in units of the thickness.
 
     response   X
-    stretched  sides of a cell along x and y over the thickness, in which s is measured
+    stretched  sides of a cell along x and y over the thickness
     """
 
     response: Response
@@ -71,46 +73,44 @@ class FilmLaw:
 
     @cached_property
     def _ratios(self) -> CubicSpline:
-        """Φ1, Φ2, Φ3 over what they are without layers, of ln s."""
-        from scipy.interpolate import CubicSpline  # as long to import as a small contact takes
+        """Φ1, Φ2, Φ3 over their values without layers, as functions of ln s."""
+        from scipy.interpolate import CubicSpline  # its import takes as long as a small contact
 
         t, u = (np.arange(low, high, STEP) for low, high in (WAVES, DISTANCES))
         level = log(self.response(np.exp(t[:1]))[0])
-        # Without level/(1 + k²), whose integral is known, both ends vanish.
+        # The integral of level/(1 + k²) is known; the remainder vanishes at both ends.
         rest = np.log(self.response(np.exp(t))) - level / (1 + np.exp(2 * t))
         s, z = np.exp(u), TERMS * log(10) / 3 + 1j * pi * np.arange(2 * TERMS + 1)
-        # Everything depends on k s alone: the integral over ln k correlates with it.
+        # The kernel depends on k s alone, so the integral over ln k is a correlation.
         ks = np.exp(t[0] + u[0] + STEP * np.arange(len(t) + len(u) - 1))
         kernel = STEP / pi * z[:, None] * ks / (ks**2 + z[:, None] ** 2)
         size = 2 ** int(np.ceil(np.log2(len(ks) + len(t))))
         spectrum = np.fft.fft(kernel, size) * np.fft.fft(rest[::-1], size)
         integral = np.fft.ifft(spectrum)[:, len(t) - 1 : len(t) - 1 + len(u)]
         factor = np.exp(-integral - level / 2 / (1 + z[:, None] / s))
-        share = (-1.0) ** np.arange(len(z)) * _euler_weights() * 10 ** (TERMS / 3)
+        weights = (-1.0) ** np.arange(len(z)) * _euler_weights() * 10 ** (TERMS / 3)
         ratios = [
-            share @ (gamma(n + 0.5) * z[:, None] ** (-n - 0.5) * factor).real for n in (1, 2, 3)
+            weights @ (gamma(n + 0.5) * z[:, None] ** (-n - 0.5) * factor).real for n in (1, 2, 3)
         ]
         return CubicSpline(u, np.stack(ratios, axis=-1))
 
     def holds_within(self, radius: float) -> bool:
-        """Whether contacts are wide enough for it.
-
-        radius  of the largest circle inside, in cells
-        """
+        """Return True if the law applies to a contact with this inscribed radius in cells."""
         return radius * min(self.stretched) >= NARROW
 
     def over_root(self, s: Field, c: Field) -> Field:
-        """The law over √s at distances s > 0, any shape."""
+        """Compute the law over √s at distances s > 0, any shape."""
         first, second, _ = self._at(s)
         return np.asarray(first + c * s / 1.5 * (second - first))
 
     def means_over_root(
         self, s: Field, along: Field, across: Field, c: Field
     ) -> tuple[Field, Field]:
-        """The mean of the law over squares over that of √s, and the derivative of its logarithm
-        over that of the logarithm of the mean of √s, shape (n,); 1 and 0 outside.
+        """Compute the ratio of the means of the law and of √s over rectangles, shape (n,).
 
-        s              distance of the middle of each; negative outside
+        The second result is d ln(ratio) / d ln(mean of √s). Outside, the results are 1 and 0.
+
+        s              distance of the centre of each rectangle; negative outside
         along, across  change of the distance along its sides
         """
         b, a = np.maximum(np.abs(along), np.abs(across)), np.minimum(np.abs(along), np.abs(across))
@@ -128,13 +128,13 @@ class FilmLaw:
         return law / root, law_rate * root / (law * root_rate) - 1
 
     def _at(self, s: Field) -> Field:
-        """(3, …)"""
+        """Interpolate the ratios of Φ1, Φ2, Φ3 (3, …)."""
         u = np.log(np.maximum(s, 1e-300))
         found = self._ratios(np.clip(u, self._ratios.x[0], self._ratios.x[-1]))
         return np.asarray(np.moveaxis(found, -1, 0))
 
     def _values(self, s: Field, c: Field) -> Field:
-        """The law and its derivative, √s and its derivative (4, n), at s > 0."""
+        """Compute the law and its derivative, √s and its derivative (4, n) at s > 0."""
         root, step = np.sqrt(s), 0.02
         here, after, before = (self.over_root(s * f, c) for f in (1.0, 1 + step, 1 - step))
         return np.stack([
@@ -142,7 +142,7 @@ class FilmLaw:
         ])  # fmt: skip
 
     def _integrals(self, s: Field, c: Field) -> Field:
-        """Integrals from 0 to s of the same (4, n)."""
+        """Compute the integrals of `_values` from 0 to s (4, n)."""
         root = np.sqrt(s)
         first, second, third = self._at(s)
         bent = c * s / 1.5
@@ -156,14 +156,15 @@ class FilmLaw:
 
 
 def _euler_weights() -> Field:
-    """Of the alternating sum, whose later terms are averaged (Euler)."""
+    """Return the weights of Euler summation of the alternating series."""
     tail = np.cumsum([comb(TERMS, k) for k in range(TERMS)]) / 2**TERMS
     return np.concatenate([[0.5], np.ones(TERMS), tail[::-1]])
 
 
 def film_law(lower: Body, upper: Body, spacing: tuple[float, float]) -> FilmLaw | None:
-    """That of the layers on both; None where the pressure goes like a root over a few cells, and on
-    a rigid base, over which long waves do not reach.
+    """Return the edge pressure law of two bodies; None if the pressure is a root over the cells.
+
+    The result is also None for a layer on a rigid base, where X(0) = 0.
 
     spacing  cell sides [length]
     """
@@ -188,7 +189,7 @@ def film_law(lower: Body, upper: Body, spacing: tuple[float, float]) -> FilmLaw 
 
 
 def _uniform_depth(stack: Stack) -> float:
-    """Depth above which all layers are like the outermost [length]."""
+    """Return the depth of the outermost layers of equal material [length]."""
     depth, outer = 0.0, stack.outer
     for layer in stack.layers:
         stiffer = abs(layer.shear_modulus / outer.shear_modulus - 1)
@@ -199,6 +200,6 @@ def _uniform_depth(stack: Stack) -> float:
 
 
 def _compliance(stack: Stack) -> float:
-    """k F_zz of its outermost material [length²/force]."""
+    """Return k F_zz of the outermost material [length²/force]."""
     outer = stack.outer
     return (1 - outer.poisson_ratio) / outer.shear_modulus

@@ -10,14 +10,14 @@ from contact_scene.array_types import Field, Indices
 from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
 
-# Decides only what the data leave open.
+# Relative regularisation of coefficients that the data do not determine.
 RIDGE = 1e-13
-# Fits made at a time: as many as stay in the cache.
+# Number of fits at a time, limited by the processor cache.
 CHUNK = 256
-# Of weights, where there are none.
+# Sum of the weights used in place of zero.
 LEAST_TOTAL = 1e-30
 
-# Part of the largest curvature, below which a direction is that of a ridge.
+# Curvature over the largest one below which a direction is that of a ridge.
 CURVED = 0.1
 
 
@@ -36,9 +36,9 @@ NARROW, WIDE, WIDER = Stencil(3, 1.7), Stencil(5, 2.5), Stencil(6, 3.0)
 class Fits:
     """Fits about cells, one per cell, all of one shape.
 
-    quadratic  about the centres of the cells
-    rms        weighted root mean square of what the fit leaves of the data
-    count      data that it could use
+    quadratic  quadratics about the cell centres
+    rms        weighted root mean square of the residuals
+    count      number of data with a positive weight
     """
 
     quadratic: Quadratic
@@ -54,53 +54,50 @@ def fit_about(
     stencil: Stencil,
     degree: int = 2,
     domain: ReducedDomain = WINDOW,
-    leaning: tuple[Field, Field] | None = None,
+    sensitivity: tuple[Field, Field] | None = None,
 ) -> Fits:
-    """Weighted least squares about the cells (i, j), shape (n,).
+    """Fit polynomials to cell means about the cells (i, j), shape (n,), by weighted least squares.
 
-    data     (nx, ny) cell means
-    weight   (nx, ny) of the data, a factor of that of the stencil
-    degree   1 or 2
-    domain   that all fields are given on
-    leaning  factor (nx, ny) and vectors (dx, dy) of shape (2, n): the data are those of the fit
-             plus the factor times the fit at these places from the cells
+    data         (nx, ny) cell means
+    weight       (nx, ny) weights, multiplied by those of the stencil
+    degree       1 or 2
+    domain       domain of all fields
+    sensitivity  factor (nx, ny) and vectors from the cells (2, n): the model of the data is the
+                 polynomial plus the factor times its value at the end of the vector
     """
     data, weight = (domain.framed(field, stencil.reach) for field in (data, weight))
-    fade, basis = fading(stencil), monomials(stencil)[: 3 * degree]
-    if leaning is not None:
-        factor, (x, y) = domain.framed(leaning[0], stencil.reach), leaning[1]
+    fade, basis = stencil_weights(stencil), monomials(stencil)[: 3 * degree]
+    if sensitivity is not None:
+        factor, (x, y) = domain.framed(sensitivity[0], stencil.reach), sensitivity[1]
         foot = np.stack([x**0, x, y, x**2 / 2, x * y, y**2 / 2])
     found = np.zeros((6, len(i)))
     rms, count = np.empty(len(i)), np.empty(len(i), dtype=int)
-    for some in _chunks(len(i)):
+    for first in range(0, len(i), CHUNK):
+        some = slice(first, first + CHUNK)
         at = i[some], j[some], stencil
-        given, believed = (taken(field, *at) for field in (data, weight))
-        believed *= fade
-        normal = normal_matrices(stencil, believed, degree)
-        fit = basis @ (believed * given).T
-        if leaning is not None:
-            leans, to = taken(factor, *at), foot[:, some]
-            mixed = basis @ (believed * leans).T
+        given, w = (in_windows(field, *at) for field in (data, weight))
+        w *= fade
+        normal = normal_matrices(stencil, w, degree)
+        fit = basis @ (w * given).T
+        if sensitivity is not None:
+            c, to = in_windows(factor, *at), foot[:, some]
+            mixed = basis @ (w * c).T
             normal += mixed[:, None] * to + to[:, None] * mixed
-            normal += np.sum(believed * leans**2, axis=1) * to[:, None] * to
-            fit += to * np.sum(believed * leans * given, axis=1)
-        solve(factored(normal), fit)
+            normal += np.sum(w * c**2, axis=1) * to[:, None] * to
+            fit += to * np.sum(w * c * given, axis=1)
+        solve(factorise(normal), fit)
         found[: len(basis), some] = fit
         given -= fit.T @ basis
-        if leaning is not None:
-            given -= leans * np.sum(fit * to, axis=0)[:, None]
-        total = np.maximum(np.sum(believed, axis=1), LEAST_TOTAL)
-        rms[some] = np.sqrt(np.sum(believed * given**2, axis=1) / total)
-        count[some] = np.count_nonzero(believed, axis=1)
+        if sensitivity is not None:
+            given -= c * np.sum(fit * to, axis=0)[:, None]
+        total = np.maximum(np.sum(w, axis=1), LEAST_TOTAL)
+        rms[some] = np.sqrt(np.sum(w * given**2, axis=1) / total)
+        count[some] = np.count_nonzero(w, axis=1)
     return Fits(Quadratic(i.astype(float), j.astype(float), *found), rms, count)
 
 
-def _chunks(count: int) -> list[slice]:
-    return [slice(first, first + CHUNK) for first in range(0, count, CHUNK)]
-
-
-def taken(padded: Field, i: Indices, j: Indices, stencil: Stencil) -> Field:
-    """What a field, padded by the reach, has in the windows about cells (n, window)."""
+def in_windows(padded: Field, i: Indices, j: Indices, stencil: Stencil) -> Field:
+    """Return the values of a field, padded by the reach, in windows about cells (n, window)."""
     dx, dy = _offsets(stencil)
     across = padded.shape[1]
     at = ((i + stencil.reach) * across + j + stencil.reach)[:, None] + (dx * across + dy)
@@ -108,26 +105,26 @@ def taken(padded: Field, i: Indices, j: Indices, stencil: Stencil) -> Field:
 
 
 @cache
-def fading(stencil: Stencil) -> Field:
-    """Weights of a window (window,)."""
+def stencil_weights(stencil: Stencil) -> Field:
+    """Return the weights of a window (window,)."""
     dx, dy = _offsets(stencil)
-    return _kept(np.exp(-(dx**2 + dy**2) / (2 * stencil.width**2)))
+    return _read_only(np.exp(-(dx**2 + dy**2) / (2 * stencil.width**2)))
 
 
 @cache
 def monomials(stencil: Stencil) -> Field:
-    """Means over the cells of a window of 1, x, y, x²/2, xy, y²/2 (6, window)."""
+    """Compute the means of 1, x, y, x²/2, xy, y²/2 over the cells of a window (6, window)."""
     dx, dy = _offsets(stencil)
     rows = (np.ones(len(dx)), dx, dy, dx**2 / 2 + 1 / 24, dx * dy, dy**2 / 2 + 1 / 24)
-    return _kept(np.stack(rows))
+    return _read_only(np.stack(rows))
 
 
 @cache
 def _products(stencil: Stencil, degree: int) -> tuple[Indices, Indices, Field]:
-    """Of two monomials each: which two, and over the window (products, window)."""
+    """Compute the products of two monomials (products, window), after their two indices."""
     row, column = np.triu_indices(3 * degree)
     basis = monomials(stencil)
-    return row, column, _kept(basis[row] * basis[column])
+    return row, column, _read_only(basis[row] * basis[column])
 
 
 @cache
@@ -137,22 +134,24 @@ def _offsets(stencil: Stencil) -> tuple[Indices, Indices]:
     return dx.ravel(), dy.ravel()
 
 
-def _kept(values: Field) -> Field:
+def _read_only(values: Field) -> Field:
     values.flags.writeable = False
     return values
 
 
-def normal_matrices(stencil: Stencil, believed: Field, degree: int = 2) -> Field:
-    """Of least squares with these weights (m, m, n)."""
+def normal_matrices(stencil: Stencil, weights: Field, degree: int = 2) -> Field:
+    """Compute the matrices of the normal equations (m, m, n) for weights (n, window)."""
     row, column, products = _products(stencil, degree)
-    normal = np.empty((3 * degree, 3 * degree, len(believed)))
-    normal[row, column] = normal[column, row] = products @ believed.T
+    normal = np.empty((3 * degree, 3 * degree, len(weights)))
+    normal[row, column] = normal[column, row] = products @ weights.T
     return normal
 
 
-def factored(normal: Field) -> Field:
-    """Cholesky's factors (m, m, n) of normal matrices, in the upper triangles: of all of them
-    together, as one by one they are too small. Overwrites them."""
+def factorise(normal: Field) -> Field:
+    """Factorise matrices (m, m, n) by Cholesky's method in their upper triangles, in place.
+
+    The operations run over all n small matrices at once.
+    """
     a, diagonal = normal, np.arange(len(normal))
     a[diagonal, diagonal] += RIDGE * (np.trace(a) + LEAST_TOTAL)
     for k in range(len(a)):
@@ -163,7 +162,7 @@ def factored(normal: Field) -> Field:
 
 
 def solve(factors: Field, right: Field) -> None:
-    """Right sides (m, n) to the coefficients of least squares, in their place."""
+    """Solve the factorised systems; coefficients (m, n) overwrite the right sides."""
     a, x = factors, right
     for k in range(len(x)):
         x[k] /= a[k, k]
@@ -173,29 +172,32 @@ def solve(factors: Field, right: Field) -> None:
         x[:k] -= a[:k, k] * x[k]
 
 
-# The cell and those about it, and further those that tell the slopes of the last.
+# A cell and its neighbours. Their slopes require the next cells: ACROSS cells in each direction.
 NEXT = Stencil(1, 1.0)
 ACROSS = 2
-# Means over them to the coefficients of a quadratic, by least squares (6, 9).
-FIT = np.linalg.pinv(monomials(NEXT).T * np.sqrt(fading(NEXT))[:, None]) * np.sqrt(fading(NEXT))
+_ROOTS = np.sqrt(stencil_weights(NEXT))
+# Least-squares matrix from the nine means to the coefficients of a quadratic (6, 9).
+FIT = np.linalg.pinv(monomials(NEXT).T * _ROOTS[:, None]) * _ROOTS
 
 
 class Peak(NamedTuple):
-    """Largest pressure at a point [force/length^2], and whether it is a ridge there: not curved in
-    both directions, so that cells leave an error of second order along it."""
+    """Largest pressure at a point [force/length^2].
+
+    ridge  True without curvature in both directions; the error along a ridge is of second order
+    """
 
     value: float
     ridge: bool
 
 
 def peak_of(means: Field) -> Peak:
-    """Find the largest pressure at a point from means over cells (nx, ny) with their edge inside.
+    """Determine the largest pressure at a point from corrected cell means (nx, ny).
 
-    The maximum of the quadratic fitted to the means of the square over the cell with the largest
-    mean and its neighbours: below a paraboloid the square is quadratic (Hertz). Means of squares
-    exceed the squares of the means by a twelfth of the square of the slope. On a ridge, as below
-    ring-shaped indenters, the maximum is taken across it. The largest mean where the neighbours are
-    not all in contact, or the maximum is not between them.
+    A quadratic is fitted to the means of p² over the cell with the largest mean and its neighbours
+    (Hertz: p² is quadratic). The mean of p² is the square of the mean plus 1/12 of the square of
+    the slope. On a ridge (ring-shaped contacts) the maximum is taken across the ridge. If a
+    neighbour is out of contact or the maximum is not between the neighbours, the largest mean is
+    returned.
     """
     i, j = (int(at) for at in np.unravel_index(np.argmax(means), means.shape))
     largest = Peak(float(means[i, j]), ridge=True)

@@ -1,9 +1,9 @@
-"""Displacements by what cell-constant tractions leave out: slopes within cells, and what is left.
+"""Kernels of displacements by tractions that vary within cells.
 
-Within a cell a traction is its mean, a slope, and a rest that matters to near cells alone. Slopes
-act by the first moments D of the influence coefficients, rests by a table of PARTS x PARTS parts of
-a cell as seen from the cells around it. Both are made of influence coefficients at the spacing of
-the parts, whichever the bodies: PARTS is odd, so that parts and cells have common centres.
+Within a cell a traction is the sum of its mean, a slope, and a remainder that moves near cells
+only. Slopes act through the first moments of the influence coefficients, remainders through a table
+of PARTS x PARTS subcells of a cell. Both follow from influence coefficients at the spacing of the
+subcells, for all bodies. PARTS is odd, so that cell centres are subcell centres.
 """
 
 from dataclasses import dataclass
@@ -21,14 +21,15 @@ from semi_analytical.operator.spectra import (
 )
 
 PARTS = 11
-# Cells around a part of a cell that see the rest.
+# Distance in cells up to which remainders cause displacements.
 REACH = 2
-# Cells within which a moment is summed over the parts; beyond it is a derivative, right to 5e-4.
+# Distance in cells up to which moments are sums over subcells; beyond, they are derivatives of the
+# influence coefficients with an error of 5e-4.
 NEAR = 8
-# How many offsets of influence coefficients the parts need.
+# Number of offsets of influence coefficients at the spacing of subcells.
 PART_OFFSETS = NEAR * PARTS + PARTS // 2 + 1
 
-# Parity along x and y of what each component reads.
+# Parity along x and y of each component of the influence coefficients.
 PARITY = {
     "zz": (1, 1),
     "xx": (1, 1),
@@ -40,17 +41,17 @@ PARITY = {
 
 
 def part_centres() -> Field:
-    """Centres of the parts of a cell along one side, (PARTS,) in cells."""
+    """Return the subcell centres along one side of a cell (PARTS,), in cells."""
     return (np.arange(PARTS) - PARTS // 2) / PARTS
 
 
 @dataclass(frozen=True)
 class EdgeKernels:
-    """Of one component of the influence coefficients.
+    """Kernels of one component of the influence coefficients.
 
-    component  as in `InfluenceCoefficients`
+    component  name as in `InfluenceCoefficients`
     cells      influence coefficients of the cells
-    parts      influence coefficients at PART_OFFSETS of the parts
+    parts      influence coefficients at PART_OFFSETS of the subcells
     """
 
     component: str
@@ -59,18 +60,20 @@ class EdgeKernels:
 
     @property
     def parity(self) -> tuple[int, int]:
-        """Along x and y, of the coefficients."""
+        """Parity of the coefficients along x and y."""
         return PARITY[self.component]
 
     @property
     def even(self) -> bool:
-        """Whether the coefficients are alike along both sides: even, or odd."""
+        """True if the coefficients have the same parity along x and y."""
         return self.parity[0] == self.parity[1]
 
     @cached_property
     def moments(self) -> Field:
-        """Displacement at cell offsets i, j >= 0 by tractions x and y on the cell at the origin,
-        lengths in cells, shape (2, nx, ny) [length^3/force]."""
+        """Displacement by tractions x and y on the cell at the origin (2, nx, ny) [length^3/force].
+
+        The offsets are i, j >= 0; x and y are in cells.
+        """
         A = getattr(self.cells, self.component)
         moments = np.stack([-_slope(A, axis, self.parity[axis]) / 12 for axis in (0, 1)])
         nx, ny = (min(n, NEAR + 1) for n in A.shape)
@@ -79,39 +82,45 @@ class EdgeKernels:
 
     @cached_property
     def near_moments(self) -> Field:
-        """The same at NEAR + 1 offsets along each side."""
+        """Moments at NEAR + 1 offsets along each side."""
         K = getattr(self.parts, self.component)[:PART_OFFSETS, :PART_OFFSETS]
         x, one = part_centres(), np.ones(PARTS)
-        along_x, along_y = (_added_up(x, parity) for parity in self.parity)
-        across_x, across_y = (_added_up(one, parity) for parity in self.parity)
+        along_x, along_y = (_subcell_sums(x, parity) for parity in self.parity)
+        across_x, across_y = (_subcell_sums(one, parity) for parity in self.parity)
         by_both = along_x @ K @ across_y.T, across_x @ K @ along_y.T
-        # The moment of the parts is a little less than that of the slope.
+        # Constant subcells have a smaller moment than a linear function.
         return np.stack(by_both) / (1 - 1 / PARTS**2)
 
     @cached_property
     def near(self) -> Field:
-        """Displacement at cell offsets -REACH … REACH by unit traction on a part of the cell at the
-        origin, shape (2 REACH + 1, 2 REACH + 1, PARTS, PARTS) [length^3/force]."""
+        """Displacement by unit traction on a subcell of the cell at the origin [length^3/force].
+
+        The shape is (2 REACH + 1, 2 REACH + 1, PARTS, PARTS), for offsets -REACH … REACH.
+        """
         K = getattr(self.parts, self.component)
         i = PARTS * np.arange(-REACH, REACH + 1)[:, None] - np.arange(PARTS) + PARTS // 2
         sign_x, sign_y = (np.where(i < 0, parity, 1) for parity in self.parity)
-        seen = K[np.abs(i)[:, None, :, None], np.abs(i)[:, None]]
-        return np.asarray(sign_x[:, None, :, None] * sign_y[:, None] * seen)
+        near = K[np.abs(i)[:, None, :, None], np.abs(i)[:, None]]
+        return np.asarray(sign_x[:, None, :, None] * sign_y[:, None] * near)
 
 
-def _added_up(weights: Field, parity: int) -> Field:
-    """Of values at offsets of parts, even or odd, to what they are at offsets of cells, the parts
-    having these weights (NEAR + 1, PART_OFFSETS)."""
+def _subcell_sums(weights: Field, parity: int) -> Field:
+    """Return the matrix of weighted sums over the subcells of a cell (NEAR + 1, PART_OFFSETS).
+
+    It maps values at subcell offsets >= 0, with a parity, to sums at cell offsets.
+    """
     offsets = PARTS * np.arange(NEAR + 1)[:, None] - np.arange(PARTS) + PARTS // 2
-    added = np.zeros((NEAR + 1, PART_OFFSETS))
+    sums = np.zeros((NEAR + 1, PART_OFFSETS))
     rows = np.broadcast_to(np.arange(NEAR + 1)[:, None], offsets.shape)
-    np.add.at(added, (rows, np.abs(offsets)), weights * np.where(offsets < 0, parity, 1))
-    return added
+    np.add.at(sums, (rows, np.abs(offsets)), weights * np.where(offsets < 0, parity, 1))
+    return sums
 
 
 def _slope(values: Field, axis: int, parity: int) -> Field:
-    """Derivative per cell along an axis of values at offsets >= 0, of fourth order but at the far
-    end."""
+    """Compute the derivative per cell along an axis of values at offsets >= 0.
+
+    The differences are of fourth order, at the far end of lower order.
+    """
     v = np.moveaxis(values, axis, 0)
     v = np.concatenate([parity * v[2:0:-1], v])
     slope = np.gradient(v, axis=0)
@@ -122,10 +131,11 @@ def _slope(values: Field, axis: int, parity: int) -> Field:
 def spectra_of(
     of: EdgeKernels, reach: tuple[slice, slice], known: KernelSpectrum | None = None
 ) -> tuple[KernelSpectrum, KernelSpectrum]:
-    """Those of the moments along x and y; times -i where the component is even (odd) along both
-    sides.
+    """Compute the spectra of the moments along x and y.
 
-    known  that of the coefficients, even along both, which saves the transforms
+    They are -i times the real result if the component has the same parity along x and y.
+
+    known  spectrum of the coefficients of an even component, which saves the transforms
     """
     if known is not None:
         return _by_differences(of, known, 0), _by_differences(of, known, 1)
@@ -135,7 +145,7 @@ def spectra_of(
 
 
 def _spectrum(moment: Field, parity: tuple[int, int]) -> KernelSpectrum:
-    """That of a moment; times -i where it is odd along one side only."""
+    """Transform a moment; the spectrum is -i times the result if the parities differ."""
     if parity == (1, 1):
         return even_transform(moment)
     if parity == (-1, -1):
@@ -144,27 +154,30 @@ def _spectrum(moment: Field, parity: tuple[int, int]) -> KernelSpectrum:
 
 
 def _by_differences(of: EdgeKernels, known: KernelSpectrum, axis: int) -> KernelSpectrum:
-    """Far moments along an axis are differences of the coefficients, repeated with the period of
-    their spectrum: a product with it. The few that are near are told by their parts."""
+    """Compute the spectrum of a moment from the known spectrum of the coefficients.
+
+    Far moments are differences of the periodic coefficients: the spectrum times a symbol. The
+    transform of the near moments minus these differences is added.
+    """
     periods = known.quarter.shape[1] - 1, known.quarter.shape[0] - 1
     near = of.near_moments[axis][tuple(slice(m + 1) for m in periods)]
     values = getattr(of.cells, of.component)
     along = values[:, : near.shape[1]] if axis == 0 else values[: len(near)].T
-    far = _far(along, periods[axis], near.shape[axis])
-    besides = near - (far if axis == 0 else far.T)
+    far = _differences(along, periods[axis], near.shape[axis])
+    correction = near - (far if axis == 0 else far.T)
     by_x, by_y = (
         _waves(np.sin if side == axis else np.cos, m, n)
         for side, (m, n) in enumerate(zip(periods, near.shape, strict=True))
     )
-    turn = np.pi / periods[axis] * np.arange(periods[axis] + 1)
-    slope = (8 * np.sin(turn) - np.sin(2 * turn)) / 72
-    quarter = known.quarter * (slope[:, None] if axis else slope)
-    quarter += by_y @ besides.T @ by_x.T
+    angle = np.pi / periods[axis] * np.arange(periods[axis] + 1)
+    symbol = (8 * np.sin(angle) - np.sin(2 * angle)) / 72
+    quarter = known.quarter * (symbol[:, None] if axis else symbol)
+    quarter += by_y @ correction.T @ by_x.T
     return KernelSpectrum(quarter, 1 if axis else -1)
 
 
-def _far(values: Field, m: int, count: int) -> Field:
-    """Moments along the first axis as derivatives, by differences of fourth order (count, …)."""
+def _differences(values: Field, m: int, count: int) -> Field:
+    """Approximate moments along the first axis by fourth-order differences (count, …)."""
     far = np.zeros((count, *values.shape[1:]))
     for step, weight in ((1, 8), (-1, -8), (2, -1), (-2, 1)):
         far -= weight / 144 * values[m - np.abs(m - np.abs(np.arange(count) + step))]
@@ -172,8 +185,11 @@ def _far(values: Field, m: int, count: int) -> Field:
 
 
 def _waves(wave: np.ufunc, m: int, count: int) -> Field:
-    """Of Fourier sums over the first offsets of 0 … m (m + 1, count): twice those between."""
-    turn = wave(np.pi / m * np.arange(2 * m))
-    waves = turn[np.outer(np.arange(m + 1), np.arange(count)) % (2 * m)]
+    """Return the matrix of Fourier sums over the first offsets of 0 … m (m + 1, count).
+
+    Offsets between 0 and m have the factor 2.
+    """
+    values = wave(np.pi / m * np.arange(2 * m))
+    waves = values[np.outer(np.arange(m + 1), np.arange(count)) % (2 * m)]
     waves[:, 1:m] *= 2
     return np.asarray(waves)

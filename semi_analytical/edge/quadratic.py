@@ -1,4 +1,4 @@
-"""Quadratics about places between the cells, one per place."""
+"""Quadratic functions of the position, one per place."""
 
 from __future__ import annotations
 
@@ -12,8 +12,10 @@ from semi_analytical.edge.clipped_power_means import mean_power
 
 @dataclass(frozen=True)
 class Quadratic:
-    """phi = f + f_x dx + f_y dy + (f_xx dx² + 2 f_xy dx dy + f_yy dy²)/2 about places (x, y), all
-    of one shape; lengths are cells."""
+    """Quadratics f + f_x dx + f_y dy + (f_xx dx² + 2 f_xy dx dy + f_yy dy²)/2 about places (x, y).
+
+    All arrays have one shape; lengths are in cells.
+    """
 
     x: Field
     y: Field
@@ -26,31 +28,34 @@ class Quadratic:
 
     @property
     def slope(self) -> Field:
-        """|grad phi| there."""
+        """Magnitude of the gradient at the places."""
         return np.hypot(self.f_x, self.f_y)
 
     def chosen(self, which: Mask | Indices | slice) -> Quadratic:
-        """Some of the places."""
+        """Select some of the places."""
         return Quadratic(*(part[which] for part in vars(self).values()))
 
     def reshaped(self, shape: tuple[int, ...]) -> Quadratic:
-        """The places in another shape."""
+        """Change the shape of all arrays."""
         return Quadratic(*(part.reshape(shape) for part in vars(self).values()))
 
     def scaled(self, dx: float, dy: float) -> Quadratic:
-        """With lengths of which a cell has dx and dy; the places stay index coordinates."""
+        """Scale slopes to a unit of length in which a cell has the sides dx and dy.
+
+        The places remain index coordinates.
+        """
         return Quadratic(
             *(self.x, self.y, self.f, self.f_x / dx, self.f_y / dy),
             *(self.f_xx / dx**2, self.f_xy / (dx * dy), self.f_yy / dy**2),
         )
 
     def at(self, dx: Field, dy: Field) -> Field:
-        """Values at dx, dy from the places; more axes of dx, dy go in front."""
+        """Evaluate at (dx, dy) from the places; further axes of dx, dy come first."""
         bend = (self.f_xx * dx + 2 * self.f_xy * dy) * dx + self.f_yy * dy * dy
         return np.asarray(self.f + self.f_x * dx + self.f_y * dy + bend / 2)
 
     def about(self, x: Field, y: Field) -> Quadratic:
-        """The same functions about other places."""
+        """Expand the same functions about other places."""
         dx, dy = x - self.x, y - self.y
         return Quadratic(
             *np.broadcast_arrays(
@@ -66,13 +71,15 @@ class Quadratic:
         )
 
     def cell_mean(self, exponent: float | Field) -> Field:
-        """Mean of phi_+^exponent over the unit cell about every place, by the slope there; 0 gives
-        the covered part."""
+        """Compute the mean of phi_+^exponent over the unit cell about every place.
+
+        The linear part represents phi in the cell; exponent 0 yields the covered fraction.
+        """
         return mean_power(self.mean, self.f_x, self.f_y, exponent)
 
     @property
     def cut(self) -> Mask:
-        """Whether the linear part, about the mean, vanishes somewhere in the unit cell."""
+        """True if the linear part about the mean vanishes somewhere in the unit cell."""
         return np.asarray(np.abs(self.mean) < (np.abs(self.f_x) + np.abs(self.f_y)) / 2)
 
     @property

@@ -1,4 +1,4 @@
-"""Shape of the edge of a region: phi = p^(1/alpha), fitted to cell means of p inside it."""
+"""Edge shape of a region from fits of φ = p^(1/α) to the cell means of p."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -16,31 +16,33 @@ from semi_analytical.edge.fit import Fits, Stencil, fit_about
 from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
 
+# Weight of cells that the edge cuts.
 CUT_WEIGHT = 0.2
+# Least number of data of a reliable fit.
 LEAST_DATA = 10
-# Largest rms of a fit in the fall of phi over a cell.
+# Largest rms of a reliable fit over the change of φ across a cell.
 LARGEST_RMS = 0.25
-# Cells inwards of the edge about which a fit may be asked for.
-ASKED = 3.5
-# Of a step to the edge, and of all of them, in cells.
+# Depth in cells up to which fits can be evaluated.
+MAX_FIT_DEPTH = 3.5
+# Largest step towards the edge, and largest distance of the edge point, in cells.
 LONGEST_STEP, FARTHEST = 1.0, 2.0
 REFITS = 3
-# From a cell to itself, to the cells that touch it at a side, and at a corner (2, 9, 1).
+# Offsets to the cell itself, to side neighbours and to corner neighbours (2, 9, 1).
 STEPS = np.array([[0, 1, -1, 0, 0, 1, 1, -1, -1], [0, 0, 0, 1, -1, 1, -1, 1, -1]])[..., None]
 SIDES = 4
 
 
 @dataclass(frozen=True)
 class EdgeShape:
-    """phi on the cells of a region, ready to be fitted anywhere near its edge.
+    """Cell means of φ in a region, and fits to them near its edge.
 
-    means      (nx, ny) cell means of p that it was made of
-    phi        (nx, ny) cell means of phi, where weight > 0
-    weight     (nx, ny) how much a cell is believed
-    exponent   alpha, a number or (nx, ny)
-    stencil    of the fits
-    depth      (nx, ny) distance to the nearest cell outside of the region, zero there
-    domain       that all are on
+    means      (nx, ny) cell means of p
+    phi        (nx, ny) cell means of φ; valid for positive weights
+    weight     (nx, ny) weights of the cells in fits
+    exponent   α, a number or (nx, ny)
+    stencil    stencil of the fits
+    depth      (nx, ny) distance to the nearest cell outside the region, zero outside
+    domain     domain of all fields
     """
 
     means: Field
@@ -53,54 +55,52 @@ class EdgeShape:
 
     @cached_property
     def nearest(self) -> Indices:
-        """(2, nx, ny) indices of the nearest cell of the region."""
+        """Indices (2, nx, ny) of the nearest cell of the region."""
         found = distance_transform_edt(self.depth == 0, return_distances=False, return_indices=True)
         return np.asarray(found)
 
     def fits(self, i: Indices, j: Indices) -> Fits:
-        """Fits about cells of the region, shape (n,)."""
+        """Fit φ about cells of the region, shape (n,)."""
         return fit_about(self.phi, self.weight, i, j, self.stencil, domain=self.domain)
 
     def nearest_to(self, x: Field, y: Field) -> Indices:
-        """Cells of the region nearest to places (n,), indices (2, n)."""
+        """Return the indices (2, n) of the cells of the region nearest to places (n,)."""
         last = np.array(self.means.shape) - 1
         i, j = (np.clip(np.rint(at), 0, n).astype(int) for at, n in zip((x, y), last, strict=True))
         return self.nearest[:, i, j]
 
     def about(self, x: Field, y: Field) -> tuple[Quadratic, Mask]:
-        """phi about any places near the edge, shape (n,), and whether to believe it.
+        """Expand φ about places near the edge, shape (n,); the mask marks reliable fits.
 
-        Outside of the region from the fit about its nearest cell: a window centred outside has its
-        data on one side only, which costs two digits.
+        At places outside the region the fit about its nearest cell is used. A fit centred outside
+        has one-sided data and a hundredfold error.
         """
         fits = self.fits(*self.nearest_to(x, y))
-        return fits.quadratic.about(x, y), believed(fits)
+        return fits.quadratic.about(x, y), reliable(fits)
 
     def about_cells(self, adjacent: "AdjacentCells", fits: Fits) -> tuple[Quadratic, Field]:
-        """phi about cells of the region and cells that touch it, shape (n,), and the rms of the
-        fits over the fall of phi over a cell, infinite where there is little data.
+        """Expand φ about cells of the region and adjacent cells, shape (n,).
 
-        fits  about `adjacent.fitted`
+        The second result is the rms of the fits over the change of φ across a cell. It is infinite
+        for fits with few data.
+
+        fits  fits about `adjacent.fitted`
         """
-        missed = np.where(fits.count < LEAST_DATA, np.inf, fits.rms)
-        missed /= np.maximum(fits.quadratic.slope, np.finfo(float).tiny)
+        error = np.where(fits.count < LEAST_DATA, np.inf, fits.rms)
+        error /= np.maximum(fits.quadratic.slope, np.finfo(float).tiny)
         each = fits.quadratic.chosen(adjacent.which).about(*adjacent.at)
         means = [
             np.bincount(adjacent.place, value * adjacent.share, adjacent.count).astype(float)
-            for value in (*vars(each).values(), missed[adjacent.which])
+            for value in (*vars(each).values(), error[adjacent.which])
         ]
         return Quadratic(*means[:-1]), means[-1]
 
-    def edge_points(self, i: Indices, j: Indices) -> tuple[Quadratic, Mask]:
-        """phi about the points of the edge nearest to cells (n,), and whether to believe it.
+    def edge_points(self, x: Field | Indices, y: Field | Indices) -> tuple[Quadratic, Mask]:
+        """Expand φ about the edge points nearest to places (n,); the mask marks reliable fits.
 
-        By steps down the slope, with a fit about every place; f is zero up to rounding.
+        Newton steps along the gradient, with a new fit at every place; f is zero up to rounding.
         """
-        return self.points_near(i.astype(float), j.astype(float))
-
-    def points_near(self, x: Field, y: Field) -> tuple[Quadratic, Mask]:
-        """The same nearest to places (n,) not far from it."""
-        at_x, at_y = x, y
+        at_x, at_y = x.astype(float), y.astype(float)
         for _ in range(REFITS):
             here, safe = self.about(at_x, at_y)
             at_x, at_y = _downhill(here)
@@ -111,22 +111,22 @@ class EdgeShape:
 
 
 class AdjacentCells:
-    """Cells of a region whose fits describe phi about other cells.
+    """Pairs of cells and fits that determine φ about the cells.
 
-    A cell of the region has its own fit. A cell outside has the mean of the fits about the cells of
-    the region that touch it at a side, else at a corner: the edge of a mirrored contact is the
-    mirrored edge.
+    A cell of the region uses the fit about itself. A cell outside uses the mean of the fits about
+    its side neighbours in the region, or without side neighbours about its corner neighbours. This
+    rule preserves mirror symmetry.
 
-    fitted  (2, m) the cells that are fitted
-    which   number of the fit of every pair of a cell and a fit
-    place   number of the cell of every pair
-    at      coordinates of the cell of every pair, along x and y
-    share   weight of the fit of every pair
-    count   number of the cells
+    fitted  (2, m) cells that are fitted
+    which   index of the fit of each pair
+    place   index of the cell of each pair
+    at      coordinates of the cell of each pair, along x and y
+    share   weight of the fit of each pair
+    count   number of cells
     """
 
     def __init__(self, depth: Field, i: Indices, j: Indices) -> None:
-        """depth  of the region, see `depth_of`; i, j  cells of the region or next to it (n,)"""
+        """Find the fits for cells (i, j) in or next to a region of given depth, see `depth_of`."""
         last = np.array(depth.shape)[:, None, None] - 1
         at = np.stack([i, j])[:, None] + STEPS
         inside = np.all((at >= 0) & (at <= last), axis=0)
@@ -143,15 +143,15 @@ class AdjacentCells:
 
 
 def _downhill(here: Quadratic) -> tuple[Field, Field]:
-    """Places where the linear part of phi vanishes, at most a cell away."""
+    """Return the nearest places where the linear part of φ vanishes, at most one cell away."""
     squared = np.maximum(here.slope**2, np.finfo(float).tiny)
     step = here.f / squared
     step = step * np.minimum(1.0, LONGEST_STEP / np.maximum(np.abs(step) * here.slope, 1e-30))
     return here.x - step * here.f_x, here.y - step * here.f_y
 
 
-def believed(fits: Fits) -> Mask:
-    """Whether there is enough data, and it is near the fit."""
+def reliable(fits: Fits) -> Mask:
+    """Select fits with enough data and small residuals."""
     few = fits.count < LEAST_DATA
     return np.asarray(~few & (fits.rms < LARGEST_RMS * fits.quadratic.slope))
 
@@ -169,23 +169,23 @@ def edge_shape(
     domain: ReducedDomain = WINDOW,
     before: tuple[Field, Quadratic] | None = None,
 ) -> EdgeShape:
-    """Shape of the edge of a region.
+    """Determine φ in a region from cell means, with the slopes of preceding fits in cut cells.
 
     means     (nx, ny) cell means of p, positive in the region
-    region    (nx, ny) cells with a fit of their own; about others it is that of their nearest
-    stencil   `NARROW` with one ring dropped; `WIDE` with two
-    rings     outermost layers of cells that are no data, by distance to the nearest cell outside:
-              1 where the means are exact or corrected (the cut cells), 2 where they are those of a
-              solver that knows no edge (they carry its error), 0 for all, cut ones at a fifth
-    exponent  alpha of p ~ s^alpha, s the distance from the edge; may vary slowly, (nx, ny)
+    region    (nx, ny) cells of the region
+    stencil   stencil of the fits: `NARROW` for one ring, `WIDE` for two
+    rings     number of outermost layers of cells that are not data: 1 for exact or corrected means,
+              2 for means of a solver without edge correction; with 0 all cells are data, cut cells
+              with CUT_WEIGHT
+    exponent  α in p ~ s^α, s the distance from the edge; a number or a smooth field (nx, ny)
     trusted   (nx, ny) cells of the region that may be data; None for all
-    rounds    data of the first are means^(1/alpha), from cells beyond the cut ones; of the others
-              `centre_value` with the slope of the last
-    depth     of the region, where it is known: see `depth_of`
-    before    `phi` of nearly the same means, and the fits to it along the edge, whose slopes are
-              taken: no round of fits is needed
-    domain      that all are given on
-    Raises ValueError where no cell is left to be data.
+    rounds    number of computations of φ: the first is means^(1/α) without cut cells; the others
+              use `centre_value` with the slopes of the preceding fits
+    depth     depth of the region if known, see `depth_of`
+    before    φ of a previous iteration and fits along the edge; they replace the first fits
+    domain    domain of all fields
+
+    Raises ValueError if no cell remains as data.
     """
     means = np.where(region, means, 0.0)
     depth = depth_of(region, domain) if depth is None else depth
@@ -194,13 +194,13 @@ def edge_shape(
     inner = usable & (depth >= max(rings, 1) + 0.5)
     if not np.any(inner):
         raise ValueError(
-            f"the region is {np.max(depth):.3g} cells deep, {rings} rings are dropped: no cell is "
-            "left to fit its edge to; take smaller cells"
+            f"the region is {np.max(depth):.3g} cells deep, of which {rings} rings are not data: "
+            "no cell remains for the fit of its edge. Use smaller cells"
         )
-    band = data & (depth < ASKED + 1.5 * stencil.reach)
+    band = data & (depth < MAX_FIT_DEPTH + 1.5 * stencil.reach)
     of_band = exponent[band] if isinstance(exponent, np.ndarray) else exponent
     phi, weight = power(means, np.divide(1, exponent)), inner.astype(float)
-    # Farther in the differences of data tell the slope, which hardly matters there.
+    # Deeper cells use differences of φ as slopes, because φ hardly depends on them there.
     i, j = np.nonzero(band & (depth < max(rings, 1) + 2))
     near = None if before is None else before[0][band]
     if before is not None:
@@ -221,8 +221,10 @@ def edge_shape(
 
 
 def depth_of(region: Mask, domain: ReducedDomain = WINDOW) -> Field:
-    """Distance of every cell of a region from the nearest outside (nx, ny), beyond the window too;
-    zero outside."""
+    """Compute the distance of the cells of a region from the nearest cell outside (nx, ny).
+
+    Cells beyond the window count as outside. The distance of cells outside is zero.
+    """
     frame = [(int(not mirrored), 1) for mirrored in domain.mirrors]
     depth = distance_transform_edt(np.pad(region, frame))
     return np.asarray(depth[frame[0][0] : -1, frame[1][0] : -1])

@@ -1,4 +1,4 @@
-"""Traction in the subcells along the edge of a region, from fits of phi there."""
+"""Tractions in subcells along the edge of a region, from fits of φ = p^(1/α)."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -21,43 +21,43 @@ from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.edge.shape import LARGEST_RMS, AdjacentCells, EdgeShape, depth_of, edge_shape
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
 
-# Least radius of a region in cells that can be fitted.
+# Least radius in cells of a region that can be fitted.
 THICK = 1.9
-# Layers inside the edge with subcells from fits, and with subcells from second differences, which
-# fade out towards the last layer. Farther in a traction is a slope within a cell, to 1/500 of it.
+# Depths up to which subcells come from fits, and from second differences with weights that
+# decrease to zero. Deeper cells have slopes only, with an error of 1/500.
 FITTED, INSIDE = 2.5, 5.5
-# Wider than for exact means: the error of one cell shall not spread to the others. Next to a
-# plateau of the pressure on a film narrow fits give edges that waver; but where friction slips at
-# the edge, the exponent holds within the slip zone, which is often narrow.
+# Stencils wider than for exact means damp the spread of errors between cells. On films narrow fits
+# near a plateau of the pressure yield oscillating edges. A variable exponent is valid in the slip
+# zone only, which is often narrow.
 STENCIL, OF_FILM = Stencil(4, 2.2), WIDER
-# By this part of a cell the edge must have passed the centre of a cell to change its side:
-# otherwise cells alternate between both sides and the iteration does not settle.
+# Distance in cells by which the edge must pass a cell centre before the cell changes sides.
+# Without this margin cells alternate between both sides and the iteration does not converge.
 PASSED = 0.01
 
-# So many times its slopes above zero, a part of a cell has the mean of a power by its series.
+# Value over the sum of the slopes of a subcell above which the binomial series is used.
 SMOOTH = 1.5
-# Cells whose parts are found at a time: as many as stay in the cache.
+# Number of cells at a time, limited by the processor cache.
 CHUNK = 512
 X, Y = (at.ravel() for at in np.meshgrid(part_centres(), part_centres(), indexing="ij"))
 MONOMIALS = np.stack([X**0, X, Y, X**2 / 2, X * Y, Y**2 / 2])
-# Mean of X²/2 over the parts of a cell.
+# Mean of X²/2 over the subcells of a cell.
 HALF_SQUARE = np.mean(X**2) / 2
 
 
 @dataclass(frozen=True)
-class Band:
+class EdgeCells:
     """Cells along the edge of a region (nx, ny) of a domain."""
 
     region: Mask
     domain: ReducedDomain
 
     def __getstate__(self) -> dict[str, object]:
-        """Leave out of checkpoints what is computed from the region."""
+        """Omit fields computed from the region from checkpoints."""
         return {"region": self.region, "domain": self.domain}
 
     @cached_property
     def depth(self) -> Field:
-        """(nx, ny), see `depth_of`."""
+        """Depth of the region (nx, ny), see `depth_of`."""
         return depth_of(self.region, self.domain)
 
     @cached_property
@@ -70,7 +70,7 @@ class Band:
 
     @cached_property
     def adjacent(self) -> AdjacentCells:
-        """Cells whose fits describe phi about the fitted cells."""
+        """Fits that determine φ about the fitted cells."""
         return AdjacentCells(self.depth, *self.fitted)
 
     @cached_property
@@ -82,16 +82,16 @@ class Band:
 
 @dataclass(frozen=True)
 class SubcellTractions:
-    """Cells along the edge of a region with a reliable fit.
+    """Tractions in the subcells of cells along an edge with a reliable fit.
 
     region   (nx, ny) cells whose centre is inside the edge
-    i, j     the cells (n,)
-    parts    (n, PARTS, PARTS) mean of the traction over the subcells of each
-    phi      about those of the cells that have subcells from fits, the first ones
-    unsafe   part of all cells along the edge without a reliable fit
-    band     of the cells that were fitted
+    i, j     cells (n,): fitted cells first, then deeper cells
+    parts    (n, PARTS, PARTS) mean of the traction over each subcell
+    phi      φ about the fitted cells
+    unsafe   fraction of the cells along the edge without a reliable fit
+    cells    edge cells of the fitted region
     line     edge of a contact on a film
-    known    (nx, ny) cell means of phi without a film, and the fits to them
+    fits     (nx, ny) cell means of φ and the fits to them; None on a film
     """
 
     region: Mask
@@ -100,36 +100,36 @@ class SubcellTractions:
     parts: Field
     phi: Quadratic
     unsafe: float
-    band: Band
+    cells: EdgeCells
     line: EdgeLine | None = None
-    known: tuple[Field, Quadratic] | None = None
+    fits: tuple[Field, Quadratic] | None = None
 
     @property
     def domain(self) -> ReducedDomain:
-        """That all fields are given on."""
-        return self.band.domain
+        """Domain of all fields."""
+        return self.cells.domain
 
     @cached_property
     def area(self) -> float:
-        """Of the region and its mirror images, in cells."""
-        covered, fitted = self.band.region.astype(float), slice(len(self.phi.f))
+        """Area of the region and its mirror images, in cells."""
+        covered, fitted = self.cells.region.astype(float), slice(len(self.phi.f))
         covered[self.i[fitted], self.j[fitted]] = self.phi.cell_mean(0.0)
         return self.domain.images * float(np.sum(covered))
 
     @cached_property
     def outer(self) -> Mask:
-        """(nx, ny) cells that the region reaches into and whose centre is outside."""
+        """Partly covered cells with a centre outside the edge (nx, ny)."""
         return (self.means > 0) & ~self.region
 
     @cached_property
     def means(self) -> Field:
-        """(nx, ny) mean of the traction over each of the cells, zero elsewhere."""
+        """Mean of the traction over the cells along the edge, zero elsewhere (nx, ny)."""
         means = np.zeros(self.region.shape)
         means[self.i, self.j] = self.parts.mean(axis=(1, 2))
         return means
 
 
-def rim(
+def fit_edge(
     means: Field,
     loaded: Mask,
     before: SubcellTractions | None = None,
@@ -137,19 +137,19 @@ def rim(
     domain: ReducedDomain = WINDOW,
     film: FilmLaw | None = None,
 ) -> SubcellTractions | None:
-    """Fit the rim of a region of tractions; None where the region is too thin.
+    """Fit the edge of a region of tractions; return None if the region is too thin.
 
     means     (nx, ny) mean of the traction over each cell [force/length^2]
-    loaded    (nx, ny) cells where it is positive
-    before    rim of the preceding iteration: cells outside it are not fitted to
-    exponent  power of the distance from the edge with which the traction falls
-    domain      that all fields are given on
-    film      law of a pressure on layered bodies, a factor of that power
+    loaded    (nx, ny) cells with a positive traction
+    before    edge of the previous iteration; cells outside are not data
+    exponent  exponent α of the distance from the edge
+    domain    domain of all fields
+    film      pressure law on layered bodies
     """
     region = loaded if before is None else loaded & before.region
-    same = before is not None and np.array_equal(region, before.band.region)
-    band = before.band if before is not None and same else Band(region, domain)
-    depth = band.depth
+    same = before is not None and np.array_equal(region, before.cells.region)
+    cells = before.cells if before is not None and same else EdgeCells(region, domain)
+    depth = cells.depth
     if np.max(depth) <= THICK:
         return None
     largest = np.max(means)
@@ -158,16 +158,16 @@ def rim(
     if film is None:
         shape = edge_shape(
             scaled, region, STENCIL, rings=0, exponent=exponent, depth=depth, domain=domain,
-            before=before.known if before else None,
+            before=before.fits if before else None,
         )  # fmt: skip
     else:
         line = before.line if before else None
         stencil = STENCIL if isinstance(exponent, np.ndarray) else OF_FILM
         shape = film_shape(scaled, region, stencil, film, depth, domain, exponent, line)
-    (i, j), (deep_i, deep_j) = band.fitted, band.deep
-    fits = shape.fits(*band.adjacent.fitted)
-    phi, missed = shape.about_cells(band.adjacent, fits)
-    safe = missed < LARGEST_RMS
+    (i, j), (deep_i, deep_j) = cells.fitted, cells.deep
+    fits = shape.fits(*cells.adjacent.fitted)
+    phi, error = shape.about_cells(cells.adjacent, fits)
+    safe = error < LARGEST_RMS
     unsafe = np.count_nonzero(~safe) / (len(safe) + len(deep_i))
     if unsafe:
         i, j, phi = i[safe], j[safe], phi.chosen(safe)
@@ -187,14 +187,14 @@ def rim(
         ),
         phi=phi,
         unsafe=unsafe,
-        band=band,
+        cells=cells,
         line=shape.line if isinstance(shape, FilmShape) else None,
-        known=None if isinstance(shape, FilmShape) else (shape.phi, fits.quadratic),
+        fits=None if isinstance(shape, FilmShape) else (shape.phi, fits.quadratic),
     )
 
 
 def means_of_power(phi: Quadratic, exponent: Exponent) -> Field:
-    """Mean of phi_+^exponent over the parts of each cell (n, PARTS, PARTS)."""
+    """Compute the means of phi_+^exponent over the subcells of each cell (n, PARTS, PARTS)."""
     parts = np.empty((len(phi.f), PARTS**2))
     for first in range(0, len(parts), CHUNK):
         some = slice(first, first + CHUNK)
@@ -204,11 +204,11 @@ def means_of_power(phi: Quadratic, exponent: Exponent) -> Field:
 
 
 def _means_of_power(phi: Quadratic, a: Exponent) -> Field:
-    """The same of some cells (n, PARTS²); the exponent a number or (n, 1)."""
+    """Compute the means over the subcells of some cells (n, PARTS²); a is a number or (n, 1)."""
     bent = (phi.f_xx + phi.f_yy) / (24 * PARTS**2)
     factors = np.array([phi.f + bent, phi.f_x, phi.f_y, phi.f_xx, phi.f_xy, phi.f_yy])
     f = factors.T @ MONOMIALS
-    # Over a part of a cell the slope hardly changes.
+    # The slope is taken as constant over a cell: it is that at the cell centre.
     f_x, f_y = np.abs(phi.f_x[:, None]) / PARTS, np.abs(phi.f_y[:, None]) / PARTS
     slope = f_x + f_y
     smooth = f >= SMOOTH * slope
@@ -225,7 +225,7 @@ def _means_of_power(phi: Quadratic, a: Exponent) -> Field:
 def by_differences(
     means: Field, i: Indices, j: Indices, fade: Field, domain: ReducedDomain
 ) -> Field:
-    """Parts (n, PARTS, PARTS) of a traction, given by means (nx, ny), in the cells (i, j).
+    """Compute subcell tractions (n, PARTS, PARTS) of cells (i, j) by differences of means (nx, ny).
 
     fade  weight of the second differences (n,)
     """

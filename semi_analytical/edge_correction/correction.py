@@ -20,9 +20,9 @@ from semi_analytical.model import ContactModel
 
 
 class EdgeCorrection:
-    """Edge correction of the states of a model, which remain unchanged.
+    """Edge correction of the states of a model; the states are not modified.
 
-    coupled  whether pressure and shear of the bodies are coupled
+    coupled  True if pressure and shear of the bodies are coupled
     """
 
     def __init__(self, model: ContactModel, *, coupled: bool) -> None:
@@ -33,25 +33,26 @@ class EdgeCorrection:
     def __call__(
         self, last: State | None, state: State, *, way_known: bool, tolerance: float
     ) -> Corrected | EdgeReport:
-        """Correct a state, or report the cause for which it cannot be corrected.
+        """Correct a state, or report why it cannot be corrected.
 
-        last       an earlier state, from which the stick border of uncoupled bodies follows; None
-                   before first touch
-        way_known  whether its ends determine the load history from there
+        last       earlier state that determines the stick border of uncoupled bodies; None before
+                   the first contact
+        way_known  True if the path from `last` to the state is one increment, or has no effect
         """
         extended = self._extended(state)
         try:
-            pressed = self._pressed(last, state, extended)
+            corrected = self._corrected_pressure(last, state, extended)
         except NotFitted as cause:
             return EdgeReport(str(cause))
         sheared = extended.sheared
         if self._coupled or sheared is None:
-            return pressed
+            return corrected
         free = not np.any(sheared.shear) or not np.any(sheared.in_stick)
         before = self._extended(last) if last and way_known else None
-        if free or _leads_to(before, state, sheared):
-            return replace(pressed, sheared=self._sheared(before, sheared, pressed, tolerance))
-        return pressed
+        if free or _determines_border(before, state, sheared):
+            shear = self._corrected_shear(before, sheared, corrected, tolerance)
+            return replace(corrected, sheared=shear)
+        return corrected
 
     def _extended(self, state: State) -> State:
         """Extend the fields of a state to the window."""
@@ -59,8 +60,8 @@ class EdgeCorrection:
         tangential = None if sheared is None else extend(sheared)
         return replace(state, pressing=extend(state.pressing), sheared=tangential)
 
-    def _pressed(self, last: State | None, state: State, extended: State) -> Corrected:
-        """The pressure; reused where it has not changed."""
+    def _corrected_pressure(self, last: State | None, state: State, extended: State) -> Corrected:
+        """Correct the pressure; reuse the correction of an equal pressure of uncoupled bodies."""
         sheared, law, follows = extended.sheared, self._operators.model.friction, None
         if sheared is not None:
             p = extended.pressing.pressure
@@ -73,27 +74,27 @@ class EdgeCorrection:
         solved = extended if self._coupled else state
         return edge_pressure(self._operators, solved, follows, coupled=self._coupled)
 
-    def _sheared(
+    def _corrected_shear(
         self,
         before: State | None,
         solved: TangentialState,
-        pressed: Corrected,
+        corrected: Corrected,
         tolerance: float,
     ) -> CorrectedShear | None:
-        """The shear at a corrected pressure; None where its stick border cannot be fitted."""
-        model, edge = self._operators.model, pressed.edge
-        bound = model.friction.limit(pressed.pressure)
+        """Correct the shear at a corrected pressure; None if its stick border cannot be fitted."""
+        model, edge = self._operators.model, corrected.edge
+        bound = model.friction.limit(corrected.pressure)
         if not np.any(solved.shear):
-            nothing = np.zeros_like(solved.shear)
-            still = Within.nothing(bound.shape)
+            zero = np.zeros_like(solved.shear)
+            constant = Within.zero(bound.shape)
             return CorrectedShear(
-                shear=nothing,
-                within=(still, still),
-                slip=nothing,
-                displacement=nothing,
+                shear=zero,
+                within=(constant, constant),
+                slip=zero,
+                displacement=zero,
                 shift=solved.shift,
-                stick=pressed.pressure > 0,
-                stick_cells=pressed.contact_cells,
+                stick=corrected.pressure > 0,
+                stick_cells=corrected.contact_cells,
                 change=0.0,
             )
         parts = model.friction.limit(edge.parts)
@@ -110,7 +111,7 @@ class EdgeCorrection:
         slips = (bound > 0) & ~solved.in_stick
         if not np.any(slips):
             return None
-        turned = np.sum(last.slip * solved.shear * slips) < 0
+        reversed_load = np.sum(last.slip * solved.shear * slips) < 0
         problem = ShearProblem(
             operators=self._operators,
             bound=bound,
@@ -120,16 +121,16 @@ class EdgeCorrection:
             - rigid(model, last.shift)
             - stretched(model.on_window, solved.strain, before.sheared.strain),
             before=(last.shear, last.within),
-            turned=last.slip if turned else None,
+            reversed_slip=last.slip if reversed_load else None,
             tolerance=tolerance,
         )
         return edge_shear(problem, solved, before.sheared.shear)
 
 
-def _leads_to(before: State | None, state: State, sheared: TangentialState) -> bool:
-    """Whether the stick border of a state follows from that of an earlier one."""
+def _determines_border(before: State | None, state: State, sheared: TangentialState) -> bool:
+    """Return True if an earlier state determines the stick border of a state."""
     last = before.corrected.sheared if before and before.corrected else None
     if before is None or last is None or last.shift is None or sheared.shift is None:
         return False
-    # At another pressure the relation of both stick borders is not known.
+    # At different pressures the relation between the stick borders is unknown.
     return before.target == state.target or not np.any(last.shear)

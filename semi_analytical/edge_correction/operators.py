@@ -1,7 +1,7 @@
-"""Operators of what tractions do within the cells of a model, and pressure on a given contact.
+"""Operators for tractions that vary within the cells, and the linear solve in a given contact.
 
-The edge inside the cells determines the contact. The remaining problem is linear: the set of cells
-in contact does not change while it is solved.
+The sub-cell edge determines the contact cells. The normal problem is then linear, because the set
+of contact cells is fixed.
 """
 
 from functools import cached_property
@@ -33,29 +33,32 @@ APART: Matrix = (((1, "zx"), (1, "zy"), (1, "zz")),)
 
 
 class EdgeOperators:
-    """Of a model, each built at its first use."""
+    """Operators of a model, built on first use."""
 
     def __init__(self, model: ContactModel) -> None:
         self.model = model
 
     @cached_property
     def by_pressure(self) -> EdgeOperator:
-        """u_z by the pressure within the cells of the domain."""
+        """Operator from pressure variations on the domain to u_z."""
         return self._operator(PRESSURE, self.model.domain)
 
     @cached_property
     def by_shear(self) -> EdgeOperator:
-        """(u_x, u_y) by the shear within the cells of the window."""
+        """Operator from shear variations on the window to (u_x, u_y)."""
         return self._operator(SHEAR, WINDOW)
 
     @cached_property
     def apart(self) -> EdgeOperator:
-        """u_z by shear and pressure (x, y, z) within the cells of the window."""
+        """Operator from variations of shear and pressure (x, y, z) on the window to u_z."""
         return self._operator(APART, WINDOW)
 
     def film(self, contact: Mask, domain: ReducedDomain) -> FilmLaw | None:
-        """The law of the pressure at the edge of a contact (nx, ny) where layers change it within a
-        few cells, and the contact is wide against them."""
+        """Return the edge pressure law of a contact (nx, ny) of layered bodies.
+
+        None if no layer changes the pressure within a few cells of the edge, or if the contact is
+        narrow compared with the layers.
+        """
         law = self._film
         return law if law and law.holds_within(np.max(depth_of(contact, domain))) else None
 
@@ -88,7 +91,7 @@ class EdgeOperators:
 
 
 class Closed(NamedTuple):
-    """Pressure (nx, ny), the gap that it leaves (nx, ny) and the motion of the load."""
+    """Pressure (nx, ny), gap (nx, ny) and motion of the load."""
 
     pressure: Field
     gap: Field
@@ -102,23 +105,24 @@ def closed(
     load: NormalLoad,
     contact: Mask,
     start: Field,
-    beside: Field,
-    enough: float,
+    fixed: Field,
+    reduction: float,
 ) -> Closed:
-    """By conjugate gradients, until the part `enough` of what is not closed is left.
+    """Close the gap of the contact cells by conjugate gradients.
 
-    gap      without the pressure (nx, ny) [length]
-    load     that the cells of the contact carry
-    contact  cells whose gap closes (nx, ny)
-    start    a first pressure, not zero in all of them
-    beside   pressure of other cells, which stays (nx, ny)
+    gap        gap without pressure (nx, ny) [length]
+    load       load on the contact cells
+    contact    cells with zero gap (nx, ny)
+    start      initial guess of the pressure, not zero in all contact cells
+    fixed      pressure of the other cells (nx, ny)
+    reduction  factor by which the residual gap is reduced
     """
     p = load.admissible(np.where(contact, start, 0.0))
-    u = displace(p + beside)
-    h = np.where(contact, gap, 0.0)  # without what is infinite
+    u = displace(p + fixed)
+    h = np.where(contact, gap, 0.0)  # removes infinite gaps
     motion = load.motion(p, u + h)
     projected = load.projection(contact.astype(np.float64))
     g = u + h - load.closure(motion)
-    p, u, _ = close_gap(displace, precondition, projected, p, u, g, enough)
+    p, u, _ = close_gap(displace, precondition, projected, p, u, g, reduction)
     motion = load.motion(p, u + h)
-    return Closed(np.maximum(p, 0.0) + beside, u + gap - load.closure(motion), motion)
+    return Closed(np.maximum(p, 0.0) + fixed, u + gap - load.closure(motion), motion)

@@ -1,9 +1,9 @@
-"""The pressure with its edge inside the cells, by deferred correction.
+"""Deferred correction of the pressure for the contact edge inside cells.
 
-Constant on cells, a pressure that falls to zero like a power of the distance from its edge is wrong
-by O(h) there. φ = p^(1/α) passes smoothly through zero: a fit of φ yields the pressure within the
-cells and the displacement by it, for which the pressure is solved again, until both agree. Where
-bodies couple the shear follows the pressure and moves the surface, too.
+Towards its edge the pressure falls like a power α of the distance. Cell-constant pressure then has
+an error of O(h). Each iteration fits φ = p^(1/α), which passes smoothly through zero, computes the
+displacement by the pressure variation within cells, and solves the normal problem again with this
+displacement. For coupled bodies the shear is updated with the pressure and contributes to u_z.
 """
 
 from collections.abc import Sequence
@@ -22,7 +22,7 @@ from semi_analytical.edge.film import FilmLaw
 from semi_analytical.edge.fit import peak_of
 from semi_analytical.edge.subcell_tractions import (
     SubcellTractions,
-    rim,
+    fit_edge,
 )
 from semi_analytical.edge_correction.operators import EdgeOperators, closed
 from semi_analytical.edge_correction.shear_at_edge import FollowingShear
@@ -39,35 +39,36 @@ from semi_analytical.operator.box import (
 # multiplied by 1 - (1 - λ) factor. λ lies between 0 (smooth changes) and -2 (changes that alternate
 # between cells, on films thinner than a cell): 1/2 has the smallest bound for these, 1/2.
 LEAST_FACTOR = 0.5
-# Nine iterations after the first halve its change, 2e-2 on 32 cells per side, down to SETTLED.
+# The first change is 2e-2 on 32 cells per side; 9 halvings reach SETTLED.
 MAX_ITERATIONS = 10
-# Part of its residual that the solve of an iteration leaves.
+# Reduction of the residual by the linear solve of an iteration.
 INNER_REDUCTION = 0.1
-# Relative changes at which the iteration stops: of the pressure, Σ|Δp|/Σp, as predicted for the
-# next iteration, and of the contact radius in the last one. About as much remains: the accuracy
-# required of a contact radius on 128 cells per side. Last change of the pressure at most.
+# SETTLED bounds the predicted next change of the pressure, Σ|Δp|/Σp, and the last change of the
+# contact radius. The remaining error is about equal: the accuracy required of a contact radius on
+# 128 cells per side. LEAST_SETTLED bounds the last change of the pressure after all iterations.
 SETTLED, LEAST_SETTLED = 5e-5, 1e-3
-# Part of the edge that need not be fitted.
+# Largest fraction of the edge without a reliable fit.
 MAX_UNSAFE = 0.03
 
 
 class NotFitted(Exception):
-    """The edge of a state cannot be corrected; the message states the cause."""
+    """Failure of the edge correction of a state; the message states the cause."""
 
 
 def edge_pressure(
     operators: EdgeOperators, state: State, shear: FollowingShear | None, *, coupled: bool
 ) -> Corrected:
-    """Correct the pressure of a solved state.
+    """Correct the pressure of a solved state by deferred correction.
 
-    shear    that follows the pressure; None without friction
-    coupled  whether the shear moves the surfaces apart
-    Raises NotFitted where the contact is too thin, its edge is rough, or the iteration does not
-    settle.
+    shear    shear as a function of the pressure; None without friction
+    coupled  True if the shear causes normal displacements
+
+    Raises NotFitted if the contact is too thin, its edge is rough, or the iteration does not
+    converge.
     """
     problem = _Problem(operators, state, shear, coupled)
     p = state.pressing.pressure
-    edge = problem.rim(p, None)
+    edge = problem.fit_edge(p, None)
     response = problem.response(state.pressing.approach, p)
     step, factor, changes = np.zeros_like(p), 1.0, list[float]()
     for number in range(MAX_ITERATIONS):
@@ -77,44 +78,52 @@ def edge_pressure(
             factor = relaxation_factor(factor, last, step)
         changes.append(float(np.sum(np.abs(step)) / np.sum(p)))
         before, p = _Last(p, edge, response), p + factor * step
-        edge = problem.rim(p, edge)
+        edge = problem.fit_edge(p, edge)
         approach, _ = state.target.reached(operators.model, solved.motion)
         response = problem.response(approach, p)
         if next_change(changes) <= SETTLED and _radius_change(before.edge, edge) <= SETTLED:
             break
     change = changes[-1]
     if change > LEAST_SETTLED:
-        raise NotFitted(f"the correction does not settle: its last change is {change:.1e}")
+        raise NotFitted(
+            f"the correction does not converge: its last change is {change:.1e}, allowed are "
+            f"{LEAST_SETTLED:.0e}"
+        )
     return problem.corrected(_Last(p, edge, response), before, solved, change)
 
 
 def next_change(changes: Sequence[float]) -> float:
-    """Predict the change of the next iteration from those of the iterations so far: the last two
-    fall by one factor. The first is the error of cells, which falls by another."""
+    """Predict the next change from the ratio of the last two changes.
+
+    The first change is the discretisation error of the cells and is excluded from the ratio.
+    """
     *before, last = changes
     return last * min(1.0, last / before[-1]) if len(before) > 1 else last
 
 
 def relaxation_factor(factor: float, last: Field, change: Field) -> float:
-    """Return the relaxation factor of a change by Aitken's method (Irons and Tuck 1969).
+    """Compute the relaxation factor of a change by Aitken's method (Irons and Tuck 1969).
 
-    last, change  two successive changes, of which the first was multiplied by `factor`
+    last, change  two successive changes; the first was multiplied by `factor`
     """
     fall = last - change
     return float(np.clip(factor * np.sum(last * fall) / np.sum(fall**2), LEAST_FACTOR, 1.0))
 
 
 def _radius_change(before: SubcellTractions, after: SubcellTractions) -> float:
-    """Relative change of the contact radius between two iterates."""
+    """Compute the relative change of the contact radius between two iterates."""
     return abs((after.area / before.area) ** 0.5 - 1)
 
 
 class _Solved(NamedTuple):
-    """Pressure (nx, ny), motion of the load, displacement by everything but `pressure` (nx, ny)."""
+    """Solution of an iteration.
+
+    by_edge  displacement by variations within cells and by the shear (nx, ny)
+    """
 
     pressure: Field
     motion: Motion
-    beside: Field
+    by_edge: Field
 
 
 class _Last(NamedTuple):
@@ -127,7 +136,7 @@ class _Last(NamedTuple):
 
 @dataclass(frozen=True)
 class _Problem:
-    """State whose pressure is corrected; see `edge_pressure`."""
+    """Deferred correction of one state; see `edge_pressure`."""
 
     operators: EdgeOperators
     state: State
@@ -145,7 +154,7 @@ class _Problem:
 
     @cached_property
     def box(self) -> Box:
-        """Around the contact."""
+        """Box around the contact."""
         return box_around(self.contact, MARGIN, self.model.domain)
 
     @cached_property
@@ -154,7 +163,7 @@ class _Problem:
 
     @cached_property
     def exponent(self) -> Exponent:
-        """Of the distance from the edge."""
+        """Exponent α of the distance from the edge."""
         solved = self.state.sheared
         if not self.coupled or self.shear is None or solved is None:
             return 0.5
@@ -166,9 +175,9 @@ class _Problem:
     def film(self) -> FilmLaw | None:
         return self.operators.film(self.contact, self.model.domain)
 
-    def rim(self, p: Field, before: SubcellTractions | None) -> SubcellTractions:
-        """Fit of the edge of a pressure. Raises NotFitted."""
-        edge = rim(p, p > 0, before, self.exponent, self.model.domain, self.film)
+    def fit_edge(self, p: Field, before: SubcellTractions | None) -> SubcellTractions:
+        """Fit the edge of a pressure; raise NotFitted if this is impossible."""
+        edge = fit_edge(p, p > 0, before, self.exponent, self.model.domain, self.film)
         if edge is None:
             raise NotFitted("the contact is too thin")
         if edge.unsafe > MAX_UNSAFE:
@@ -176,34 +185,34 @@ class _Problem:
         return edge
 
     def response(self, approach: float, p: Field) -> float:
-        """Approach, or sum of the pressure where the approach is prescribed."""
+        """Return the approach, or the sum of the pressure at a prescribed approach."""
         return approach if self.state.target.approach is None else float(np.sum(p))
 
     def solve(self, p: Field, edge: SubcellTractions) -> _Solved:
-        """Pressure for the edge of an iterate.
+        """Solve the normal problem for the edge of an iterate.
 
-        Cells that the contact only reaches into carry the pressure of the fit; the others carry the
-        rest of the load.
+        Partly covered cells with a centre outside the edge carry the pressure of the fit. The
+        contact cells carry the rest of the load.
         """
         box, model = self.box.slices, self.model
-        reached = np.where(edge.outer, edge.means, 0.0)[box]
-        beside = self.by_edge(p, edge)
+        outer = np.where(edge.outer, edge.means, 0.0)[box]
+        by_edge = self.by_edge(p, edge)
         operator = model.operator(self.box.shape)
         load = self.state.target.on(model, self.box)
         found = closed(
             operator.normal,
             operator.precondition,
-            (self.gap + beside)[box],
-            load.less(reached),
+            (self.gap + by_edge)[box],
+            load.less(outer),
             edge.region[box],
             p[box],
-            reached,
+            outer,
             INNER_REDUCTION,
         )
-        return _Solved(self.box.embed(found.pressure, p.shape), found.motion, beside)
+        return _Solved(self.box.embed(found.pressure, p.shape), found.motion, by_edge)
 
     def by_edge(self, p: Field, edge: SubcellTractions) -> Field:
-        """Displacement by the pressure within its cells, and by the shear that follows."""
+        """Compute u_z by the pressure variation within cells and by the shear of coupled bodies."""
         by_p = Within.of(p, edge.i, edge.j, edge.parts, edge.domain)
         if not self.coupled or self.shear is None:
             return np.asarray(self.operators.by_pressure(by_p)[0])
@@ -214,12 +223,12 @@ class _Problem:
         return np.asarray(u + self.model.operator(p.shape).normal_by_shear(q))
 
     def corrected(self, last: _Last, before: _Last, solved: _Solved, change: float) -> Corrected:
-        """The last iterate as a state on the window."""
+        """Assemble the corrected state on the window from the last iterate."""
         edge = last.edge
         target, extend = self.state.target, self.model.domain.extend
         approach, tilt = target.reached(self.model, solved.motion)
         load = target.on(self.model, Box.whole(self.gap.shape))
-        u = solved.beside + self.model.operator(self.gap.shape).normal(solved.pressure)
+        u = solved.by_edge + self.model.operator(self.gap.shape).normal(solved.pressure)
         gap = np.maximum(self.gap + u - load.closure(solved.motion), 0.0)
         gap[edge.region] = 0.0
         p = extend(last.pressure)

@@ -1,10 +1,10 @@
-"""The shear with its edges inside the cells, at the border of stick as at that of contact.
+"""Deferred correction of the shear of uncoupled bodies for a stick border inside cells.
 
-With n the direction of slip, q = µp n - d: d vanishes where cells slip, and towards the border of
-the stick zone it falls to zero like the pressure of a smaller contact (Cattaneo 1938). So q is
-within the cells what p and d are. After a reversal the same holds of what the shear has changed by,
-at twice the friction (Masing's rule: Mindlin and Deresiewicz 1953): q = q' + µp (n - n') - d, with
-q' and n' before it.
+With n the direction of slip, q = µp n - d. The deficit d vanishes in the slip zone and falls to
+zero towards the stick border like the pressure of a smaller contact (Cattaneo 1938). Fits of p and
+d therefore yield q within the cells. After a reversal from the shear q' with the direction n', the
+change of the shear obeys the same law with twice the friction (Masing's rule, Mindlin and
+Deresiewicz 1953): q = q' + µp (n - n') - d.
 """
 
 from dataclasses import dataclass, replace
@@ -17,7 +17,7 @@ from semi_analytical.edge.corrected import CorrectedShear
 from semi_analytical.edge.displacement import Within
 from semi_analytical.edge.subcell_tractions import (
     SubcellTractions,
-    rim,
+    fit_edge,
 )
 from semi_analytical.edge_correction.operators import EdgeOperators
 from semi_analytical.edge_correction.pressure import (
@@ -45,9 +45,15 @@ WithinVector = tuple[Within, Within]
 
 
 @dataclass(frozen=True)
-class Missing:
-    """What is missing from full slip: shear (2, nx, ny), that of full slip (2, nx, ny), its
-    direction (2, nx, ny), where there is anything missing (nx, ny), and the border of that."""
+class Deficit:
+    """Deficit of the shear from gross slip.
+
+    shear  deficit (2, nx, ny)
+    full   shear of gross slip (2, nx, ny)
+    slip   direction of slip (2, nx, ny)
+    stick  cells with a deficit (nx, ny)
+    edge   subcell values of the magnitude of the deficit along the stick border
+    """
 
     shear: VectorField
     full: VectorField
@@ -59,7 +65,7 @@ class Missing:
 def sliding_shear(
     operators: EdgeOperators, bound: Field, limit: Within, solved: TangentialState
 ) -> CorrectedShear:
-    """The shear where all slips: the limit, along the slip.
+    """Return the corrected shear in gross slip: the friction limit along the slip.
 
     bound, limit  see `ShearProblem`
     """
@@ -86,14 +92,14 @@ def sliding_shear(
 
 @dataclass(frozen=True)
 class ShearProblem:
-    """An increment at its corrected pressure.
+    """Tangential problem of an increment at its corrected pressure.
 
-    bound    µp (nx, ny) [force/length^2]
-    limit    µp within the cells
-    force    (2,) that the shear carries, that of cells however the shear is led
-    target   u_t - shift of the state before (2, nx, ny) [length]
-    before   its shear (2, nx, ny), and what that is within the cells
-    turned   direction of its slip (2, nx, ny) where it is turned round; None where it goes on
+    bound          µp (nx, ny) [force/length^2]
+    limit          variation of µp within the cells
+    force          tangential force of the solved state (2,), in force and displacement control
+    target         u_t - rigid motion of the previous state (2, nx, ny) [length]
+    before         shear of the previous state (2, nx, ny), and its variation within the cells
+    reversed_slip  direction of the previous slip n' (2, nx, ny) after a reversal, else None
     """
 
     operators: EdgeOperators
@@ -102,26 +108,28 @@ class ShearProblem:
     force: Vector
     target: VectorField
     before: tuple[VectorField, WithinVector]
-    turned: VectorField | None
+    reversed_slip: VectorField | None
     tolerance: float
 
     def full(self, bound: Field, slip: VectorField, before: VectorField) -> VectorField:
-        """The shear if all slipped; turned round, if all did that slipped before."""
-        return bound * slip if self.turned is None else before + bound * (slip - self.turned)
+        """Return the shear of gross slip, µp n, or q' + µp (n - n') after a reversal."""
+        last = self.reversed_slip
+        return bound * slip if last is None else before + bound * (slip - last)
 
-    def missing(
+    def deficit(
         self,
         q: VectorField,
         bound: Field,
         before: VectorField,
         stick: Mask,
         edge: SubcellTractions | None,
-    ) -> Missing | None:
-        """What is missing from full slip along the slip of the nearest slipping cell; None where
-        there is no border of stick to fit.
+    ) -> Deficit | None:
+        """Compute the deficit from gross slip; None if no stick border can be fitted.
 
-        before  shear of the state before (2, nx, ny)
-        edge    about the same border; None where there is none yet
+        The direction of slip in the stick zone is that of adjacent slipping cells.
+
+        before  shear of the previous state (2, nx, ny)
+        edge    stick border of the previous iteration
         """
         reached = np.zeros_like(stick) if edge is None else edge.outer
         slips = (bound > 0) & ~(stick & ~reached)
@@ -130,56 +138,56 @@ class ShearProblem:
         slip = direction_of_slip(q, slips)
         full = self.full(bound, slip, before)
         shear = np.where(stick, full - q, 0.0)
-        border = rim(magnitude(shear), stick, edge)
+        border = fit_edge(magnitude(shear), stick, edge)
         if border is None or border.unsafe > MAX_UNSAFE:
             return None
-        return Missing(shear, full, slip, stick, border)
+        return Deficit(shear, full, slip, stick, border)
 
-    def within(self, q: VectorField, missing: Missing) -> WithinVector:
-        """What a shear is within the cells.
+    def within(self, q: VectorField, deficit: Deficit) -> WithinVector:
+        """Compute the variation of a shear within the cells.
 
-        Deep in the stick zone it is what it was, and central differences of what has come since.
+        Deep in the stick zone it is the previous variation plus central differences of the change.
         """
-        edge = missing.edge
-        d = magnitude(missing.shear)
-        along = missing.shear / np.where(d > 0, d, 1.0)
-        deep = missing.stick.copy()
+        edge = deficit.edge
+        d = magnitude(deficit.shear)
+        along = deficit.shear / np.where(d > 0, d, 1.0)
+        deep = deficit.stick.copy()
         deep[edge.i, edge.j] = False
         of_d = Within.of(d, edge.i, edge.j, edge.parts)
-        slips = (self.bound > 0) & ~missing.stick
+        slips = (self.bound > 0) & ~deficit.stick
         last, within_last = self.before
-        since_turn = 0.0 if self.turned is None else 1.0
+        after_reversal = 0.0 if self.reversed_slip is None else 1.0
         found = []
         for k in (0, 1):
-            n = missing.slip[k] - (0.0 if self.turned is None else self.turned[k])
-            turns = np.stack(np.gradient(n)) * np.where(slips, self.bound, 0.0)
-            outer = n * self.limit.slopes + turns - along[k] * of_d.slopes
-            outer += since_turn * within_last[k].slopes
-            since = np.stack(np.gradient(q[k] - last[k])) + within_last[k].slopes
+            n = deficit.slip[k] - (0.0 if self.reversed_slip is None else self.reversed_slip[k])
+            of_direction = np.stack(np.gradient(n)) * np.where(slips, self.bound, 0.0)
+            outer = n * self.limit.slopes + of_direction - along[k] * of_d.slopes
+            outer += after_reversal * within_last[k].slopes
+            inner = np.stack(np.gradient(q[k] - last[k])) + within_last[k].slopes
             terms = (
                 (np.where(deep, 0.0, n), self.limit),
                 (-along[k], of_d),
-                (np.where(deep, 1.0, since_turn), within_last[k]),
+                (np.where(deep, 1.0, after_reversal), within_last[k]),
             )
-            found.append(Within.summed(np.where(deep, since, outer), terms))
+            found.append(Within.summed(np.where(deep, inner, outer), terms))
         return found[0], found[1]
 
     def solve(
-        self, q: VectorField, motion: Field, missing: Missing, u: VectorField
+        self, q: VectorField, motion: Field, deficit: Deficit, u: VectorField
     ) -> TangentialSolution:
-        """The shear with the border of stick where it is, solved on the domain.
+        """Solve the tangential problem on the domain for a given stick border.
 
-        Cells that the stick zone only reaches into are missing from full slip what the fit says.
+        In partly sticking cells with a slipping centre the deficit of the fit lowers the limit.
         """
         model = self.operators.model
         domain, operator = model.domain, model.operator(model.grid.cells)
-        reached = magnitude(missing.full - missing.edge.means * missing.slip)
+        outer = magnitude(deficit.full - deficit.edge.means * deficit.slip)
         q, target = domain.restrict(q), domain.restrict(self.target - u)
         solution = solve_tangential(
             operator.tangential,
             operator.shear_inverse,
             domain.restrict(
-                np.where(missing.edge.outer, np.minimum(reached, self.bound), self.bound)
+                np.where(deficit.edge.outer, np.minimum(outer, self.bound), self.bound)
             ),
             target,
             ShearSum(self.force / model.grid.cell_area, domain.summed),
@@ -200,25 +208,25 @@ class ShearProblem:
 def edge_shear(
     problem: ShearProblem, solved: TangentialState, before: VectorField
 ) -> CorrectedShear | None:
-    """A solved shear with its edges inside the cells; None where that is not safe.
+    """Correct a solved shear; None if the border cannot be fitted or the iteration fails.
 
-    before  shear that the solved one started from (2, nx, ny)
+    before  shear of the previous solved state (2, nx, ny)
     """
     assert solved.shift is not None
-    # What is missing at the solved pressure is about what is missing at the corrected one.
+    # The deficit at the solved pressure is the initial guess of that at the corrected pressure.
     limit = problem.operators.model.friction.limit(solved.pressure)
-    missing = problem.missing(solved.shear, limit, before, solved.in_stick, None)
-    if missing is None:
+    deficit = problem.deficit(solved.shear, limit, before, solved.in_stick, None)
+    if deficit is None:
         return None
-    full = problem.full(problem.bound, missing.slip, problem.before[0])
-    missing = replace(missing, full=full)
-    q, motion = full - missing.shear, solved.shift
+    full = problem.full(problem.bound, deficit.slip, problem.before[0])
+    deficit = replace(deficit, full=full)
+    q, motion = full - deficit.shear, solved.shift
     step, factor, changes = np.zeros_like(q), 1.0, list[float]()
     for number in range(MAX_ITERATIONS):
-        within = problem.within(q, missing)
+        within = problem.within(q, deficit)
         u = problem.operators.by_shear(*within)
         try:
-            solution = problem.solve(q, motion, missing, u)
+            solution = problem.solve(q, motion, deficit, u)
         except NotConverged:
             return None
         answer, motion = solution.shear, solution.motion
@@ -226,25 +234,23 @@ def edge_shear(
         changes.append(float(np.sum(magnitude(step)) / np.sum(problem.bound)))
         if next_change(changes) <= SETTLED or number == MAX_ITERATIONS - 1:
             break
-        edge, stick = missing.edge, (problem.bound > 0) & ~solution.in_slip
+        edge, stick = deficit.edge, (problem.bound > 0) & ~solution.in_slip
         if number:
             factor = relaxation_factor(factor, last, step)
         q = q + factor * step
-        next_missing = problem.missing(
-            q, problem.bound, problem.before[0], stick | edge.outer, edge
-        )
-        if next_missing is None:
+        following = problem.deficit(q, problem.bound, problem.before[0], stick | edge.outer, edge)
+        if following is None:
             return None
-        missing = next_missing
+        deficit = following
     if changes[-1] > LEAST_SETTLED:
         return None
     return CorrectedShear(
         shear=answer,
         within=within,
-        slip=missing.slip,
+        slip=deficit.slip,
         displacement=solution.displacement + u,
         shift=motion,
-        stick=missing.edge.region,
-        stick_cells=missing.edge.area,
+        stick=deficit.edge.region,
+        stick_cells=deficit.edge.area,
         change=changes[-1],
     )

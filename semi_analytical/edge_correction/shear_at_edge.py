@@ -1,15 +1,14 @@
-"""Shear that follows a corrected pressure, and the exponent of both at the edge of slip.
+"""Shear at a corrected pressure, and the exponent of both tractions at a slipping edge.
 
-With n the direction of slip and d the shear missing from full slip, q = µp n - d, the correction
-changes the pressure alone: d stays that of the cells, scaled so that the tangential force along it
-is kept. Where bodies couple and friction slips at the edge, pressure and shear fall to zero like
-s^α, s the distance from the edge and
+The shear is q = µp n - d with the direction of slip n and the deficit d from gross slip. The
+correction changes p only; d is that of the uncorrected state, scaled to the same tangential force
+along Σd. If coupled bodies slip at the edge, pressure and shear fall to zero like s^α, with s the
+distance from the edge, m its outward normal, β Dundurs' parameter of the outermost materials and
 
-    α = ½ + arctan(µβ q·n/|q|)/π
+    α = ½ + arctan(µβ q·m/|q|)/π
 
-with n the outward normal and Dundurs' β of the outermost materials: in a wedge of slip at the edge
-u_z' = -(2/E*)(H p + β q) on both sides of it, H the Hilbert transform (Comninou 1976 for the plane
-problem; near its edge every smooth contact is plane).
+Near the edge the contact is plane, and u_z' = -(2/E*)(H p + β q) with the Hilbert transform H
+(Comninou 1976).
 """
 
 from __future__ import annotations
@@ -25,21 +24,22 @@ from semi_analytical.tangential.admissible_shear import magnitude
 
 # Layers of cells next to slipping cells to which their direction of slip is extended.
 LAYERS = 12
-# Of the sum of the directions of neighbours, below which they point against each other.
+# Magnitude of the sum of neighbouring directions below which they cancel.
 LEAST_COMMON = 1e-3
-# Of Σ|d|, below which Σd has no direction: normal loading.
+# |Σd| over Σ|d| below which Σd has no direction (normal loading).
 LEAST_RESULTANT = 1e-3
-# Cells over which the distance from the edge is smoothed to have its normal.
+# Standard deviation in cells of the filter of the distance from the edge, for its normal.
 SMOOTHED = 2.0
 
 
 def direction_of_slip(q: VectorField, slips: Mask) -> VectorField:
-    """Direction of the shear of slipping cells, extended to the others (2, nx, ny).
+    """Compute the direction of the shear of slipping cells, extended to all cells (2, nx, ny).
 
-    The others take that of adjacent cells, layer by layer; beyond, that of the nearest cell.
+    Other cells take the mean direction of adjacent cells, layer by layer. Beyond LAYERS they take
+    the direction of the nearest cell.
     """
     nx, ny = slips.shape
-    framed = np.zeros((nx + 2, ny + 2), bool)  # no neighbour of a cell lies beyond the frame
+    framed = np.zeros((nx + 2, ny + 2), bool)  # all neighbours of cells are in the frame
     window = framed.copy()
     window[1:-1, 1:-1] = True
     size = magnitude(q)
@@ -49,9 +49,9 @@ def direction_of_slip(q: VectorField, slips: Mask) -> VectorField:
     n[:, new] = q[:, framed[1:-1, 1:-1]] / size[framed[1:-1, 1:-1]]
     steps = np.array([i * (ny + 2) + j for i in (-1, 0, 1) for j in (-1, 0, 1)])
     for _ in range(LAYERS):
-        touched = np.zeros_like(known)
-        touched[new[:, None] + steps] = True
-        next_layer = np.flatnonzero(touched & window & ~known)
+        adjacent = np.zeros_like(known)
+        adjacent[new[:, None] + steps] = True
+        next_layer = np.flatnonzero(adjacent & window & ~known)
         about = np.sum(n[:, next_layer[:, None] + steps], axis=-1)
         size = magnitude(about)
         agree = size > LEAST_COMMON
@@ -66,42 +66,42 @@ def direction_of_slip(q: VectorField, slips: Mask) -> VectorField:
 
 @dataclass(frozen=True)
 class FollowingShear:
-    """Shear of a solved state at other pressures; fields on the whole window.
+    """Shear of a solved state as a function of the pressure; fields on the full window.
 
     friction  law of friction
-    slip      n (2, nx, ny)
-    missing   d (2, nx, ny), zero where cells slip [force/length^2]
+    slip      direction of slip n (2, nx, ny)
+    deficit   d (2, nx, ny), zero in the slip zone [force/length^2]
     total     sum of the shear over the cells (2,)
     """
 
     friction: CoulombFriction
     slip: VectorField
-    missing: VectorField
+    deficit: VectorField
     total: Field
 
     @classmethod
     def of(
         cls, friction: CoulombFriction, pressure: Field, shear: VectorField, stick: Mask
     ) -> FollowingShear:
-        """Of a state on cells; the direction of slip is that of the shear if no cell slips."""
+        """Decompose the shear of a state; without slip, n is the direction of the shear."""
         slips = (pressure > 0) & ~stick
         slip = direction_of_slip(shear, slips if np.any(slips) else magnitude(shear) > 0)
-        missing = np.where(stick, friction.limit(pressure) * slip - shear, 0.0)
-        return cls(friction, slip, missing, np.sum(shear, axis=(1, 2)))
+        deficit = np.where(stick, friction.limit(pressure) * slip - shear, 0.0)
+        return cls(friction, slip, deficit, np.sum(shear, axis=(1, 2)))
 
     def __call__(self, pressure: Field) -> VectorField:
-        """q (2, nx, ny) at a pressure, within the limit of friction."""
+        """Compute q (2, nx, ny) at a pressure; its magnitude is at most the friction limit."""
         limit = self.friction.limit(pressure)
-        full, resultant = limit * self.slip, np.sum(self.missing, axis=(1, 2))
+        full, resultant = limit * self.slip, np.sum(self.deficit, axis=(1, 2))
         scale, squared = 1.0, float(resultant @ resultant)
-        if squared > (LEAST_RESULTANT * np.sum(magnitude(self.missing))) ** 2:
+        if squared > (LEAST_RESULTANT * np.sum(magnitude(self.deficit))) ** 2:
             scale = float((np.sum(full, axis=(1, 2)) - self.total) @ resultant) / squared
-        q = full - scale * self.missing
+        q = full - scale * self.deficit
         size = magnitude(q)
         return np.asarray(q * np.where(size > limit, limit / np.where(size > 0, size, 1.0), 1.0))
 
     def exponent(self, contact: Mask, beta: float) -> Field:
-        """α along the nearest edge of a contact (nx, ny).
+        """Compute α of the nearest edge of a contact (nx, ny).
 
         beta  Dundurs' parameter of the outermost materials
         """

@@ -155,7 +155,7 @@ def near_edge(
         raise EdgeNotSeen(str(error)) from None
     i, j = np.nonzero(region & ~binary_erosion(region))
     phi, safe = one.shape.edge_points(i, j)
-    again, safe_again = other.shape.points_near(phi.x, phi.y)
+    again, safe_again = other.shape.edge_points(phi.x, phi.y)
     both = safe & safe_again
     if not np.any(both):
         raise EdgeNotSeen(NOT_SMOOTH.format("any point"))
