@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from semi_analytical.operator.slip_compliance_bins import STIFFNESSES
+from semi_analytical.operator.slip_compliance_bins import COMPLIANCES
 
 
 def compliance(rng, size: int) -> np.ndarray:
@@ -22,7 +22,7 @@ def graded_inverse(matrix: np.ndarray):
     diagonal = np.diag(matrix)
 
     def divided(fields):
-        held = np.mean(diagonal) * (1 + STIFFNESSES[:, None, None])
+        held = np.mean(diagonal) * (1 + COMPLIANCES[:, None, None])
         shear = fields[:2] / diagonal.reshape(fields[:2].shape)
         return np.concatenate([shear, fields[2:] / held[: len(fields) - 2]])
 

@@ -25,7 +25,7 @@ from semi_analytical.normal.normal_load import (
     FixedApproach,
     PressureSum,
 )
-from semi_analytical.operator.slip_compliance_bins import STIFFNESSES
+from semi_analytical.operator.slip_compliance_bins import COMPLIANCES
 from semi_analytical.tangential.admissible_shear import (
     FixedShift,
     ShearSum,
@@ -45,8 +45,8 @@ class Held:
 
     def __init__(self, diagonal, self_compliance):
         """diagonal  (3, nx, ny), in front of that of the grades"""
-        grades = np.ones((len(STIFFNESSES), *diagonal.shape[1:]))
-        grades *= self_compliance * (1 + STIFFNESSES[:, None, None])
+        grades = np.ones((len(COMPLIANCES), *diagonal.shape[1:]))
+        grades *= self_compliance * (1 + COMPLIANCES[:, None, None])
         self._given = diagonal, self_compliance
         self._held = np.concatenate([diagonal, grades])
 
@@ -270,7 +270,7 @@ def test_the_inverse_of_cells_on_springs_is_that_of_the_sum_of_compliances(softn
     own = contact.self_compliance
     A, more = contact.operator(shape), softness * contact.self_compliance
     found = A.inverse.yielding(more)
-    u = 1e-9 * rng.standard_normal((3 + len(STIFFNESSES), *shape))
+    u = 1e-9 * rng.standard_normal((3 + len(COMPLIANCES), *shape))
     # F + ρ by F of the coefficients, those of a cell on itself raised by the springs.
     rows, columns = A.transforms.half_period
 
@@ -281,7 +281,7 @@ def test_the_inverse_of_cells_on_springs_is_that_of_the_sum_of_compliances(softn
     xx, yy, xy = (unpadded(pair) for pair in ("xx", "yy", "xy"))
     matrix = np.moveaxis(np.array([[xx + more, xy], [xy, yy + more]]), (0, 1), (-2, -1))
     sheared = np.linalg.solve(matrix, np.moveaxis(spectra[:2], 0, -1)[..., None])[..., 0]
-    graded = 0.5 * (xx + yy) + more + (own + more) * STIFFNESSES[:, None, None]
+    graded = 0.5 * (xx + yy) + more + (own + more) * COMPLIANCES[:, None, None]
     solved = np.concatenate(
         [
             np.moveaxis(sheared, -1, 0),

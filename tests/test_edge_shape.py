@@ -101,7 +101,7 @@ def test_edge_points_are_on_the_edge_that_exact_means_have(
 
 def test_a_region_without_data_is_refused() -> None:
     means = ellipse_means(CELLS, (13.3, 1.2), (19.37, 19.81))
-    with pytest.raises(ValueError, match="take smaller cells"):
+    with pytest.raises(ValueError, match="Use smaller cells"):
         edge_shape(means, means > 0, WIDE, rings=2)
 
 

@@ -41,7 +41,7 @@ from semi_analytical.model import ContactModel
 from semi_analytical.operator.box import box_around
 from semi_analytical.operator.domain import QUARTER, WINDOW, ReducedDomain
 from semi_analytical.operator.operator import BINS, DisplacementOperator, inverse_2x2
-from semi_analytical.operator.slip_compliance_bins import STIFFNESSES
+from semi_analytical.operator.slip_compliance_bins import COMPLIANCES
 from semi_analytical.operator.transforms import MAX_BY_MATRIX, Convolutions, offsets_for
 from semi_analytical.plan import MIRROR_PLANES
 from verification.problems.shifted_grid import ShiftedGrid
@@ -100,7 +100,7 @@ def test_operators_and_preconditioners_are_symmetric_and_positive(shape, seed):
     A = operator(shape)
     p, other = rng.standard_normal((2, *shape))
     q, another = rng.standard_normal((2, 2, *shape))
-    graded = rng.standard_normal((2, 2 + len(STIFFNESSES), *shape))
+    graded = rng.standard_normal((2, 2 + len(COMPLIANCES), *shape))
     for apply, x, y in [
         (A.normal, p, other),
         (A.precondition, p, other),
@@ -115,7 +115,7 @@ def test_operators_and_preconditioners_are_symmetric_and_positive(shape, seed):
 
 def sheared(of):
     """The approximate inverse for cells that stick."""
-    return lambda u: of.shear_inverse(np.concatenate([u, np.zeros_like(u)[: len(STIFFNESSES)]]))[:2]
+    return lambda u: of.shear_inverse(np.concatenate([u, np.zeros_like(u)[: len(COMPLIANCES)]]))[:2]
 
 
 @pytest.mark.parametrize("which", [0, 1], ids=["pressure", "shear"])

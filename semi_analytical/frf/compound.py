@@ -1,10 +1,10 @@
-"""Propagation of the surface compliance through one layer, free of overflow and cancellation.
+"""Compound recursion of the surface compliance through one layer, without overflow or cancellation.
 
-In the sagittal plane a body is known at a depth by the symmetric 2x2 compliance C between the
-displacement (U, u_z) and the traction (Q, p). Propagated as y = (det C, C11, C12, C22, 1) times a
-scale (second compounds, also called delta matrices: Dunkin 1965), the exact solution needs no
-difference of exponentials. Its matrix is written below with the brackets regrouped so that
-sinh x cosh x - x and sinh^2 x - x^2, which vanish for thin layers, are formed by series.
+In the sagittal plane the material below a depth is represented by the symmetric 2x2 compliance C
+between the displacement (U, u_z) and the traction (Q, p). The recursion propagates
+y = (det C, C11, C12, C22, 1) times a scale (second compounds or delta matrices, Dunkin 1965). It
+contains no differences of exponentials. The terms sinh x cosh x - x and sinh^2 x - x^2, which
+vanish for thin layers, are computed by series.
 """
 
 from typing import NamedTuple
@@ -13,8 +13,8 @@ import numpy as np
 
 from contact_scene.array_types import Array
 
-# Beyond this alpha h nothing of a layer's underside is left at its top (exp(-2x) = 0 in double
-# precision from 373 on); the bound keeps x exp(-2x) from becoming inf * 0.
+# Upper bound of alpha h. The underside of a layer has no effect on its top from 373 on, where
+# exp(-2x) = 0 in double precision. The bound prevents x exp(-2x) = inf * 0.
 OPAQUE = 1e4
 
 
@@ -34,7 +34,7 @@ class Waves(NamedTuple):
 
 
 def decaying_waves(x: Array) -> Waves:
-    """Wave functions times exp(-2x), to full relative accuracy for every x >= 0."""
+    """Compute the wave functions times exp(-2x), with full relative accuracy for all x >= 0."""
     w = np.exp(-2 * x)
     s = np.expm1(-2 * x) ** 2 / 4
     c = -np.expm1(-4 * x) / 4
@@ -47,7 +47,7 @@ def decaying_waves(x: Array) -> Waves:
 
 
 def _thin_series(x: Array) -> tuple[Array, Array]:
-    """Series sinh x cosh x - x and sinh^2 x - x^2 for x < 1, truncated at 1e-17 relative."""
+    """Compute sinh x cosh x - x and sinh^2 x - x^2 for x < 1 by series, truncated at 1e-17."""
     z = 4 * x * x
     c = np.zeros_like(x)
     s = np.zeros_like(x)
@@ -59,10 +59,10 @@ def _thin_series(x: Array) -> tuple[Array, Array]:
 
 
 def echo_waves(x: Array) -> Waves:
-    """Wave functions without their exp(2x)/4, times one.
+    """Compute the wave functions without their terms exp(2x)/4, with the scale 1.
 
-    That part is the answer of an infinitely thick layer. In the difference to the half-space it
-    cancels exactly, so it is left out beforehand; exp(-2x) then scales what remains.
+    These terms represent an infinitely thick layer and cancel exactly in the difference from the
+    half-space. The remaining terms are multiplied by exp(-2x).
     """
     w = np.exp(-2 * x)
     s = w / 4 - 0.5
@@ -71,7 +71,7 @@ def echo_waves(x: Array) -> Waves:
 
 
 def compound_rows(y: tuple[Array, ...], nu: float, f: Waves) -> tuple[Array, ...]:
-    """Carry (det C, C11, C12, C22, 1) from a layer's underside to its top, up to a scale.
+    """Propagate (det C, C11, C12, C22, 1) from the underside of a layer to its top, up to a scale.
 
     C is in units of 1 / (2 G alpha), G the layer's shear modulus; the last row is the divisor.
     """

@@ -1,9 +1,9 @@
 """Displacement and traction at depth in a layered body, per unit traction on its surface.
 
-Everything below a horizontal plane acts on what lies above through the compliance C of that plane,
-which the compound recursion gives without cancellation. So the traction at the plane follows from
-the one at the surface, tau = M^-1 tau_0 with M of the material between (its determinant is the
-recursion's divisor), and the displacement is C tau. Exponentials only decay; nu = 1/2 is regular.
+The material below a horizontal plane acts through the compliance C of the plane, which the compound
+recursion yields without cancellation. The traction at the plane is tau = M^-1 tau_0, with tau_0 at
+the surface and M of the material between. The determinant of M is the divisor of the recursion. The
+displacement at the plane is C tau. All exponentials decay, and nu = 1/2 is regular.
 Signs and frame: CONVENTIONS.md. Equilibrium and Hooke's law along z, with W = u_z, read
 
     U' = -tau_s/G - alpha W                tau_s' = -2G/(1-nu) alpha^2 U - nu/(1-nu) alpha tau_z
@@ -23,16 +23,16 @@ from semi_analytical.frf.surface import remainder_scalars
 
 
 class DepthScalars(NamedTuple):
-    """Fields at one depth as functions of the wavenumber, all real.
+    """Fields at one depth as real functions of the wavenumber.
 
-    With u_s = iU and t_s = iQ as in `surface.py`, and the traction at depth tau = -(sigma_sz / i,
-    sigma_zz), the first axis of a matrix is the field (along the wave vector, normal), the second
-    one the surface traction (Q, p).
+    The amplitudes are u_s = iU and t_s = iQ as in `surface.py`. The traction at depth is
+    tau = -(sigma_sz / i, sigma_zz). The first axis of a matrix is the component of the field (along
+    the wave vector, normal). The second axis is the surface traction (Q, p).
 
     displacement  (U, u_z), shape (2, 2, wavenumbers) [length^3/force]
-    traction      (tau_s, tau_z), shape (2, 2, wavenumbers), dimensionless
+    traction      (tau_s, tau_z), shape (2, 2, wavenumbers) [1]
     transverse_displacement, transverse_traction
-                  of the waves across: u_t and -sigma_tz by t_t, shape (wavenumbers,)
+                  u_t and -sigma_tz by the transverse traction t_t, shape (wavenumbers,)
     """
 
     displacement: Array
@@ -55,10 +55,10 @@ class PlaneScalars(NamedTuple):
 
 @dataclass(frozen=True)
 class Level:
-    """A depth and the material it is seen from: at an interface there are two.
+    """Depth in a given material; an interface belongs to two materials.
 
-    depth  below the surface [length]
-    layer  index of the layer; the number of layers stands for the base
+    depth  depth below the surface [length]
+    layer  index of the layer; the number of layers denotes the base
     """
 
     depth: float
@@ -76,7 +76,7 @@ class Compliance(NamedTuple):
 
 
 class Descent:
-    """The way of surface tractions down a stack; built once for some wavenumbers, asked for often.
+    """Propagation of surface tractions to depths of a stack, for fixed wavenumbers.
 
     alpha  wavenumbers [1/length], > 0, shape (wavenumbers,)
     """
@@ -97,13 +97,13 @@ class Descent:
             self._transverse.append(across * self._transverse[k])
 
     def at(self, level: Level) -> DepthScalars:
-        """Fields at a level; at a rigid base its upper side only."""
+        """Compute the fields at a level; not inside a rigid base."""
         k = level.layer
         G, nu = material_at(self.stack, level)
         below = self._below[k]
         crossed = level.depth - self._tops[k]
         if k < len(self.stack.layers):
-            # Its own thickness, not a difference of depths: of a thin layer little would be left.
+            # The difference of depths would cancel for a thin layer.
             thickness = self.stack.layers[k].thickness
             if level.depth >= self._tops[k + 1]:
                 crossed = thickness
@@ -124,11 +124,12 @@ class Descent:
         return tuple(unit * c for c in remainder_scalars(self.stack, self.alpha))
 
     def remainder(self, level: Level) -> DepthScalars:
-        """Fields at a level, in the outermost layer minus those of a half-space of its material.
+        """Compute the fields at a level; in the outermost layer, minus those of a half-space.
 
-        They come from the surface, where the difference carries no traction and its displacement is
-        known without cancellation, and grow downward as exp(-alpha (2h - z)). Exactly zero without
-        layers. Meant for alpha h < 300; beyond, exp(alpha z) may overflow.
+        The half-space has the material of the outermost layer of thickness h. The difference has no
+        surface traction, and its surface displacement is computed without cancellation. It grows
+        with depth as exp(-alpha (2h - z)) and is exactly zero without layers. For alpha h > 300,
+        exp(alpha z) may overflow.
         """
         if level.layer > 0:
             return self.at(level)
@@ -168,17 +169,17 @@ class Descent:
 
 
 def material_at(stack: Stack, level: Level) -> HalfSpace:
-    """Elastic constants at a level; raises ValueError in a rigid base."""
+    """Return the elastic constants at a level; raise ValueError in a rigid base."""
     if level.layer < len(stack.layers):
         film = stack.layers[level.layer]
         return HalfSpace(film.shear_modulus, film.poisson_ratio)
     if stack.base is None:
-        raise ValueError("nothing deforms within a rigid base: there are no fields")
+        raise ValueError("the level is in the rigid base, which has no fields. Use a level above")
     return stack.base
 
 
 def in_plane(fields: DepthScalars, material: HalfSpace, alpha: Array) -> PlaneScalars:
-    """In-plane stresses from displacement and traction by Hooke's law, regular at nu = 1/2."""
+    """Compute in-plane stresses from displacement and traction by Hooke's law; nu <= 1/2."""
     G, nu = material
     stretch = 2 * G * alpha * fields.displacement[0]
     squeeze = fields.traction[1]
@@ -190,7 +191,9 @@ def in_plane(fields: DepthScalars, material: HalfSpace, alpha: Array) -> PlaneSc
 
 
 def _transmitted(below: Compliance, nu: float, x: Array) -> tuple[Array, Array]:
-    """Traction at a plane per unit traction x = alpha d above it, for waves along and across.
+    """Compute the tractions at a plane per unit traction at a distance x = alpha d above.
+
+    The results are the sagittal matrix (2, 2, wavenumbers) and the transverse factor.
 
     M is the lower half of exp(-x A), A the matrix of the equations above, applied to
     (C, 1): tau_0 = M tau. Its determinant is the divisor of the compound recursion.
@@ -248,6 +251,6 @@ def _x_cosh_minus_sinh(x: Array, scale: Array | float = 1.0) -> Array:
 
 
 def _product(left: Array, right: Array) -> Array:
-    """Matrix product over the first two axes."""
+    """Compute the matrix product over the first two axes."""
     result: Array = np.einsum("ijk,jlk->ilk", left, right)
     return result

@@ -1,4 +1,4 @@
-"""The elastic constants of a body in the order in which waves cross them: layers, then base."""
+"""Elastic constants of a layered body: layers from the surface down, then the base."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,14 +10,14 @@ from contact_scene.material import IsotropicMaterial
 
 
 class HalfSpace(NamedTuple):
-    """Isotropic material that fills everything below: shear modulus and Poisson's ratio."""
+    """Isotropic half-space: shear modulus and Poisson's ratio."""
 
     shear_modulus: float
     poisson_ratio: float
 
 
 class Film(NamedTuple):
-    """Isotropic layer of uniform thickness, bonded to what lies below it."""
+    """Isotropic layer of uniform thickness, bonded to the next material."""
 
     shear_modulus: float
     poisson_ratio: float
@@ -29,10 +29,10 @@ class Stack:
     """Layers, outermost first, bonded to each other and to a half-space or a rigid base.
 
     layers  (shear modulus [force/length^2], Poisson's ratio, thickness [length]) of each layer;
-            layers of zero thickness are dropped
+            layers of zero thickness are removed
     base    (shear modulus, Poisson's ratio) of the half-space below, or None for a rigid base
 
-    Plain tuples are accepted. Without layers on a rigid base the body does not deform at all.
+    Plain tuples are accepted. A rigid base without layers is a rigid body.
     Raises ValueError unless G > 0, -1 < nu <= 1/2, thickness >= 0, all finite.
     """
 
@@ -59,12 +59,12 @@ class Stack:
 
     @property
     def is_rigid(self) -> bool:
-        """Whether nothing in this body deforms."""
+        """True for a rigid base without layers."""
         return self.base is None and not self.layers
 
     @property
     def outer(self) -> HalfSpace:
-        """Material at the surface, as if it filled the body: what the shortest waves feel."""
+        """Half-space of the outermost material: the limit of short waves."""
         if self.layers:
             return HalfSpace(self.layers[0].shear_modulus, self.layers[0].poisson_ratio)
         if self.base is None:
@@ -73,7 +73,7 @@ class Stack:
 
 
 def stack_of(body: Body) -> Stack:
-    """Stack of a body of the scene; of a rigid one without layers, the rigid stack."""
+    """Build the stack of a body of the scene."""
     base = body.material
     return Stack(
         [(*_constants(layer.material), layer.thickness) for layer in body.layers],

@@ -1,8 +1,8 @@
-"""Surface compliance of a layered body at one wavenumber: four numbers that say everything.
+"""Surface compliance of a layered body as a function of the wavenumber alpha = |(m, n)|.
 
-Isotropy leaves four functions of alpha = |(m, n)|: in the frame along the wave vector the
-displacement (u_s, u_z) answers the traction (t_s, p) by [[C11, i C12], [-i C12, C22]], and the
-transverse displacement answers the transverse traction by Csh. Signs: CONVENTIONS.md.
+Isotropy reduces the compliance to four functions. In the frame along the wave vector the traction
+(t_s, p) causes the displacement (u_s, u_z) by [[C11, i C12], [-i C12, C22]]. The transverse
+traction causes the transverse displacement by Csh. For signs see CONVENTIONS.md.
 """
 
 from typing import NamedTuple
@@ -24,7 +24,7 @@ class SurfaceScalars(NamedTuple):
     """The four scalar responses [length^3/force], each of the shape of the wavenumbers.
 
     c11  displacement along the wave vector by traction along it
-    c12  coupling of the two
+    c12  coupling between normal and tangential components
     c22  normal displacement by pressure
     csh  transverse displacement by transverse traction
     """
@@ -36,7 +36,7 @@ class SurfaceScalars(NamedTuple):
 
 
 def half_space_scalars(material: HalfSpace, alpha: ArrayLike) -> SurfaceScalars:
-    """Boussinesq's and Cerruti's solutions transformed (Johnson 1985, section 3.2).
+    """Transform the solutions of Boussinesq and Cerruti (Johnson 1985, section 3.2).
 
     alpha  wavenumbers [1/length], > 0
     """
@@ -46,11 +46,14 @@ def half_space_scalars(material: HalfSpace, alpha: ArrayLike) -> SurfaceScalars:
 
 
 def scalars(stack: Stack, alpha: ArrayLike) -> SurfaceScalars:
-    """Surface compliance of layers on a half-space or a rigid base, by compounds (`compound.py`).
+    """Compute the surface compliance of layers on a half-space or a rigid base by compounds.
 
-    alpha    wavenumbers [1/length], > 0; alpha = 0 has no answer (an infinite body under a
-             uniform load moves without bound) and raises ValueError
-    returns  accurate to a few units in the last place, c12 relative to sqrt(c11 c22)
+    The error is a few units in the last place, for c12 relative to sqrt(c11 c22).
+
+    alpha    wavenumbers [1/length], > 0
+
+    Raises ValueError for alpha = 0: the displacement of an infinite body under uniform load is
+    unbounded.
     """
     alpha = _checked(alpha)
     if stack.is_rigid:
@@ -71,17 +74,16 @@ def scalars(stack: Stack, alpha: ArrayLike) -> SurfaceScalars:
 
 
 def remainder_scalars(stack: Stack, alpha: ArrayLike) -> SurfaceScalars:
-    """Scalars minus those of a half-space of the outermost material, without cancellation.
+    """Compute the scalars minus those of a half-space of the outermost material.
 
-    They vanish as exp(-2 alpha h) with h the outermost thickness, and keep their accuracy relative
-    to that. Exactly zero for a body without layers.
+    The differences vanish as exp(-2 alpha h), h the outermost thickness, and are computed with full
+    relative accuracy. They are exactly zero without layers.
     """
     alpha = _checked(alpha)
     if not stack.layers:
         return SurfaceScalars(*(np.zeros_like(alpha) for _ in range(4)))
     flat = alpha.reshape(-1)
-    # Where the layer is thin the two differ by as much as their materials do, and the echo's own
-    # terms would cancel instead.
+    # For thin layers the difference does not cancel, but the terms of `_echo` do.
     thin = flat * stack.layers[0].thickness < 0.5
     four = np.empty((4, flat.size))
     full, half_space = scalars(stack, flat[thin]), half_space_scalars(stack.outer, flat[thin])
@@ -91,7 +93,7 @@ def remainder_scalars(stack: Stack, alpha: ArrayLike) -> SurfaceScalars:
 
 
 def _echo(stack: Stack, alpha: Array) -> SurfaceScalars:
-    """Remainder from the wave functions that are left when the half-space's part is taken out."""
+    """Compute the remainder from the wave functions without their half-space terms."""
     film = stack.layers[0]
     x = np.minimum(alpha * film.thickness, OPAQUE)
     below, shear = _underside(stack, alpha)
@@ -113,7 +115,7 @@ def _echo(stack: Stack, alpha: Array) -> SurfaceScalars:
 
 
 def _underside(stack: Stack, alpha: Array) -> tuple[tuple[Array, ...], Array]:
-    """Compliance below the outermost layer, in units of that layer.
+    """Compute the compliance below the outermost layer, in units of this layer.
 
     returns  (det C, C11, C12, C22, 1) in units of 1/(2 G alpha), and Csh in units of 1/(G alpha)
     """
@@ -146,7 +148,7 @@ def _changed_units(
 
 
 def _checked(alpha: ArrayLike) -> Array:
-    """Wavenumbers as an array, all positive and finite."""
+    """Convert wavenumbers to an array; raise ValueError unless all are positive and finite."""
     alpha = np.asarray(alpha, dtype=np.float64)
     if not (np.all(alpha > 0) and np.all(np.isfinite(alpha))):
         raise ValueError("wavenumbers must be positive and finite: alpha = 0 has no response")

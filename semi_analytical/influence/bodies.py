@@ -15,11 +15,12 @@ def influence_coefficients(
     offsets: tuple[int, int],
     rig: Rig | None = None,
 ) -> InfluenceCoefficients:
-    """Relative displacement of the two bodies; a rigid one contributes nothing.
+    """Compute the coefficients of the relative displacement of two bodies.
 
     spacing  cell sides [length]
-    offsets  number of offsets along x and y, the zero offset included
-    rig      springs that displace all cells alike: by their compliance times the area of the cell
+    offsets  number of offsets along x and y, including zero
+    rig      springs, which displace all cells equally: their compliance times the cell area is
+             added
     """
     integrals = RectangleIntegrals(*spacing, offsets)
     down, along = (spacing[0] * spacing[1] * c for c in compliances(rig))

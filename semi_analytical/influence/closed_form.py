@@ -1,8 +1,8 @@
-"""Influence coefficients of a homogeneous half-space, integrated exactly over a rectangle.
+"""Influence coefficients of a homogeneous half-space in closed form.
 
-Boussinesq's and Cerruti's point solutions (Johnson 1985, sections 3.2 and 3.6) need integrals
-over the loaded cell; each has a primitive F(X, Y) whose second difference over the four corners
-gives the integral (Love 1929 for the normal one).
+The point solutions of Boussinesq and Cerruti (Johnson 1985, sections 3.2 and 3.6) are integrated
+over the loaded cell. Each integral is the second difference of a primitive F(X, Y) over the four
+corners (Love 1929 for pressure).
 """
 
 from dataclasses import dataclass
@@ -15,17 +15,17 @@ from contact_scene.array_types import Field
 
 
 class RectangleIntegrals:
-    """Integrals over a dx-by-dy cell, seen from the offsets (i dx, j dy), i < nx, j < ny.
+    """Integrals over a dx-by-dy cell for observers at offsets (i dx, j dy), i < nx, j < ny.
 
-    (x, y) points from the loaded place to the observer, r is its length. Each integral has shape
-    (nx, ny), dimension [length], and is computed when first asked for.
+    (x, y) is the vector from the loaded point to the observer, r its length. Each integral has
+    shape (nx, ny), dimension [length], and is computed on first use.
 
     dx, dy  cell sides [length]
-    shape   number of offsets along x and y, the zero offset included
+    shape   number of offsets along x and y, including zero
     """
 
     def __init__(self, dx: float, dy: float, shape: tuple[int, int]) -> None:
-        # In units of the cell the logarithms stay near one and the differences lose least.
+        # Lengths in units of the cell minimise the cancellation in differences of logarithms.
         self._unit = sqrt(dx * dy)
         self._X = ((np.arange(shape[0] + 1) - 0.5) * dx / self._unit)[:, None]
         self._Y = ((np.arange(shape[1] + 1) - 0.5) * dy / self._unit)[None, :]
@@ -71,7 +71,7 @@ class RectangleIntegrals:
 class HalfSpaceCoefficients:
     """Influence coefficients of a homogeneous half-space (Johnson 1985, eqs 3.19 and 3.75-3.77).
 
-    integrals      over the loaded cell
+    integrals      integrals over the loaded cell
     shear_modulus  G [force/length^2]
     poisson_ratio  nu
     """

@@ -1,4 +1,4 @@
-"""What influence coefficients are, and the sum of two bodies'."""
+"""Protocol of influence coefficients, and their sum over two bodies."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -12,10 +12,10 @@ from contact_scene.array_types import Field
 class InfluenceCoefficients(Protocol):
     """Displacement at offset (i dx, j dy), i, j >= 0, by unit traction on the cell at the origin.
 
-    First letter: displacement; second: traction [length^3/force]. Each has shape (nx, ny) and is
-    computed when first asked for. Other quadrants follow by parity: zz, xx, yy are even in x and
-    y, xy is odd in both, zx is odd in x and even in y, zy the reverse; by reciprocity xz = -zx,
-    yz = -zy and yx = xy.
+    The first letter of a name is the displacement, the second the traction [length^3/force]. Each
+    array has shape (nx, ny) and is computed on first use. Other quadrants follow by parity: zz, xx,
+    yy are even in x and y; xy is odd in x and y; zx is odd in x, even in y; zy is even in x, odd in
+    y. Reciprocity yields xz = -zx, yz = -zy and yx = xy.
     """
 
     @property
@@ -45,13 +45,13 @@ class InfluenceCoefficients(Protocol):
 
 @dataclass(frozen=True)
 class Composite:
-    """Relative displacement of bodies under equal and opposite tractions on the lower one.
+    """Relative displacement of two bodies under equal and opposite tractions.
 
-    The upper body is the mirror image of a lower one in the contact plane: its normal-tangential
-    terms change sign, all others add (F = F1 + J F2 J, J = diag(1, 1, -1)).
+    The upper body is a lower body mirrored in the contact plane: its normal-tangential terms change
+    sign, F = F1 + J F2 J with J = diag(1, 1, -1). Tractions are those on the lower body.
 
-    lower, upper  the deformable bodies below and above the contact plane, at most one each
-    along, down   displacement by a rig's springs, the same at all offsets [length^3/force]
+    lower, upper  coefficients of the deformable bodies, at most one each
+    along, down   displacement by the springs of a rig, equal at all offsets [length^3/force]
     """
 
     lower: tuple[InfluenceCoefficients, ...]

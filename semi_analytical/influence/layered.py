@@ -1,11 +1,11 @@
-"""Influence coefficients of a layered body: its point response integrated over the loaded cell.
+"""Influence coefficients of a layered body: integrals of its point response over the loaded cell.
 
-No transform over the plane is involved: there is neither aliasing nor a periodic image, and
-nothing to choose. Three ways to integrate, by distance, each exact to rounding where it is used:
+The integration in real space has neither aliasing nor periodic images. The rule depends on the
+distance and is exact to rounding:
 
-    at the origin   closed form of the outer material + Gauss points for the smooth remainder;
-    near            Gauss points on boxes small against their distance;
-    far             the response at cell centres, averaged by a nine-point formula along x and y.
+    at the origin   closed form of the outer material plus Gauss points for the smooth remainder;
+    near            Gauss points on boxes that are small compared with their distance;
+    far             nine-point average along x and y of the response at cell centres.
 """
 
 from collections.abc import Callable
@@ -26,21 +26,21 @@ from semi_analytical.influence.layered_cells import cell_integrals
 from semi_analytical.influence.layered_response import COUPLING, NORMAL, TANGENTIAL, Components
 from semi_analytical.influence.radial_table import RadialTable, radial_table
 
-# From what determines an array and its shape, and the means to compute it, to the array.
+# Cache of arrays: key, shape and function that computes the array.
 Remember = Callable[[str, tuple[int, ...], Callable[[], Field]], Field]
 
-# Arrays of the size of the window alive at the peak (six results, three point responses and
-# the work space of one average), and everything that does not grow with the window.
+# Arrays of the size of the window at the peak (six results, three point responses and the work
+# space of one average), and memory independent of the window [bytes].
 ARRAYS = 13
 FIXED = 20 << 20
 
 PACKAGE = Path(__file__).resolve().parents[1]
-# All that decides the bits of a coefficient, from the point response to its integral over a cell.
+# Folders whose sources determine the coefficients.
 FOLDERS = ("frf", "influence")
 
 
 def computed_afresh(identity: str, shape: tuple[int, ...], compute: Callable[[], Field]) -> Field:
-    """Remember nothing."""
+    """Compute an array without a cache."""
     return compute()
 
 
@@ -48,16 +48,16 @@ def computed_afresh(identity: str, shape: tuple[int, ...], compute: Callable[[],
 class LayeredCoefficients:
     """Exact influence coefficients of layers on a half-space or a rigid base.
 
-    Displacement per unit traction [length^3/force], right to about 1e-15 of the own cell's; to
-    1e-12 where a cell is large against everything above a rigid base. Computed when first asked
-    for, only what is asked for.
+    Displacement per unit traction [length^3/force], with an error of about 1e-15 of the value at
+    the loaded cell (1e-12 if the cell is large compared with the layers on a rigid base). Each
+    group of components is computed on first use.
 
-    stack     the body, not a rigid one
+    stack     layered body, not rigid
     spacing   cell sides [length]
-    shape     number of offsets along x and y, the zero offset included
-    remember  where arrays are kept between runs, for instance `disk_cache.remembered`
+    shape     number of offsets along x and y, including zero
+    remember  cache of arrays, for instance `disk_cache.remembered`
 
-    Raises ResourceRefused, before any work, if the arrays do not fit into the free memory.
+    Raises ValueError for a rigid body, and ResourceRefused if the arrays exceed the free memory.
     """
 
     stack: Stack
@@ -67,12 +67,12 @@ class LayeredCoefficients:
 
     def __post_init__(self) -> None:
         if self.stack.is_rigid:
-            raise ValueError("a rigid body has no influence coefficients: leave it out")
+            raise ValueError("a rigid body has no influence coefficients. Omit it")
         refuse_beyond_memory(self.shape)
 
     @cached_property
     def _table(self) -> RadialTable:
-        """The point response to a little beyond the farthest corner of the window."""
+        """Point response up to four cells beyond the farthest corner of the window."""
         (dx, dy), (nx, ny) = self.spacing, self.shape
         return radial_table(self.stack, hypot((nx + 4) * dx, (ny + 4) * dy))
 
@@ -129,7 +129,7 @@ class LayeredCoefficients:
 
 
 def required_bytes(shape: tuple[int, int]) -> int:
-    """Peak memory of all `LayeredCoefficients` for offsets of this shape."""
+    """Estimate the peak memory of `LayeredCoefficients` for offsets of this shape [bytes]."""
     return 8 * ARRAYS * (shape[0] + 9) * (shape[1] + 9) + FIXED
 
 
@@ -139,16 +139,16 @@ def refuse_beyond_memory(shape: tuple[int, int]) -> None:
     if required > available:
         raise ResourceRefused(
             f"influence coefficients for {shape[0]} x {shape[1]} offsets need "
-            f"{required / 2**30:.2g} GiB of memory, {available / 2**30:.2g} GiB are available; "
-            "take fewer cells"
+            f"{required / 2**30:.2g} GiB of memory, {available / 2**30:.2g} GiB are available. "
+            "Use fewer cells"
         )
 
 
 @cache
 def sources_digest(package: Path = PACKAGE) -> str:
-    """Of the sources of FRF and influence coefficients as they are now, and of the libraries.
+    """Compute the digest of the sources in FOLDERS and of the library versions, for cache keys.
 
-    package  the folder that holds FOLDERS
+    package  folder that contains FOLDERS
     """
     digest = sha256(f"numpy {np.__version__}, scipy {scipy.__version__}\n".encode())
     for folder in FOLDERS:

@@ -1,4 +1,4 @@
-"""Boxes on which a function like 1/r is smooth: each small against its distance from the origin."""
+"""Integration boxes that are small compared with their distance from the origin."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ import numpy as np
 
 from contact_scene.array_types import Array, Indices, Mask
 
-# Distance of a box in units of its half side. A function analytic but at the origin is then
-# integrated by POINTS Gauss points to (4 + sqrt 15)^(-2 POINTS) = 1e-18 of itself; the margin is
-# for responses that wave.
+# Least distance of a box over its half side. For a function analytic except at the origin, POINTS
+# Gauss points have the relative error (4 + sqrt 15)^(-2 POINTS) = 1e-18. The margin is for
+# oscillating responses.
 CLEARANCE = 4.0
 POINTS = 10
 
 
 @dataclass(frozen=True)
 class Boxes:
-    """Axis-parallel rectangles: centres, half sides [length] and the cell each belongs to."""
+    """Axis-parallel rectangles: centres, half sides [length] and index of the cell."""
 
     x: Array
     y: Array
@@ -28,24 +28,24 @@ class Boxes:
 
     @staticmethod
     def single(x: float, y: float, half_x: float, half_y: float) -> Boxes:
-        """One box, of cell 0."""
+        """Return one box of cell 0."""
         sides = np.array([half_x]), np.array([half_y])
         return Boxes(np.array([x]), np.array([y]), *sides, np.zeros(1, np.intp))
 
     def chosen(self, which: Mask | slice) -> Boxes:
-        """Some of the boxes."""
+        """Select some of the boxes."""
         return Boxes(
             self.x[which], self.y[which], self.half_x[which], self.half_y[which], self.cell[which]
         )
 
     def batches(self, points: int) -> Iterator[Boxes]:
-        """The boxes in parts of at most about so many Gauss points."""
+        """Split the boxes into batches of about `points` Gauss points."""
         size = max(1, points // POINTS**2)
         for start in range(0, len(self.x), size):
             yield self.chosen(slice(start, start + size))
 
     def gauss_points(self) -> tuple[Array, Array, Array]:
-        """Coordinates and weights, each of shape (boxes, POINTS^2)."""
+        """Return coordinates and weights of Gauss points, each of shape (boxes, POINTS^2)."""
         nodes, weights = np.polynomial.legendre.leggauss(POINTS)
         s, t = (grid.ravel() for grid in np.meshgrid(nodes, nodes, indexing="ij"))
         area = np.outer(weights, weights).ravel()
@@ -57,7 +57,7 @@ class Boxes:
 
 
 def joined(parts: list[Boxes]) -> Boxes:
-    """All boxes of several collections."""
+    """Concatenate collections of boxes."""
     none = np.empty(0)
     parts = [Boxes(none, none, none, none, np.empty(0, np.intp)), *parts]
     return Boxes(
@@ -70,7 +70,7 @@ def joined(parts: list[Boxes]) -> Boxes:
 
 
 def boxes_of_cells(spacing: tuple[float, float], cells: Indices) -> Boxes:
-    """Cells at index offsets (i, j), not (0, 0), cut until every box is clear of the origin."""
+    """Divide cells at offsets (i, j), not (0, 0), until every box has the least distance."""
     count = len(cells)
     offsets = cells.astype(np.float64)
     return _cut(
@@ -87,15 +87,16 @@ def boxes_of_cells(spacing: tuple[float, float], cells: Indices) -> Boxes:
 def boxes_around_core(
     spacing: tuple[float, float], radius: float
 ) -> tuple[tuple[float, float], Boxes]:
-    """One quadrant of the cell at the origin, less a core that a disc of `radius` contains.
+    """Divide the quadrant x, y > 0 of the cell at the origin into a core and boxes around it.
 
-    returns  half sides of the core, and the boxes between core and border in the quadrant x, y > 0
+    radius   radius of a disc that contains the core [length]
+    returns  half sides of the core, and the boxes between the core and the border of the cell
     """
     half_x, half_y = spacing[0] / 2, spacing[1] / 2
     parts = []
     while np.hypot(half_x, half_y) > radius:
         half_x, half_y = half_x / 2, half_y / 2
-        # Centres in quarters of the old side: 1 in its inner, 3 in its outer half.
+        # Centres in quarters of the previous side: 1 in the inner half, 3 in the outer half.
         for right, upper in ((3, 1), (1, 3), (3, 3)):
             parts.append(
                 Boxes.single(right * half_x / 2, upper * half_y / 2, half_x / 2, half_y / 2)
@@ -104,7 +105,7 @@ def boxes_around_core(
 
 
 def _cut(boxes: Boxes) -> Boxes:
-    """Halve every box along the sides that are not small against its distance."""
+    """Halve boxes along sides that are not small compared with their distance."""
     done = []
     while len(boxes.x):
         distance = np.hypot(boxes.x, boxes.y)

@@ -1,4 +1,4 @@
-"""Integrals of the point response over the cells of a grid, by distance from the load."""
+"""Integrals of the point response of a layered body over the cells of a grid."""
 
 import numpy as np
 from scipy.ndimage import correlate1d
@@ -10,14 +10,14 @@ from semi_analytical.influence.layered_boxes import Boxes, boxes_around_core, bo
 from semi_analytical.influence.layered_response import BATCH, Components, point_response
 from semi_analytical.influence.radial_table import RadialTable
 
-# Average over a cell from the values at its centre and at four neighbours on either side, exact
-# for polynomials of degree nine.
+# Cell average from the values at the centre and at four neighbours on each side; exact for
+# polynomials of degree nine.
 CELL_AVERAGE = (
     np.array([-27859, 399032, -3207892, 29039624, 412080590, 29039624, -3207892, 399032, -27859])
     / 464486400
 )
 MARGIN = len(CELL_AVERAGE) // 2
-# From this many cells on, the nine-point average of 1/r is right to 4e-14 of its own value.
+# Distance in cells beyond which the nine-point average of 1/r has a relative error below 4e-14.
 FAR = 32
 
 
@@ -28,17 +28,17 @@ def cell_integrals(
     spacing: tuple[float, float],
     shape: tuple[int, int],
 ) -> Field:
-    """Integrals over the cells at offsets i < nx, j < ny, shape (components, nx, ny).
+    """Integrate over the cells at offsets i < nx, j < ny; shape (components, nx, ny).
 
-    table    the point response of the stack, up to MARGIN cells beyond the window
+    table    point response of the stack up to MARGIN cells beyond the window
     spacing  cell sides [length]
     """
     result = _averaged(table, components, spacing, shape)
     cells = _near_cells(spacing, shape)
     result[:, cells[:, 0], cells[:, 1]] = _near(table, components, spacing, cells)
-    result[:, 0, 0] = _own_cell(table, stack, components, spacing)
+    result[:, 0, 0] = _loaded_cell(table, stack, components, spacing)
     for component, (parity_x, parity_y) in zip(result, components.parity, strict=True):
-        # Odd there: exactly zero, not nearly.
+        # Odd components are exactly zero on their symmetry line.
         if parity_x < 0:
             component[0, :] = 0
         if parity_y < 0:
@@ -52,14 +52,14 @@ def _averaged(
     spacing: tuple[float, float],
     shape: tuple[int, int],
 ) -> Field:
-    """Integrals over all cells by averaging along x and y, good for the far ones only."""
+    """Integrate over all cells by averages along x and y; accurate for far cells only."""
     x = np.arange(shape[0] + MARGIN) * spacing[0]
     y = np.arange(shape[1] + MARGIN) * spacing[1]
     points = np.empty((len(components.names), len(x), len(y)))
     rows = max(1, BATCH // len(y))
     for start in range(0, len(x), rows):
         X, Y = np.broadcast_arrays(x[start : start + rows, None], y)
-        X = np.where((X == 0) & (Y == 0), spacing[0], X)  # the own cell is done elsewhere
+        X = np.where((X == 0) & (Y == 0), spacing[0], X)  # see `_loaded_cell`
         points[:, start : start + rows] = point_response(table, components, X, Y)
     result = np.empty((len(components.names), *shape))
     area = spacing[0] * spacing[1]
@@ -70,7 +70,7 @@ def _averaged(
 
 
 def _averaged_along(field: Field, axis: int, parity: int) -> Field:
-    """Cell averages along one axis of values at offsets >= 0, shorter by MARGIN."""
+    """Average values at offsets >= 0 over cells along one axis; the result is shorter by MARGIN."""
     mirrored = parity * np.flip(np.take(field, range(1, MARGIN + 1), axis), axis)
     whole = np.concatenate([mirrored, field], axis)
     averaged = correlate1d(whole, CELL_AVERAGE, axis)
@@ -78,7 +78,7 @@ def _averaged_along(field: Field, axis: int, parity: int) -> Field:
 
 
 def _near_cells(spacing: tuple[float, float], shape: tuple[int, int]) -> Indices:
-    """Indices (i, j) of the cells closer than FAR, without the own one."""
+    """Return the indices (i, j) of the cells closer than FAR, without the loaded cell."""
     radius = FAR * max(spacing)
     i = np.arange(min(shape[0], int(radius / spacing[0]) + 1))
     j = np.arange(min(shape[1], int(radius / spacing[1]) + 1))
@@ -93,7 +93,7 @@ def _near(
     spacing: tuple[float, float],
     cells: Indices,
 ) -> Field:
-    """Integrals over the cells at the given indices, shape (components, number of cells)."""
+    """Integrate over the cells at the given indices; shape (components, number of cells)."""
     result = np.zeros((len(components.names), len(cells)))
     for start in range(0, len(cells), BATCH):
         of_batch = result[:, start : start + BATCH]
@@ -104,13 +104,13 @@ def _near(
     return result
 
 
-def _own_cell(
+def _loaded_cell(
     table: RadialTable, stack: Stack, components: Components, spacing: tuple[float, float]
 ) -> Field:
-    """Integrals over the loaded cell itself, shape (components,).
+    """Integrate over the loaded cell; shape (components,).
 
-    Around the origin, within the table's first panel, the outer material's closed form takes the
-    singularity; what is left of the cell is cut into boxes.
+    Near the origin, within the first panel of the table, the closed form of the outer material
+    contains the singularity. The rest of the cell is divided into boxes.
     """
     (core_x, core_y), boxes = boxes_around_core(spacing, table.core)
     quadrant = Boxes.single(core_x / 2, core_y / 2, core_x / 2, core_y / 2)
@@ -119,13 +119,13 @@ def _own_cell(
         result += 4 * _integrals(table, components, part).sum(axis=1)
     core = HalfSpaceCoefficients(RectangleIntegrals(2 * core_x, 2 * core_y, (1, 1)), *stack.outer)
     for k, (name, parity) in enumerate(zip(components.names, components.parity, strict=True)):
-        # A quadrant is not a quarter of what is odd.
+        # Odd components are zero at the loaded cell; four times a quadrant would be wrong.
         result[k] = result[k] + getattr(core, name)[0, 0] if parity == (1, 1) else 0
     return result
 
 
 def _integrals(table: RadialTable, components: Components, boxes: Boxes) -> Field:
-    """Integrals of the point response over boxes, shape (components, number of boxes)."""
+    """Integrate the point response over boxes; shape (components, number of boxes)."""
     x, y, weight = boxes.gauss_points()
     values = point_response(table, components, x, y)
     integrals: Field = np.einsum("fbp,bp->fb", values, weight)

@@ -8,17 +8,18 @@ import numpy as np
 from contact_scene.array_types import Field
 from semi_analytical.influence.radial_table import RadialTable
 
-# Points evaluated at once: some megabytes of work space.
+# Number of points evaluated at a time (some megabytes of work space).
 BATCH = 1 << 16
 
 
 class Components(NamedTuple):
-    """Components of the response that need the same radial functions.
+    """Components of the response that depend on the same radial functions.
 
-    names    of the components, as in InfluenceCoefficients
-    radial   columns of the radial table they are made of
-    parity   +1 even, -1 odd, along x and along y, of each
-    turned   radial functions (n, columns), cos phi, sin phi -> components (len(names), n)
+    names    names as in InfluenceCoefficients
+    radial   columns of the radial table
+    parity   parity of each component along x and y: 1 even, -1 odd
+    turned   function of the radial functions (n, columns), cos phi and sin phi that returns the
+             components (len(names), n)
     """
 
     names: tuple[str, ...]
@@ -47,7 +48,7 @@ COUPLING = Components(("zx", "zy"), slice(3, 4), ((-1, 1), (1, -1)), _coupling)
 
 
 def point_response(table: RadialTable, components: Components, x: Field, y: Field) -> Field:
-    """Displacement at (x, y), not the origin, per unit force [length/force].
+    """Compute displacements at (x, y), not the origin, per unit force [length/force].
 
     returns  shape (number of components, *x.shape)
     """

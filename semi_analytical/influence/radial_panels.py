@@ -1,7 +1,7 @@
-"""Functions of the distance from a point force as Chebyshev polynomials on panels.
+"""Chebyshev interpolation of functions of the distance from a point force on panels.
 
-The first panel begins at the force, and each further one is wider by the root of two: what falls
-like a power of the distance is as smooth on each as on the others.
+The first panel begins at the force. The bounds of the others grow by the factor sqrt(2), so that
+powers of the distance are equally smooth on each panel.
 """
 
 from collections.abc import Iterator
@@ -11,26 +11,26 @@ import numpy as np
 
 from contact_scene.array_types import Array, Indices
 
-# Chebyshev nodes of one panel: the interpolation error stays below 1e-13 even where a stiff film on
-# a thin incompressible layer makes the response wave (16: 3e-11).
+# Chebyshev nodes of one panel. The interpolation error is below 1e-13 also for the oscillating
+# response of a stiff film on a thin incompressible layer (3e-11 with 16 nodes).
 NODES = 20
-AT_ONCE = 1 << 11  # places whose polynomials a processor holds close by
+AT_ONCE = 1 << 11  # number of places at a time, limited by the processor cache
 
 
 def panel_edges(core: float, reach: float) -> Array:
-    """Bounds of the panels from zero over `core` to `reach` or beyond [length], (panels + 1,)."""
+    """Return panel bounds from zero over `core` to `reach` or beyond [length], (panels + 1,)."""
     panels = max(0, ceil(2 * log2(reach / core)))
     return np.concatenate([[0.0], core * sqrt(2.0) ** np.arange(panels + 1)])
 
 
 def nodes_between(low: float, high: float) -> Array:
-    """The distances on a panel at which a function is to be known, (NODES,)."""
+    """Return the Chebyshev nodes of a panel (NODES,)."""
     on_unit = np.cos((np.arange(NODES) + 0.5) * pi / NODES)
     return np.asarray((low + high) / 2 + (high - low) / 2 * on_unit)
 
 
 def coefficients_of(values: Array) -> Array:
-    """Chebyshev coefficients from values at the nodes, both (..., panels, NODES, functions)."""
+    """Compute Chebyshev coefficients of values at nodes, both (..., panels, NODES, functions)."""
     k = np.arange(NODES)
     matrix = 2 / NODES * np.cos(np.outer(k, (k + 0.5) * pi / NODES))
     matrix[0] /= 2
@@ -38,8 +38,7 @@ def coefficients_of(values: Array) -> Array:
 
 
 def places_on_panels(edges: Array, r: Array) -> Iterator[tuple[int, Indices, Array]]:
-    """For every panel that holds some of the distances: its number, which of them, and where on
-    the panel they are, from -1 to 1."""
+    """Yield the index of each panel with distances, their indices and their places in [-1, 1]."""
     panels = np.clip(np.searchsorted(edges, r) - 1, 0, len(edges) - 2)
     for panel in map(int, np.flatnonzero(np.bincount(panels))):
         inside = np.flatnonzero(panels == panel)
@@ -48,8 +47,7 @@ def places_on_panels(edges: Array, r: Array) -> Iterator[tuple[int, Indices, Arr
 
 
 def interpolated(coefficients: Array, place: Array) -> Array:
-    """What functions with coefficients (NODES, functions) on a panel are at places on it,
-    (functions, places)."""
+    """Evaluate functions (functions, places) on a panel from coefficients (NODES, functions)."""
     found = np.empty((coefficients.shape[1], len(place)))
     for start in range(0, len(place), AT_ONCE):
         some = slice(start, start + AT_ONCE)
@@ -58,8 +56,10 @@ def interpolated(coefficients: Array, place: Array) -> Array:
 
 
 def _polynomials(place: Array) -> Array:
-    """The Chebyshev polynomials at places on a panel, (NODES, places): twice as many again at a
-    time, by T_{m+k} = 2 T_m T_k - T_{m-k}."""
+    """Evaluate the Chebyshev polynomials at places on a panel (NODES, places).
+
+    The recursion T_{m+k} = 2 T_m T_k - T_{m-k} doubles the number of polynomials in each step.
+    """
     found = np.empty((NODES, len(place)))
     found[0], found[1] = 1.0, place
     known = 2

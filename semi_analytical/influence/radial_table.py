@@ -1,4 +1,4 @@
-"""Surface displacement by a point force on a layered body, as four functions of the distance.
+"""Table of the surface displacement by a point force on a layered body, by radial functions.
 
 The point solutions are Hankel transforms of the surface FRF,
 
@@ -8,8 +8,8 @@ The point solutions are Hankel transforms of the surface FRF,
     cross C  = 1/2pi  int  C12 J1(alpha r) alpha d alpha,
 
 with u_z = K0 p, u_x = (P - cos 2phi Q) q_x - sin 2phi Q q_y, u_z = cos phi C q_x.
-They fall like 1/r near and far, with other constants, so r times them is tabulated: bounded, and
-smooth in log r, which lets one table serve layers of very different thickness.
+The functions fall like 1/r near and far, with different constants. The table contains r times the
+functions, which is bounded and smooth in log r for layers of all thicknesses.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from semi_analytical.influence.radial_panels import (
     places_on_panels,
 )
 
-# exp(-2 x) x^2 is below 1e-17 from here on: the remainder of the FRF has died out.
+# Wavenumber times thickness beyond which the remainder of the FRF, exp(-2x) x^2, is below 1e-17.
 REMAINDER_REACH = 24.0
 
 
@@ -53,11 +53,11 @@ class RadialTable:
 
     @property
     def core(self) -> float:
-        """Within this distance the response is the half-space's and a smooth remainder [length]."""
+        """Bound of the first panel, with a half-space response plus a smooth remainder [length]."""
         return float(self.edges[1])
 
     def remainder(self) -> RadialTable:
-        """Table of what the layers add to the outer material's half-space."""
+        """Return the table minus the response of the half-space of the outer material."""
         coefficients = self.coefficients.copy()
         coefficients[:, 0] -= self.near
         return RadialTable(self.edges, coefficients, np.zeros(4))
@@ -72,11 +72,11 @@ class RadialTable:
 
 
 def radial_table(stack: Stack, reach: float) -> RadialTable:
-    """Tabulate a layered body's point response up to the distance `reach` [length].
+    """Compute the table of the point response of a layered body up to `reach` [length].
 
-    On the first panel, half the outermost thickness, it is the half-space's response plus the
-    Hankel transform of the remainder; beyond, the transform of the whole FRF. So nothing is lost
-    where a rigid or stiff base leaves a small part of the half-space's response.
+    On the first panel, half the outermost thickness, the response is that of the half-space plus
+    the Hankel transform of the remainder. Beyond, it is the transform of the full FRF, which avoids
+    cancellation above a rigid or stiff base.
     """
     near = half_space_response(stack.outer)
     if not stack.layers:
@@ -95,13 +95,13 @@ def radial_table(stack: Stack, reach: float) -> RadialTable:
 
 
 def half_space_response(material: HalfSpace) -> Array:
-    """r times (zz, mean, twist, cross) of a homogeneous half-space: constants."""
+    """Return r times (zz, mean, twist, cross) of a homogeneous half-space, which are constants."""
     G, nu = material
     return np.array([2 - 2 * nu, 2 - nu, -nu, 1 - 2 * nu]) / (4 * pi * G)
 
 
 def _hankel(r: Array, alpha: Array, weight: Array, response: SurfaceScalars) -> Array:
-    """r times the four Hankel transforms at distances r, shape (len(r), 4)."""
+    """Compute r times the four Hankel transforms at distances r, shape (len(r), 4)."""
     c11, c12, c22, csh = response
     phase = np.outer(r, alpha)
     bessel0, bessel1 = j0(phase), j1(phase)
@@ -116,7 +116,7 @@ def _hankel(r: Array, alpha: Array, weight: Array, response: SurfaceScalars) -> 
 
 
 def _constant(near: Array) -> Array:
-    """Coefficients of one panel on which the functions do not vary."""
+    """Return the coefficients of one panel with constant functions."""
     coefficients = np.zeros((1, NODES, 4))
     coefficients[0, 0] = near
     return coefficients

@@ -1,1 +1,1 @@
-"""Tractions to displacements and approximately back, on the full window or a reduced domain."""
+"""Displacement operators and their approximate inverses on the full window or a reduced domain."""

@@ -1,4 +1,4 @@
-"""The box of cells around a contact: tractions live nowhere else, so solving there is enough."""
+"""Box of cells around a contact; tractions are zero outside."""
 
 from dataclasses import dataclass
 
@@ -7,20 +7,20 @@ import numpy as np
 from contact_scene.array_types import Field, Mask
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
 
-# Sides are multiples of this, so that a box can be halved and few shapes occur.
+# Sides are multiples of this number: boxes can be halved, and few shapes occur.
 QUANTUM = 16
 
 
 @dataclass(frozen=True)
 class Box:
-    """A rectangle of cells: the first along x and y, and how many."""
+    """Rectangle of cells: index of the first cell and number of cells along x and y."""
 
     first: tuple[int, int]
     shape: tuple[int, int]
 
     @classmethod
     def whole(cls, cells: tuple[int, int]) -> "Box":
-        """The box of all cells."""
+        """Return the box of all cells."""
         return cls((0, 0), cells)
 
     @property
@@ -30,23 +30,23 @@ class Box:
         return slice(i, i + nx), slice(j, j + ny)
 
     def embed(self, values: Field, cells: tuple[int, int]) -> Field:
-        """Values on the box (..., *shape) as values on the window (..., *cells), zero outside."""
+        """Extend values on the box (..., *shape) by zero to the window (..., *cells)."""
         field = np.zeros((*values.shape[:-2], *cells))
         field[..., self.slices[0], self.slices[1]] = values
         return field
 
     def mask(self, cells: tuple[int, int]) -> Mask:
-        """Cells of the window that are in the box."""
+        """Return the mask of the box in the window."""
         inside = np.zeros(cells, dtype=bool)
         inside[self.slices] = True
         return inside
 
 
 def box_around(cells: Mask, margin: int, domain: ReducedDomain = WINDOW) -> Box:
-    """The smallest box with sides of whole quanta around marked cells and a margin.
+    """Return the smallest box around marked cells and a margin, with sides in multiples of QUANTUM.
 
-    A side that does not fit becomes the side of the window. On a reduced domain: the part in the
-    domain of the box around the cells and their images.
+    A side that does not fit becomes the side of the window. On a reduced domain the box surrounds
+    the cells and their images and is restricted to the domain.
     """
     sides = [
         (_half_side if mirrored else _side)(np.any(cells, axis=1 - axis), margin)
@@ -56,7 +56,7 @@ def box_around(cells: Mask, margin: int, domain: ReducedDomain = WINDOW) -> Box:
 
 
 def _side(marked: Mask, margin: int) -> tuple[int, int]:
-    """First index and length along one axis."""
+    """Return the first index and the length along one axis."""
     at = np.nonzero(marked)[0]
     available = len(marked)
     needed = at[-1] - at[0] + 1 + 2 * margin
@@ -68,6 +68,6 @@ def _side(marked: Mask, margin: int) -> tuple[int, int]:
 
 
 def _half_side(marked: Mask, margin: int) -> tuple[int, int]:
-    """The same of one half of the axis, which starts in the middle of the box."""
+    """Return first index and length along an axis with a mirror plane before its first cell."""
     _, length = _side(np.concatenate([marked[::-1], marked]), margin)
     return 0, length // 2

@@ -1,4 +1,4 @@
-"""Symmetry reduction: the full window, or the half or quarter of it that mirror planes cut off."""
+"""Symmetry reduction: the full window, or its half or quarter between mirror planes."""
 
 from dataclasses import dataclass, fields, replace
 from typing import Any, TypeVar
@@ -74,12 +74,12 @@ class ReducedDomain:
         return x, y
 
     def cells(self, window: Pair) -> Pair:
-        """Cells of the domain along x and y, of those of the window."""
+        """Return the number of cells of the domain along x and y for a window of cells."""
         x, y = self._sides
         return window[0] // x, window[1] // y
 
     def window(self, cells: Pair) -> Pair:
-        """Cells of the window along x and y, of those of the domain."""
+        """Return the number of cells of the window along x and y for a domain of cells."""
         x, y = self._sides
         return x * cells[0], y * cells[1]
 
@@ -107,13 +107,13 @@ class ReducedDomain:
         return np.where(self.summed, np.sum(field, axis=(1, 2)), 0.0)
 
     def rim(self, values: AnyField) -> AnyField:
-        """Values (nx, ny) of the cells at the border of the window."""
+        """Select the values of the cells at the border of the window from a field (nx, ny)."""
         (x, y), (nx, ny) = self.mirrors, values.shape
         rows, columns = [0] * (not x) + [nx - 1], [0] * (not y) + [ny - 1]
         return np.concatenate([values[rows].ravel(), values[:, columns].ravel()])
 
     def framed(self, field: AnyField, width: int) -> AnyField:
-        """Frame a scalar field (nx, ny) by `width` cells: images beyond planes, elsewhere zero."""
+        """Extend a scalar field (nx, ny) by `width` cells: images beyond planes, elsewhere zero."""
         nx, ny = field.shape
         framed = np.zeros((nx + 2 * width, ny + 2 * width), dtype=field.dtype)
         framed[width : width + nx, width : width + ny] = field
@@ -125,8 +125,10 @@ class ReducedDomain:
         return framed
 
     def folded(self, framed: Field, width: int) -> Field:
-        """Remove a frame of `width` cells from a scalar response: what a field causes beyond a
-        mirror plane, its image causes within."""
+        """Remove a frame of `width` cells from a scalar response (the adjoint of `framed`).
+
+        The response beyond a mirror plane is added to its image in the domain.
+        """
         framed, images = framed.copy(), slice(width - 1, None, -1)
         if self.mirrors[0]:
             framed[width : 2 * width] += framed[images]
@@ -135,8 +137,10 @@ class ReducedDomain:
         return framed[width:-width, width:-width]
 
     def differences(self, field: Field) -> Field:
-        """Slopes per cell of a scalar field along both axes (2, nx, ny): central differences,
-        one-sided at the border of the window."""
+        """Compute the slopes per cell of a scalar field along both axes (2, nx, ny).
+
+        Differences are central, one-sided at the border of the window.
+        """
         framed, slopes = self.framed(field, 1), np.empty((2, *field.shape))
         np.subtract(framed[2:, 1:-1], framed[:-2, 1:-1], out=slopes[0])
         np.subtract(framed[1:-1, 2:], framed[1:-1, :-2], out=slopes[1])
@@ -176,8 +180,9 @@ QUARTER = ReducedDomain((True, True))
 
 @dataclass(frozen=True)
 class ReducedGrid:
-    """The cells of a domain, each with the area of all its images: a sum over the domain times the
-    cell area is the sum over the window.
+    """Cells of a domain; the area of a cell includes its images.
+
+    A sum over the domain times the cell area is thus the integral over the window.
 
     window  grid of the full window
     """
@@ -201,6 +206,6 @@ class ReducedGrid:
         return self.window.cell_area * self.domain.images
 
     def coordinates(self) -> tuple[Field, Field]:
-        """Cell centres X, Y, each of shape (nx, ny) [length]."""
+        """Return the cell centres X, Y, each of shape (nx, ny) [length]."""
         x, y = self.window.coordinates()
         return self.domain.restrict(x), self.domain.restrict(y)

@@ -1,4 +1,4 @@
-"""Tractions to displacements by convolution on a domain, and approximately back."""
+"""Displacement operator by convolution on a domain, and its approximate inverses."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from contact_scene.array_types import Field
 from semi_analytical.influence.coefficients import InfluenceCoefficients
 from semi_analytical.operator.domain import Pair, ReducedDomain
-from semi_analytical.operator.slip_compliance_bins import STIFFNESSES
+from semi_analytical.operator.slip_compliance_bins import COMPLIANCES
 from semi_analytical.operator.spectra import KernelSpectrum, kernel_spectrum
 from semi_analytical.operator.transforms import DOUBLE, Convolutions, Dtype, Transforms
 
@@ -21,7 +21,7 @@ Array = NDArray[Any]
 Response = KernelSpectrum | Field
 
 SINGLE: Dtype = np.dtype(np.float32)
-BINS = "".join(str(number) for number in range(len(STIFFNESSES)))
+BINS = "".join(str(number) for number in range(len(COMPLIANCES)))
 
 
 def response(transforms: Transforms, pair: str, spectrum: KernelSpectrum) -> Response:
@@ -43,8 +43,11 @@ def response(transforms: Transforms, pair: str, spectrum: KernelSpectrum) -> Res
 
 
 def _in_order(lines: Field, one: int, other: int) -> Field:
-    """Sort lines as the amplitudes: waves have two each, sines have the largest wavenumber in the
-    place of 0. The response between a sine and a cosine vanishes there."""
+    """Sort the lines of a response in the order of the amplitudes.
+
+    Waves have two amplitudes per wavenumber. Sines have the largest wavenumber in the place of 0,
+    where the response between a sine and a cosine vanishes.
+    """
     if one == 0:
         return np.repeat(lines, 2, axis=0)
     if one == other == -1:
@@ -53,7 +56,7 @@ def _in_order(lines: Field, one: int, other: int) -> Field:
 
 
 class Product:
-    """Displacements by tractions, or the reverse, of some components to others."""
+    """Product of a matrix of responses with fields of some components."""
 
     def __init__(
         self,
@@ -92,8 +95,8 @@ class Product:
 class DisplacementOperator:
     """Displacements caused by tractions on a box of `shape` cells of a domain.
 
-    A call counts half a convolution per component that is transformed. Spectra, responses and
-    approximate inverses are built at their first use.
+    A call counts as 1/2 convolution per transformed component. Spectra, responses and approximate
+    inverses are built on first use.
     """
 
     def __init__(
@@ -148,11 +151,11 @@ class DisplacementOperator:
 
     @property
     def self_compliance(self) -> float:
-        """Tangential displacement of a cell by its own unit shear [length^3/force]."""
+        """Tangential displacement of a cell under unit shear, mean of x and y [length^3/force]."""
         return float(0.5 * (self._coefficients.xx[0, 0] + self._coefficients.yy[0, 0]))
 
     def precondition(self, displacement: Field) -> Field:
-        """Compute approximately the pressure that causes a normal displacement, both (nx, ny)."""
+        """Apply the approximate inverse of `normal` to a displacement (nx, ny)."""
         return self._pressure_inverse(displacement[None])[0]
 
     @cached_property
@@ -177,19 +180,19 @@ class DisplacementOperator:
         xx, yy, xy = (self.spectrum(pair).quarter[::2, ::2] for pair in ("xx", "yy", "xy"))
         found = dict(zip(("xx", "yy", "xy"), inverse_2x2(xx, yy, xy), strict=True))
         mean = np.abs(0.5 * (xx + yy))
-        for number, stiffness in zip(BINS, STIFFNESSES, strict=True):
-            found[2 * number] = 1 / (mean + self.self_compliance * stiffness)
+        for number, bin_compliance in zip(BINS, COMPLIANCES, strict=True):
+            found[2 * number] = 1 / (mean + self.self_compliance * bin_compliance)
         return found
 
 
 class ApproximateInverse:
-    """Tractions that approximately cause displacements, without the coupling: by the spectra of the
-    coefficients repeated with the unpadded period. A quarter of the cost of a convolution each.
+    """Approximate inverse of a displacement operator without coupling.
 
-    Components are x, y and z as far as there are spectra, then the bins of slip compliance: shears
-    of one component with the compliance of the bin added.
+    The spectra are those of the coefficients with the unpadded period. A component costs 1/4
+    convolution. Components are x, y and z if they have spectra, then the bins of slip compliance. A
+    bin is a shear of one component, with the compliance of the bin added.
 
-    spectra  of the inverse (quarters), by two components; real and symmetric
+    spectra  spectra of the inverse (quarters) by pairs of components; real and symmetric
     dtype    precision of the transforms
     """
 
@@ -197,7 +200,7 @@ class ApproximateInverse:
         self, transforms: Transforms, spectra: Mapping[str, Field], dtype: Dtype = DOUBLE
     ) -> None:
         self._transforms, self._spectra, self._dtype = transforms, spectra, dtype
-        # Keeps single precision within its range.
+        # The scale avoids overflow and underflow in single precision.
         self._unit = 1 / max(float(np.max(np.abs(one))) for one in spectra.values())
         entries = {}
         for pair, quarter in spectra.items():
@@ -207,19 +210,21 @@ class ApproximateInverse:
         self._product = Product(transforms, entries, names, names, padded=False, dtype=dtype)
 
     def __call__(self, displacements: Array) -> Array:
-        """Compute tractions of displacements (components, nx, ny), neither tiny nor huge."""
+        """Compute tractions of displacements (components, nx, ny) within the range of `dtype`."""
         tractions = self._product(np.asarray(displacements, dtype=self._dtype))
         tractions *= 1 / self._unit
         return tractions
 
     def yielding(self, compliance: float) -> ApproximateInverse:
-        """Build the inverse for cells that yield to their own tractions by `compliance` more; the
-        compliances of bins, in proportion to the self-compliance, grow with it."""
+        """Build the inverse for a self-compliance increased by `compliance`.
+
+        The compliances of the bins increase in proportion to the self-compliance.
+        """
         xx, yy, xy = (self._spectra[pair] for pair in ("xx", "yy", "xy"))
-        # (F + ρ)⁻¹ = F⁻¹ (1 + ρ F⁻¹)⁻¹, from F⁻¹ alone.
+        # (F + ρ)⁻¹ = F⁻¹ (1 + ρ F⁻¹)⁻¹
         both = compliance * (xx * yy - xy * xy)
         total = 1 + compliance * (xx + yy + both)
-        more = dict(zip(BINS, compliance * (1 + STIFFNESSES), strict=True))
+        more = dict(zip(BINS, compliance * (1 + COMPLIANCES), strict=True))
         alone = {pair: one for pair, one in self._spectra.items() if pair[0] not in "xy"}
         spectra = {
             "xx": (xx + both) / total,
@@ -231,18 +236,23 @@ class ApproximateInverse:
 
 
 def positive_inverse(spectrum: Field) -> Field:
-    """Invert a spectrum approximately. Films much stiffer than their base interact beyond the
-    period, which turns some entries negative; conjugate gradients need a positive matrix."""
+    """Invert the magnitudes of a spectrum, with a lower bound.
+
+    Conjugate gradients require a positive matrix. Entries of films much stiffer than their base can
+    be negative, because the displacements reach beyond the period.
+    """
     size = np.abs(spectrum)
     return np.asarray(1 / np.maximum(size, np.finfo(float).eps * np.max(size)))
 
 
 def inverse_2x2(xx: Field, yy: Field, xy: Field) -> tuple[Field, Field, Field]:
-    """Invert the symmetric matrix [[xx, xy], [xy, yy]] at every wavenumber; where it is not
-    positive definite, that with the magnitudes of its eigenvalues (see `positive_inverse`)."""
+    """Invert the symmetric matrix [[xx, xy], [xy, yy]] at every wavenumber.
+
+    Eigenvalues are replaced by their magnitudes with a lower bound (see `positive_inverse`).
+    """
     mean, half = 0.5 * (xx + yy), np.hypot(0.5 * (xx - yy), xy)
     least = np.finfo(float).eps * np.max(mean + half)
-    # Increase of each eigenvalue: exactly zero where it is positive.
+    # Increase of each eigenvalue: exactly zero for positive eigenvalues.
     lower, upper = (np.maximum(np.abs(e), least) - e for e in (mean - half, mean + half))
     turned = 0.5 * (upper - lower) / np.where(half > 0, half, 1.0)
     raised = 0.5 * (upper + lower) - turned * mean

@@ -1,9 +1,9 @@
-"""Slip graded by how much it is held back.
+"""Bins of the local slip compliance, for the preconditioner of the tangential problem.
 
-Where a cell slips, turning its shear takes a stiffness d besides that of the surface, which grows
-from nothing at the border of stick to many times the self-compliance K₀. With hats χ_j² over log d,
-which add up to one, every cell has its shares of grades of stiffness d_j = K₀ 8^(j-1), and χ_0 of
-no stiffness at all.
+In a slipping cell a change of the shear direction has a compliance d in addition to that of the
+surface. It grows from zero at the stick border to many times the self-compliance K₀. Bins have the
+compliances d_j = K₀ 8^(j-1); χ_0 has none. The weights χ_j² are hat functions of log d with the
+sum 1.
 """
 
 import numpy as np
@@ -11,22 +11,22 @@ import numpy as np
 from contact_scene.array_types import Field, Vector
 
 RATIO = 8.0
-# Over the self-compliance. More grades, or nearer ones, save no step of a Krylov solver.
-STIFFNESSES: Vector = np.array([1.0, RATIO])
+# Compliances over the self-compliance. More or closer bins do not reduce the Krylov iterations.
+COMPLIANCES: Vector = np.array([1.0, RATIO])
 
 
-def shares(stiffness: Field) -> Field:
-    """χ (1 + grades, …) of stiffnesses d/K₀ (…)."""
-    grade = np.log(np.maximum(stiffness, 1 / RATIO)) / np.log(RATIO) + 1
-    number = np.arange(len(STIFFNESSES) + 1).reshape(-1, *np.ones(grade.ndim, dtype=int))
-    found = np.sqrt(np.maximum(0.0, 1 - np.abs(np.minimum(grade, len(STIFFNESSES)) - number)))
-    # Beyond the last grade its stiffness is too small.
-    last = STIFFNESSES[-1]
-    found[-1] *= np.sqrt((1 + last) / (1 + np.maximum(stiffness, last)))
+def shares(compliance: Field) -> Field:
+    """Compute the weights χ (1 + bins, …) for slip compliances d/K₀ (…)."""
+    place = np.log(np.maximum(compliance, 1 / RATIO)) / np.log(RATIO) + 1
+    number = np.arange(len(COMPLIANCES) + 1).reshape(-1, *np.ones(place.ndim, dtype=int))
+    found = np.sqrt(np.maximum(0.0, 1 - np.abs(np.minimum(place, len(COMPLIANCES)) - number)))
+    # The compliance of the last bin is too small for cells beyond it.
+    last = COMPLIANCES[-1]
+    found[-1] *= np.sqrt((1 + last) / (1 + np.maximum(compliance, last)))
     return np.asarray(found)
 
 
-def beyond(stiffness: Field) -> Field:
-    """Part of stiffnesses d/K₀ (…) that lies beyond the last grade: all from the next one on."""
-    last = STIFFNESSES[-1]
-    return np.asarray(np.clip(np.log(np.maximum(stiffness, last) / last) / np.log(RATIO), 0, 1))
+def beyond(compliance: Field) -> Field:
+    """Compute the fraction beyond the last bin: 0 at the last d_j, 1 from RATIO times it on."""
+    last = COMPLIANCES[-1]
+    return np.asarray(np.clip(np.log(np.maximum(compliance, last) / last) / np.log(RATIO), 0, 1))

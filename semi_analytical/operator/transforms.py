@@ -1,13 +1,12 @@
 """Transforms of fields on a domain: cosines and sines along axes with a mirror plane, else waves.
 
-Cells lie at (i + ½) h on one side of a plane: an even field is a sum of cosines, an odd one of
-sines at their centres (DCT-II, DST-II; Martucci 1994). Along an axis without a plane the spectrum
-is that of the FFT. Padded to twice the cells of the window along each side, all of them give the
-linear convolution: there is no periodicity error (Liu, Wang and Liu 2000, DC-FFT).
+Cell centres are at (i + ½) h from a mirror plane. Even fields are sums of cosines, odd fields sums
+of sines (DCT-II, DST-II; Martucci 1994). Along an axis without a mirror plane the FFT is used.
+Padding to twice the cells of the window yields the linear convolution without periodicity error
+(DC-FFT; Liu, Wang and Liu 2000).
 
-A spectrum is a phase times the amplitudes. Phases are chosen such that responses between amplitudes
-are real. Amplitudes of waves are complex on the window; on half of it they are pairs of real
-numbers.
+A spectrum is a phase times the amplitudes. The phases make the responses between amplitudes real.
+Amplitudes of waves are complex on the full window and pairs of real numbers on its half.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -23,41 +22,40 @@ from semi_analytical.operator.domain import Pair, Parity, ReducedDomain
 
 Array = NDArray[Any]
 Dtype = np.dtype[Any]
-# Amplitudes (columns, along x) of every component at some of those along y, and which ones.
+# Function of the amplitudes (columns, along x) of all components at some wavenumbers along y, and
+# of the slice of these wavenumbers.
 Multiply = Callable[[Sequence[Array], slice], Sequence[Array]]
 
 DOUBLE: Dtype = np.dtype(np.float64)
-# Numbers of a component that are transformed along x and multiplied at a time.
+# Size of the blocks of a component that are transformed along x and multiplied.
 BLOCK = 1 << 14
-# Cells along a side up to which a product with the matrix of cosines or sines is cheaper than an
-# FFT with its rearrangement.
+# Cells along an axis up to which a matrix of cosines or sines is faster than an FFT.
 MAX_BY_MATRIX = 96
 
 
 @dataclass
 class Convolutions:
-    """Number of scalar convolutions: one forward and one inverse transform of a padded grid each.
+    """Counter of scalar convolutions, and work space of the operators that share the counter.
 
-    Grids of all sizes count alike; unpadded transforms (approximate inverses) do not count.
-    Operators that share the counter work one after the other, in the same memory.
+    A convolution is one forward and one inverse transform of a padded grid of any size. Unpadded
+    transforms (approximate inverses) do not count. The operators must not run concurrently.
     """
 
     count: float = 0.0
     _memory: Array = field(default_factory=lambda: np.empty(0, dtype=np.complex128))
 
     def work_space(self, size: int, dtype: Dtype) -> Array:
-        """Return memory for `size` numbers, valid until the next operator asks for it."""
+        """Return memory for `size` numbers, valid until the next call."""
         if self._memory.nbytes < size * dtype.itemsize:
-            self._memory = np.empty(0, dtype=np.complex128)  # both at once would need more
+            self._memory = np.empty(0, dtype=np.complex128)  # release before the new allocation
             self._memory = np.empty(-(-size * dtype.itemsize // 16), dtype=np.complex128)
         return self._memory.view(dtype)[:size]
 
 
 class Waves:
-    """Amplitudes along an axis without a mirror plane: the spectrum of values that are zero from
-    the last cell to the period.
+    """Fourier transform along an axis without a mirror plane; values are zero-padded to the period.
 
-    of_complex  values are complex, wavenumbers have both signs
+    of_complex  values are complex, and wavenumbers have both signs
     in_pairs    amplitudes are pairs of real numbers
     turned      amplitudes are i times the spectrum
     """
@@ -91,10 +89,10 @@ def _complex(pairs: Array) -> Array:
 
 
 class MirroredWaves:
-    """Amplitudes along an axis with a mirror plane: cosines of the wavenumbers 0 … m - 1, or sines
-    of m, 1 … m - 1, for values that are zero from the last cell to half the period m.
+    """Cosine or sine transform along an axis with a mirror plane.
 
-    The sine of m takes the place of 0, where there is none, so that both have equal wavenumbers.
+    Values are zero-padded to half the period m. Cosines have the wavenumbers 0 … m - 1. Sines have
+    m, 1 … m - 1: the wavenumber m takes the place of 0, so that the others keep their places.
     """
 
     def __init__(self, cells: int, period: int, sign: int, dtype: Dtype) -> None:
@@ -136,8 +134,10 @@ _mirrored = lru_cache(maxsize=64)(MirroredWaves)
 
 
 def offsets_for(window: Pair) -> Pair:
-    """Offsets of influence coefficients along x and y that operators on a window of cells read:
-    from 0 to half the padded period, which is even."""
+    """Return the number of offsets of influence coefficients for operators on a window of cells.
+
+    The offsets are 0 to half the padded period, which is even.
+    """
     x, y = (2 * int(next_fast_len((n + 1) // 2)) + 1 for n in window)
     return x, y
 
@@ -147,8 +147,8 @@ class Transforms:
 
     Components are x and y (tangential), z (scalar) and bins of slip compliance, named by digits.
 
-    half_period  (m_x, m_y) along the window, even: fields repeat after twice as many cells, those
-                 of approximate inverses after as many; equal on all domains
+    half_period  (m_x, m_y) in cells of the window, even, equal on all domains: period of the
+                 approximate inverses and half the period of the convolutions
     """
 
     def __init__(self, shape: Pair, domain: ReducedDomain, counter: Convolutions) -> None:
@@ -164,19 +164,22 @@ class Transforms:
         return slice(m_x + 1), slice(m_y + 1)
 
     def parity(self, component: str) -> Parity:
-        """Signs of the images of a component."""
+        """Return the parity of a component."""
         x, y = self.domain.vector
         return {"x": x, "y": y, "z": self.domain.scalar}.get(component, self.domain.rotating)
 
     def phase(self, component: str) -> complex:
-        """Spectrum over amplitude: -i for each sine, and for a turned component."""
+        """Return the ratio of spectrum to amplitude: -i per sine, and -i for a turned component."""
         turned = self._turned(component)
         phase: complex = (-1j) ** (self.parity(component).count(-1) + turned)
         return phase
 
     def _turned(self, component: str) -> bool:
-        """Whether amplitudes are i times those of the parity, which makes responses real: of
-        scalars on the window, of the even component of vectors on half of it."""
+        """Return True for components whose amplitudes have an additional factor i.
+
+        The factor makes responses real. Scalars on the full window have it, and the even component
+        of vectors on half the window.
+        """
         if component in "xy":
             return sorted(self.parity(component)) == [0, 1]
         return component == "z" and self.whole
@@ -184,8 +187,8 @@ class Transforms:
     def sides(
         self, inputs: str, outputs: str, *, padded: bool = True, dtype: Dtype = DOUBLE
     ) -> tuple[list[Sides], list[Sides]]:
-        """Transforms of some components to others."""
-        # On the window only responses between scalars and vectors are not real by themselves.
+        """Return the transforms of input and output components along x and y."""
+        # Responses between scalars need no factor i on the full window.
         mixed = not (self.whole and {*inputs, *outputs} <= {"z"})
         x, y = (m * (1 + padded) for m in self.half_period)
 
@@ -209,19 +212,19 @@ class Transforms:
     def filtered(
         self, values: Array, inputs: Sequence[Sides], outputs: Sequence[Sides], multiply: Multiply
     ) -> Array:
-        """Compute fields (outputs, nx, ny) of fields (inputs, nx, ny) by their amplitudes."""
-        (x, y), (nx, ny), held = inputs[0], self.shape, max(len(inputs), len(outputs))
+        """Compute fields (outputs, nx, ny) from fields (inputs, nx, ny) by their amplitudes."""
+        (x, y), (nx, ny), most = inputs[0], self.shape, max(len(inputs), len(outputs))
         by_matrix = not self.whole and max(nx, ny) <= MAX_BY_MATRIX
         width = y.count if by_matrix else min(y.count, max(1, BLOCK // x.count))
         size, dtype = nx * y.count, values.dtype
         if self.whole:
             dtype = np.result_type(dtype, np.complex64)
-        # New memory would cost more time than the products, by its page faults.
-        work = self.counter.work_space(held * (size + width * x.count), dtype)
-        lines = work[: held * size].reshape(held, nx, y.count)
-        blocks = work[held * size :].reshape(held, width, x.count)
+        # Page faults of new memory would take longer than the products.
+        work = self.counter.work_space(most * (size + width * x.count), dtype)
+        lines = work[: most * size].reshape(most, nx, y.count)
+        blocks = work[most * size :].reshape(most, width, x.count)
         result = np.empty((len(outputs), nx, ny), dtype=values.dtype)
-        if by_matrix:  # products with matrices take the transpose as it is
+        if by_matrix:  # matrix products need no copy of the transpose
             each = zip(values, lines, blocks, inputs, strict=False)
             amplitudes = [x.forward(y.forward(one, a).T, b) for one, a, b, (x, y) in each]
             found = multiply(amplitudes, slice(None))
