@@ -75,7 +75,7 @@ def comparison(
 
 @dataclass(frozen=True, eq=False)
 class _Loop:
-    """Shift and force (n,) once around."""
+    """Shift and force (n,) of one closed loop."""
 
     shift: Numbers
     force: Numbers
@@ -106,9 +106,9 @@ def _centre(values: Numbers) -> float:
 
 
 def _loops(theirs: _Loop, run: StoredRun, motion: str) -> Iterator[Compared]:
-    """Offset, slope and area, then the forces along the loop.
+    """Compare centre, slope and area, then the forces along the loop.
 
-    motion  of the actuator or of the contact, which are equal without a spring
+    motion  name of the shift of the actuator or of the contact; they are equal without a spring
     """
     numbered = [(n, end) for n, end in enumerate(run.summary.steps, 1) if end.energy_per_cycle]
     if not numbered:
@@ -151,7 +151,7 @@ def _loops(theirs: _Loop, run: StoredRun, motion: str) -> Iterator[Compared]:
 
 
 def _profiles(table: Mapping[str, Numbers], run: StoredRun, step: int) -> Iterator[Compared]:
-    """Pressure and shear at the places of the table; none outside the window of the run."""
+    """Compare pressure and shear at the places of the table; both are 0 outside the window."""
     end, profiles = run.summary.steps[step - 1], run.tables["profiles"]
     here = profiles["step"].array == step
 
@@ -180,13 +180,13 @@ def _profiles(table: Mapping[str, Numbers], run: StoredRun, step: int) -> Iterat
 
 
 def _error(end: StepSummary, name: str) -> float | None:
-    """Stated error of a scalar, of a vector the larger one; None where none is known."""
+    """Return the stated error of a scalar, or the larger one of a vector; None if unknown."""
     stated = (end.errors or {}).get(name)
     return None if stated is None or stated.error is None else float(np.max(stated.error))
 
 
 def _share(end: StepSummary, name: str) -> float | None:
-    """Stated error relative to the number."""
+    """Return the stated error relative to the number."""
     error, value = _error(end, name), np.max(np.abs(getattr(end, name) or 0.0))
     return error / float(value) if error and value else error
 

@@ -1,8 +1,8 @@
-"""Parameter sweeps: a scene solved for every combination of values of its keys.
+"""Parameter sweeps: solutions of a scene for every combination of values of its keys.
 
-A key takes evenly spaced values, linear or logarithmic, or a normal distribution. The sample of a
-distribution is a Latin hypercube: the midpoints of N strata of equal probability, of each key in an
-order of its own. A percentile of N results then has an error of order 1/N^2 for one key.
+The values of a key are evenly spaced, linearly or logarithmically, or a sample of a normal
+distribution. The sample is a Latin hypercube: the midpoints of N strata of equal probability, in a
+random order for each key. A percentile of N results has an error of order 1/N^2 for one key.
 """
 
 from __future__ import annotations
@@ -107,7 +107,7 @@ class Variation:
 
 
 def quantities(body: Body) -> tuple[str, ...]:
-    """Names of all quantities of a scene: scalars, and largest stresses as MEASURE@REGION."""
+    """Return the names of all quantities: scalars, and largest stresses as MEASURE@REGION."""
     layers = len(body.layers)
     interfaces = [str(number) for number, side, _, _ in interface_sides(body) if side == "above"]
     regions = ["body"]
@@ -123,10 +123,10 @@ def quantities(body: Body) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class SweepPoint:
-    """One scene of a sweep, to be solved in some process.
+    """One scene of a sweep, solved by a worker process.
 
     file        scene file, which every worker can read
-    overrides   of its keys
+    overrides   options that override its keys
     content     digest of the scene, so that a record of another content is not used
     values      of the varied keys, by label
     wanted      names of the quantities
@@ -176,7 +176,7 @@ class SweepPoint:
         return record
 
     def _numbers(self, result: Any) -> Iterator[tuple[str, tuple[Any, ...]]]:
-        """Value, stated error, axis and unit of every number by name."""
+        """Yield the name of every number, with its value, stated error, axis and unit."""
         stated = stated_errors(result) if self.with_error else None
         end = summary_of(result, fretting_cycles(result), stated).steps[-1]
         for name, (stem, axis, unit) in SCALARS.items():
@@ -186,7 +186,7 @@ class SweepPoint:
             yield name, (value, (end.errors or {}).get(stem), axis, unit)
         wanted = {name for name in self.wanted if "@" in name}
         if wanted and not result.scene.body.deforms:
-            raise UnsupportedScene("the body is rigid and has no stress; leave the stresses out")
+            raise UnsupportedScene("the body is rigid and has no stress; omit the stresses")
         largest = largest_stresses(result, stated, wanted) if wanted else {}
         for name, (value, error) in largest.items():
             yield name, (value, error, "", "Pa")

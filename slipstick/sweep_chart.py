@@ -1,4 +1,4 @@
-"""Results of a parameter sweep: curves with error bars, and maps of two keys."""
+"""Chart of a parameter sweep: curves with error bars, or maps of two keys."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def write_sweep_chart(
 
 
 def _draw_curve(ax: Any, quantity: SweptQuantity, key: Variation) -> None:
-    """Values, or medians and ranges of samples, with numerical errors."""
+    """Draw values, or medians and ranges of samples, with numerical errors."""
     (lower, middle, upper), (_, low, _), (_, high, _) = quantity.percentiles
     bars = np.nan_to_num([middle - low, high - middle])
     ax.errorbar(key.values, middle, bars, marker=".", capsize=3, **style.line(0))
@@ -96,7 +96,7 @@ def _draw_curve(ax: Any, quantity: SweptQuantity, key: Variation) -> None:
 
 
 def _draw_map(ax: Any, quantity: SweptQuantity, across: Variation, upward: Variation) -> None:
-    """Values, or medians of samples."""
+    """Draw a map of values, or of medians of samples."""
     middle, low, high = quantity.percentiles[:, 1]
     image = ax.pcolormesh(
         across.values, upward.values, middle.T, shading="nearest", cmap=style.MAGNITUDE_MAP
@@ -107,7 +107,7 @@ def _draw_map(ax: Any, quantity: SweptQuantity, across: Variation, upward: Varia
 
 
 def _label(ax: Any, key: Variation, axis: str) -> None:
-    """Label an axis; a logarithmic one has its ticks at values of the key."""
+    """Label an axis; the ticks of a logarithmic axis are values of the key."""
     ax.set(**{f"{axis}label": key.label})
     if key.is_log:
         ax.set(**{f"{axis}scale": "log"})

@@ -24,7 +24,9 @@ def against(
     table: Annotated[
         Path,
         typer.Argument(
-            metavar="TABLE", show_default=False, help="CSV with a line of heads: name [unit]."
+            metavar="TABLE",
+            show_default=False,
+            help="CSV with a header of names and units: name [unit].",
         ),
     ],
     source: Annotated[
@@ -41,16 +43,18 @@ def against(
             "--step",
             metavar="N",
             min=1,
-            help="Loading step at whose end profiles are compared; the last if absent.",
+            help="Load step at whose end profiles are compared. Default: the last.",
         ),
     ] = None,
     overrides: SetOption = None,
     solver: SolverOption = SolverName.SEMI_ANALYTICAL,
 ) -> None:
-    """Compare a run with a measured loop or profile, and state our part of every difference.
+    """Compare a run with a measured loop or profile.
 
-    A loop has the columns shift and T, such as 'shift [um],T [N]'; the last load cycle of the run
-    is compared. A profile has x with p, q or both, along y = 0. Other columns are ignored.
+    A loop has the columns shift and T, such as 'shift [um],T [N]'. The last load cycle of the run
+    is compared with it. A profile has x with p, q or both, along y = 0. Other columns are ignored.
+    The last column of the output is the largest part of the difference that the stated error
+    explains.
     """
     try:
         measured = read_measured(table)
@@ -62,9 +66,7 @@ def against(
                 save(result, directory, figures="none", errors=stated_errors(result))
             run = load(directory)
             if step is not None and step > len(run.summary.steps):
-                raise NothingToCompare(
-                    f"there is no step {step}; the run has {len(run.summary.steps)}"
-                )
+                raise NothingToCompare(f"got step {step}, expected 1 to {len(run.summary.steps)}")
             compared = comparison(measured, run, step)
     except ValueError as error:
         raise typer.BadParameter(str(error)) from None

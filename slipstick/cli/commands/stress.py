@@ -1,4 +1,4 @@
-"""`slipstick stress`: displacement and stress below the surface."""
+"""`slipstick stress`: compute displacement and stress below the surface."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 
 class Figures(StrEnum):
-    """Figures that the command draws."""
+    """Figures of a stress."""
 
     NONE = "none"
     ALL = "all"
@@ -63,7 +63,7 @@ def stress(
             "--step",
             metavar="N",
             min=1,
-            help="Loading step at the end of which the stress is taken; the last if absent.",
+            help="Load step at whose end the stress is computed. Default: the last.",
         ),
     ] = None,
     depths: Annotated[
@@ -71,8 +71,8 @@ def stress(
         optional(
             "--depths",
             metavar="Z,Z,...",
-            help="Depths such as '0,0.1 mm,0.2 mm'; fitted to contact and layers if absent. Both "
-            "sides of every interface are always there.",
+            help="Depths such as '0,0.1 mm,0.2 mm'; both sides of every interface are added. "
+            "Default: from contact and layers.",
         ),
     ] = None,
     at: Annotated[
@@ -80,30 +80,31 @@ def stress(
         optional(
             "--at",
             metavar="X,Y,Z",
-            help="Stress at a point alone, such as '0.3 mm,0,20 um'; 'interface 1' as Z stands for "
-            "both sides of it. Any number of times.",
+            help="Compute the stress at a point, such as '0.3 mm,0,20 um'; 'interface 1' as Z "
+            "selects both sides of it. The option may be repeated.",
         ),
     ] = None,
     history: Annotated[
         bool,
         typer.Option(
             "--history",
-            help="With --at: over all increments of a scene, or of a run with --all-fields.",
+            help="With --at: compute all increments of a scene, or of a run with --all-fields.",
         ),
     ] = False,
     indenter: Annotated[
-        bool, typer.Option("--indenter", help="The indenter instead of the body; z points up.")
+        bool, typer.Option("--indenter", help="Compute the stress in the indenter; z points up.")
     ] = False,
     volume: Annotated[
-        bool, typer.Option("--volume", help="Write the whole volume as VTU too, not only y = 0.")
+        bool, typer.Option("--volume", help="Write the volume as VTU as well, not only y = 0.")
     ] = False,
     figures: Annotated[
-        Figures, typer.Option("--figures", metavar="NAME", help="all: draw figures; none: do not.")
+        Figures,
+        typer.Option("--figures", metavar="NAME", help="all: draw figures; none: draw none."),
     ] = Figures.ALL,
     error: Annotated[
         bool,
         typer.Option(
-            "--error/--no-error", help="State an error for every maximum, or leave them out."
+            "--error/--no-error", help="State an error for every maximum, or omit the errors."
         ),
     ] = True,
     accuracy: AccuracyOption = None,
@@ -111,12 +112,13 @@ def stress(
     overrides: SetOption = None,
     solver: AskedSolver = None,
 ) -> None:
-    """Stress in layers and substrate: maxima, sections, lines, and both sides of interfaces.
+    """Compute the stress in layers and substrate.
 
-    Writes stress.json, tables (CSV), the section y = 0 for ParaView (VTU) and figures into DIR.
+    DIR receives stress.json, tables (CSV) of maxima, of the z axis and of both sides of interfaces,
+    the section y = 0 for ParaView (VTU), and figures.
 
-    With --accuracy, or a table [accuracy] in the scene, the scene is solved as by 'run';
-    "max_principal 1%" binds the largest tension in the body.
+    With --accuracy, or a table [accuracy] in the scene, the scene is refined as by 'run';
+    "max_principal 1%" requests the accuracy of the largest tensile stress in the body.
 
     With --at, DIR receives stress_history.csv and .png instead.
     """
@@ -128,11 +130,11 @@ def stress(
     chosen = solver or SolverName.SEMI_ANALYTICAL
     if source.is_dir():
         given: dict[str, object] = {"--set": overrides, "--solver": solver}
-        _refuse_beside_run(given | {"--accuracy": accuracy, "--most-seconds": most_seconds})
+        _refuse_with_run(given | {"--accuracy": accuracy, "--most-seconds": most_seconds})
     else:
         _refuse_beside_section(chosen, asked, volume)
     if at or history:
-        _refuse_beside_points(at, {"--depths": depths, "--volume": volume, "--accuracy": accuracy})
+        _refuse_with_points(at, {"--depths": depths, "--volume": volume, "--accuracy": accuracy})
         read = None if source.is_dir() else read_scene_file(source, overrides or ())
         _write_points(source, read, at or [], step, chosen, output, history, indenter)
         return
@@ -149,12 +151,12 @@ def stress(
             request = requested_accuracy(contents, accuracy, most_seconds)
             if indenter and request is not None and request.binds_stress:
                 raise typer.BadParameter(
-                    "an accuracy of max_principal is of the body, not --indenter"
+                    "an accuracy of max_principal applies to the body; omit --indenter"
                 )
             if asked is not None and request is not None and request.binds_stress:
                 raise typer.BadParameter(
-                    "an accuracy of max_principal is of the largest at all depths: leave --depths "
-                    "out, or bind other quantities"
+                    "an accuracy of max_principal needs all depths: omit --depths, or request "
+                    "other quantities"
                 )
             state, reached = _state_of_scene(
                 contents,
@@ -168,7 +170,7 @@ def stress(
             )
         which, body = ("indenter", state.indenter) if indenter else ("body", state.body)
         if not body.deforms:
-            raise typer.BadParameter(f"the {which} is rigid: there is no stress in it")
+            raise typer.BadParameter(f"the {which} is rigid and has no stress")
         field = _below(state, asked, indenter=indenter, volume=volume)
         found = extremes(field, body)
         errors = _errors(state, field, found, indenter) if error else None
@@ -184,19 +186,19 @@ def stress(
         )
     from contact_results.stress.radial_body import is_sheared
 
-    # Pressure alone, on a disc, has no path.
+    # Without shear, the radial solver has no increment error.
     on_disc = state.pressed is not None and not is_sheared(state)
     by_increments = 0.0 if on_disc else state.by_increments
     _print(found, errors, by_increments, reached, field.how.get("edge"), output)
     leave_unless_met(reached)
 
 
-def _refuse_beside_points(at: list[str] | None, given: dict[str, object]) -> None:
+def _refuse_with_points(at: list[str] | None, given: dict[str, object]) -> None:
     if not at:
-        raise typer.BadParameter("--history is of chosen points; add --at X,Y,Z")
+        raise typer.BadParameter("--history needs points; add --at X,Y,Z")
     for option, value in given.items():
         if value:
-            raise typer.BadParameter(f"{option} is not of points; leave it out, or leave --at out")
+            raise typer.BadParameter(f"{option} excludes --at; omit one of them")
 
 
 def _write_points(
@@ -224,7 +226,7 @@ def _write_points(
     from slipstick.cli.terminal import tell
 
     made = []
-    left_out: SolverError = ContactNotResolved("the bodies are separated, and have no stress")
+    left_out: SolverError = ContactNotResolved("the bodies are separated and have no stress")
     try:
         if contents is None:
             states: Any = states_of_run(source) if history else [state_of_run(source, step)]
@@ -253,7 +255,7 @@ def _write_points(
 
 
 def _points_of(at: list[str], body: Body) -> tuple[Any, Any, list[Any]]:
-    """Places x and y of the points (n,), and their levels."""
+    """Return the coordinates x and y of the points (n,), and their levels."""
     import numpy as np
 
     from semi_analytical.frf.stack import stack_of
@@ -261,7 +263,7 @@ def _points_of(at: list[str], body: Body) -> tuple[Any, Any, list[Any]]:
     from semi_analytical.stress.depths import levels_of
 
     if not body.deforms:
-        raise typer.BadParameter("the body is rigid: there is no stress in it")
+        raise typer.BadParameter("the body is rigid and has no stress")
     sides = {f"interface {k}": pair for k, pair in enumerate(interfaces(body), 1)}
     found = []
     for text in at:
@@ -278,7 +280,7 @@ def _points_of(at: list[str], body: Body) -> tuple[Any, Any, list[Any]]:
 
 
 def _state_of_run_directory(directory: Path, step: int | None) -> LoadedBodies:
-    """At the end of a loading step of a run, None for the last."""
+    """Return the state at the end of a load step of a run; None for the last step."""
     from contact_results.stress.loaded_bodies import NoSuchState, state_of_run
 
     try:
@@ -298,10 +300,10 @@ def _state_of_scene(
     output: Path,
     until_written: ExitStack,
 ) -> tuple[LoadedBodies, AccuracyReached | None]:
-    """The same of a scene, solved as finely as it says or as a request needs; and how well that
-    was met.
+    """Solve a scene and return the state at the end of a load step, and the reached accuracy.
 
-    until_written  keeps the state of the refinement until the results are written
+    request        requested accuracy; None solves with the discretisation of the scene
+    until_written  stack that removes the stored refinement after the results are written
     """
     from contact_results.stress.loaded_bodies import state_of_result
 
@@ -349,24 +351,24 @@ def _solved(
         return result, chosen.errors(result)
 
 
-def _refuse_beside_run(given: dict[str, object]) -> None:
+def _refuse_with_run(given: dict[str, object]) -> None:
     for option, value in given.items():
         if value:
             raise typer.BadParameter(
-                f"{option} says what to solve or how, and this is a run that was solved: leave it "
-                "out, or give the scene file"
+                f"{option} applies to a scene, got the output of a run: omit it, or give the scene "
+                "file"
             )
 
 
 def _refuse_beside_section(solver: SolverName, depths: list[float] | None, volume: bool) -> None:
     if solver.is_fem and (depths is not None or volume):
         raise typer.BadParameter(
-            "finite elements give the stress at their nodes in one plane: leave --depths and "
-            "--volume out"
+            "finite elements compute the stress at their nodes in one plane: omit --depths and "
+            "--volume"
         )
     if solver is SolverName.RADIAL and volume:
         raise typer.BadParameter(
-            "the radial solver gives the stress in one plane through the axis: leave --volume out"
+            "the radial solver computes the stress in one plane through the axis: omit --volume"
         )
 
 
@@ -401,7 +403,7 @@ def _errors(
 
 
 def _length(text: str, option: str = "--depths") -> float:
-    """A plain number in metres, or a number with a unit."""
+    """Convert a number in metres, or a number with a unit, to metres."""
     from pydantic import TypeAdapter, ValidationError
 
     from contact_scene.reading.quantity import Length
@@ -425,34 +427,27 @@ def _print(
     edge: Any,
     output: Path,
 ) -> None:
-    import numpy as np
-
     from contact_results.number_text import number_text, uncertainty
-    from contact_scene.reading.engineering_units import (
-        engineering_unit,
-        quantity,
-    )
+    from contact_scene.reading.engineering_units import engineering_unit
     from slipstick.cli.outcome_text import how_accurate
     from slipstick.cli.terminal import print_pairs, print_table
 
     if reached is not None:
         print_pairs(how_accurate(reached))
-    unit = engineering_unit(float(np.max([abs(e.value) for e in found])), "Pa")
-    columns = ("region", "measure", f"largest\n{unit.name}", "x\n", "y\n", "depth\n")
-    rows = (
-        (
-            e.region,
-            e.measure,
-            number_text(e.value, uncertainty(error), unit.size),
-            *(quantity(length, "m") for length in (e.x, e.y, e.depth)),
-        )
-        for e, error in zip(found, errors or [None] * len(found), strict=True)
-    )
-    print_table(columns, rows, numbers=True)
+    unit = engineering_unit(max(abs(e.value) for e in found), "Pa")
+    length = engineering_unit(max(abs(x) for e in found for x in (e.x, e.y, e.depth)), "m")
+    columns = ["region", "measure", f"largest\n{unit.name}"]
+    columns += [f"{name}\n{length.name}" for name in ("x", "y", "depth")]
+    rows: dict[tuple[str, ...], list[str]] = {}
+    for e, error in zip(found, errors or [None] * len(found), strict=True):
+        places = (round(x / length.size, 4) + 0.0 for x in (e.x, e.y, e.depth))
+        value = number_text(e.value, uncertainty(error), unit.size)
+        rows.setdefault((e.measure, value, *(f"{x:.4g}" for x in places)), []).append(e.region)
+    print_table(columns, [(", ".join(names), *row) for row, names in rows.items()], numbers=True)
     if edge is not None and not edge["fitted"]:
-        typer.echo(f"  stress near the edge of the contact by cells alone: {edge['because']}")
+        typer.echo(f"  no correction of the stress near the contact edge: {edge['because']}")
     if errors is None:
-        typer.echo("  no errors: --no-error left them out")
+        typer.echo("  no errors, because of --no-error")
     elif by_increments is None:
-        typer.echo("  errors by cells alone: the run states none by increments")
+        typer.echo("  errors without that of increments, which the run does not state")
     typer.echo(f"results in {output}")

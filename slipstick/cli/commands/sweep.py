@@ -50,8 +50,8 @@ def sweep(
         typer.Option(
             "--vary",
             metavar="KEY=VALUES",
-            help="a..b [unit] [log] N spaced values, such as body.layers[1].thickness=1..64 um log "
-            "4; or normal(mean,deviation) [unit] N, a sample. Any number of times.",
+            help="Spaced values a..b [unit] [log] N, such as body.layers[1].thickness=1..64 um log "
+            "4, or a sample normal(mean,deviation) [unit] N. The option may be repeated.",
         ),
     ],
     get: Annotated[
@@ -59,8 +59,8 @@ def sweep(
         typer.Option(
             "--get",
             metavar="NAME,NAME,...",
-            help="Scalars of summary.json at the end of the last step, vectors by component; or "
-            "MEASURE@REGION, a largest stress: max_principal@body, interface_shear@1.",
+            help="Scalars of summary.json at the end of the last step, vectors by component, or "
+            "largest stresses MEASURE@REGION: max_principal@body, interface_shear@1.",
         ),
     ] = "peak_pressure",
     overrides: SetOption = None,
@@ -68,7 +68,7 @@ def sweep(
     error: Annotated[
         bool,
         typer.Option(
-            "--error/--no-error", help="State an error for every number, or leave them out."
+            "--error/--no-error", help="State an error for every number, or omit the errors."
         ),
     ] = True,
     workers: Annotated[
@@ -78,9 +78,9 @@ def sweep(
 ) -> None:
     """Solve a scene for every combination of values of its keys; write a table and a chart.
 
-    DIR receives sweep.csv, a row for every point with errors and scene, and sweep.png. Every
-    finished point leaves a record in DIR/points: the same command goes on where a killed one
-    stopped. Exit code 3 if a point has no answer.
+    DIR receives sweep.csv, with numbers, errors and scene of every point, and sweep.png. Every
+    finished point is stored in DIR/points: after the command was killed, the same command computes
+    the missing points. Exit code 3 if a point has no result.
     """
     try:
         variations = [Variation.of(text) for text in vary]
@@ -94,7 +94,7 @@ def sweep(
         raise typer.BadParameter(problem)
     print_pairs([("points", str(len(made))), ("solver", solver.value)])
     if solver is not SolverName.RADIAL and (how := by_radii(first)):
-        print_pairs([("radial", f"--solver radial would do: {how}")])
+        print_pairs([("radial", f"--solver radial can solve this: {how}")])
     output.mkdir(parents=True, exist_ok=True)
     with in_sole_use(output):
         store, cases = CaseStore(output / CASES), {point.name: point for point in made}
@@ -113,7 +113,9 @@ def sweep(
         _write(records, variations, names, output, title)
     typer.echo(f"results in {output}")
     if missing := sum(bool(record.words["refused"]) for record in records):
-        tell(f"{missing} of {len(records)} points have no answer; column refused has the reasons")
+        tell(
+            f"{missing} of {len(records)} points have no result; see the column refused of {TABLE}"
+        )
         raise typer.Exit(ExitCode.NOT_CONVERGED)
 
 
@@ -141,7 +143,7 @@ def _write(
     if len(spaced) < len(variations):
         _print_percentiles(spaced, swept)
     if len(spaced) > MAX_KEYS:
-        tell(f"{len(spaced)} keys are spaced, and a chart has at most {MAX_KEYS}; see {TABLE}")
+        tell(f"no chart: got {len(spaced)} spaced keys, expected at most {MAX_KEYS}; see {TABLE}")
     else:
         write_sweep_chart(spaced, swept, directory / CHART, title)
 
