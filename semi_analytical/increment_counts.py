@@ -95,41 +95,36 @@ def path_increments(
     shear     whether shear is solved for
     accuracy  allowed increment error, Σ|error of q| / Σµp
     """
-    steps = []
+    found = []
     sheared = bodies.coupled
-    ways = _ways(scene)
-    turning = [turn for way in ways if (turn := way.turned(bodies))]
-    turned = sum(turning) if len(turning) > 1 else 0.0
-    for way, of_loop in zip(ways, loop_increments(scene.load_path()), strict=True):
-        sheared = sheared or way.ends_sheared or way.ramp.strains
-        matters, why = way.matters(bodies.coupled) if shear and sheared else (False, NO_SHEAR)
+    steps: list[_LoadStep] = []
+    for ramp in scene.load_path():
+        # Force and shift are nearly parallel: the end of one is the start of the other.
+        last = steps[-1].ramp.tangential.end if steps else (0.0, 0.0)
+        steps.append(_LoadStep(ramp, ramp.tangential.start or last, scene.indenter))
+    changes = [change for step in steps if (change := step.change_of_direction(bodies))]
+    total = sum(changes) if len(changes) > 1 else 0.0
+    for step, of_loop in zip(steps, loop_increments(scene.load_path()), strict=True):
+        sheared = sheared or step.ends_sheared or step.ramp.strains
+        matters, why = step.matters(bodies.coupled) if shear and sheared else (False, NO_SHEAR)
         count = 1
         if matters:
-            count, why = way.count(bodies, accuracy, turned)
-        if shear and way.ramp.strains and count < STRAINED:
+            count, why = step.count(bodies, accuracy, total)
+        if shear and step.ramp.strains and count < STRAINED:
             count, why = STRAINED, "the lower body has a bulk strain"
         if shear and of_loop > count:
             count, why = of_loop, "the work of a closed cycle"
-        if way.ramp.increments is not None:
-            count, why = way.ramp.increments, "prescribed by the scene"
-        steps.append(StepIncrements(count, matters, why))
-    return tuple(steps)
-
-
-def _ways(scene: Scene) -> list[_Way]:
-    # Force and shift are nearly parallel: the end of one is the start of the other, in direction.
-    ways: list[_Way] = []
-    for ramp in scene.load_path():
-        last = ways[-1].ramp.tangential.end if ways else (0.0, 0.0)
-        ways.append(_Way(ramp, ramp.tangential.start or last, scene.indenter))
-    return ways
+        if step.ramp.increments is not None:
+            count, why = step.ramp.increments, "prescribed by the scene"
+        found.append(StepIncrements(count, matters, why))
+    return tuple(found)
 
 
 NO_SHEAR = "no shear: the state does not depend on the load path"
 
 
 @dataclass(frozen=True)
-class _Way:
+class _LoadStep:
     """Load step for the error rules.
 
     start  tangential force or shift at its start
@@ -190,33 +185,33 @@ class _Way:
             return True, ""
         return False, "the load has a constant direction and the bodies are uncoupled"
 
-    def turned(self, bodies: Bodies) -> float:
+    def change_of_direction(self, bodies: Bodies) -> float:
         """Compute Δx/x of a step that changes direction, else 0."""
         x, change = self._parts_of_limit(bodies)
         return change / x if self._turning and x else 0.0
 
-    def count(self, bodies: Bodies, accuracy: float, turned: float) -> tuple[int, str]:
+    def count(self, bodies: Bodies, accuracy: float, changes: float) -> tuple[int, str]:
         """Compute the number of increments for an accuracy, and name the error rule.
 
-        turned  Σ Δx/x of all steps that change direction; 0 for fewer than two
+        changes  Σ Δx/x of all steps that change direction; 0 for fewer than two
         """
         if self._first and not self._moving:
             return _pressed_first(bodies, accuracy, self.shape)
         if self._first:
-            return _first_order(BOTH_AT_ONCE, accuracy, "normal and tangential first loading")
+            return _rounded(BOTH_AT_ONCE / accuracy), "normal and tangential first loading"
         x, change = self._parts_of_limit(bodies)
         coefficient = SIDEWAYS * x * min(x, change)
         if self._turning:
-            again = min(TURNING * turned, TURNED_ROUND)
+            again = min(TURNING * changes, TURNED_ROUND)
             coefficient = max(coefficient, again * x * change)
         if self._pressing:
             rate = PRESSING_UNLIKE if bodies.coupled else PRESSING_LATER
             coefficient += rate * self._pressing_change
-            return _first_order(coefficient, accuracy, "the normal load changes under shear")
+            return _rounded(coefficient / accuracy), "the normal load changes under shear"
         why = "pressure and shear are coupled"
         if self._turning:
             why = "the tangential load changes its direction"
-        return _first_order(coefficient, accuracy, why)
+        return _rounded(coefficient / accuracy), why
 
     @property
     def _pressing_change(self) -> float:
@@ -267,10 +262,6 @@ def _pressed_first(bodies: Bodies, accuracy: float, shape: ShapedBody) -> tuple[
     if shape.gap_exponent != 2 or not shape.is_of_revolution:
         count = max(count, OTHER_SHAPES * sqrt(m_squared) / accuracy)
     return _rounded(min(count, most)), why
-
-
-def _first_order(coefficient: float, accuracy: float, why: str) -> tuple[int, str]:
-    return _rounded(coefficient / accuracy), why
 
 
 def _rounded(count: float) -> int:

@@ -47,7 +47,7 @@ def test_solution_obeys_the_conditions_of_contact(contact, size, forced, seed):
     A, h = contact
     start = np.random.default_rng(seed).random(SHAPE) + 1e-3
     solution = solved(A, h, PressureSum(size) if forced else FixedApproach(size), start)
-    p, delta = solution.pressure.ravel(), solution.approach
+    p, delta = solution.pressure.ravel(), solution.motion
     finite = np.isfinite(h)
     gap = (A @ p + h - delta)[finite]
     assert np.all(p >= 0)
@@ -135,7 +135,7 @@ def assert_sticks_or_slips(problem, solution):
     """Coulomb's law in every cell: no slip inside the disc, slip along the shear on its edge."""
     A, bound, target = problem
     q = solution.shear
-    slip = solution.shift[:, None, None] + target - as_map(A)(q)
+    slip = solution.motion[:, None, None] + target - as_map(A)(q)
     assert np.all(magnitude(q) <= bound * (1 + 1e-12))
     missing = bound * magnitude(slip) - q[0] * slip[0] - q[1] * slip[1]
     assert np.sum(missing) <= 1e-8 * np.sum(bound) * np.max(magnitude(slip)[bound > 0] + 1)
@@ -160,7 +160,7 @@ def test_shear_under_a_force_sticks_or_slips_and_carries_it(problem, part, angle
 def test_shear_under_a_shift_sticks_or_slips(problem, size, angle):
     shift = size * np.array([np.cos(angle), np.sin(angle)])
     solution = shear_solved(problem, FixedShift(shift))
-    np.testing.assert_array_equal(solution.shift, shift)
+    np.testing.assert_array_equal(solution.motion, shift)
     assert_sticks_or_slips(problem, solution)
 
 

@@ -14,7 +14,7 @@ from semi_analytical.frf.stack import HalfSpace, Stack
 from semi_analytical.stress import EdgeNotSeen, near_edge, subsurface
 from semi_analytical.stress.edge_rays import stress_by_root
 from semi_analytical.stress.point_force import stress_by_force
-from semi_analytical.stress.rectangle import RectanglePotentials, half_space_response
+from semi_analytical.stress.rectangle import half_space_response
 from tests.cell_means import ellipse_means
 from verification.closed_forms.huber_stress import (
     huber_stress,
@@ -63,7 +63,7 @@ def huber(x: Field, y: Field, depth: float) -> Field:
 def test_a_point_force_is_a_small_rectangle(depth: float) -> None:
     half, force = 1e-3, np.array([0.3, -0.8, 1.7])
     corners = (np.array([0.7 - half, 0.7 + half]), np.array([-0.4 - half, -0.4 + half]))
-    response = half_space_response(RectanglePotentials(*corners, depth), HalfSpace(1.0, NU), depth)
+    response = half_space_response(*corners, depth, HalfSpace(1.0, NU))
     found = stress_by_force(np.array(0.7), np.array(-0.4), depth, NU, force)
     expected = response[3:, :, 0, 0] @ force / (2 * half) ** 2
     np.testing.assert_allclose(found, expected, atol=1e-6)

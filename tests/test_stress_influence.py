@@ -17,7 +17,7 @@ from semi_analytical.influence.closed_form import HalfSpaceCoefficients, Rectang
 from semi_analytical.stress import default_depths, interfaces, subsurface, subsurface_section
 from semi_analytical.stress.components import FIELDS, TRACTIONS
 from semi_analytical.stress.field import depth_coefficients
-from semi_analytical.stress.rectangle import RectanglePotentials, half_space_response
+from semi_analytical.stress.rectangle import half_space_response
 
 GAUSS = np.polynomial.legendre.leggauss(16)
 DYING = 42.0  # exp(-alpha z) is 1e-18 there
@@ -113,7 +113,7 @@ BODIES = {
 def under_cell(x, y, z, nu, G=1.7):
     """Fields (9, 3) at a point by unit tractions on the cell DX by DY at the origin."""
     corners = np.array([x - DX / 2, x + DX / 2]), np.array([y - DY / 2, y + DY / 2])
-    return half_space_response(RectanglePotentials(*corners, z), HalfSpace(G, nu), z)[..., 0, 0]
+    return half_space_response(*corners, z, HalfSpace(G, nu))[..., 0, 0]
 
 
 def tensor(fields):

@@ -37,7 +37,6 @@ from semi_analytical.increments.stick_slip import (
     shear_residuals,
 )
 from semi_analytical.increments.tangential_solve import (
-    Shearing,
     TangentialTarget,
 )
 from semi_analytical.increments.tangential_state import (
@@ -55,6 +54,7 @@ from semi_analytical.operator.box import (
 )
 from semi_analytical.operator.domain import ReducedDomain
 from semi_analytical.residuals import complementarity, penetration
+from semi_analytical.tangential.tangential_problem import TangentialSolution
 
 MAX_ATTEMPTS = 4
 # Margin of the box over the width of the contact; a tangential load step moves the edge by less.
@@ -222,11 +222,12 @@ class _Trial:
         moved = u_t
         if not np.any(solution.in_slip):
             moved = np.maximum(np.abs(model.operator(cells).tangential(q)), np.max(np.abs(u_t)))
-        shearing = Shearing(
+        shearing = TangentialSolution(
             shear=q,
             displacement=moved,
             motion=solution.motion,
             in_slip=self.box.embed(solution.in_slip.astype(np.float64), cells) > 0,
+            residual=0.0,
             iterations=0,
         )
         target = surface_target(model, self.last, self.tangential)

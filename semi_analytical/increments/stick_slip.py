@@ -17,7 +17,6 @@ from semi_analytical.increments.full_slip import (
     unresisted,
 )
 from semi_analytical.increments.tangential_solve import (
-    Shearing,
     TangentialTarget,
     shear,
 )
@@ -34,6 +33,7 @@ from semi_analytical.model import ContactModel
 from semi_analytical.residuals import friction_cone, slip_direction
 from semi_analytical.tangential.admissible_shear import magnitude
 from semi_analytical.tangential.linearised_shear import Point
+from semi_analytical.tangential.tangential_problem import TangentialSolution
 
 MAX_ATTEMPTS = 3
 SLIDING = 1e-6
@@ -111,7 +111,7 @@ def _without_solving(
 
 def shear_residuals(
     model: ContactModel,
-    solution: Shearing,
+    solution: TangentialSolution,
     bound: Field,
     passed: VectorField,
     load: TangentialTarget,
@@ -148,7 +148,7 @@ def advanced(
     bound: Field,
     last: TangentialState,
     load: TangentialTarget,
-    solution: Shearing,
+    solution: TangentialSolution,
     passed: VectorField,
     residuals: ShearResiduals,
 ) -> TangentialState:

@@ -1,10 +1,10 @@
 """Solution of the tangential problem at given pressure, in a box around the contact."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from contact_scene.array_types import Field, Mask, Vector, VectorField
+from contact_scene.array_types import Field, Vector, VectorField
 from contact_scene.bulk_strain import Strain
 from semi_analytical.model import ContactModel
 from semi_analytical.operator.box import box_around
@@ -16,18 +16,7 @@ from semi_analytical.tangential.admissible_shear import (
     TangentialLoad,
 )
 from semi_analytical.tangential.linearised_shear import Point
-from semi_analytical.tangential.tangential_problem import solve_tangential
-
-
-@dataclass(frozen=True)
-class Shearing:
-    """Shear and its displacement (2, nx, ny), motion of the load, slip zone, and iterations."""
-
-    shear: VectorField
-    displacement: VectorField
-    motion: Vector
-    in_slip: Mask
-    iterations: int
+from semi_analytical.tangential.tangential_problem import TangentialSolution, solve_tangential
 
 
 @dataclass(frozen=True)
@@ -88,7 +77,7 @@ def shear(
     start: Point,
     motion: Vector,
     tolerance: float,
-) -> Shearing:
+) -> TangentialSolution:
     """Solve the tangential problem of one increment.
 
     bound          friction limit µp, not zero everywhere
@@ -113,10 +102,9 @@ def shear(
         tolerance,
     )
     q, u = box.embed(solution.shear, cells), solution.displacement
-    return Shearing(
+    return replace(
+        solution,
         shear=q,
         displacement=u if box.shape == cells else model.operator(cells).tangential(q),
-        motion=solution.motion,
         in_slip=box.embed(solution.in_slip.astype(np.float64), cells) > 0,
-        iterations=solution.iterations,
     )

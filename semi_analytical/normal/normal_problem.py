@@ -43,11 +43,6 @@ class NormalSolution:
     iterations: int
     first_residual: float
 
-    @property
-    def approach(self) -> float:
-        """Approach of the bodies at the origin [length]."""
-        return float(np.ravel(self.motion)[0])
-
 
 @dataclass(frozen=True)
 class _Problem:

@@ -130,11 +130,9 @@ class PressureMoments:
         if not self._is_carried_on(weight > 0):
             return None
         shapes, sums = self.shapes, self.sums
-
-        def shifted_by(multiplier: Vector) -> "_Shifted":
-            return _Shifted.by(multiplier, p, weight, shapes, sums)
-
-        shifted, multiplier = find_multiplier(shifted_by, np.zeros(len(sums)))
+        shifted, multiplier = find_multiplier(
+            lambda m: _Shifted(m, p, weight, shapes, sums), np.zeros(len(sums))
+        )
         return shifted.p if shifted.settled(multiplier) else None
 
     def projection(self, inside: Field) -> Projection:
@@ -169,34 +167,25 @@ def _products(a: Field, b: Field) -> Field:
     return 0.5 * (sums + sums.T)
 
 
-@dataclass(frozen=True)
 class _Shifted:
-    """Projected pressure max(0, p + weight Σ λ shape): see multipliers.py."""
+    """Projected pressure p = max(0, p + weight Σ λ shape): see multipliers.py."""
 
-    p: Field
-    slack: Field
-    shapes: Field
-    sums: Vector
-    defect: Vector
-
-    @classmethod
-    def by(
-        cls, multiplier: Vector, p: Field, weight: Field, shapes: Field, sums: Vector
-    ) -> "_Shifted":
-        """Add multipliers to p and restrict the sum to non-negative values."""
+    def __init__(
+        self, multiplier: Vector, p: Field, weight: Field, shapes: Field, sums: Vector
+    ) -> None:
         plane = sum(m * shape for m, shape in zip(multiplier, shapes, strict=True))
         shifted = p + weight * plane
         pressed = (shifted > 0) & (weight > 0)
-        q = np.where(pressed, shifted, 0.0)
-        defect = np.array([np.sum(q * shape) for shape in shapes]) - sums
-        return cls(q, np.where(pressed, weight, 0.0), shapes, sums, defect)
+        self.p, self._slack = np.where(pressed, shifted, 0.0), np.where(pressed, weight, 0.0)
+        self._shapes, self._sums = shapes, sums
+        self.defect = np.array([np.sum(self.p * shape) for shape in shapes]) - sums
 
     def settled(self, multiplier: Vector) -> bool:
         """Return whether the defect is round-off."""
-        size = float(np.sum(self.p)) + float(np.max(np.abs(self.sums)))
+        size = float(np.sum(self.p)) + float(np.max(np.abs(self._sums)))
         return bool(np.sum(np.abs(self.defect)) <= ROUND_OFF * size)
 
     def newton_step(self) -> Vector:
         """Compute the Newton step of the multipliers; of least length where they are not unique."""
-        metric = _products(self.slack * self.shapes, self.shapes)
+        metric = _products(self._slack * self._shapes, self._shapes)
         return np.asarray(-np.linalg.pinv(metric, rcond=1e-14, hermitian=True) @ self.defect)

@@ -14,7 +14,7 @@ from semi_analytical.stress.edge_rays import stress_by_root
 from semi_analytical.stress.edge_tractions import EdgedTractions, part_centres
 from semi_analytical.stress.patch import PATCH, stress_from_beyond
 from semi_analytical.stress.point_force import stress_by_force
-from semi_analytical.stress.rectangle import RectanglePotentials, half_space_response
+from semi_analytical.stress.rectangle import half_space_response
 
 Spacing = tuple[float, float]
 
@@ -93,10 +93,9 @@ def _in_box(edged: EdgedTractions, phi: Quadratic, material: HalfSpace, spacing:
         np.where(at[:, None] == corners, 1e-9, at[:, None] - corners) * side
         for at, side in zip((x, y), spacing, strict=True)
     )
-    potentials, sheared = RectanglePotentials(to_x, to_y, 0.0), bool(edged.means[:2].any())
-    response = half_space_response(potentials, material, 0.0, sheared=sheared)[
-        STRESS, :, :, ::-1, ::-1
-    ]
+    sheared = bool(edged.means[:2].any())
+    response = half_space_response(to_x, to_y, 0.0, material, sheared=sheared)
+    response = response[STRESS, :, :, ::-1, ::-1]
     return stress + np.einsum("ftnij,tnij->fn", response, left[-response.shape[1] :])
 
 

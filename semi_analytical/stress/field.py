@@ -20,7 +20,7 @@ from semi_analytical.stress.depths import (
     levels_of,
     line_weights,
 )
-from semi_analytical.stress.rectangle import RectanglePotentials, half_space_response
+from semi_analytical.stress.rectangle import half_space_response
 
 DOUBLE = 8
 # Arrays of the size of the window at the peak, in addition to the fields: coefficients, potentials
@@ -199,8 +199,7 @@ def _closed_form(
     """Compute the fields of a half-space of the material at this level."""
     x = (np.arange(shape[0] + 1, dtype=np.float64) - 0.5) * spacing[0]
     y = (np.arange(shape[1] + 1, dtype=np.float64) - 0.5) * spacing[1]
-    potentials = RectanglePotentials(x, y, level.depth)
-    return half_space_response(potentials, material_at(stack, level), level.depth, sheared=sheared)
+    return half_space_response(x, y, level.depth, material_at(stack, level), sheared=sheared)
 
 
 def _stack(body: Body | Scene | Stack) -> Stack:

@@ -11,7 +11,7 @@ import numpy as np
 from contact_scene.array_types import Field, Indices
 from semi_analytical.frf.stack import HalfSpace
 from semi_analytical.stress.components import STRESS
-from semi_analytical.stress.rectangle import RectanglePotentials, half_space_response
+from semi_analytical.stress.rectangle import half_space_response
 
 # Half sides of the patch and of the nodes of interpolation, in cells.
 PATCH, NODES = 8, 2
@@ -57,7 +57,7 @@ def _patch_kernel(material: HalfSpace, spacing: tuple[float, float]) -> Field:
     """Compute the stress at every node by every traction of the patch (3 side², 6 nodes)."""
     reach = PATCH + NODES
     x, y = ((np.arange(-reach, reach + 2.0) - 0.5) * side for side in spacing)
-    response = half_space_response(RectanglePotentials(x, y, 0.0), material, 0.0)[STRESS]
+    response = half_space_response(x, y, 0.0, material)[STRESS]
     side = 2 * PATCH + 1
     columns = [
         # Observer minus source, sources in increasing order.

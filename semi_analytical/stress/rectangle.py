@@ -89,63 +89,53 @@ class AxisPotentials:
         return -_corners(self._s / self._deep)
 
 
-class RectanglePotentials:
-    """Integrals over a rectangle of derivatives of A, B, C, over 2 pi, at a depth.
-
-    x, y   corner offsets of the observers from the loaded rectangles, minus and plus half a side,
-           shared by neighbours; shapes (…, nx + 1), (…, ny + 1), none zero at depth zero [length]
-    depth  z >= 0 [length]
-    """
-
-    def __init__(self, x: Field, y: Field, depth: float) -> None:
-        x, y = x[..., :, None], y[..., None, :]
-        self.along_x, self.along_y = AxisPotentials(x, y, depth), AxisPotentials(y, x, depth)
-        rho = np.sqrt(x**2 + y**2 + depth**2)
-        log_deep = np.log(rho + depth)
-        solid = self.along_x.angle + self.along_y.angle
-        self.a = _corners(x * self.along_x.log + y * self.along_y.log - depth * solid)
-        self.a_z = -_corners(solid)
-        self.a_xy = _corners(1 / rho)
-        self.b_xy = -_corners(log_deep)
-        self.c_xy = _corners(depth * log_deep - rho)
-
-
 def _corners(primitive: Field) -> Field:
     """Evaluate an integral over 2 pi from its primitive at the corners."""
     return np.diff(np.diff(primitive, axis=-2), axis=-1) / (2 * pi)
 
 
 def half_space_response(
-    f: RectanglePotentials, material: HalfSpace, depth: float, *, sheared: bool = True
+    x: Field, y: Field, depth: float, material: HalfSpace, *, sheared: bool = True
 ) -> Field:
     """Compute the fields by unit tractions on a rectangle (FIELDS, acting tractions, …, nx, ny).
 
     They are in equilibrium and regular at nu = 1/2. The divergence of the displacement is
     2 (1 - 2 nu) / 2G times A_z under pressure, A_x and A_y under shear. Every normal stress
     includes 2 nu times these derivatives.
+
+    x, y   corner offsets of the observers from the loaded rectangles, minus and plus half a side,
+           shared by neighbours; shapes (…, nx + 1), (…, ny + 1), none zero at depth zero [length]
+    depth  z >= 0 [length]
     """
+    x, y = x[..., :, None], y[..., None, :]
+    along = AxisPotentials(x, y, depth), AxisPotentials(y, x, depth)
+    rho = np.sqrt(x**2 + y**2 + depth**2)
+    log_deep, solid = np.log(rho + depth), along[0].angle + along[1].angle
+    a = _corners(x * along[0].log + y * along[1].log - depth * solid)
+    a_z, a_xy, b_xy = -_corners(solid), _corners(1 / rho), -_corners(log_deep)
     G, nu = material
     z, g, half = depth, 1 - 2 * nu, 1 / (2 * G)
-    result = empty_response(f.a.shape, sheared=sheared)
+    result = empty_response(a.shape, sheared=sheared)
     by_p = result[:, -1]
-    by_p[2] = half * (2 * (1 - nu) * f.a - z * f.a_z)
-    by_p[5] = f.a_z + z * (f.along_x.a_ss + f.along_y.a_ss)
-    by_p[8] = g * f.b_xy - z * f.a_xy
-    for k, s in enumerate((f.along_x, f.along_y)):
+    by_p[2] = half * (2 * (1 - nu) * a - z * a_z)
+    by_p[5] = a_z + z * (along[0].a_ss + along[1].a_ss)
+    by_p[8] = g * b_xy - z * a_xy
+    for k, s in enumerate(along):
         by_p[k] = half * (g * s.b_s - z * s.a_s)
-        by_p[3 + k] = g * s.b_ss - z * s.a_ss + 2 * nu * f.a_z
+        by_p[3 + k] = g * s.b_ss - z * s.a_ss + 2 * nu * a_z
         by_p[7 - k] = -z * s.a_sz
     if not sheared:
         return result
-    for k, (s, o) in enumerate(((f.along_x, f.along_y), (f.along_y, f.along_x))):
+    c_xy = _corners(z * log_deep - rho)
+    for k, (s, o) in enumerate((along, along[::-1])):
         by_q = result[:, k]
-        by_q[k] = half * (2 * f.a + 2 * nu * s.c_ss + z * s.b_ss)
-        by_q[1 - k] = half * (2 * nu * f.c_xy + z * f.b_xy)
+        by_q[k] = half * (2 * a + 2 * nu * s.c_ss + z * s.b_ss)
+        by_q[1 - k] = half * (2 * nu * c_xy + z * b_xy)
         by_q[2] = -half * (g * s.b_s + z * s.a_s)
         by_q[3 + k] = 2 * (1 + nu) * s.a_s + 2 * nu * s.c_sss + z * s.b_sss
         by_q[4 - k] = 2 * nu * (s.a_s + o.c_sso) + z * o.b_sso
         by_q[5] = -z * s.a_sz
-        by_q[6 + k] = -z * f.a_xy
-        by_q[7 - k] = f.a_z - z * s.a_ss
+        by_q[6 + k] = -z * a_xy
+        by_q[7 - k] = a_z - z * s.a_ss
         by_q[8] = o.a_s + 2 * nu * s.c_sso + z * s.b_sso
     return result

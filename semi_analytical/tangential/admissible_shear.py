@@ -10,7 +10,7 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from contact_scene.array_types import Field, Mask, Vector, VectorField
+from contact_scene.array_types import Field, Vector, VectorField
 from semi_analytical.multipliers import find_multiplier
 
 # Rounding error of a sum of shears, relative to the sum of their magnitudes.
@@ -259,64 +259,62 @@ def project(
         excess = np.sum(y, axis=(1, 2), where=open_cells) - total
         guess = -excess / np.count_nonzero(open_cells) * summed
     shifted, multiplier = find_multiplier(
-        lambda m: _Shifted.by(m, y, bound, total, summed, stiffness), guess
+        lambda m: _ShiftedSum(m, y, bound, total, summed, stiffness), guess
     )
     return shifted.q, multiplier
 
 
-@dataclass(frozen=True)
-class _Shifted:
-    """Projection of y + λ on the discs.
+class ProjectedShear:
+    """Projection of a shear z on the discs |q| <= bound, for multipliers (see multipliers.py).
 
-    z, length  y + λ (2, nx, ny) and its length (nx, ny)
+    z, length  shear (2, ...) and its length (...)
     outside    cells where the length exceeds the bound
-    scale, q   factor of the projection (nx, ny), and q = scale z
-    defect     Σq + stiffness λ - total (2,), the gradient of the dual function of λ; zero along
-               components without sum
-    summed     components with a prescribed sum
-    stiffness  see `project`
+    scale, q   factor of the projection (...), and q = scale z
     capacity   sum of the bound
     """
 
-    z: VectorField
-    length: Field
-    outside: Mask
-    scale: Field
-    q: VectorField
     defect: Vector
-    summed: tuple[bool, bool]
-    stiffness: float
-    capacity: float
+    stiffness = 0.0
 
-    @classmethod
-    def by(
-        cls,
+    def __init__(self, z: VectorField, bound: Field) -> None:
+        self.z, self.length = z, magnitude(z)
+        self.outside = self.length > bound
+        cut = bound / np.where(self.outside, self.length, 1.0)
+        self.scale = np.where(self.outside, cut, 1.0) * (bound > 0)
+        self.q = z * self.scale
+        self.capacity = float(np.sum(bound))
+
+    def settled(self, multiplier: Vector) -> bool:
+        """Return whether the defect is round-off, of the sums or of the multipliers."""
+        response = np.sum(self.scale) + self.stiffness
+        blur = MULTIPLIER_ROUND_OFF * response * np.sum(np.abs(multiplier))
+        strength = np.sum(self.length * self.scale)
+        return bool(np.sum(np.abs(self.defect)) <= ROUND_OFF * strength + blur)
+
+    @property
+    def radial(self) -> Field:
+        """Weight w of the derivative of q, scale - w z z, where the bound limits the shear."""
+        return np.where(self.outside, self.scale / np.where(self.outside, self.length**2, 1.0), 0.0)
+
+
+class _ShiftedSum(ProjectedShear):
+    """Projection of y + λ; the defect Σq + stiffness λ - total is zero along unsummed components.
+
+    Arguments as for `project`.
+    """
+
+    def __init__(
+        self,
         multiplier: Vector,
         y: VectorField,
         bound: Field,
         total: Vector,
         summed: tuple[bool, bool],
         stiffness: float,
-    ) -> "_Shifted":
-        """Shift `y` by a multiplier and project it on the discs."""
-        z = y + everywhere(multiplier)
-        length = magnitude(z)
-        outside = length > bound
-        scale = np.where(outside, bound / np.where(outside, length, 1.0), 1.0) * (bound > 0)
-        q = z * scale
-        defect = (np.sum(q, axis=(1, 2)) + stiffness * multiplier - total) * summed
-        return cls(z, length, outside, scale, q, defect, summed, stiffness, float(np.sum(bound)))
-
-    @property
-    def strength(self) -> float:
-        """Sum of the magnitudes Σ|q|."""
-        return float(np.sum(self.length * self.scale))
-
-    def settled(self, multiplier: Vector) -> bool:
-        """Return whether the defect is round-off, of the sum or of the multiplier."""
-        answer = np.sum(self.scale) + self.stiffness
-        blur = MULTIPLIER_ROUND_OFF * answer * np.sum(np.abs(multiplier))
-        return bool(np.sum(np.abs(self.defect)) <= ROUND_OFF * self.strength + blur)
+    ) -> None:
+        super().__init__(y + everywhere(multiplier), bound)
+        self.summed, self.stiffness = summed, stiffness
+        self.defect = (np.sum(self.q, axis=(1, 2)) + stiffness * multiplier - total) * summed
 
     def newton_step(self) -> Vector:
         """Compute the regularised Newton step of λ.
@@ -324,8 +322,7 @@ class _Shifted:
         A cell on its disc changes only perpendicular to its shear. A multiple of the identity keeps
         the matrix regular while all cells are on their discs, and vanishes with the defect.
         """
-        w = np.where(self.outside, self.scale / np.where(self.outside, self.length**2, 1.0), 0.0)
-        x, y = self.z
+        (x, y), w = self.z, self.radial
         xx, yy = np.sum(self.scale - w * x * x), np.sum(self.scale - w * y * y)
         xy = -np.sum(w * x * y) if all(self.summed) else 0.0
         damping = 1e-3 * (xx + yy) * np.sum(np.abs(self.defect)) / self.capacity

@@ -53,11 +53,6 @@ class TangentialSolution:
     iterations: int
 
     @property
-    def shift(self) -> Vector:
-        """Shift of the indenter (2,) [length]."""
-        return self.motion[:2]
-
-    @property
     def point(self) -> Point:
         """Shear and displacement."""
         return Point(self.shear, self.displacement)

@@ -17,8 +17,7 @@ from contact_scene.array_types import Field, Mask, Vector, VectorField
 from semi_analytical.multipliers import find_multiplier
 from semi_analytical.tangential.admissible_shear import (
     AT_LIMIT,
-    MULTIPLIER_ROUND_OFF,
-    ROUND_OFF,
+    ProjectedShear,
     everywhere,
     magnitude,
 )
@@ -98,10 +97,9 @@ class ShearMoments:
         loaded, units = self._loaded(bound)
         of_loaded, limit = y[:, loaded], bound[loaded]
 
-        def shifted_by(multiplier: Vector) -> _Shifted:
-            return _Shifted.by(multiplier, of_loaded, limit, units, self.given)
-
-        shifted, multiplier = find_multiplier(shifted_by, guess)
+        shifted, multiplier = find_multiplier(
+            lambda m: _ShiftedMoments(m, of_loaded, limit, units, self.given), guess
+        )
         q = np.zeros_like(y)
         q[:, loaded] = shifted.q
         return q, multiplier
@@ -208,40 +206,18 @@ def _descended(
         part *= 0.5
 
 
-@dataclass(frozen=True)
-class _Shifted:
-    """Projection of y + Σ λ unit on the discs of the loaded cells.
+class _ShiftedMoments(ProjectedShear):
+    """Projection of y + Σ λ unit on the discs of the loaded cells (2, n).
 
-    See multipliers.py and admissible_shear._Shifted.
+    given  prescribed forces on the unit motions
     """
 
-    z: Field
-    length: Vector
-    outside: Mask
-    scale: Vector
-    q: Field
-    units: Field
-    defect: Vector
-    capacity: float
-
-    @classmethod
-    def by(
-        cls, multiplier: Vector, y: Field, limit: Vector, units: Field, given: Vector
-    ) -> "_Shifted":
-        """Shift `y` (2, n) by multipliers and project it on the discs."""
-        z = y + np.tensordot(multiplier, units, 1)
-        length = magnitude(z)
-        outside = length > limit
-        scale = np.where(outside, limit / np.where(outside, length, 1.0), 1.0)
-        q = z * scale
-        defect = _forces(units, q) - given
-        return cls(z, length, outside, scale, q, units, defect, float(np.sum(limit)))
-
-    def settled(self, multiplier: Vector) -> bool:
-        """Return whether the defect is round-off, of the sums or of the multipliers."""
-        blur = MULTIPLIER_ROUND_OFF * np.sum(self.scale) * np.sum(np.abs(multiplier))
-        strength = np.sum(self.length * self.scale)
-        return bool(np.sum(np.abs(self.defect)) <= ROUND_OFF * strength + blur)
+    def __init__(
+        self, multiplier: Vector, y: Field, limit: Vector, units: Field, given: Vector
+    ) -> None:
+        super().__init__(y + np.tensordot(multiplier, units, 1), limit)
+        self._units = units
+        self.defect = _forces(units, self.q) - given
 
     def newton_step(self) -> Vector:
         """Compute the Newton step of λ, damped while all cells slip.
@@ -249,9 +225,8 @@ class _Shifted:
         The damping is relative to the stiffness of the cells. The trace of the derivative is no
         measure: it vanishes where all cells slip along their motion.
         """
-        w = np.where(self.outside, self.scale / np.where(self.outside, self.length**2, 1.0), 0.0)
-        along, products = _along(self.units, self.z), _products(self.units, self.scale)
-        matrix = products - (along * w) @ along.T
+        along, products = _along(self._units, self.z), _products(self._units, self.scale)
+        matrix = products - (along * self.radial) @ along.T
         stiffness = float(np.trace(products))
         damping = 1e-3 * stiffness * (np.sum(np.abs(self.defect)) / self.capacity) ** 2
         return -np.linalg.solve(matrix + damping * np.eye(len(matrix)), self.defect)
