@@ -71,8 +71,10 @@ def test_at_its_limit_a_load_is_carried_by_full_slip_alone(problem):
     load = load_of(forces(discs(bound, rng)))
     times, velocity = load.limit(bound)
     q, _ = load.full_slip(bound, np.zeros(3))
-    slips = magnitude(sum(v * u for v, u in zip(velocity, load.units, strict=True))) > 1e-6
-    # A cell at the pole of the motion moves so little that its shear hardly changes the power.
+    moves = magnitude(sum(v * u for v, u in zip(velocity, load.units, strict=True)))
+    # Smoothing at the pole of the motion, 1e-8 of the largest speed, reduces the shear by less than
+    # 1e-8 of itself in these cells. Shear in other cells hardly changes the power.
+    slips = moves > 1e-4 * np.max(moves)
     unsure = 1e-5 * np.sum(bound) + 1e-3 * np.sum(bound[~slips])
     np.testing.assert_allclose(forces(q), times * forces_of(load), atol=unsure)
     assert np.all(magnitude(q) <= bound * (1 + 1e-12))
