@@ -1,4 +1,4 @@
-"""What another code answers: levels of fineness with values and fields, in SI."""
+"""Answers of another code: levels with values and fields, in SI."""
 
 from __future__ import annotations
 
@@ -66,27 +66,27 @@ class Answer:
     points: Mapping[Key, Vector] = field(default_factory=dict)
 
     def value(self, key: Key) -> float | None:
-        """Of a number; None where it is not answered."""
+        """Return the value of a number; None if it is not answered."""
         found = self.scalars.get(key)
         return found[0] if isinstance(found, tuple) else found
 
     def has(self, key: Key) -> bool:
-        """Whether a number, the numbers at places, or a field are answered."""
+        """Return True if a number, the numbers at places, or a field are answered."""
         return key in self.scalars or key in self.points or key in self.fields
 
     def uncertainty(self, key: Key) -> float | None:
-        """That the answerer claims, standard."""
+        """Return the claimed standard uncertainty; None without one."""
         found = self.scalars.get(key)
         return found[1] if isinstance(found, tuple) else None
 
 
 @dataclass(frozen=True)
 class Solver:
-    """Who answers.
+    """Solver that answers a challenge.
 
     sampling      of fields: "point", or "cell" for means over squares of the areas
-    knows_answer  quantities that the discretisation is given, as a radius that a mesh is cut to
-    meshless      whether numbers may be right to rounding on every level, as those of series are
+    knows_answer  quantities that the discretisation contains, such as a radius at a mesh node
+    meshless      True if numbers may be exact to rounding on every level, as those of series
     claims        grade, and orders by quantity
     """
 

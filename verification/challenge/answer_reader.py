@@ -53,7 +53,7 @@ MAX_BYTES = 100_000_000
 def rows(
     folder: Path, table: str, columns: tuple[str, ...]
 ) -> Iterator[tuple[str, dict[str, str]]]:
-    """Place and cells of every row of LEVELS or ANSWERS. Raises Refused."""
+    """Yield the place and cells of every row of LEVELS or ANSWERS. Raises Refused."""
     path = folder / table
     reader = csv.DictReader(text_of(path).splitlines(), restkey="more")
     columns_are_there(f"{path}:1", reader.fieldnames or (), columns)
@@ -82,7 +82,7 @@ def columns_are_there(where: str, found: Sequence[str], expected: Sequence[str])
 
 
 def text_of(path: Path) -> str:
-    """Of a regular file of a size that can be. Raises Refused."""
+    """Read a regular file of allowed size; raise Refused."""
     try:
         if path.exists() and not path.is_file():
             raise Refused(f"{path}: is not a regular file")
@@ -104,7 +104,7 @@ Columns = Mapping[str, Any]  # numbers by the head of their column
 def read_fields(
     folder: Path, challenge: Challenge, levels: Mapping[str, Any]
 ) -> dict[str, dict[Key, Field]]:
-    """By level, quantity and loading step. Raises Refused."""
+    """Read the fields by level, quantity and load step; raise Refused."""
     found: dict[str, dict[Key, Field]] = {}
     for where, level, step, columns in _in_files(folder):
         if level not in levels or not step.isdigit():
@@ -137,7 +137,7 @@ def read_fields(
 
 
 def _in_files(folder: Path) -> Iterator[tuple[str, str, str, Columns]]:
-    """Place, level, loading step, columns."""
+    """Yield the place, level, loading step, columns."""
     tables = folder / FIELDS
     for path in sorted(tables.glob("*")) if tables.is_dir() else ():
         level, _, step = path.stem.rpartition("_")
@@ -252,7 +252,7 @@ def _solver(path: Path) -> Solver:
     who, convention, claims = tables.values()
     name = str(who.get("name", "")).strip()
     if not name:
-        raise Refused(f"{path}: solver.name is empty; say who answers")
+        raise Refused(f"{path}: solver.name is empty; enter the name of the solver")
     sampling = convention.get("sampling", SAMPLINGS[0])
     if sampling not in SAMPLINGS:
         raise Refused(
@@ -307,7 +307,7 @@ def _levels(folder: Path, window: float) -> Iterator[tuple[str, dict[str, Any]]]
 def _values(
     folder: Path, challenge: Challenge
 ) -> Iterator[tuple[str, str, Key, int, float | tuple[float, float]]]:
-    """Place in the file, level, key, point (0: none), value with u if one is given."""
+    """Yield the place in the file, level, key, point (0: none), value with u if one is given."""
     for where, row in rows(folder, ANSWERS, ANSWER_COLUMNS):
         if not row["value"]:
             continue
@@ -354,7 +354,7 @@ def _number(where: str, text: str) -> float:
 
 
 def _counted(where: str, name: str, text: str) -> float | None:
-    """None where nobody counted."""
+    """Read a count; None for an empty cell. Raises Refused."""
     if not text:
         return None
     number = _number(where, text)
@@ -364,7 +364,7 @@ def _counted(where: str, name: str, text: str) -> float | None:
 
 
 def _si(where: str, text: str, unit: str, kind: Kind) -> float:
-    """A number with its unit; one that is not finite stays what it is, and fails where it is
+    """Return a number with its unit; one that is not finite stays what it is, and fails where it is
     judged."""
     value = _number(where, text)
     if not unit:

@@ -1,5 +1,6 @@
-"""The challenges: problems whose answer nobody doubts, axes and bodies unalike where that tells
-slips apart."""
+"""Challenges: problems with certain answers.
+
+Axes and bodies differ where equal ones would hide an exchange."""
 
 from __future__ import annotations
 
@@ -60,13 +61,13 @@ WORDS = (
 
 
 def tilted() -> Iterator[Challenge]:
-    """All of them."""
+    """Yield all of them."""
     yield tilted_punch()
     yield tilted_ball()
 
 
 def tilted_punch() -> Challenge:
-    """A plane of displacement below the whole end."""
+    """Return a plane of displacement below the whole end."""
     arm = 4 / 3 * CONTACT_MODULUS * PUNCH_RADIUS**3 / NORMAL_FORCE  # per slope
     force_at = (arm * PUNCH_TILT[1], arm * PUNCH_TILT[0])
     exact = TiltedPunch(PUNCH_RADIUS, CONTACT_MODULUS, NORMAL_FORCE, force_at)
@@ -130,7 +131,7 @@ MEANINGS = {
 
 
 def scene_of(poisson_ratio: float) -> Scene:
-    """Identical bodies with the compliance of the paper's pair under pressure."""
+    """Return the identical bodies with the compliance of the paper's pair under pressure."""
     modulus = 2 * CONTACT_MODULUS * (1 - poisson_ratio**2)
     material = IsotropicMaterial(young_modulus=modulus, poisson_ratio=poisson_ratio)
     scene = paper.frictional(
@@ -158,7 +159,7 @@ def changing_loads() -> Iterator[Challenge]:
 
 
 def _asked(step: str, name: str, value: float, ends: dict[str, dict[str, float]]) -> AskedValue:
-    """Relative to the largest shift, twist or energy of the path."""
+    """Return a number of the path, relative to the largest shift, twist or energy."""
     kind = name.partition("_")[0]
     scale = max(
         abs(number)
@@ -179,7 +180,7 @@ UNCERTAINTY = 1e-4
 
 
 def paper_figure() -> Challenge:
-    """Ball on a coating twice as stiff as its base and as thick as the Hertz radius."""
+    """Return the ball on a coating twice as stiff as its base and as thick as the Hertz radius."""
     pushes = (LoadStep(tangential_force=(part * FRICTION_LIMIT, 0.0)) for part in SHIFTS)
     title = "Coated body under a rigid ball, pressed with friction, then sheared"
     scene = pressed(title, rigid_ball(), COATED.body, pressing(), *pushes, friction=FRICTION)
@@ -209,7 +210,7 @@ SERIES = 24  # of a coated pressure: 1e-13 in all rows
 
 @cache
 def challenges() -> dict[str, Challenge]:
-    """All, by name."""
+    """Return all, by name."""
     classical = (hertz_point(), hertz_elliptical(), cone(), punch(), cattaneo_mindlin(), loop())
     return {
         one.name: one
@@ -221,13 +222,13 @@ def challenges() -> dict[str, Challenge]:
 
 
 def hertz_point() -> Challenge:
-    """Frictionless ball."""
+    """Return the frictionless ball."""
     pressure = round_halves((HERTZ.contact_radius, HERTZ.peak_pressure))
     return _pressed("hertz_point", "Hertz: a ball on a half-space", BALL, pressure)
 
 
 def hertz_elliptical() -> Challenge:
-    """On a square window, where exchanged axes are seen."""
+    """Return the barrel on a square window, which reveals exchanged axes."""
     exact = BARREL.ends[0]
     a, b = exact.semi_axes
     axes = (
@@ -243,12 +244,12 @@ def hertz_elliptical() -> Challenge:
 
 
 def cone() -> Challenge:
-    """Without a finite peak."""
+    """Return the cone, whose peak pressure is infinite."""
     return _pressed("cone_contact", "A cone on a half-space", CONE, None)
 
 
 def punch() -> Challenge:
-    """Known contact radius: the approach alone."""
+    """Return the flat punch; its contact radius is known, so only the approach is judged."""
     exact = PUNCH.ends[0]
     return Challenge(
         "flat_punch", "A flat punch on a half-space", _words(PUNCH), PUNCH.scene, PUNCH.source,
@@ -257,7 +258,7 @@ def punch() -> Challenge:
 
 
 def coated() -> Iterator[Challenge]:
-    """A ball on coatings, each a challenge of its own."""
+    """Yield one challenge for each coating below a ball."""
     for row in ROWS:
         problem = coated_ball(row)
         exact = solved_here(problem).ends[0]
@@ -270,7 +271,7 @@ def coated() -> Iterator[Challenge]:
 
 
 def cattaneo_mindlin() -> Challenge:
-    """Pressed, then sheared in steps."""
+    """Return the ball pressed and then pushed in steps."""
     problem = sheared("Ball pressed and sheared, ν = 0", PARTS)
     values, fields = [approach(HERTZ.approach)], []
     for step, end in enumerate(problem.ends[1:], start=2):
@@ -283,7 +284,7 @@ def cattaneo_mindlin() -> Challenge:
 
 
 def loop() -> Challenge:
-    """A fretting loop as equilibria, so that nobody needs our increments."""
+    """Return a fretting loop as a list of equilibria, independent of our increments."""
     turns = (*QUARTERS, *reversed(QUARTERS[:-1]), 0.0, *(-q for q in QUARTERS))
     turns += (*(-q for q in reversed(QUARTERS[:-1])), 0.0, *QUARTERS)
     problem = sheared("Fretting loop, ν = 0", tuple(AMPLITUDE * part for part in turns))
@@ -322,7 +323,7 @@ def _pressed(
     more: tuple[AskedValue, ...] = (),
     shares: str = "",
 ) -> Challenge:
-    """One loading step under the paper's force."""
+    """Return one loading step under the paper's force."""
     exact, u = problem.ends[0], problem.uncertainty
     values = [approach(exact.approach, u), *more]
     if not more:

@@ -1,4 +1,4 @@
-"""What another code needs, as files and nothing of ours."""
+"""Files of a challenge for another code, readable without this program."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def toml_text(scene: Scene | Patch) -> str:
 
 
 def _table(content: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
-    """Its own values first; tables and arrays of tables after them."""
+    """Yield TOML lines: values first, then tables and arrays of tables."""
     deeper = {name: v for name, v in content.items() if _is_table(v) or _is_tables(v)}
     for name, value in content.items():
         if name not in deeper:
@@ -109,7 +109,7 @@ def export(challenge: Challenge, directory: Path, *, blind: bool) -> None:
 
 
 def digest(text: str) -> str:
-    """By which a change of a file is seen."""
+    """Return the digest of a file, to detect changes."""
     return hashlib.sha256(text.encode()).hexdigest()
 
 
@@ -144,7 +144,7 @@ def _empty_answers(challenge: Challenge) -> list[Sequence[Any]]:
 
 
 def _points(challenge: Challenge) -> Iterator[Sequence[Any]]:
-    """Numbered from 1 for each quantity."""
+    """Yield the points, numbered from 1 for each quantity."""
     for p in challenge.points:
         for n, place in enumerate(p.places, start=1):
             yield p.quantity, p.step, n, *(f"{x:.10g}" for x in place)
@@ -162,7 +162,7 @@ def _problem(challenge: Challenge) -> str:
 
 
 def _own_points(challenge: Challenge) -> str:
-    """What is said of tractions, where there are any."""
+    """Return the instructions for tractions; empty without fields."""
     if not challenge.fields:
         return ""
     step, heads = challenge.fields[0].step, list(FIELD_COLUMNS)
@@ -171,7 +171,7 @@ def _own_points(challenge: Challenge) -> str:
 
 
 def _ends(ramp: LoadRamp) -> Iterator[str]:
-    """What is prescribed at the end of a step, but rotations that are held."""
+    """Yield the prescribed quantities at the end of a step, without constant rotations."""
     for words, control in (
         (("W", "N", "approach", "m"), ramp.normal),
         (("T", "N", "tangential shift", "m"), ramp.tangential),

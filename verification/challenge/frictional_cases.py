@@ -74,7 +74,7 @@ PROFILE_ERROR = 3e-4  # between the reference's radii: 2.5e-4 from the finer one
 
 
 def frictional() -> Iterator[Challenge]:
-    """All of them."""
+    """Yield all of them."""
     yield torsion()
     yield torsion_loop()
     for one in (WEAK, STRONG, NU_ZERO, COATED):
@@ -85,7 +85,7 @@ def frictional() -> Iterator[Challenge]:
 
 
 def torsion() -> Challenge:
-    """Lubkin's contact at three torques."""
+    """Return Lubkin's contact at three torques."""
     values, fields = [], []
     for step, end in enumerate(TWISTED.ends[1:], start=2):
         values += [
@@ -109,12 +109,12 @@ def torsion() -> Challenge:
 
 
 def around(end: TorsionalPartialSlip) -> RoundTable:
-    """Shear around the axis."""
+    """Return the shear around the axis."""
     return tabulated(end.shear, end.stick_radius, end.contact_radius)
 
 
 def torsion_loop() -> Challenge:
-    """To and fro."""
+    """Return the torsion loop."""
     values = [
         _twist(step, end.twist, LARGEST.twist, OVER_TWIST)
         for step, end in enumerate(TO_AND_FRO.ends[1:], start=2)
@@ -132,7 +132,7 @@ def torsion_loop() -> Challenge:
 
 
 def pressed_with_friction(one: Indentation) -> Challenge:
-    """By a row of a reference, tractions away from the edges."""
+    """Return normal loading with friction from a reference row, with tractions away from edges."""
     problem, a = one.problem(one.increments), one.contact_radius
     scene = problem.scene.model_copy(update={"loading": (pressing(),)})
     r = ROUND_RADII[AMONG * a > ROUND_RADII]
@@ -160,8 +160,9 @@ def pressed_with_friction(one: Indentation) -> Challenge:
 
 
 def between(one: Indentation, profile: str, r: NDArray[np.float64]) -> NDArray[np.float64]:
-    """A profile between its radii: cubic inside and outside the stick zone, over the root that it
-    has at the edge of contact."""
+    """Interpolate a profile between its radii by cubics inside and outside the stick zone.
+
+    The profile is divided by its square root at the edge of contact first."""
     part, values = np.array(one.row["r_over_a"]), np.array(one.row[profile])
     smooth, at = values / np.sqrt(1 - part**2), r / one.contact_radius
     inside = part < one.stick_part * (1 + 1e-3)
@@ -173,7 +174,7 @@ def between(one: Indentation, profile: str, r: NDArray[np.float64]) -> NDArray[n
 
 
 def stuck_punch(nu: float) -> Challenge:
-    """Mossakovskii's factor of stiffness."""
+    """Return Mossakovskii's factor of stiffness."""
     punch = FlatPunch(radius=PUNCH_RADIUS, material=RIGID)
     scene = pressed("Flat punch that does not slip", punch, half_space(nu), pressing(1),
                     friction=FRICTION)  # fmt: skip
@@ -187,7 +188,7 @@ def stuck_punch(nu: float) -> Challenge:
 
 
 def stuck_ball(nu: float) -> Challenge:
-    """Spence's ball without slip."""
+    """Return Spence's ball without slip."""
     scene = pressed("Rigid ball that does not slip", rigid_ball(), half_space(nu), pressing(),
                     friction=FRICTION)  # fmt: skip
     over_a_squared, over_load = BALL[nu]
@@ -228,13 +229,13 @@ MOVED = {
 
 
 def at_places() -> Iterator[Challenge]:
-    """All of them."""
+    """Yield all of them."""
     yield sliding_stress()
     yield from layered_patches()
 
 
 def sliding_stress() -> Challenge:
-    """Hertz's pressure and µ times it along x, by sliding."""
+    """Return Hertz's pressure and µ times it along x, by sliding."""
     scene = Scene(
         title="Ball that slides on a half-space",
         indenter=paper.paraboloid(STEEL),
@@ -260,7 +261,7 @@ def sliding_stress() -> Challenge:
 
 
 def layered_patches() -> Iterator[Challenge]:
-    """By the rows of the reference, which are dimensionless: one layer of thickness one."""
+    """Yield patches on one layer of unit thickness, from the dimensionless reference rows."""
     rows = load_reference("influence_coefficients")["rows"]
     for ratio in dict.fromkeys(row["G1"] / row["G2"] for row in rows):
         own = [row for row in rows if row["G1"] / row["G2"] == ratio]

@@ -31,8 +31,11 @@ SCATTER = 3.0
 def sums_of(
     asked: AskedField, field: Field
 ) -> Iterator[tuple[str, str, float, float, float, float]]:
-    """What sums over the points must give: name, sum in words, what it is, should be, is over, and
-    how far it may be off where points do no better."""
+    """Yield the sums that points of a field must satisfy.
+
+    Each has a name, a description, value, required value, scale, and the unavoidable scatter of the
+    points.
+    """
     forces, exact = field.value * field.area, asked.traction
     yield "load carried", "Σ value·area", float(np.sum(forces)), asked.total, asked.scale, 0.0
     spread = float(np.sum(forces * (field.x**2 + field.y**2)))
@@ -74,11 +77,11 @@ WHOLE = "–"  # in place of a loading step
 
 @dataclass(frozen=True)
 class Row:
-    """A verdict.
+    """Verdict on one number or field.
 
-    value, reference, error  in the unit asked; the error over its scale. None where there is none
-    bound    of the error; None where something else is judged
-    grade    the best whose bound the error meets; None: none
+    value, reference, error  in the required unit; the error over its scale; None without a number
+    bound    of the error; None if something else is judged
+    grade    best class whose bound the error meets; None for none
     """
 
     quantity: str
@@ -98,10 +101,10 @@ class Row:
 def rows_of(
     challenge: Challenge, solver: Solver, answers: Sequence[Answer], asked: Grade | None
 ) -> Iterator[Row]:
-    """On the finest level, with what all of them say of convergence.
+    """Yield the verdicts on the finest level and on the convergence of all levels.
 
-    answers  any order of levels
-    asked    the grade that all must meet; None: what is claimed, else the par of each
+    answers  levels in any order
+    asked    class that all must meet; None for the claimed class, else the default of each
     """
     levels = sorted(answers, key=lambda one: -one.h)
     demanded = asked or (Grade(solver.claimed_grade) if solver.claimed_grade else None)
@@ -117,8 +120,10 @@ def rows_of(
 
 
 def omitted(challenge: Challenge, answers: Sequence[Answer]) -> list[tuple[str, int, bool]]:
-    """What is asked and not answered on the finest level: quantity, step, whether it is required.
-    Steps that a solver gave up are told as such."""
+    """List the missing numbers of the finest level: quantity, step, True if required.
+
+    Steps that the solver gave up are not listed.
+    """
     finest = min(answers, key=lambda one: one.h)
     if 0 in finest.gave_up:
         return []
@@ -163,10 +168,12 @@ def _of_claims(
     claims: Sequence[tuple[float | None, float]],
     grade: Grade,
 ) -> Iterator[Row]:
-    """Whether the finest level's own uncertainty covers its error, and says something. It is idle
-    where it does not vouch for the class asked, and on every level is far above the error.
+    """Judge the claimed uncertainty of the finest level: it must cover the error.
 
-    claims  standard uncertainty in the unit asked, and error over the scale, of every level
+    The verdict is inconclusive if the uncertainty exceeds the class and, on every level, by far the
+    error.
+
+    claims  standard uncertainty in the required unit and error over the scale, for each level
     """
     claimed, error = claims[-1]
     if claimed is None:
@@ -185,7 +192,7 @@ def _of_claims(
 
 
 def order_text(order: tuple[float, float]) -> str:
-    """In words where its interval holds two neighbouring whole orders, or more."""
+    """Return the order with its interval; "not known" if the interval is too wide."""
     value, half = order
     # Zero has no sign.
     return f"{round(value, 2) + 0.0:.2f} ± {half:.2f}" if half < ILLEGIBLE else "not known"
@@ -220,8 +227,10 @@ def _of_field(
 
 
 def _of_areas(asked: AskedField, field: Field, level: str, bound: float) -> Iterator[Row]:
-    """Whether points stand for those around them, and for all of the contact: else they carry the
-    load but not where it is, or have only the places that are easy."""
+    """Judge the areas of the points: their sums must give the load, its spread and the contact.
+
+    Otherwise points may omit the places with the largest errors.
+    """
     for name, sums, has, should, scale, least in sums_of(asked, field):
         missed, allowed = abs(has - should) / scale, max(bound, least)
         if missed <= allowed:
@@ -273,7 +282,7 @@ def _judged(
     uncertainty: float,
     hint: str,
 ) -> Row:
-    """The error of the finest level against a bound, with twice the reference's uncertainty."""
+    """Judge the error of the finest level by a bound, with twice the reference's uncertainty."""
     error, wide = errors[-1][1], 2 * uncertainty
     if error + wide <= grade.bound:
         status, because = Status.PASS, f"within class {grade}"
@@ -292,7 +301,7 @@ def _judged(
 def _convergence(
     key: Key, solver: Solver, errors: Sequence[tuple[float, float]], uncertainty: float
 ) -> Iterator[Row]:
-    """Whether refinement stalls, and the order where one is claimed."""
+    """Judge the convergence: errors must not stall, and a claimed order must be right."""
     quantity, step = key
     fit = _order(errors, 2 * uncertainty)
     if fit is None:
@@ -314,7 +323,7 @@ def _convergence(
 
 
 def _order(errors: Sequence[tuple[float, float]], wide: float) -> tuple[float, float] | None:
-    """Of the errors that the reference can tell from zero; None of too few levels."""
+    """Fit the order to errors above the uncertainty of the reference; None for too few levels."""
     told = [(h, e) for h, e in errors if e > 1.5 * wide and e > 0 and math.isfinite(e)]
     if len({h for h, _ in told}) < FEWEST_LEVELS:
         return None
@@ -323,13 +332,13 @@ def _order(errors: Sequence[tuple[float, float]], wide: float) -> tuple[float, f
 
 
 def _known(asked: AskedValue, errors: Sequence[tuple[float, float]]) -> bool:
-    """Whether every level has an answer that no discretisation finds by itself."""
+    """Return True if every level has an answer that no discretisation finds by itself."""
     exact = max(KNOWN, 3 * asked.uncertainty)
     return asked.limit is not None and len(errors) > 1 and all(e < exact for _, e in errors)
 
 
 def _hint(value: float, asked: AskedValue) -> str:
-    """What a slip would explain: a sign, a half, a unit."""
+    """Return a hint at a wrong sign, factor 2 or unit that would explain the error."""
     slips = {"with the other sign": -1.0, "halved": 0.5, "doubled": 2.0}
     slips |= {f"times 1e{n}": 10.0**n for n in (-9, -6, -3, 3, 6, 9)}
     for words, factor in slips.items():
@@ -344,9 +353,9 @@ COLOURS = {"A": "brightgreen", "B": "green", "C": "yellowgreen"}
 
 @dataclass(frozen=True)
 class Judgement:
-    """What came out.
+    """Result of judging one solver on one challenge.
 
-    omitted  asked and not answered: quantity, step, whether it is required
+    omitted  missing numbers: quantity, step, True if required
     """
 
     challenge: Challenge
@@ -356,7 +365,7 @@ class Judgement:
     omitted: tuple[tuple[str, int, bool], ...]
 
     def count(self, status: Status) -> int:
-        """Of the verdicts."""
+        """Return the number of verdicts with this status."""
         return sum(row.status is status for row in self.rows)
 
     @property
@@ -398,7 +407,7 @@ class Judgement:
         return INCONCLUSIVE if strict and self.count(Status.INCONCLUSIVE) else PASSED
 
     def badge(self) -> str:
-        """For an endpoint of shields."""
+        """Return the JSON of a badge (endpoint format of shields)."""
         passed, all_rows = self.count(Status.PASS), len(self.rows)
         colour = "red" if self.count(Status.FAIL) else COLOURS.get(self.grade, "lightgrey")
         content: dict[str, Any] = {
@@ -411,7 +420,7 @@ class Judgement:
 def judged(
     challenge: Challenge, solver: Solver, answers: Sequence[Answer], grade: Grade | None = None
 ) -> Judgement:
-    """The verdicts.
+    """Return the verdicts.
 
     grade  that all must meet; None: what the solver claims, else the par of each quantity
     """

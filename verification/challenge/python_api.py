@@ -58,7 +58,7 @@ class Posed:
 
 
 def posed(name: str) -> Posed:
-    """What a solver is told; KeyError names the challenges there are."""
+    """Return a challenge without its reference; KeyError lists the challenges."""
     if name not in challenges():
         raise KeyError(f"no challenge {name!r}; there are {', '.join(challenges())}")
     challenge = challenges()[name]
@@ -81,20 +81,24 @@ def judge(
     at_least: str | None = None,
     solver: Solver | None = None,
 ) -> Judgement:
-    """How good a solver is on a challenge.
+    """Judge a solver on a challenge.
 
     Parameters
     ----------
     solve
-        Problem and level 0, 1, 2, … (you choose what finer means) -> `Answer`; raises `CannotDo`
-        where it has no such problem.
+        Function of the problem and the level 0, 1, 2, … that returns an `Answer`. You choose the
+        discretisation of a level. It raises `CannotDo` for a problem outside its scope.
     at_least
-        Class "A", "B" or "C" that every error must meet; None: the par of each.
+        Class "A", "B" or "C" that every error must meet. Default: the class of each quantity.
     solver
-        Who it is; None: the function's name.
+        Description of the solver. Default: the name of the function.
 
-    Raises what `solve` raises, Refused for what is no answer to this challenge, and KeyError for an
-    unknown challenge.
+    Raises
+    ------
+    Refused
+        For an answer that does not fit the challenge.
+    KeyError
+        For an unknown challenge; exceptions of `solve` are passed on.
     """
     problem, answers = posed(name), []
     for level in range(levels):
@@ -118,8 +122,10 @@ def judge(
 
 
 def _checked(answer: object, challenge: Challenge, level: int) -> Answer:
-    """What a function returned, in numbers. More than is asked is let pass, but by names that some
-    challenge asks for: others are slips."""
+    """Check the answer of a function; raise Refused.
+
+    Further quantities are accepted if another challenge requires them; other names are refused.
+    """
     if not isinstance(answer, Answer):
         raise Refused(f"level {level}: {type(answer).__name__} came back, expected an Answer")
     if not 0 < answer.h < math.inf:
@@ -159,7 +165,7 @@ def _asked(challenge: Challenge) -> list[Key]:
 
 @cache
 def _names() -> frozenset[str]:
-    """Quantities that challenges ask for."""
+    """Return the names of the quantities of all challenges."""
     return frozenset(name for one in challenges().values() for name, _ in _asked(one))
 
 
@@ -167,13 +173,14 @@ EXPECTED = "expected FILE.py:FUNCTION or MODULE:FUNCTION"
 
 
 def names_a_solver(text: str) -> bool:
-    """Rather than a folder."""
+    """Return True if the text names a function of a file, not a folder."""
     return ":" in text and not Path(text).exists()
 
 
 def named_solver(text: str) -> Callable[[Posed, int], Answer]:
-    """The function; runs the file that it is in. Raises Refused where there is none, and what the
-    file raises."""
+    """Run a file and return its function.
+
+    Raises Refused if there is no such function, and what the file raises."""
     place, _, name = text.rpartition(":")
     module = module_of(Path(place)) if place.endswith(".py") else _imported(place, text)
     found: object = getattr(module, name, None)
@@ -183,8 +190,10 @@ def named_solver(text: str) -> Callable[[Posed, int], Answer]:
 
 
 def module_of(path: Path) -> ModuleType:
-    """A file run as Python runs a script: what lies beside it can be imported. Raises Refused where
-    it cannot be read or imports what is not there."""
+    """Run a file like a script and return its module; it can import modules of its folder.
+
+    Raises Refused if the file cannot be read or imports a missing module.
+    """
     if not path.is_file():
         raise Refused(f"{path}: no such file; {EXPECTED}")
     spec = importlib.util.spec_from_file_location(path.stem, path)

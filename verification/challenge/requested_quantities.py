@@ -1,4 +1,4 @@
-"""What a challenge asks for, what is right, and how near is near enough."""
+"""Required quantities of a challenge, their references and classes of error."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Half:
     series: tuple[float, ...] = (1.0,)
 
     def __call__(self, x: Field, y: Field) -> Field:
-        """At positions [length]."""
+        """Return the traction at positions [length]."""
         b_x, b_y = self.semi_axes
         s = np.minimum((x / b_x) ** 2 + (y / b_y) ** 2, 1.0)
         shape = np.sqrt(1 - s) * chebyshev.chebval(2 * s - 1, self.series)
@@ -59,7 +59,7 @@ class Half:
         return 0.5 * (self.semi_axes[0] ** 2 + self.semi_axes[1] ** 2) * self._integral(1)
 
     def _integral(self, power: int) -> float:
-        """π b_x b_y ∫ s^(2 power) √(1 - s²) Σ c_k T_k ds²."""
+        """Return π b_x b_y ∫ s^(2 power) √(1 - s²) Σ c_k T_k ds²."""
         nodes, weights = np.polynomial.legendre.leggauss(NODES)
         root = 0.5 * (nodes + 1)  # √(1 - s²): smooth in it
         shape = 2 * root**2 * chebyshev.chebval(1 - 2 * root**2, self.series)
@@ -75,7 +75,7 @@ class HalfEllipsoids:
     terms: tuple[Half, ...]
 
     def at(self, x: Field, y: Field) -> Field:
-        """At positions [length]."""
+        """Return the traction at positions [length]."""
         return np.asarray(sum(term(x, y) for term in self.terms))
 
     @property
@@ -90,7 +90,7 @@ class HalfEllipsoids:
 
     @property
     def semi_axes(self) -> tuple[float, float]:
-        """Of the largest term, in which the others lie [length]."""
+        """Semi-axes of the largest term, which contains the others [length]."""
         return max(term.semi_axes for term in self.terms)
 
     def document(self) -> dict[str, Any]:
@@ -103,12 +103,12 @@ class HalfEllipsoids:
 
 
 def round_halves(*terms: tuple[float, float]) -> HalfEllipsoids:
-    """From radii and coefficients."""
+    """Return half-ellipsoids from radii and coefficients."""
     return HalfEllipsoids(tuple(Half((b, b), coefficient) for b, coefficient in terms))
 
 
 def fitted(pressure: Callable[[Field], Field], radius: float, terms: int) -> HalfEllipsoids:
-    """A round pressure with a square-root edge as one term with a series, by interpolation.
+    """Return a round pressure with a square-root edge as one term with a series, by interpolation.
 
     pressure  at distances from the axis [force/length²]
     """
@@ -135,7 +135,7 @@ class RoundTable:
     values: Field
 
     def at(self, x: Field, y: Field) -> Field:
-        """At positions [length]."""
+        """Return the traction at positions [length]."""
         return np.interp(np.hypot(x, y), self.radii, self.values, right=0.0)
 
     @property
@@ -154,7 +154,7 @@ class RoundTable:
         return self._integral(2)
 
     def _integral(self, power: int) -> float:
-        """2π ∫ q r^power dr by three points of Gauss, exact for a line times r³."""
+        """Return 2π ∫ q r^power dr by three points of Gauss, exact for a line times r³."""
         nodes, weights = np.polynomial.legendre.leggauss(3)
         width, middle = np.diff(self.radii), 0.5 * (self.radii[1:] + self.radii[:-1])
         r = middle[:, None] + 0.5 * width[:, None] * nodes
@@ -172,9 +172,9 @@ class RoundTable:
 
 
 def tabulated(traction: Callable[[Field], Field], *kinks: float) -> RoundTable:
-    """From a function of the radius, close where it is steep.
+    """Tabulate a function of the radius, with dense points where it is steep.
 
-    kinks  radii where it or its slope jumps, the last is the edge [length]
+    kinks  radii of jumps of the function or its slope; the last is the edge [length]
     """
     crowded = 0.5 * (1 - np.cos(np.pi * np.arange(INTERVALS + 1) / INTERVALS))  # at both ends
     parts, start = [np.zeros(1)], 0.0
@@ -283,7 +283,7 @@ class Patch:
     traction: float
 
     def document(self, *, exclude_defaults: bool = False) -> dict[str, Any]:
-        """As tables of a file."""
+        """Return the tables of the scene file."""
         body = self.body.model_dump(mode="json", exclude_defaults=exclude_defaults)
         return {"body": body, "patch": {"side": self.side, "traction": self.traction}}
 
@@ -311,12 +311,12 @@ class Challenge:
 
     @property
     def version(self) -> str:
-        """Digest of what is asked and of what is right, to digits that all machines agree on."""
+        """Digest of required quantities and references, rounded for all machines."""
         text = json.dumps([self.document, self.reference()], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:16]
 
     def reference(self) -> dict[str, Any]:
-        """What is right, as it is written for others."""
+        """Return the references as written to `reference.json`."""
         answers = {
             "case": self.name,
             "source": self.source,
@@ -369,13 +369,13 @@ class Challenge:
         return [(_force(r.normal, nan), _force(r.tangential, (nan, nan))) for r in self.ramps]
 
     def one(self, quantity: str, step: int) -> AskedValue | AskedPoints | None:
-        """The number or numbers that are asked under this name; None where none are."""
+        """Return the required number or numbers of this name and step; None if there are none."""
         found = (v for v in self.numbers if (v.quantity, v.step) == (quantity, step))
         return next(found, None)
 
     @property
     def numbers(self) -> tuple[AskedValue | AskedPoints, ...]:
-        """All that is asked but fields."""
+        """Required numbers and numbers at points, without fields."""
         return (*self.values, *self.points)
 
 
@@ -384,7 +384,7 @@ def _force(control: Control[Value], unknown: Value) -> Value:
 
 
 def _digits(value: Any) -> Any:
-    """To DIGITS digits, through lists and records."""
+    """Round the numbers of nested lists and records to DIGITS digits."""
     if isinstance(value, float):
         return float(f"{value:.{DIGITS}g}")
     if isinstance(value, list):
@@ -401,21 +401,21 @@ CLOSED = 1e-12  # of closed and semi-closed forms, relative
 
 
 def approach(value: float, uncertainty: float = CLOSED, step: int = 1) -> AskedValue:
-    """Relative to itself."""
+    """Return the approach as a required number, relative to itself."""
     meaning = "approach of points far from the contact in both bodies; positive when pressed"
     return AskedValue("approach", step, "m", meaning, value, value, "itself",
                       uncertainty=uncertainty, limit=2)  # fmt: skip
 
 
 def contact_radius(value: float, uncertainty: float = CLOSED) -> AskedValue:
-    """Relative to itself."""
+    """Return the contact radius as a required number, relative to itself."""
     meaning = "radius of the contact, or √(contact area / π)"
     return AskedValue("contact_radius", 1, "m", meaning, value, value, "itself",
                       uncertainty=uncertainty, limit=1)  # fmt: skip
 
 
 def stick_radius(value: float, step: int, uncertainty: float = CLOSED) -> AskedValue:
-    """Relative to Hertz's contact radius."""
+    """Return the stick radius as a required number, relative to the Hertz contact radius."""
     return AskedValue(
         "stick_radius", step, "m", "radius of the zone that has not slipped since the last turn",
         value, HERTZ.contact_radius, "the contact radius", Grade.C, required=False,

@@ -1,1 +1,1 @@
-"""Orders of convergence and what refinement says of the error that is left."""
+"""Orders of convergence, and the remaining error estimated from refinement."""

@@ -1,8 +1,8 @@
-"""What refinement says: the uncertainty of a value, the observed order, and the limit.
+"""Results of a refinement: uncertainty of a value, observed order and limit.
 
-A size h is a cell side, or the part of a loading step that one increment takes. Either a reference
-is known and the errors at several h are (`observed_order`), or it is not and order and limit come
-from the values themselves (`refined_value`).
+A size h is a cell side, or the part of a load step in one increment. With a reference, errors at
+several h determine the order (`observed_order`). Without one, order and limit follow from the
+values (`refined_value`).
 """
 
 from __future__ import annotations
@@ -47,26 +47,26 @@ class ObservedOrder:
 
     @property
     def is_legible(self) -> bool:
-        """Whether the interval is narrow enough for a number to say anything."""
+        """Return True if the interval is narrow enough for a meaningful order."""
         return self.half_width < ILLEGIBLE
 
     def may_be_off_by(self, promised: float, allowance: float = 0.0) -> float:
-        """How far this order may be from the promised one, on the side where it is.
+        """Return the allowed difference from the promised order, on the side of this order.
 
-        allowance  for levels that are known not to be asymptotic yet
+        allowance  for levels that are not asymptotic
         """
         off = max(allowance, ORDER_OFF)
         return off if self.order < promised else off + self.margin
 
     def keeps(self, promised: float, allowance: float = 0.0) -> bool | None:
-        """Whether errors fall as fast as promised, and not by another law; see `order_is_kept`."""
+        """Return True if the errors have the promised order; see `order_is_kept`."""
         allowed = self.may_be_off_by(promised, allowance)
         return order_is_kept(self.order - promised, allowed, self.half_width, self.margin)
 
 
 @dataclass(frozen=True)
 class RefinedValue:
-    """What several levels say about a value whose limit nobody has vouched for.
+    """Order, limit and uncertainty of a value without a reference, from several levels.
 
     observed     order p of f(h) = f0 + C h^p by least squares; None where no p explains the values
     triplets     p through two different triplets of levels, the finer first; levels of a triplet
@@ -83,13 +83,13 @@ class RefinedValue:
 
 
 def order_is_kept(above: float, allowed: float, half_width: float, margin: float) -> bool | None:
-    """Whether an order is the promised one; None where its levels cannot tell.
+    """Return True if an order is the promised one; None if its interval is too wide.
 
-    above    observed less promised
-    allowed  how far it may be off on that side (`ObservedOrder.may_be_off_by`)
+    above    observed minus promised order
+    allowed  largest difference on that side (`ObservedOrder.may_be_off_by`)
 
-    From below noise never helps: the lower bound at 95 % has to be what is allowed, and an order
-    whose upper bound is below that is another one. One is too high where its lower bound is.
+    An order below the promised one passes if its lower 95 % bound is within the allowance, and
+    fails if its upper bound is not. An order above fails if its lower bound exceeds the allowance.
     """
     if half_width > ORDER_WIDTH:
         return None
@@ -100,7 +100,7 @@ def order_is_kept(above: float, allowed: float, half_width: float, margin: float
 
 
 def triplets_agree(orders: Triplets) -> bool:
-    """Whether both orders exist and are the same."""
+    """Return True if both orders exist and agree."""
     last, before = orders
     return last is not None and before is not None and abs(last - before) <= TRIPLETS_AGREE
 
@@ -156,18 +156,17 @@ def _stride(h: Vector, reach: int) -> int:
 
 
 def numerical_uncertainty(sizes: Sequence[float], values: Sequence[float], order: float) -> float:
-    """Standard uncertainty of the value on the finest level, from f(h) = f0 + C h^p.
+    """Compute the standard uncertainty of the value on the finest level, from f(h) = f0 + C h^p.
 
     sizes    h, at least three levels
     values   f(h) there
     order    the expected p; fixed, because a fitted p lets three values explain anything
-    returns  √((C h^p)² + max(s, d)²) at the finest h, with s the scatter there and d the most that
-             f0 moves by when it is taken from the finer or the coarser half of the levels alone:
-             same unit as values
+    returns  √((C h^p)² + max(s, d)²) at the finest h, with s the scatter and d the largest change
+             of f0 if only the finer or the coarser half of the levels is used; unit of the values
 
-    Both s and d come of what one power does not explain, so the larger counts and not their sum.
-    Where the coarser levels are not of the order yet, C is a compromise and may nearly vanish; then
-    d tells that the two ranges contradict each other (Eça and Hoekstra 2014 take differences
+    Both s and d measure deviations from one power, so the larger counts and not their sum. If the
+    coarser levels do not have the order yet, C may nearly vanish; then d is large, because the two
+    ranges contradict each other (Eça and Hoekstra 2014 take differences
     between fits for the same purpose).
     """
     if len(sizes) < 3:
@@ -194,8 +193,10 @@ class _Line:
 
 
 def _line(h: Vector, f: Vector, order: float, weight_order: float) -> _Line:
-    """Linear least squares. The scatter is taken to fall like the error, so levels are weighted
-    by 1/h^p: otherwise the coarsest level would decide about the finest."""
+    """Fit a line by least squares with weights 1/h^p.
+
+    The scatter is assumed to fall like the error. Without weights the coarsest level would
+    determine the value on the finest."""
     weight = h**-weight_order
     matrix = np.column_stack([weight, weight * h**order])
     (limit, coefficient), *_ = np.linalg.lstsq(matrix, weight * f, rcond=None)
@@ -204,8 +205,10 @@ def _line(h: Vector, f: Vector, order: float, weight_order: float) -> _Line:
 
 
 def richardson(h: Vector, f: Vector, order: float) -> tuple[float, float]:
-    """Richardson's value and its standard uncertainty: of the fit, and how far the value of the
-    two finest levels is from it.
+    """Extrapolate to h = 0 (Richardson); return the value and its standard uncertainty.
+
+    The uncertainty combines that of the fit and the difference from the value of the two finest
+    levels.
 
     h, f  at least three levels, finest first
     """
@@ -248,7 +251,7 @@ def _fitted_order(h: Vector, f: Vector, expected: float) -> ObservedOrder | None
 
 
 def _triplet_order(h: Vector, f: Vector) -> float | None:
-    """p of three values, finest first; None where they do not come closer in one direction."""
+    """Return the order p of three values, finest first; None if their differences change sign."""
     fine, coarse = f[1] - f[0], f[2] - f[1]
     if fine == 0 or coarse / fine <= 0:
         return None
@@ -284,11 +287,11 @@ class ErrorLine:
     reach: float
 
     def at(self, sizes: Vector) -> Vector:
-        """The line at sizes h."""
+        """Return the line at sizes h."""
         return np.asarray(np.exp(self.log_error + self.observed.order * self._beside(sizes)))
 
     def band(self, sizes: Vector) -> tuple[Vector, Vector]:
-        """Lower and upper end of the 95 % band of the line at sizes h."""
+        """Return lower and upper end of the 95 % band of the line at sizes h."""
         by = np.exp(np.hypot(self.reach, self.observed.half_width * self._beside(sizes)))
         line = self.at(sizes)
         return line / by, line * by
@@ -298,7 +301,7 @@ class ErrorLine:
 
 
 def error_line(sizes: Sequence[float], errors: Sequence[float]) -> ErrorLine:
-    """The line through errors > 0 at sizes h, at least three."""
+    """Return the line through errors > 0 at sizes h, at least three."""
     observed = observed_order(sizes, errors)
     x, y = np.log(np.asarray(sizes)), np.log(np.asarray(errors))
     left = y - y.mean() - observed.order * (x - x.mean())

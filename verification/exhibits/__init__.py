@@ -1,1 +1,1 @@
-"""What a reader is shown: charts, tables and numbers, as plain records."""
+"""Charts, tables and numbers of reports, as plain records."""

@@ -14,7 +14,7 @@ DIGITS = 6  # of a plotted number: far finer than a pixel, and equal on every ma
 
 
 class Look(StrEnum):
-    """What a curve stands for; the drawing decides what that looks like."""
+    """Meaning of a curve; the drawing chooses the line style."""
 
     COMPUTED = "computed"
     POINTS = "points"
@@ -75,7 +75,7 @@ def curve(
     look: Look = Look.COMPUTED,
     series: int = 0,
 ) -> Curve:
-    """A curve of rounded numbers."""
+    """Return a curve of rounded numbers."""
     return Curve(label=label, x=_rounded(x), y=_rounded(y), look=look, series=series)
 
 
@@ -84,7 +84,7 @@ def _rounded(values: Iterable[float]) -> tuple[float, ...]:
 
 
 def stacked(name: str, title: str, caption: str, *rows: Panel | tuple[Panel, ...]) -> Chart:
-    """Panels above each other; what shares a row stands side by side."""
+    """Stack panels; panels of one tuple stand side by side."""
     beside = tuple(row if isinstance(row, tuple) else (row,) for row in rows)
     return Chart(name=name, title=title, caption=caption, rows=beside)
 
@@ -106,9 +106,9 @@ def log_chart(
     height: float = HEIGHT,
     y_places: tuple[str, ...] = (),
 ) -> Chart:
-    """One panel of curves.
+    """Return one panel of curves.
 
-    y_places  names of the places 0, 1, … along y, where these are no numbers
+    y_places  names of the places 0, 1, … along y, for a y axis without numbers
     """
     panel = Panel(
         x_label=x_label, y_label=y_label, curves=tuple(curves), logarithmic=True, height=height,
@@ -132,7 +132,7 @@ def point_curves(lines: Iterable[tuple[str, Points]], look: Look = Look.POINTS) 
 
 
 def slope_line(points: Points, order: float) -> list[Curve]:
-    """The line of a slope below these points, from the first on; none without points."""
+    """Return a line of this slope below the points; empty without points."""
     if not points:
         return []
     (start, there), along = points[0], [x for x, _ in points]
@@ -158,7 +158,7 @@ NOT_FINITE = "not finite"
 
 
 def value_text(value: float | None, unit: str, digits: int = 6) -> str:
-    """A value with its unit."""
+    """Return a value with its unit."""
     if value is None:
         return NOT_FINITE
     if value == 0:
@@ -170,7 +170,7 @@ def value_text(value: float | None, unit: str, digits: int = 6) -> str:
 
 
 def plain(value: float | None, digits: int = 3) -> str:
-    """A number without unit: 0.0123, 1.2e-5."""
+    """Return a number without unit: 0.0123, 1.2e-5."""
     if value is None:
         return NOT_FINITE
     mantissa, e, exponent = f"{value:.{digits}g}".partition("e")
@@ -178,7 +178,7 @@ def plain(value: float | None, digits: int = 3) -> str:
 
 
 def percent(part: float) -> str:
-    """A part of something, in hundredths."""
+    """Return a fraction in per cent."""
     return f"{plain(100 * part, 2)} %"
 
 
@@ -214,7 +214,7 @@ def table_of(
     note: str = "",
     units: Mapping[str, str] = NONE,
 ) -> Table:
-    """A line for every item; columns by their heads, the first one names the line."""
+    """Build a table with one line per item; the first column names the line."""
     return Table(
         title=title,
         columns=tuple(columns),

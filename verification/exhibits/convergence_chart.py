@@ -52,7 +52,7 @@ def _series(
     label: str, sizes: list[float], errors: list[float], count: int, expected: float | None,
     series: int,
 ) -> list[Curve]:  # fmt: skip
-    """Points, line with its band through so many of the finest, and expected slope of one error."""
+    """Draw one error: points, line with its band through the finest levels, expected slope."""
     ends = np.array([max(sizes), min(sizes)])
     fitted = slice(len(sizes) - count, None)
     if count < LEAST_JUDGED or min(errors[fitted]) <= 0:
@@ -81,7 +81,7 @@ def _text(observed: ObservedOrder) -> str:
 
 
 def _band(line: ErrorLine, ends: NDArray[np.float64], series: int) -> Curve:
-    """The outline of the line's 95 % band."""
+    """Return the outline of the line's 95 % band."""
     along = np.geomspace(ends[0], ends[1], ALONG)
     low, high = line.band(along)
     return curve("", [*along, *along[::-1]], [*low, *high[::-1]], Look.BAND, series)

@@ -47,7 +47,7 @@ class Section:
         return np.asarray(np.hypot(self.x, self.y))
 
     def of(self, field: Field) -> Field:
-        """Values of a field (nx, ny) on the row."""
+        """Return the values of a field (nx, ny) on the row."""
         return np.asarray(field[self._shown, self._row])
 
 
@@ -62,7 +62,7 @@ class Profile:
 
 @dataclass(frozen=True)
 class ProfileLabels:
-    """What a profile chart is called and what its axes mean."""
+    """Title and axis labels of a profile chart."""
 
     name: str
     title: str
@@ -72,7 +72,7 @@ class ProfileLabels:
 
     @property
     def difference_label(self) -> str:
-        """Of the strip below: the same quantity over the same scale."""
+        """Label of the difference strip: the same quantity over the same scale."""
         return f"Δ{self.y_label}"
 
 

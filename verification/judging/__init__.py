@@ -1,1 +1,1 @@
-"""From a case to its verdicts."""
+"""Verdicts of verification cases."""

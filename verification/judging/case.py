@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class Level(IntEnum):
-    """How much is computed: quick at every push, standard before a merge, full at night."""
+    """Amount of computation: quick at every push, standard before a merge, full at night."""
 
     QUICK = 0
     STANDARD = 1
@@ -25,7 +25,7 @@ class Level(IntEnum):
 
 @dataclass(frozen=True)
 class Required:
-    """A tolerance that was asked for, or is set by hand; relative to the quantity's scale."""
+    """Tolerance that is required or set by hand, relative to the quantity's scale."""
 
     allowed: float
     because: str
@@ -89,7 +89,7 @@ class Check:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Two runs that must give the same, because they are the same problem said differently.
+    """Two runs that must agree, because they state one problem in two forms.
 
     runs        labels; the difference is relative to the second
     difference  0 if they agree, dimensionless; or the error of what follows from both

@@ -1,4 +1,4 @@
-"""A case as it is declared: problems on ladders, and what is judged of them, row by row."""
+"""Declaration of a case: problems on refinement levels, and rows of judged quantities."""
 
 from __future__ import annotations
 
@@ -98,8 +98,10 @@ class Observable:
         return self.name if self.part is None else f"{self.name}_at_{self.part:g}"
 
     def over_stops(self, stops: str) -> Observable:
-        """The root mean square of its errors over all steps but the first: single ones change their
-        sign from grid to grid, as edges of contact and stick zone fall anywhere.
+        """Return the root mean square of the errors over all steps but the first.
+
+        Errors of single steps change sign from grid to grid, because the edges of contact and
+        stick zone lie anywhere within cells.
 
         stops  in words
         """
@@ -113,15 +115,15 @@ class Observable:
         return replace(changed, scalar=None)
 
     def said(self, words: Mapping[str, str]) -> str:
-        """The meaning in the words of a discretisation."""
+        """Return the meaning in the words of a discretisation."""
         return self.meaning.format_map({"when": "", **words})
 
     def read(self, problem: Problem) -> Callable[[Any], float]:
-        """What measures it on a result."""
+        """Return the function that measures the observable on a result."""
         return lambda result: self.measure(result, self.step, problem)
 
     def reference(self, problem: Problem) -> Reference:
-        """What should be measured."""
+        """Return the reference of the observable."""
         scale = problem.scale(self.over) if self.over else None
         if self.value is None:
             known = problem.no_error(1.0 if scale is None else scale)
@@ -130,18 +132,18 @@ class Observable:
         return replace(known, source=self.source or known.source)
 
     def scale(self, problem: Problem) -> float | None:
-        """What errors are divided by; None: the reference."""
+        """Return the scale of errors; None for the reference."""
         if self.over:
             return problem.scale(self.over)
         return 1.0 if self.value is None else None
 
     @property
     def scale_name(self) -> str:
-        """What errors are divided by, in words."""
+        """Name of the scale of errors."""
         return self.over or self.over_is or "the reference"
 
     def error(self, problem: Problem) -> Callable[[Any], float]:
-        """The relative error of a result, of either sign."""
+        """Return the relative error of a result, of either sign."""
         read, value, scale = self.read(problem), self.reference(problem).value, self.scale(problem)
         if scale is None:
             return lambda result: read(result) / value - 1
@@ -158,7 +160,7 @@ def number(
     of: Followed | None = None,
     source: str = "",
 ) -> Observable:
-    """A registered quantity of a step's end; NaN where the step has none.
+    """Return a registered quantity of a step's end; NaN where the step has none.
 
     quantity  its registered name, with _x or _y of a vector; empty: the name
     exact     what the exact answer calls it; empty: the name
@@ -197,7 +199,7 @@ def error_norm(
     norm: str = "",
     source: str = "",
 ) -> Observable:
-    """The norm of the error of a field.
+    """Return the norm of the error of a field.
 
     norm  in charts
     """
@@ -299,12 +301,12 @@ Drawing = Callable[[Results], Chart]
 
 @dataclass(frozen=True)
 class Within:
-    """A tolerance that was asked for, or is set by hand.
+    """Tolerance that is required or set by hand.
 
-    allowed  relative to the scale of errors; or by the count of cells, which names the rungs that
-             are judged; or what it is on a rung. Unless rungs are named the finest is judged
-    name     of the verdict, where it is not the observable's
-    each     every rung is judged
+    allowed  relative to the scale of errors: a number, a number for each count of cells (these
+             levels are judged), or a function of the level. Default: the finest level is judged
+    name     of the verdict, if it differs from the observable's
+    each     every level is judged
     """
 
     what: Observable
@@ -348,7 +350,7 @@ Row = Within | Refined | Falls | Reported
 
 @dataclass(frozen=True)
 class Judged:
-    """What is judged on the runs of a ladder.
+    """Runs of refinement levels with their judged quantities.
 
     equations  of the reference, in LaTeX
     """
@@ -397,7 +399,7 @@ def case(
     equations: tuple[str, ...] = (),
     no_order: str = "",
 ) -> Case:
-    """A case of these parts, and of what fits no row. Ladders may share runs."""
+    """Build a case from parts and from quantities that fit no row. Parts may share runs."""
     return Case(
         name=name,
         title=title,

@@ -1,4 +1,4 @@
-"""Charts of a ladder: a field beside the exact one, and errors against fineness."""
+"""Charts of refinement levels: a field with the exact one, and errors over the cell size."""
 
 from __future__ import annotations
 
@@ -88,8 +88,9 @@ def profile(
     unit: float,
     *drawn: Drawn,
 ) -> Drawing:
-    """Fields on the judged run beside the exact ones, in this unit: along the row of cells next to
-    y = 0, or over the radius. Rings show one field."""
+    """Draw fields of the judged run with the exact ones, in units of `unit`.
+
+    Cells show the row next to y = 0, rings one field over the radius."""
     problem, run = ladder.problem, ladder.judged.run
     fields = drawn or (PRESSURE,)
 
@@ -133,10 +134,10 @@ def convergence(
     also: Sequence[Observable] = (),
     beside: Mapping[str, RefinementLevels] | None = None,
 ) -> Drawing:
-    """Relative errors on the rungs that orders are read off, with the slopes that rows expect.
+    """Draw relative errors on the levels that orders are computed from, with the expected slopes.
 
-    also    errors that no row expects an order of
-    beside  by what they are of: ladders as fine whose errors are drawn too
+    also    errors without an expected order
+    beside  further refinement levels with the same sizes, by name
     """
     cells = isinstance(ladder.judged.run, Run)
     unit = ladder.problem.radius if cells else 1.0

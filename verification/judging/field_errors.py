@@ -23,7 +23,7 @@ AT_EDGE = 0.1  # contact radii to each side of a stick edge
 
 
 def _exact(result: Any, end: Any, exact: Callable[..., Field], problem: Problem) -> Field:
-    """Exact field on the cells: at their centres, or its means where edges are corrected."""
+    """Return the exact field at the centres of cells, or its cell means if edges are corrected."""
     x, y = result.grid.coordinates()
     if not is_corrected(end):
         return problem.on_surface(exact, x, y)
@@ -32,7 +32,7 @@ def _exact(result: Any, end: Any, exact: Callable[..., Field], problem: Problem)
 
 
 def pressure_l1(result: Any, step: int, problem: Problem) -> float:
-    """Σ|p - p_exact| / Σ p_exact over all cells [1]."""
+    """Return Σ|p - p_exact| / Σ p_exact over all cells [1]."""
     end = result.steps[step]
     return norms.relative_l1(
         end.pressure, _exact(result, end, problem.ends[step].pressure, problem)
@@ -48,7 +48,7 @@ def pressure_l2(result: Any, step: int, problem: Problem) -> float:
 
 
 def largest_pressure_error(result: Any, step: int, problem: Problem) -> float:
-    """Largest error of the pressure of rings away from the edge, over p_H [1]."""
+    """Return the largest error of the pressure of rings away from the edge, over p_H [1]."""
     end, exact = result.steps[step], problem.ends[step]
     within = judged_within(result.discretisation.elements_per_radius) * problem.radius
     error = ring_errors.largest_error(end, end.pressure, exact, exact.pressure, 0.0, within)
@@ -56,8 +56,9 @@ def largest_pressure_error(result: Any, step: int, problem: Problem) -> float:
 
 
 def shear_error(result: Any, step: int, problem: Problem) -> float:
-    """Σ|q - q_exact| / Σµp over all cells; or the integrals over the rings, of the shear along the
-    load [1]."""
+    """Return Σ|q - q_exact| / Σµp over all cells [1].
+
+    On rings it is the ratio of the integrals, with the shear along the load."""
     end, exact = result.steps[step], problem.ends[step].shear
     if hasattr(result, "grid"):
         known = _exact(result, end, exact, problem)
@@ -67,8 +68,9 @@ def shear_error(result: Any, step: int, problem: Problem) -> float:
 
 
 def away_from_edges(r: Field, judged: float, edges: Sequence[float], radius: float) -> NDArray[Any]:
-    """Whether radii are within a part of the contact radius and away from stick edges, where the
-    shear has a cusp."""
+    """Mark radii within a part of the contact radius and away from the stick edges.
+
+    The shear has a cusp at a stick edge."""
     smooth = r <= judged * radius
     for edge in edges:
         smooth &= np.abs(r - edge) > AT_EDGE * radius
@@ -76,7 +78,7 @@ def away_from_edges(r: Field, judged: float, edges: Sequence[float], radius: flo
 
 
 def shear_around_error(result: Any, step: int, problem: Problem) -> float:
-    """Largest error of the circumferential shear of rings away from the edges, over µp_H [1]."""
+    """Return the largest error of the circumferential shear away from the edges, over µp_H [1]."""
     end, exact = result.steps[step], problem.ends[step]
     within = judged_within(result.discretisation.elements_per_radius)
     smooth = away_from_edges(end.radii, within, [exact.stick_radius], problem.radius)

@@ -180,7 +180,7 @@ def _planned(run: AnyRun, case: Case) -> str | None:
 
 
 def _scenes(case: Case, results: Results) -> tuple[SceneRecord, ...]:
-    """The scenes of a case, each once, with what the solver planned for them."""
+    """Return the scenes of a case, each once, with the effects of the solver's plan."""
     records: dict[Scene, SceneRecord] = {}
     for run in case.runs:
         if run.label in results and run.scene not in records:

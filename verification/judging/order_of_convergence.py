@@ -11,7 +11,7 @@ from verification.convergence.observed_order import ORDER_WIDTH
 
 
 class Followed(StrEnum):
-    """What is followed under refinement."""
+    """Quantities compared under refinement."""
 
     PRESSURE = "pressure"
     PEAK_PRESSURE = "peak pressure"
@@ -24,7 +24,7 @@ class Followed(StrEnum):
 
 
 class Refinement(StrEnum):
-    """What becomes smaller."""
+    """Discretisation parameter that is refined."""
 
     MESH = "mesh"
     INCREMENTS = "increments"
@@ -32,9 +32,10 @@ class Refinement(StrEnum):
 
 @dataclass(frozen=True)
 class NotYetAsymptotic:
-    """By how much an order may differ from the expected one on these levels where its interval is
-    narrower than that, and what is known to cause it: of both the wider counts, not their sum.
-    Raises ValueError for so much that any order would do."""
+    """Allowed difference from the expected order on levels that are not asymptotic, with its cause.
+
+    The larger of the allowance and the order's interval counts, not their sum. Raises ValueError
+    for an allowance that any order would meet."""
 
     allowance: float
     because: str

@@ -1,4 +1,4 @@
-"""What came out of a case: plain values that go into `report.json` as they are."""
+"""Outcome of a case, in plain values as stored in `report.json`."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ SHORT_COMMIT = 7
 
 
 class ChangeKind(StrEnum):
-    """How a number compares with the recorded one."""
+    """Comparison of a number with the recorded one."""
 
     UNCHANGED = "unchanged"
     """Also what other processors and versions leave: a millionth of what errors are divided by, or
@@ -52,12 +52,12 @@ class ChangeKind(StrEnum):
 
     @property
     def matters(self) -> bool:
-        """Whether the baseline does not describe the number any more."""
+        """Return True if the baseline does not describe the number any more."""
         return self is not ChangeKind.UNCHANGED
 
     @property
     def regresses(self) -> bool:
-        """Whether it must be accepted with a reason before the commit passes."""
+        """Return True if it must be accepted with a reason before the commit passes."""
         return self in (
             ChangeKind.OUTSIDE, ChangeKind.WORSE, ChangeKind.DEARER, ChangeKind.GONE
         )  # fmt: skip
@@ -130,7 +130,7 @@ class Origin(Description):
 
 
 def commit_text(commit: str | None, *, changed: bool) -> str:
-    """A commit in a sentence."""
+    """Return a commit in a sentence."""
     text = "an unknown commit" if commit is None else commit[:SHORT_COMMIT]
     return f"{text} with changes" if changed else text
 

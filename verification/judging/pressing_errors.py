@@ -22,7 +22,7 @@ ROUNDING = 1e-9  # of the radii of a table
 
 
 def pressure_at(result: Any, r: Field) -> Field:
-    """Pressure (radii, directions) at the end of a result [force/length²]."""
+    """Return the pressure (radii, directions) at the end of a result [force/length²]."""
     end = result.steps[-1]
     if hasattr(result, "grid"):
         return along_radii(end.pressure, result.grid, r)
@@ -30,7 +30,7 @@ def pressure_at(result: Any, r: Field) -> Field:
 
 
 def shear_at(result: Any, r: Field) -> Field:
-    """Outward shear (radii, directions) at the end of a result [force/length²]."""
+    """Return the outward shear (radii, directions) at the end of a result [force/length²]."""
     end = result.steps[-1]
     if hasattr(result, "grid"):
         return along_radii(outward(shear_of(end), result.grid), result.grid, r)
@@ -48,7 +48,7 @@ def judged_radii(result: Any, problem: Problem) -> Field:
 
 
 def pressure_error(result: Any, _: int, problem: Problem) -> float:
-    """Largest error of the pressure, over p_H [1]."""
+    """Return the largest error of the pressure, over p_H [1]."""
     r = judged_radii(result, problem)
     error = np.abs(pressure_at(result, r) - problem.ends[-1].pressure(r)[:, None])
     return float(np.max(error) / problem.scale(OVER_PEAK))
@@ -65,14 +65,15 @@ def shear_errors(result: Any, problem: Problem) -> tuple[Field, NDArray[np.bool_
 
 
 def shear_error(result: Any, _: int, problem: Problem) -> float:
-    """Largest error of the outward shear away from the edge of the stick zone."""
+    """Return the largest error of the outward shear away from the edge of the stick zone."""
     error, at_edge = shear_errors(result, problem)
     return float(np.max(error[~at_edge]))
 
 
 def edge_error(result: Any, _: int, problem: Problem) -> float:
-    """Largest error of the outward shear at the edge of the stick zone; zero if the reference has
-    no point there."""
+    """Return the largest error of the outward shear at the edge of the stick zone.
+
+    It is zero if the reference has no point there."""
     error, at_edge = shear_errors(result, problem)
     return float(np.max(error, where=at_edge, initial=0.0))
 

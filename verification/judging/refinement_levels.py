@@ -110,7 +110,7 @@ class RefinementLevels:
 
     @property
     def uncorrected(self) -> bool:
-        """Whether orders are read off runs of their own, without edge correction."""
+        """Return True if orders are read off runs of their own, without edge correction."""
         return isinstance(self.judged.run, Run) and self.followed != self.rungs
 
     @property
@@ -252,7 +252,7 @@ def on_radii(
 
 
 def on_springs(of: RefinementLevels, name: str, **penalty: float) -> RefinementLevels:
-    """The judged mesh with springs instead of exact contact.
+    """Return the judged mesh with springs instead of exact contact.
 
     name     of the run
     penalty  fields of the discretisation that are about the springs
@@ -282,7 +282,7 @@ def asked(figure: float, order: float) -> Callable[[RefinementLevel], float]:
 
 
 def part_of_side(part: float) -> Callable[[RefinementLevel], float]:
-    """A part of a cell or element over the radius."""
+    """Return a part of a cell or element over the radius."""
     return lambda rung: part * rung.reach / rung.count
 
 

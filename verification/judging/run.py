@@ -62,7 +62,7 @@ class Run:
         return max(self.grid.spacing)
 
     def solve(self) -> semi_analytical.Result:
-        """The solution; raises what `semi_analytical.solve` raises."""
+        """Return the solution; raises what `semi_analytical.solve` raises."""
         from semi_analytical import plan, solve
 
         decided = plan(self.scene, edge=self.edge)
@@ -110,7 +110,7 @@ class SectionRun:
         return 1 / (self.discretisation.elements_per_radius + self.beyond)
 
     def solve(self) -> fem_reference.Result:
-        """The solution; raises what `fem_reference.solve` raises."""
+        """Return the solution; raises what `fem_reference.solve` raises."""
         import fem_reference
 
         method = fem_reference.Method(self.method.value)
@@ -146,7 +146,7 @@ class RadiiRun:
         return 1 / self.fineness
 
     def solve(self) -> radial.Result:
-        """The solution; raises what `radial.solve` raises."""
+        """Return the solution; raises what `radial.solve` raises."""
         import radial
         from contact_scene import RadialDiscretisation
         from radial.angular_grid import Circle

@@ -108,7 +108,7 @@ def _judged(
 def expanded_uncertainty(
     quantity: Quantity, tolerance: Derived, case: Case, results: Results
 ) -> float:
-    """2 √(u_num² + u_ref²), in the unit of the quantity; infinite where a level has no number."""
+    """Return 2 √(u_num² + u_ref²), in the unit of the quantity; infinite if a number is missing."""
     values = [quantity.measure(results[label]) for label in tolerance.levels]
     if not all(map(math.isfinite, values)):
         return math.inf
@@ -197,8 +197,10 @@ def judge_worst(
     allowed: Callable[[AnyRun], float],
     where: Mapping[str, str] = MappingProxyType({}),
 ) -> Verdict:
-    """Of numbers that should vanish, by the label of their run, the one that is worst for what is
-    allowed on its run; what is no number is worse than all.
+    """Judge numbers that should vanish, by the label of their run.
+
+    The verdict is that of the run with the largest ratio of number to allowance; a number that is
+    not finite is the worst.
 
     meaning  with the number of runs in place of {runs}, and the place in the run of {where}
     where    by label
@@ -228,7 +230,7 @@ def lost(where: str, meaning: str, what: str, tolerance: float = 1.0) -> Verdict
 def _law(
     name: str, meaning: str, run: str, value: float, source: str, allowed: float, because: str
 ) -> Verdict:
-    """On a number that vanishes by the equations themselves, dimensionless."""
+    """Judge a dimensionless number that vanishes by the equations."""
     return judge_check(
         Check(
             name, meaning, "", run, lambda: value, identity(0.0, source),

@@ -65,7 +65,7 @@ class Installed:
 
 
 def peers_directory() -> Path:
-    """SLIPSTICK_CACHE_DIR, else `slipstick` in the user's cache directory."""
+    """Return SLIPSTICK_CACHE_DIR, else `slipstick` in the user's cache directory."""
     place = os.environ.get("SLIPSTICK_CACHE_DIR")
     if place:
         return Path(place) / FOLDER
@@ -74,7 +74,7 @@ def peers_directory() -> Path:
 
 
 def made_environment(directory: Path, run: Run = subprocess.run) -> Installed:
-    """The environment in a directory, made or completed.
+    """Return the environment in a directory, made or completed.
 
     What could not be installed once is not tried again until `FAILED` there is removed.
 

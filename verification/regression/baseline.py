@@ -216,7 +216,7 @@ REMEDY = "restore it from the repository, or delete it and accept it anew"
 
 
 def read_baselines(directory: Path | None = None) -> dict[str, Baseline]:
-    """Every baseline of a folder by the name of its case; none is a state, not an error.
+    """Return every baseline of a folder by the name of its case; none is a state, not an error.
 
     directory  None: those of the package
 
@@ -271,7 +271,7 @@ def write_baselines(
 
 
 def dump_baseline(baseline: Baseline) -> str:
-    """The text of its file; equal baselines give equal text, and every bit of a number returns."""
+    """Return the text of the baseline's file; numbers are stored to the last bit."""
     content = baseline.model_dump(mode="json")
     return json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 

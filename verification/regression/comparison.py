@@ -112,9 +112,10 @@ def _kind(verdict: Verdict, was: RecordedQuantity, difference: float, allowed: f
 
 
 def _is_farther(verdict: Verdict, was: RecordedQuantity) -> bool:
-    """Whether the value has moved away from the reference; of an order that was recorded with too
-    wide an interval nobody can tell. One that has become so is held to what was allowed when it
-    passed: its own interval is of the levels that lost it."""
+    """Return True if the value has moved away from the reference.
+
+    An order that was recorded with too wide an interval is not compared. An order whose interval
+    has become too wide since is compared with the recorded allowance."""
     if was.status is Status.INCONCLUSIVE:
         return False
     if verdict.status is Status.INCONCLUSIVE and verdict.value is not None:
@@ -127,8 +128,9 @@ def _is_farther(verdict: Verdict, was: RecordedQuantity) -> bool:
 def grows(
     small: Verdict | RecordedQuantity, large: Verdict | RecordedQuantity, by: float, least: float
 ) -> bool:
-    """Whether the error of one is so much larger than that of the other that somebody should know
-    why. An order has an interval for that.
+    """Return True if the error of one verdict is much larger than that of the other.
+
+    Orders are compared by their intervals instead.
 
     by     times
     least  at least by as much, in the unit of the value

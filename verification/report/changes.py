@@ -143,7 +143,7 @@ def origins(report: Report) -> list[tuple[Origin, list[str]]]:
 
 
 def changes_text(report: Report) -> str:
-    """One line: how the report compares with what is recorded."""
+    """Return one line: how the report compares with what is recorded."""
     absent = without_baseline(report)
     parts = [", ".join(f"{number} {kind}" for kind, number in change_counts(report).items())]
     if report.cases and len(absent) == len(report.cases):

@@ -40,7 +40,7 @@ LINES = (
 
 
 def draw(chart: Chart) -> Figure:
-    """The figure of a chart; call within `style.figure_style`."""
+    """Return the figure of a chart; call within `style.figure_style`."""
     heights = [row[0].height for row in chart.rows]
     columns = max(len(row) for row in chart.rows)
     maps = all(panel.y_places for row in chart.rows for panel in row)
@@ -179,7 +179,7 @@ def _legend(ax: Any, panel: Panel) -> None:
 
 
 def _is_long(labelled: Sequence[Curve]) -> bool:
-    """Whether the texts would leave the plot no room beside them."""
+    """Return True if the texts would leave the plot no room beside them."""
     return len(labelled) > 1 and any(len(curve.label) > LONGEST_BESIDE for curve in labelled)
 
 

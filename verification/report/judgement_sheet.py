@@ -13,7 +13,7 @@ MAX_CURVES = 8
 
 
 def row_texts(row: Row) -> tuple[str, ...]:
-    """A verdict in words."""
+    """Return a verdict in words."""
     return (
         row.quantity,
         WHOLE if row.step is None else str(row.step),
@@ -63,7 +63,7 @@ def _levels(judgement: Judgement) -> Table:
 
 
 def _charts(judgement: Judgement) -> list[Chart]:
-    """The largest errors by fineness, and by what they cost."""
+    """Return the largest errors by fineness, and by what they cost."""
     fallen = [row for row in judgement.rows if len(row.errors) > 1]
     fallen.sort(key=lambda row: -(row.error or 0.0))
     seconds = {one.h: one.seconds for one in judgement.answers}

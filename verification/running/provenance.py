@@ -47,7 +47,7 @@ def provenance(
     seconds: dict[str, float],
     modules: Sequence[str] = (),
 ) -> Provenance:
-    """Versions, machine, commit and times of this process.
+    """Return the versions, machine, commit and times of this process.
 
     command     the command that makes the same report again
     seconds     wall seconds by case

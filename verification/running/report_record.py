@@ -71,7 +71,7 @@ class Report(Description):
 
     @property
     def errors_too_small(self) -> bool:
-        """Whether a report of all cases at the full level has too many uncovered errors."""
+        """Return True if a report of all cases at the full level has too many uncovered errors."""
         whole = self.level == Level.FULL.name.lower() and not self.chosen
         return whole and share_covered(self.cases) < LEAST_SHARE
 
@@ -96,7 +96,7 @@ class Report(Description):
 
 
 def count(cases: tuple[CaseOutcome, ...]) -> dict[Status, int]:
-    """Verdicts of all cases by status, every status present."""
+    """Return the verdicts of all cases by status, every status present."""
     return {status: sum(case.count(status) for case in cases) for status in Status}
 
 
@@ -135,6 +135,6 @@ def _unpacked(path: Path) -> bytes:
 
 
 def report_schema() -> dict[str, Any]:
-    """JSON Schema of `report.json`."""
+    """Return JSON Schema of `report.json`."""
     schema = Report.model_json_schema(mode="serialization")
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}

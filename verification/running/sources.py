@@ -44,7 +44,7 @@ def source_digest(*modules: str) -> str:
 
 
 def is_current(made: Provenance) -> bool:
-    """Whether a record was made by the sources as they are now; unknown ones are not current."""
+    """Return True if a record was made by the present sources; False if they are unknown."""
     return bool(made.modules) and made.sources == source_digest(*made.modules)
 
 

@@ -253,7 +253,7 @@ class Conclusion(Description):
 
     @property
     def failed(self) -> bool:
-        """Whether a statement failed."""
+        """Return True if a statement failed."""
         return any(statement.outcome is Status.FAIL for statement in self.statements)
 
 
@@ -315,8 +315,7 @@ def dump_study(record: StudyRecord) -> str:
 
 
 def json_text(values: dict[str, Any]) -> str:
-    """JSON, indented; what holds nothing but numbers and texts, such as the points of a curve or
-    the measures of a row, takes one line."""
+    """Return indented JSON, with lists of numbers and texts alone on one line."""
     text = json.dumps(values, indent=1, ensure_ascii=False, allow_nan=False)
     # No text of JSON has a line's end in it: only the space between values is changed.
     return re.sub(r"[\[{]\n[^\[\]{}]*[\]}]", lambda m: re.sub(r"\n *", " ", m[0]), text) + "\n"
@@ -365,7 +364,7 @@ RESIDUAL = "largest_residual"  # of any increment of a case, by the name of its 
 
 
 def judged(good: bool, *, complete: bool = True) -> Status:
-    """The outcome of a claim; open where cases are missing that it is about."""
+    """Return the outcome of a claim; open where cases are missing that it is about."""
     if not complete:
         return Status.INCONCLUSIVE
     return Status.PASS if good else Status.FAIL

@@ -124,7 +124,7 @@ class TractionRun:
 
 
 def _profile(result: Any, end: Any, force: float) -> list[Row]:
-    """Pressure and shear on y = 0, over the Hertz pressure and µ times it."""
+    """Return the pressure and shear on y = 0, over the Hertz pressure and µ times it."""
     surface, scale = surface_of(result), HERTZ.peak_pressure
     x = surface.line.places / HERTZ.contact_radius
     pressure, shear = surface.scalar(end, "pressure"), surface.vector(end, "shear")
@@ -167,7 +167,7 @@ def _fields(record: CaseRecord) -> tuple[Field, Field]:
 
 
 def _apart(one: tuple[Field, Field], other: tuple[Field, Field]) -> Field:
-    """Differences of pressure and shear at every force, relative (field, force)."""
+    """Return differences of pressure and shear at every force, relative (field, force)."""
     total = one[0].sum(axis=1)
     return np.array([np.abs(a - b).sum(axis=1) / total for a, b in zip(one, other, strict=True)])
 
@@ -192,7 +192,7 @@ def cases(settings: Settings) -> tuple[TractionRun, ...]:
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
-    """Figures, the errors of their curves, and the statements of the paper."""
+    """Return the figures, the errors of their curves, and the statements of the paper."""
     asked = runs(settings)
     known = found(asked.values(), records)
     curves = {
@@ -246,7 +246,7 @@ def _answer(stick: Mapping[str, float]) -> str:
 
 
 def _difference(ratio: float, curves: Drawn, field: int) -> Row:
-    """Difference of the two solvers with the error of each curve."""
+    """Return the difference of the two solvers with the error of each curve."""
     cells, rings = curves[ratio, CELLS], curves[ratio, RINGS]
     apart = _apart((cells.pressure, cells.shear), (rings.pressure, rings.shear))[field]
     measures: dict[str, float | None] = {}
@@ -306,7 +306,7 @@ def _number(name: str) -> Any:
 
 
 def _figure(curves: Drawn, field: int) -> Chart:
-    """One panel per ratio: cells as lines, on the grey ones of the radial solver."""
+    """Return one panel per ratio: cells as lines, on the grey ones of the radial solver."""
     number, what, label = (
         (3, "pressure", "p / Hertz pressure"), (4, "shear", "qₓ / (µ × Hertz pressure)")
     )[field]  # fmt: skip

@@ -107,7 +107,7 @@ def mutants(source: str) -> Iterator[Mutant]:
 
 
 def _nodes(node: ast.AST, *, in_index: bool) -> Iterator[tuple[Any, bool]]:
-    """A node and all below it, each with its place inside or outside an index."""
+    """Yield a node and all below it, each with its place inside or outside an index."""
     yield node, in_index
     for name, value in ast.iter_fields(node):
         if name not in TYPES:
@@ -226,7 +226,7 @@ def cases(settings: Settings) -> tuple[MutantRun, ...]:
 
 
 def is_killed(record: CaseRecord) -> bool:
-    """Whether a test failed."""
+    """Return True if a test failed."""
     return "killed_by" in record.words
 
 
@@ -277,7 +277,7 @@ def _share(records: list[CaseRecord], *, undetected: bool = False) -> str:
 
 
 def _shares(mutated: list[CaseRecord]) -> Table:
-    """One row per kernel, one column per kind."""
+    """Return one row per kernel, one column per kind."""
     rows = []
     for kernel in (*KERNELS, None):
         own = [r for r in mutated if kernel in (None, r.parameters["kernel"])]

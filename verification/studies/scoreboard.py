@@ -81,7 +81,7 @@ class ScoredRun:
 
 
 def cases(settings: Settings) -> tuple[ScoredRun, ...]:
-    """Every code on every challenge."""
+    """Return every code on every challenge."""
     codes = (*OURS, *(peer.module for peer in PEERS))
     levels = settings.levels or LEVELS[settings.level]
     return tuple(ScoredRun(code, name, levels) for code in codes for name in challenges())

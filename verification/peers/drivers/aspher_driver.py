@@ -11,7 +11,7 @@ COARSEST = 16
 
 
 def solve(request: Request) -> Answer:
-    """Pressure and approach, and with friction shear."""
+    """Return the pressure and approach, and with friction shear."""
     aspher = import_module("aspher")
     n, side = request["cells"], request["window"]
     load = request["force"] / side**2

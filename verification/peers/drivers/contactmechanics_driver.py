@@ -10,7 +10,7 @@ from verification.peers.drivers.exchange import Answer, CannotDo, Request, answe
 
 
 def solve(request: Request) -> Answer:
-    """Pressure and approach."""
+    """Return the pressure and approach."""
     if request["friction"]:
         raise CannotDo("no friction")
     contact, surfaces = import_module("ContactMechanics"), import_module("SurfaceTopography")

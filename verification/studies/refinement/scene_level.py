@@ -82,7 +82,7 @@ class StudiedScene:
 
     @property
     def on_cells(self) -> bool:
-        """Whether cells carry the tractions."""
+        """Return True if cells carry the tractions."""
         return self.solver == CELLS
 
     def read(self) -> SceneFile:
@@ -185,7 +185,7 @@ def unit_of(name: str) -> str:
 
 
 def _scalars(values: Values) -> Iterator[tuple[str, str, float]]:
-    """Key numbers: name, with _x or _y for a component; name of the vector; value."""
+    """Yield the key numbers: name, with _x or _y for a component; name of the vector; value."""
     for stem, numbers in values.items():
         if stem in KEYS:
             names = components(stem) if numbers.size > 1 else (stem,)

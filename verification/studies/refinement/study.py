@@ -121,7 +121,7 @@ def estimates(levels: Sequence[CaseRecord], order: float | None) -> tuple[Estima
 
 
 def _varies(part: Row, levels: Sequence[CaseRecord]) -> bool:
-    """Whether a number is on all levels, not zero by symmetry, and not the same everywhere."""
+    """Return True if a number is on all levels, not zero by symmetry, and not constant."""
     name, measures = str(part.parameters["quantity"]), _known(part.measures)
     values = [level.measures.get(name) for level in levels]
     return (
@@ -167,7 +167,7 @@ def _estimate(part: Row, levels: Sequence[CaseRecord], order: float | None) -> E
 
 
 def _not_asymptotic(observed: ObservedOrder | None, triplets: Triplets) -> str:
-    """Reason with a remedy; empty where one power of the size explains the levels."""
+    """Return the reason with a remedy; empty where one power of the size explains the levels."""
     if observed is None:
         return (
             "no power of the size explains the levels: the edges of contact and stick zone cut the "
@@ -192,12 +192,12 @@ Text = Callable[[Row], str]
 
 
 def number(name: str, digits: int = 2) -> Text:
-    """The column of a number."""
+    """Return the column of a number."""
     return lambda row: plain(row.number(name), digits)
 
 
 def points(rows: Iterable[Row], x: str, y: str) -> Points:
-    """One number against another, on logarithmic axes."""
+    """Return one number against another, on logarithmic axes."""
     return drawable((row.number(x), row.number(y)) for row in rows)
 
 
@@ -285,7 +285,7 @@ def mesh_study(path: Path, overrides: Sequence[str], step: int | None, solver: s
 def _counts(
     finest: tuple[int, ...], settings: Settings, *, on_cells: bool
 ) -> list[tuple[int, ...]]:
-    """Cells or elements of all levels, coarse to fine.
+    """Return the cells or elements of all levels, coarse to fine.
 
     Raises CannotRefine where the coarsest has too few.
     """
@@ -459,7 +459,7 @@ def _infinite(solved: Iterable[CaseRecord]) -> list[Statement]:
 
 
 def label(name: str) -> str:
-    """Name of a number in words."""
+    """Return the name of a number in words."""
     stem, _, axis = name.rpartition("_")
     return f"{stem} along {axis}".replace("_", " ") if axis in "xy" else name.replace("_", " ")
 
@@ -534,7 +534,7 @@ def _estimate_table(of: Sequence[Estimate]) -> Table:
 
 
 def _level_table(levels: Sequence[CaseRecord]) -> Table:
-    """One row per level; a refused level has its reason."""
+    """Return one row per level; a refused level has its reason."""
     solved = [level for level in levels if "refused" not in level.words]
     names = [name for name in (solved[-1].measures if solved else ()) if name != RESIDUAL]
     counters: Mapping[str, int] = solved[-1].counters if solved else {}

@@ -56,7 +56,7 @@ class Caught(TypedRow):
 
     @property
     def by_law(self) -> bool:
-        """Whether a law sees it that every result obeys, and no reference."""
+        """Return True if a law sees it that every result obeys, and no reference."""
         return self.how in LAWS.values()
 
 
@@ -73,7 +73,7 @@ class Sample(TypedRow):
 
 
 def caught(record: CaseRecord) -> tuple[Caught, ...]:
-    """The verdicts that failed."""
+    """Return the verdicts that failed."""
     return tuple(Caught.of(row) for row in record.parts if "how" in row.words)
 
 

@@ -47,14 +47,14 @@ DRAWS = {
 
 
 def seen_by(settings: Settings, defect: Defect) -> tuple[str, ...]:
-    """The cases under a defect: those that ought to see it, or the whole quick catalogue."""
+    """Return the cases under a defect: those that ought to see it, or the whole quick catalogue."""
     if settings.level is Level.QUICK:
         return defect.cases
     return CASES
 
 
 def defect_runs(settings: Settings) -> tuple[DefectRun, ...]:
-    """All defects, and the same cases without any."""
+    """Return all defects, and the same cases without any."""
     runs = [
         DefectRun(defect.name, case)
         for defect in DEFECTS.values()
@@ -145,19 +145,19 @@ def derived(records: list[CaseRecord]) -> list[Sample]:
 
 
 def covered(sample: Sample) -> bool:
-    """Whether the error bar contains the true value."""
+    """Return True if the error bar contains the true value."""
     if sample.error is None or sample.uncertainty is None:
         return False
     return sample.error <= sample.uncertainty
 
 
 def caught_by_reference(record: CaseRecord) -> bool:
-    """Whether a reference or an order sees the defect, and not the laws in the fields alone."""
+    """Return True if a reference or an order detects the defect, not only a law of the fields."""
     return any(not one.by_law for one in caught(record))
 
 
 def passes_gate(record: CaseRecord) -> bool:
-    """Whether a fixed gate of 1 % lets all quantities of the case pass."""
+    """Return True if a fixed gate of 1 % lets all quantities of the case pass."""
     error = record.measures[ERROR]
     return error is not None and error <= GATE
 
@@ -410,7 +410,7 @@ def cases(settings: Settings) -> tuple[StudyCase, ...]:
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
-    """Statements, tables and a figure."""
+    """Return the statements, tables and a figure."""
     all_seen = [seen(settings, records, defect) for defect in DEFECTS.values()]
     caught = sum(bool(one.sightings) for one in all_seen)
     return Conclusion(

@@ -49,7 +49,7 @@ class Solver(StrEnum):
 
     @property
     def by_elements(self) -> bool:
-        """Whether it takes sections of finite elements."""
+        """Return True if it takes sections of finite elements."""
         return self is not Solver.SEMI_ANALYTICAL
 
 
@@ -86,8 +86,10 @@ class StabilityCell:
 
     @property
     def posable(self) -> bool:
-        """Whether the solver takes such scenes: finite elements take what is of revolution, with
-        friction the same everywhere and loads along a line."""
+        """Return True if the solver takes such scenes.
+
+        Finite elements take bodies of revolution with one friction coefficient, loaded along one
+        line."""
         uneven = self.surface in NOT_OF_REVOLUTION or self.path is LoadingPath.CIRCLE
         return not (self.solver.by_elements and uneven)
 
@@ -217,16 +219,16 @@ class View:
 
     @property
     def wide(self) -> bool:
-        """Whether there is more than one place to see."""
+        """Return True if there is more than one place to see."""
         return len(self.values(self.x)) * len(self.values(self.y)) > 1
 
     @property
     def by_elements(self) -> bool:
-        """Whether finite elements solve its cells."""
+        """Return True if finite elements solve its cells."""
         return self.cells[0].solver.by_elements
 
     def at(self, x: Any, y: Any) -> tuple[StabilityCell, ...]:
-        """The cells at one place."""
+        """Return the cells at one place."""
         return tuple(c for c in self.cells if getattr(c, self.x) == x and getattr(c, self.y) == y)
 
 
@@ -264,7 +266,7 @@ class Asked:
 
 
 def views(level: Level, cells: int) -> tuple[View, ...]:
-    """The views of a level: of the semi-analytical solver, and of finite elements by both methods.
+    """Return the views of a level: semi-analytical solver and finite elements with both laws.
 
     cells  of a surface grid along each side; sections have as many elements as `pose` makes of it
     """
@@ -280,7 +282,7 @@ def views(level: Level, cells: int) -> tuple[View, ...]:
 
 
 def study_cells(level: Level, cells: int) -> tuple[StabilityCell, ...]:
-    """Every cell of a level, once."""
+    """Return every cell of a level, once."""
     found = {cell.name: cell for view in views(level, cells) for cell in view.cells}
     return tuple(found.values())
 

@@ -132,7 +132,7 @@ class Posed:
 
 
 def pose(cell: StabilityCell) -> Posed:
-    """The scene of a cell; raises what an invalid scene raises."""
+    """Return the scene of a cell; raises what an invalid scene raises."""
     a = cell.length
     both = (_coated(cell),) * (2 if cell.surface is Surface.ALIKE_BALL else 1)
     answer = surface_of(*both)
@@ -212,7 +212,7 @@ def _height_map(heights: Field, grid: SurfaceGrid) -> HeightMap:
 
 
 def _force(cell: StabilityCell, answer: LayeredSurface, ball: LayeredIndentation) -> float:
-    """The normal force that fills the contact radius, at least roughly."""
+    """Return the normal force that fills the contact radius, at least roughly."""
     match cell.surface:
         case Surface.FLAT_PUNCH:
             return flat_punch(answer, cell.length).load * ball.approach
@@ -248,6 +248,8 @@ def _friction(cell: StabilityCell, grid: SurfaceGrid) -> float | FrictionMap:
 
 
 def _map(values: Field, grid: SurfaceGrid) -> FrictionMap:
-    """The window's coefficients, and the same again around it: the contact may want a wider one."""
+    """Return a friction map that repeats its coefficients around the window.
+
+    The contact may require a wider window."""
     values = np.pad(values, [(count, count) for count in grid.cells], mode="symmetric")
     return FrictionMap.model_validate({"map": values, "spacing": grid.spacing})

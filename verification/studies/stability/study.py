@@ -73,7 +73,7 @@ def of_solver(found: Found, solver: Solver) -> Found:
 
 
 def ended(found: Found, *so: Verdict) -> Found:
-    """The cells that ended in one of these ways."""
+    """Return the cells that ended in one of these ways."""
     return {cell: record for cell, record in found.items() if record.verdict in so}
 
 
@@ -95,7 +95,7 @@ def answer(found: Found) -> str:
 
 
 def _worst(found: Found) -> str:
-    """The largest residual of the cells that converged."""
+    """Return the largest residual of the cells that converged."""
     solved = ended(found, Verdict.CONVERGED).values()
     return plain(max((r.worst or 0.0 for r in solved), default=0.0), 2)
 
@@ -182,7 +182,7 @@ def _of(solver: Solver, statement: Statement) -> Statement:
 
 
 def _list(cells: Iterable[StabilityCell]) -> str:
-    """Their names, the first of them."""
+    """Return their names, the first of them."""
     names = [cell.name for cell in cells]
     if not names:
         return ""
@@ -285,7 +285,7 @@ MAX_ROWS = 60  # of good cells; the others have all of theirs
 
 
 def tables(found: Found) -> tuple[Table, ...]:
-    """The solvers, what did not converge, and the cells of either kind of solver."""
+    """Return the solvers, what did not converge, and the cells of either kind of solver."""
     groups = [[i for i in found.items() if i[0].solver.by_elements is kind] for kind in WORK]
     bad = [*ended(found, Verdict.NOT_CONVERGED, Verdict.SILENT).items()]
     return (
@@ -359,7 +359,7 @@ def _hardness(item: Item) -> tuple[int, int, int]:
 
 
 def _outcome(record: CellRecord) -> str:
-    """The verdict and its reason, without the name of the exception that begins a refusal."""
+    """Return the verdict and its reason, without the name of the exception of a refusal."""
     reason = record.reason
     if record.verdict is Verdict.REFUSED:
         reason = reason.partition(": ")[2] or reason
@@ -400,7 +400,7 @@ REMARKS = (
 
 
 def cases(settings: Settings) -> tuple[StabilityRun, ...]:
-    """Every cell of the level."""
+    """Return every cell of the level."""
     return tuple(map(StabilityRun, study_cells(settings.level, _cells(settings))))
 
 

@@ -96,7 +96,7 @@ class PreciseContact:
         return {name: one.error(self.problem)(result) for name, one in named}
 
     def grid(self, cells: int) -> SurfaceGrid:
-        """A square grid around the contact."""
+        """Return a square grid around the contact."""
         return paper.square_grid(cells, self.window / 2 * self.problem.radius)
 
 
@@ -114,7 +114,7 @@ def _pressure_l2(result: Any, step: int, problem: Problem) -> float:
 
 
 def _shear_l1(result: Any, step: int, problem: Problem) -> float:
-    """Σ|q - q_exact| / Σµp [1]."""
+    """Return Σ|q - q_exact| / Σµp [1]."""
     end, exact = result.steps[step], problem.ends[step].shear
     if hasattr(result, "grid"):
         known = _means(exact, result.grid)
