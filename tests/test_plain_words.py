@@ -1,0 +1,34 @@
+"""The share of texts with a habit of unclear English stays below the limit of each package."""
+
+from pathlib import Path
+
+import pytest
+from plain_words import habits, texts_of
+
+ROOT = Path(__file__).resolve().parents[1]
+# Per cent of the texts. A limit may fall and never rises.
+LIMITS = {
+    "contact_scene": 4,
+    "semi_analytical": 10,
+    "fem_reference": 2,
+    "radial": 3,
+    "contact_errors": 3,
+    "contact_results": 7,
+    "slipstick": 9,
+    "verification": 25,
+    "docs": 20,
+}
+
+
+@pytest.mark.parametrize("package", LIMITS)
+def test_few_texts_have_a_habit(package: str) -> None:
+    found = [
+        (f"{path.relative_to(ROOT)}:{line}", habits(text, kind))
+        for kind_of in ("*.py", "*.md")
+        for path in sorted((ROOT / package).rglob(kind_of))
+        if "made" not in path.parts
+        for line, kind, text in texts_of(path)
+    ]
+    marked = [f"{place}: {', '.join(words)}" for place, words in found if words]
+    assert len(found) > 100
+    assert 100 * len(marked) <= LIMITS[package] * len(found), "\n".join(marked)
