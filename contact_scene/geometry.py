@@ -32,7 +32,7 @@ Pair = tuple[float, float]
 
 # Largest fraction of points of a height map without a height. The corners around a circular field
 # of view are 1 - π/4 = 0.21 of a square, and more on few points.
-_MOST_UNMEASURED = 1 / 3
+_MAX_UNMEASURED = 1 / 3
 
 
 class ShapedBody(Body):
@@ -48,7 +48,7 @@ class ShapedBody(Body):
         super().__pydantic_init_subclass__(**kwargs)
         others = [base for base in cls.__mro__[1:] if "initial_gap" in vars(base)]
         if "initial_gap" in vars(cls) and others != [ShapedBody]:
-            for name in _SAID.difference(vars(cls)):
+            for name in _SHAPE_PROPERTIES.difference(vars(cls)):
                 setattr(cls, name, vars(ShapedBody)[name])
 
     @abstractmethod
@@ -113,7 +113,7 @@ class ShapedBody(Body):
         return None
 
 
-_SAID = {
+_SHAPE_PROPERTIES = {
     "gap_exponent",
     "is_of_revolution",
     "is_even",
@@ -312,10 +312,10 @@ class HeightMap(ShapedBody):
 
     @model_validator(mode="after")
     def _is_measured(self) -> "HeightMap":
-        if self.unmeasured > _MOST_UNMEASURED:
+        if self.unmeasured > _MAX_UNMEASURED:
             raise refusal(
                 f"the map {self.file} has no height at {self.unmeasured:.0%} of its points",
-                f"at most {_MOST_UNMEASURED:.0%}",
+                f"at most {_MAX_UNMEASURED:.0%}",
                 "cut the map to its measured area",
             )
         return self

@@ -17,7 +17,7 @@ _COINCIDES = 1e-9
 _NEGATIVE_WEIGHTS = 9 / 32
 # Values per block of rows; largest number of sampled patches in a block; number of patches with the
 # lowest samples that are refined; number of refinements, each to a quarter of the width.
-_BLOCK, _MOST_PATCHES, _PATCHES, _REFINEMENTS = 1 << 17, 8192, 64, 14
+_BLOCK, _MAX_PATCHES, _PATCHES, _REFINEMENTS = 1 << 17, 8192, 64, 14
 
 _SWEEPS = 20  # Jacobi iterations on every level
 
@@ -170,7 +170,7 @@ def _patches_below(padded: NDArray[np.float64], limit: float) -> NDArray[np.floa
     """Select the patches between four points with a bound below a limit; return their centres.
 
     padded   map with one value beyond the outermost points
-    returns  (count, 2), in indices of points, at most `_MOST_PATCHES` with the lowest bounds
+    returns  (count, 2), in indices of points, at most `_MAX_PATCHES` with the lowest bounds
     """
 
     def of_four(extreme: np.ufunc, rows: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -180,7 +180,7 @@ def _patches_below(padded: NDArray[np.float64], limit: float) -> NDArray[np.floa
     least, most = of_four(np.minimum, padded), of_four(np.maximum, padded)
     bound = least - _NEGATIVE_WEIGHTS * (most - least)
     found = np.argwhere(bound < limit) + 0.5
-    return np.asarray(found[np.argsort(bound[bound < limit])[:_MOST_PATCHES]])
+    return np.asarray(found[np.argsort(bound[bound < limit])[:_MAX_PATCHES]])
 
 
 def _convolved(

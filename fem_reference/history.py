@@ -67,10 +67,12 @@ class _Solver:
         """Return the state at a fraction of the ramp."""
         normal = (start.normal_force, start.approach) if start else (0.0, 0.0)
         tangential = (start.load, start.motion) if start else (0.0, 0.0)
-        loads = Loads(NormalTarget(*ramp.normal.led(fraction, normal)), STILL)
+        loads = Loads(NormalTarget(*ramp.normal.prescribed(fraction, normal)), STILL)
         along = self._along(ramp)
         if along is not None:
-            loads = replace(loads, tangential=TangentialTarget(*along.led(fraction, tangential)))
+            loads = replace(
+                loads, tangential=TangentialTarget(*along.prescribed(fraction, tangential))
+            )
         loads = replace(loads, strain=(ramp.strain(fraction) or UNSTRAINED)[0])
         return self.method.advance(before, loads, self.tolerance)
 

@@ -195,7 +195,7 @@ class _Solver:
     ) -> NormalContact:
         """Return the contact at a fraction of the ramp."""
         reached = (start.normal_force, start.approach) if start else (0.0, 0.0)
-        prescribed = target(self.scene, *ramp.normal.led(fraction, reached))
+        prescribed = target(self.scene, *ramp.normal.prescribed(fraction, reached))
         for found in self.largest:
             if found.target == prescribed:
                 return found

@@ -17,8 +17,8 @@ DIGITS = 9
 # with the dissipated energy to 1 %. A step with a prescribed displacement needs more, since slip
 # may start at any point of it. Measured on loops at 0.3 to 0.99 of the friction limit, and with
 # shifts up to 15 times that of gross sliding: 0.08 to 0.8 %, and 0.6 %.
-LED_BY_FORCE = 16
-LED_BY_MOTION = 32
+INCREMENTS_BY_FORCE = 16
+INCREMENTS_BY_DISPLACEMENT = 32
 
 Kind = tuple[int, str]
 State = tuple[tuple[Kind, tuple[float, ...]], ...]
@@ -68,7 +68,7 @@ def _of_loop(ramp: LoadRamp) -> int:
     moving = [c for c in (ramp.tangential, ramp.twisting) if c.start != c.end]
     by_motion = any(control.kind is ControlKind.DISPLACEMENT for control in moving)
     by_motion = by_motion or ramp.strains
-    return LED_BY_MOTION if by_motion else LED_BY_FORCE if moving else 1
+    return INCREMENTS_BY_DISPLACEMENT if by_motion else INCREMENTS_BY_FORCE if moving else 1
 
 
 def _loads(ramp: LoadRamp) -> Iterator[tuple[Kind, tuple[float, ...]]]:

@@ -28,7 +28,7 @@ Reported = TypeVar("Reported")
 # Attributes for the positions of an increment in space and in the history.
 _PLACES = frozenset({"radii", "angles", "step", "index", "increments_in_step", "path"})
 # Fields and scalars that separation does not set to 0.
-_KEPT = _PLACES | frozenset(
+_UNCHANGED = _PLACES | frozenset(
     {
         "slip_distance",
         *("slip", "slip_radial", "slip_circumferential", "slip_along_load", "dissipation"),
@@ -64,7 +64,7 @@ def separated(
     """
     before: Any = last
     found = {f.name: _zero(getattr(before, f.name)) for f in fields(before) if f.init}
-    found = {name: value for name, value in found.items() if name not in _KEPT}
+    found = {name: value for name, value in found.items() if name not in _UNCHANGED}
     if before.in_stick is not None:  # a small contact may not have had its stick zone determined
         found |= {name: 0.0 for name in ("stick_area", "stick_radius") if name in found}
     found |= position(before, ramp, fraction)
@@ -96,8 +96,8 @@ def separated(
 def virgin(increment: Reported) -> Reported:
     """Return an increment of bodies before any contact: all values are 0 except positions."""
     of: Any = increment
-    moved = {f.name: _zero(getattr(of, f.name)) for f in fields(of) if f.init}
-    zero = {name: value for name, value in moved.items() if name not in _PLACES}
+    values = {f.name: _zero(getattr(of, f.name)) for f in fields(of) if f.init}
+    zero = {name: value for name, value in values.items() if name not in _PLACES}
     return cast(Reported, replace(of, **zero))
 
 
@@ -109,11 +109,11 @@ def position(last: Any, ramp: LoadRamp, fraction: float) -> dict[str, Any]:
     controls: tuple[Any, ...] = (ramp.tangential, ramp.twisting, ramp.tilting)
     motions = {}
     for name, control in zip(("tangential_shift", "twist", "tilt"), controls, strict=True):
-        kept = getattr(last, name)
-        if kept is not None and control.kind is ControlKind.DISPLACEMENT:
-            moved = control.led(fraction, (kept, kept))[1]
-            kept = np.array(moved) if isinstance(kept, np.ndarray) else moved
-        motions[name] = kept
+        motion = getattr(last, name)
+        if motion is not None and control.kind is ControlKind.DISPLACEMENT:
+            values = control.prescribed(fraction, (motion, motion))[1]
+            motion = np.array(values) if isinstance(motion, np.ndarray) else values
+        motions[name] = motion
     return motions
 
 

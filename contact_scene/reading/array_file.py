@@ -15,10 +15,10 @@ from contact_scene.reading.validator_error import (
     shown,
 )
 
-_FEWEST, _MOST = 4, 16384
-_MOST_VALUES = 4096 * 4096  # 134 MB, more than the largest grid
-_AT_ONCE = 1 << 20
-_MOST_TEXT = 1 << 28  # bytes
+_MIN_SIDE, _MAX_SIDE = 4, 16384
+_MAX_VALUES = 4096 * 4096  # 134 MB, more than the largest grid
+_BLOCK = 1 << 20
+_MAX_TEXT = 1 << 28  # bytes
 # Fields of a text file for points without a measurement, in lower case.
 _MISSING = {"", "nan", "bad", "na", "n/a", "null", "***", "---"}
 
@@ -120,11 +120,11 @@ def _read(path: Path, name: str) -> NDArray[np.float64]:
             shape, by_columns, dtype = _header(stream, path.stat().st_size, name)
             values = np.empty(shape)
             lines = values.T if by_columns else values
-            count = _AT_ONCE // lines.shape[1]
+            count = _BLOCK // lines.shape[1]
             for begin in range(0, len(lines), count):
-                some = lines[begin : begin + count]
-                read = np.frombuffer(stream.read(some.size * dtype.itemsize), dtype)
-                some[:] = read.reshape(some.shape)
+                block = lines[begin : begin + count]
+                read = np.frombuffer(stream.read(block.size * dtype.itemsize), dtype)
+                block[:] = read.reshape(block.shape)
             return values
     except PydanticCustomError:
         raise
@@ -139,7 +139,7 @@ def _text(path: Path, name: str) -> NDArray[np.float64]:
     Fields are separated by semicolons, tabs, commas or spaces; lines before the first numbers are
     skipped. Fields of `_MISSING` are NaN.
     """
-    if path.stat().st_size > _MOST_TEXT:
+    if path.stat().st_size > _MAX_TEXT:
         raise refusal(f"the file {shown(name)} is too long", "a .npy file for this array")
     lines = path.read_text(encoding="utf-8-sig", errors="replace").splitlines()
     lines = [line for line in lines if line.strip() and line.strip()[0] not in "#%"]
@@ -201,10 +201,10 @@ def _check_type(dtype: np.dtype[Any], name: str) -> None:
 
 
 def _check_shape(shape: tuple[int, ...], name: str) -> None:
-    if len(shape) != 2 or not _FEWEST <= min(shape) <= max(shape) <= _MOST:
-        expected = f"two dimensions (x, y) of {_FEWEST} to {_MOST} values each"
-    elif shape[0] * shape[1] > _MOST_VALUES:
-        expected = f"at most {_MOST_VALUES} values in all (4096 x 4096)"
+    if len(shape) != 2 or not _MIN_SIDE <= min(shape) <= max(shape) <= _MAX_SIDE:
+        expected = f"two dimensions (x, y) of {_MIN_SIDE} to {_MAX_SIDE} values each"
+    elif shape[0] * shape[1] > _MAX_VALUES:
+        expected = f"at most {_MAX_VALUES} values in all (4096 x 4096)"
     else:
         return
     raise refusal(f"the array {_named(name)} has shape {tuple(shape)}", expected)

@@ -211,14 +211,14 @@ Force = Annotated[float, Quantity(FORCE, "a force")]
 PressingForce = Annotated[float, Quantity(FORCE, "a force not below 0", at_least=0.0)]
 Moment = Annotated[float, Quantity(MOMENT, "a moment")]
 # "60 deg" rounds up.
-_MOST_ROTATION = math.nextafter(math.pi / 3, math.inf)
+_MAX_ROTATION = math.nextafter(math.pi / 3, math.inf)
 Rotation = Annotated[
     float,
     Quantity(
         ROTATION,
         "an angle from -60 to 60 deg",
-        at_least=-_MOST_ROTATION,
-        at_most=_MOST_ROTATION,
+        at_least=-_MAX_ROTATION,
+        at_most=_MAX_ROTATION,
     ),
 ]
 BulkStrain = Annotated[

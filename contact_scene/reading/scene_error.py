@@ -11,7 +11,7 @@ from contact_scene.reading.validator_error import (
 
 Path = tuple[str | int, ...]
 
-_MOST_LISTED = 100
+_MAX_LISTED = 100
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ class SceneError(Exception):
         super().__init__(self.problems)
 
     def __str__(self) -> str:
-        lines = [str(problem) for problem in self.problems[:_MOST_LISTED]]
+        lines = [str(problem) for problem in self.problems[:_MAX_LISTED]]
         left = len(self.problems) - len(lines)
         return "\n".join(lines + ([f"… and {left} more"] if left else []))
 

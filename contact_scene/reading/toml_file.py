@@ -18,12 +18,12 @@ from contact_scene.reading.scene_error import (
     SceneError,
 )
 
-_LARGEST_FILE = 10_000_000
+_MAX_SIZE = 10_000_000
 # Every key, entry, table and escape contains one of the counted characters, and the longest load
 # step seven. The limit bounds time and memory of reading.
-_MOST_SIGNS = 7 * MAX_STEPS
-_MOST_DIGITS = sys.int_info.default_max_str_digits
-_TOO_LONG = re.compile(rf"[0-9](?:_?[0-9]){{{_MOST_DIGITS},}}+")
+_MAX_SIGNS = 7 * MAX_STEPS
+_MAX_DIGITS = sys.int_info.default_max_str_digits
+_LONG_NUMBER = re.compile(rf"[0-9](?:_?[0-9]){{{_MAX_DIGITS},}}+")
 
 
 def read_toml(file: FilePath) -> tuple[dict[str, Any], dict[Path, int]]:
@@ -39,9 +39,9 @@ def read_toml(file: FilePath) -> tuple[dict[str, Any], dict[Path, int]]:
         line = int(place[1]) if place else text.count("\n") + 1
         column = f" (column {place[2]})" if place else ""
         reason = str(error).partition(" (at ")[0]
-        if (long := _TOO_LONG.search(text)) and "int_max_str_digits" in reason:
+        if (long := _LONG_NUMBER.search(text)) and "int_max_str_digits" in reason:
             line = text.count("\n", 0, long.start()) + 1
-            reason = f"a whole number of more than {_MOST_DIGITS} digits"
+            reason = f"a whole number of more than {_MAX_DIGITS} digits"
         raise _refused(file, f"not valid TOML: {reason}{column}", line=line) from None
 
 
@@ -54,12 +54,12 @@ def _text(file: FilePath) -> str:
         if not file.is_file():
             raise _refused(file, "is not a regular file", "a scene file (TOML)")
         with file.open("rb") as stream:
-            contents = stream.read(_LARGEST_FILE + 1)
+            contents = stream.read(_MAX_SIZE + 1)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or "not a file name"
         raise _refused(file, f"cannot be read: {reason}") from None
-    if len(contents) > _LARGEST_FILE:
-        raise _refused(file, "is too large", f"at most {_LARGEST_FILE // 10**6} MB")
+    if len(contents) > _MAX_SIZE:
+        raise _refused(file, "is too large", f"at most {_MAX_SIZE // 10**6} MB")
     try:
         text = contents.removeprefix(b"\xef\xbb\xbf").decode("utf-8")
     except UnicodeDecodeError as error:
@@ -67,7 +67,7 @@ def _text(file: FilePath) -> str:
         raise _refused(file, "is not text in UTF-8", line=line) from None
     if not text.strip():
         raise _refused(file, "is empty", "a scene (TOML)")
-    if sum(map(text.count, "=,[\\")) > _MOST_SIGNS:
+    if sum(map(text.count, "=,[\\")) > _MAX_SIGNS:
         raise _refused(file, "holds too many keys or escapes", f"at most {MAX_STEPS} loading steps")
     return text
 

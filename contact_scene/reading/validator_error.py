@@ -6,7 +6,7 @@ from typing import Any
 
 from pydantic_core import PydanticCustomError
 
-_LONGEST_SHOWN = 60
+_MAX_SHOWN = 60
 
 
 def refusal(message: str, expected: str = "", hint: str = "") -> PydanticCustomError:
@@ -46,7 +46,7 @@ def _shown_array(items: list[Any] | tuple[Any, ...]) -> str:
     return shortened("[" + ", ".join(shown(item) for item in items) + "]", 160)
 
 
-def shortened(text: str, longest: int = _LONGEST_SHOWN) -> str:
+def shortened(text: str, longest: int = _MAX_SHOWN) -> str:
     """Cut a text to a largest length."""
     return text if len(text) <= longest else text[: longest - 1] + "…"
 

@@ -53,7 +53,7 @@ def _proved(scene: Scene, ramps: Sequence[LoadRamp]) -> bool:
         return True
     if any(r.stretch and any(r.stretch[1]) for r in ramps):
         return False
-    sheared = [r for r in ramps if any(r.tangential.end) or r.twisting.end or _led(r)]
+    sheared = [r for r in ramps if any(r.tangential.end) or r.twisting.end or _follows_force(r)]
     if coupling(scene)[0]:
         return False
     if not sheared:
@@ -72,7 +72,7 @@ def _proved(scene: Scene, ramps: Sequence[LoadRamp]) -> bool:
     return along_one_line(ramps) and _similar(scene)
 
 
-def _led(ramp: LoadRamp) -> bool:
+def _follows_force(ramp: LoadRamp) -> bool:
     """Determine if a prescribed displacement follows a prescribed force and may cause shear."""
     return ramp.tangential.start is None or ramp.twisting.start is None
 

@@ -39,7 +39,7 @@ class Control(Generic[Value]):
     start: Value | None
     end: Value
 
-    def led(
+    def prescribed(
         self, fraction: float, reached: tuple[Value, Value | None]
     ) -> tuple[Value | None, Value | None]:
         """Compute the prescribed force or displacement at a fraction of the step.

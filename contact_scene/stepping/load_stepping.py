@@ -147,7 +147,7 @@ def resumable_increments(
                     error.where = f"step {ramp.step}, increment {index} of {count}"
                     error.last_state = last
                     raise
-                approach = ramp.normal.led(end, (0.0, 0.0))[1]
+                approach = ramp.normal.prescribed(end, (0.0, 0.0))[1]
             if reached is not None:
                 state = reached.state
                 here = with_strain(

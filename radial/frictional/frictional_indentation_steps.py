@@ -117,7 +117,7 @@ class FrictionalSteps:
     ) -> FrictionalState:
         """Return the contact at a fraction of the ramp; raise NotConverged."""
         reached = (start.normal_force, start.approach) if start else (0.0, 0.0)
-        target = target_of(self.scene, *ramp.normal.led(fraction, reached))
+        target = target_of(self.scene, *ramp.normal.prescribed(fraction, reached))
         radius, iterations = self._first_radius(target, before)
         start_radius = before.end.radius if before else FIRST * radius
         last, strain = before.strain if before else 0.0, (ramp.strain(fraction) or UNSTRAINED)[0]

@@ -145,7 +145,7 @@ class TangentialSteps:
         """Return the normal force or the approach at a fraction of a ramp; the other one is
         None."""
         reached = (start.forces[NORMAL], start.motions[NORMAL]) if start else (0.0, 0.0)
-        return ramp.normal.led(fraction, reached)
+        return ramp.normal.prescribed(fraction, reached)
 
     def spent(self) -> float:
         """Return the number of steps of Newton's method."""
@@ -164,8 +164,10 @@ class TangentialSteps:
         """
         start_loads = (start.forces, start.motions) if start else (NOTHING, NOTHING)
         since = self._vector(start_loads[0]), self._vector(start_loads[1])
-        tangential = [self._from(vector) for vector in ramp.tangential.led(fraction, since)]
-        about = ramp.twisting.led(fraction, (start_loads[0][TORSION], start_loads[1][TORSION]))
+        tangential = [self._from(vector) for vector in ramp.tangential.prescribed(fraction, since)]
+        about = ramp.twisting.prescribed(
+            fraction, (start_loads[0][TORSION], start_loads[1][TORSION])
+        )
         down = self._normal(ramp, start, fraction)
         forces, motions = (
             (*pair, turn, press) for pair, turn, press in zip(tangential, about, down, strict=True)

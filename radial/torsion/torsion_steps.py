@@ -88,7 +88,7 @@ class TorsionSteps:
         else:
             normal_contact = self.pressing.advance(ramp, start_contact, None, fraction)
         since = (start.torque, start.twist) if start else (0.0, 0.0)
-        torque, twist = ramp.twisting.led(fraction, since)
+        torque, twist = ramp.twisting.prescribed(fraction, since)
         if constant and before is not None:
             path = before.path
         else:

@@ -162,13 +162,13 @@ def normal_target(
     start  the state at the start of the step; None before first touch
     """
     reached = (0.0, 0.0) if start is None else (start.normal_force, start.pressing.approach)
-    force, approach = ramp.normal.led(fraction, reached)
+    force, approach = ramp.normal.prescribed(fraction, reached)
     if not tilts:
         return NormalTarget(force, approach)
     turned: tuple[Pair, Pair] = ((0.0, 0.0), (0.0, 0.0))
     if start is not None:
         turned = start.moment or turned[0], start.pressing.tilt or turned[1]
-    return NormalTarget(force, approach, *ramp.tilting.led(fraction, turned))
+    return NormalTarget(force, approach, *ramp.tilting.prescribed(fraction, turned))
 
 
 def tangential_target(
@@ -179,11 +179,11 @@ def tangential_target(
     reached: tuple[Pair, Pair | None] = ((0.0, 0.0), (0.0, 0.0))
     if sheared is not None:
         reached = _pair(sheared.force), None if sheared.shift is None else _pair(sheared.shift)
-    force, shift = ramp.tangential.led(fraction, reached)
+    force, shift = ramp.tangential.prescribed(fraction, reached)
     torque = twist = None
     if twists:
         turned = (sheared.torque or 0.0, sheared.twist or 0.0) if sheared else (0.0, 0.0)
-        torque, twist = ramp.twisting.led(fraction, turned)
+        torque, twist = ramp.twisting.prescribed(fraction, turned)
     return TangentialTarget(
         None if force is None else np.array(force),
         None if shift is None else np.array(shift),

@@ -564,15 +564,15 @@ def _taken_over(patches: Patches, kind: ControlKind) -> None:
     """Start a step of another kind of control with an error of 2 %."""
 
     def wrap(whole: Any) -> Any:
-        def led(self: Control[Any], fraction: float, reached: Any) -> Any:
+        def prescribed(self: Control[Any], fraction: float, reached: Any) -> Any:
             if self.kind is kind and isinstance(self.end, float):
                 force, displacement = reached
                 reached = 1.02 * force, 1.02 * displacement
             return whole(self, fraction, reached)
 
-        return led
+        return prescribed
 
-    patches.method(Control, "led", wrap)
+    patches.method(Control, "prescribed", wrap)
 
 
 def _torque_far_away(patches: Patches) -> None:
