@@ -19,6 +19,9 @@ from contact_scene.quantities.summary import StepSummary
 from contact_scene.rig import compliances
 
 Numbers = NDArray[np.float64]
+# Largest distance of the last shift of a loop from its first, relative to the range: one half if
+# four points go around, and 1 for one branch.
+GAP = 0.75
 
 
 class NothingToCompare(ValueError):
@@ -64,7 +67,11 @@ def comparison(
     """
     for motion in (ACTUATOR, SHIFT):
         if {motion, LOAD} <= table.keys():
-            return tuple(_loops(_Loop(table[motion], table[LOAD]), run, motion))
+            if step is not None:
+                raise NothingToCompare("a loop is compared with the last load cycle; omit --step")
+            theirs = _Loop(table[motion], table[LOAD])
+            theirs.refuse_unless_one_cycle()
+            return tuple(_loops(theirs, run, motion))
     if PLACE in table and {PRESSURE, SHEAR} & table.keys():
         return tuple(_profiles(table, run, step or len(run.summary.steps)))
     raise NothingToCompare(
@@ -87,9 +94,23 @@ class _Loop:
 
     @property
     def area(self) -> float:
-        """Energy per cycle, of the polygon [force length]."""
+        """Energy per cycle, of the polygon [force length]. Negative in reversed order."""
         turn = np.roll(self.shift, -1) * self.force - self.shift * np.roll(self.force, -1)
-        return 0.5 * abs(float(np.sum(turn)))
+        return 0.5 * float(np.sum(turn))
+
+    def refuse_unless_one_cycle(self) -> None:
+        """Raise NothingToCompare for one branch, several cycles, or no range."""
+        apart = self.shift - _centre(self.shift)
+        length = float(np.ptp(self.shift))
+        outer = np.sign(apart[np.abs(apart) > length / 4])
+        cycles = np.count_nonzero(outer != np.roll(outer, 1)) / 2
+        gap = abs(float(apart[-1] - apart[0]))
+        if cycles != 1 or not gap < GAP * length:
+            raise NothingToCompare(
+                f"got {cycles:g} cycles with a gap of {gap:.3g} m between the last shift and the "
+                f"first, expected the points of 1 cycle in order and a gap below {GAP} of the "
+                f"range of {length:.3g} m"
+            )
 
     @property
     def branches(self) -> tuple[tuple[Numbers, Numbers], ...]:

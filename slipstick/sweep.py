@@ -29,7 +29,7 @@ from contact_results.stress.stress_maxima import (
     interface_sides,
     layer_name,
 )
-from contact_scene import Body, read_scene_file
+from contact_scene import Body, SceneError, read_scene_file
 from contact_scene.quantities.field_metadata import (
     Kind,
     reported,
@@ -128,6 +128,7 @@ class SweepPoint:
     file        scene file, which every worker can read
     overrides   options that override its keys
     content     digest of the scene, so that a record of another content is not used
+    invalid     message of a scene that the values make invalid
     values      of the varied keys, by label
     wanted      names of the quantities
     with_error  whether errors are stated
@@ -140,6 +141,7 @@ class SweepPoint:
     wanted: tuple[str, ...]
     solver: str
     with_error: bool
+    invalid: str = ""
 
     @property
     def name(self) -> str:
@@ -159,6 +161,8 @@ class SweepPoint:
 
     def compute(self) -> CaseRecord:
         """Solve the scene and state errors; a refusal is recorded by its text."""
+        if self.invalid:
+            return self.record(self.invalid)
         try:
             result: Any = solve(read_scene_file(self.file, self.overrides), self.solver)  # type: ignore[call-overload]
             numbers = dict(self._numbers(result))
@@ -203,7 +207,7 @@ def points(
 ) -> tuple[SweepPoint, ...]:
     """Every combination of the spaced values, each with the whole sample of the distributions.
 
-    Raises SceneError for a scene that a value makes invalid, and SweepError.
+    Raises SceneError if no scene is valid, and SweepError.
     """
     samples = [each for each in variations if each.is_sample]
     spaced = [each for each in variations if not each.is_sample]
@@ -215,18 +219,22 @@ def points(
         raise SweepError(f"got {total} points, expected at most {MAX_POINTS}; use a smaller N")
     order = np.random.default_rng(SEED)
     columns = [order.permutation(each.values).tolist() for each in samples]
-    made = []
+    made, refusals = [], []
     for at in product(*(each.values for each in spaced)):
         for draw in zip(*columns, strict=True) if samples else [()]:
             chosen = {
                 each.key: v for each, v in zip([*spaced, *samples], (*at, *draw), strict=True)
             }
             changes = (*overrides, *(each.override(chosen[each.key]) for each in variations))
-            content = hashlib.sha256(repr(read_scene_file(file, changes)).encode()).hexdigest()
+            content, invalid = "", ""
+            try:
+                content = hashlib.sha256(repr(read_scene_file(file, changes)).encode()).hexdigest()
+            except SceneError as error:
+                refusals.append(error)
+                invalid = str(error)
             values = tuple((each.label, chosen[each.key]) for each in variations)
-            made.append(
-                SweepPoint(
-                    str(file.resolve()), changes, content, values, tuple(wanted), solver, with_error
-                )
-            )
+            source = (str(file.resolve()), changes, content, values, tuple(wanted), solver)
+            made.append(SweepPoint(*source, with_error, invalid))
+    if len(refusals) == len(made):
+        raise refusals[0]
     return tuple(made)

@@ -88,6 +88,10 @@ def test_offset_slope_and_area_of_a_loop_are_found_with_our_part(place: Path) ->
     assert float(found["force along the loop"][3]) == pytest.approx(0.1 * 60, rel=0.3)
 
     # Neither the first point of the cycle nor the number of points matters.
+    back = against(
+        place, table(place / "back.csv", **{"shift [m]": shift[::-1], "T [N]": force[::-1]})
+    )
+    assert float(back["energy per cycle"][2]) == pytest.approx(-1.0, abs=3e-3)
     finer = [np.interp(np.linspace(0, 47, 142), np.arange(48), each) for each in (shift, force)]
     columns = zip(("shift [m]", "T [N]"), (np.roll(each, 50) for each in finer), strict=True)
     gap = against(place, table(place / "rolled.csv", **dict(columns)))["force along the loop"][3]
@@ -149,6 +153,9 @@ def test_a_scene_is_solved_first(place: Path) -> None:
         ({"T [N]": ["two"], "shift [um]": [1]}, "write numbers only"),
         ({"T [N]": ["nan"], "shift [um]": [1]}, "values that are not finite"),
         ({"T [N]": [1], "time [s]": [1]}, "got the columns tangential_force, expected shift or"),
+        ({"T [N]": [1], "shift [um]": [1]}, "got 0 cycles"),
+        ({"T [N]": [9, 2, -2, -9], "shift [um]": [3, 1, -1, -3]}, "a gap below 0.75 of the range"),
+        ({"T [N]": [9, -2, -9, 2] * 2, "shift [um]": [3, 0, -3, 0] * 2}, "got 2 cycles"),
     ],
 )
 def test_a_table_that_cannot_be_compared_is_refused(place: Path, columns, message) -> None:

@@ -174,6 +174,8 @@ def test_indenter_has_its_own_stress(place: Path) -> None:
         (["{}/run", "--history"], "add --at X,Y,Z"),
         (["{}/run", "--at", "0,0"], "expected X,Y,Z"),
         (["{}/run", "--at", "0,0,-1"], "--at"),
+        (["{}/run", "--at", "0,0,interface 9"], "expected interface 1"),
+        (["{}/run", "--at", "0,0,0", "--history", "--step", "1"], "leave --step out"),
         (["{}/run", "--at", "0,0,0", "--volume"], "--volume excludes --at"),
         (["{}/run", "--depths", "-1"], "expected a finite length"),
         (["{}/run", "--depths", "1 kN"], "expected a length"),

@@ -111,10 +111,11 @@ def test_errors_bound_the_percentiles_of_every_value_within_them() -> None:
 def test_a_point_without_answer_leaves_its_reason(scene: Path) -> None:
     text = HERTZ + '[semi_analytical]\ncells = [16, 16]\nwindow = ["1 mm", "1 mm"]\n'
     scene.write_text(text, encoding="utf-8")
-    ended = sweep(scene, "--vary", "indenter.radius=9..90 mm 2", "--get", "approach")
+    ended = sweep(scene, "--vary", "indenter.radius=-72..90 mm 3", "--get", "approach")
     assert ended.returncode == 3
-    fits, cut_off = rows(scene.parent / "out/sweep.csv")
+    invalid, fits, cut_off = rows(scene.parent / "out/sweep.csv")
     assert "window" in cut_off["refused"]
+    assert "expected a positive length" in invalid["refused"]
     assert not cut_off["approach [m]"]
     assert not fits["refused"]
     assert float(fits["approach [m]"]) > 0
@@ -133,7 +134,7 @@ def test_a_point_without_answer_leaves_its_reason(scene: Path) -> None:
         (("--vary", "a=normal(1,-2) 3"), "got --vary a=normal(1,-2) 3, expected KEY="),
         (("--vary", "a=normal(1,2) 3", "--vary", "b=normal(1,2) 4"), "differ in N"),
         (("--vary", "a=1..2 3", "--vary", "a=1..2 3"), "a key is named twice"),
-        (("--vary", "indenter.radius=-1..9 mm 3"), "expected a positive length"),
+        (("--vary", "indenter.radius=-9..-1 mm 3"), "expected a positive length"),
         (
             ("--vary", "indenter.radius=1..9 mm 999", "--vary", "a=1..2 999"),
             "expected at most 99999",

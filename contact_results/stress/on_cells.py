@@ -32,6 +32,8 @@ MARGIN = 1.6
 # Half width for levels whose largest stress lies at the edge of the first window. Behind a contact
 # with tangential load the largest interface stress is about two radii from the centre.
 WIDE_MARGIN = 2.4
+# Distance of chosen points from the origin in half windows: the window is extended to them.
+MAX_REACH = 10.0
 NEIGHBOURS = 4  # adjacent cells of a point that the interpolation uses
 LEVEL = ("depth", "layer")
 # Numbers per point of the volume: displacement and stress by level and joined, cells; coordinates,
@@ -56,6 +58,12 @@ def stress_at_cells(
 
     body = state.indenter if indenter else state.body
     reach = [float(np.max(np.abs(places))) for places in (x, y)]
+    far, half = max(reach), max(float(np.max(state.axes[axis])) for axis in "xy")
+    if far > MAX_REACH * half:
+        raise ResourceRefused(
+            f"a point is {far:.3g} m from the origin, expected at most {MAX_REACH:g} half windows "
+            f"of {half:.3g} m; check the units of the points, or use a larger window"
+        )
     grid, pressure, shear = _with_margin(state, 0.0, reach)
     if indenter and shear is not None:
         shear = -shear

@@ -55,7 +55,9 @@ def _problem(document: Mapping[str, Any], detail: ErrorDetails) -> Problem:
     if kind == "missing" and isinstance(location[-1], str):
         return Problem(path, _MISSING, _expected_value(location))
     if kind == "missing":
-        return Problem(path[:-1], got, "an array of 2, for x and y")
+        of_strain = str(location[-2]).startswith("bulk_")
+        expected = "an array of 3, for xx, yy and xy" if of_strain else "an array of 2, for x and y"
+        return Problem(path[:-1], got, expected)
     if kind == "extra_forbidden":
         model = _model_at(location[:-1])
         return _unknown_key(path, list(model.model_fields) if model else [])

@@ -143,3 +143,13 @@ def _near(name: str, known: Collection[str]) -> list[str]:
     name = name.replace("-", "_")
     found = get_close_matches(name, spelt, 1, ALMOST) or get_close_matches(name, spelt, 3, ALIKE)
     return [spelt[one] for one in found]
+
+
+def refuse_with_run(given: dict[str, object]) -> None:
+    """Refuse options of a solve beside the directory of a run."""
+    for option, value in given.items():
+        if value:
+            raise typer.BadParameter(
+                f"{option} applies to a scene, got the output of a run: omit it, or give the scene "
+                "file"
+            )

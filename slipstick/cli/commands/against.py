@@ -14,7 +14,7 @@ from contact_results.number_text import Uncertainty, number_text
 from contact_scene import read_scene_file
 from contact_scene.reading.engineering_units import engineering_unit
 from slipstick.against import NothingToCompare, comparison
-from slipstick.cli.options import SetOption, SolverOption, optional
+from slipstick.cli.options import AskedSolver, SetOption, optional, refuse_with_run
 from slipstick.cli.terminal import print_table
 from slipstick.solvers.names import SolverName
 from slipstick.solving import save, solve, stated_errors
@@ -47,7 +47,7 @@ def against(
         ),
     ] = None,
     overrides: SetOption = None,
-    solver: SolverOption = SolverName.SEMI_ANALYTICAL,
+    solver: AskedSolver = None,
 ) -> None:
     """Compare a run with a measured loop or profile.
 
@@ -56,12 +56,15 @@ def against(
     The last column of the output is the largest part of the difference that the stated error
     explains.
     """
+    if source.is_dir():
+        refuse_with_run({"--set": overrides, "--solver": solver})
+    chosen = solver or SolverName.SEMI_ANALYTICAL
     try:
         measured = read_measured(table)
         with TemporaryDirectory() as solved:
             directory = source
             if not source.is_dir():
-                result: Any = solve(read_scene_file(source, overrides or ()), solver.value)
+                result: Any = solve(read_scene_file(source, overrides or ()), chosen.value)
                 directory = Path(solved) / "run"
                 save(result, directory, figures="none", errors=stated_errors(result))
             run = load(directory)

@@ -22,6 +22,7 @@ from slipstick.cli.options import (
     OutputOption,
     SetOption,
     optional,
+    refuse_with_run,
     warn_of_odd_numbers,
 )
 from slipstick.solvers.names import SolverName
@@ -130,9 +131,11 @@ def stress(
     chosen = solver or SolverName.SEMI_ANALYTICAL
     if source.is_dir():
         given: dict[str, object] = {"--set": overrides, "--solver": solver}
-        _refuse_with_run(given | {"--accuracy": accuracy, "--most-seconds": most_seconds})
+        refuse_with_run(given | {"--accuracy": accuracy, "--most-seconds": most_seconds})
     else:
         _refuse_beside_section(chosen, asked, volume)
+    if history and step is not None:
+        raise typer.BadParameter("--history is of all load steps; leave --step out")
     if at or history:
         _refuse_with_points(at, {"--depths": depths, "--volume": volume, "--accuracy": accuracy})
         read = None if source.is_dir() else read_scene_file(source, overrides or ())
@@ -272,6 +275,8 @@ def _points_of(at: list[str], body: Body) -> tuple[Any, Any, list[Any]]:
             raise typer.BadParameter(f"got --at {text}, expected X,Y,Z such as '0.3 mm,0,20 um'")
         x, y = (_length(part, "--at") for part in parts[:2])
         try:
+            if parts[2].startswith("interface") and parts[2] not in sides:
+                raise ValueError(f"expected {' or '.join(sides) or 'a depth: there is no layer'}")
             levels = sides.get(parts[2]) or levels_of(stack_of(body), [_length(parts[2], "--at")])
         except ValueError as error:
             raise typer.BadParameter(f"--at {text}: {error}") from None
@@ -349,15 +354,6 @@ def _solved(
         return result, None
     with coarse_solves_shown():
         return result, chosen.errors(result)
-
-
-def _refuse_with_run(given: dict[str, object]) -> None:
-    for option, value in given.items():
-        if value:
-            raise typer.BadParameter(
-                f"{option} applies to a scene, got the output of a run: omit it, or give the scene "
-                "file"
-            )
 
 
 def _refuse_beside_section(solver: SolverName, depths: list[float] | None, volume: bool) -> None:

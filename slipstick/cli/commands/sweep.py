@@ -88,7 +88,8 @@ def sweep(
         made = points(scene, overrides or (), variations, names, solver.value, with_error=error)
     except SweepError as refused:
         raise typer.BadParameter(str(refused)) from None
-    first = read_scene_file(scene, made[0].overrides).scene
+    valid = next(point for point in made if not point.invalid)
+    first = read_scene_file(scene, valid.overrides).scene
     listing = "slipstick maintain schema summary"
     if problem := unknown_names("quantity", names, quantities(first.body), listing):
         raise typer.BadParameter(problem)
