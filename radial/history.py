@@ -34,12 +34,12 @@ from radial.normal.surface import (
     pressure,
 )
 from radial.output_points import (
+    StepsOnRings,
     largest_targets,
     output_radii,
     refuse_no_disc,
     refuse_round_off,
     target,
-    undeformed_gap,
 )
 from radial.plan import Plan
 from radial.plan import plan as plan_of
@@ -156,7 +156,7 @@ def _solver(scene: Scene, discretisation: RadialDiscretisation, plan: Plan) -> A
 
 
 @dataclass(frozen=True)
-class _Solver:
+class _Solver(StepsOnRings):
     """Load stepping of the frictionless contact. No increment depends on the previous one.
 
     fineness  multiple of the numbers of orders and points
@@ -164,13 +164,11 @@ class _Solver:
     largest   contacts solved to place the rings
     """
 
-    scene: Scene
     bodies: Bodies
     tolerance: float
     fineness: int
     radii: Array
     largest: tuple[NormalContact, ...]
-    most_spent: float = 0.0
 
     @classmethod
     def of(cls, scene: Scene, discretisation: RadialDiscretisation, fineness: int) -> _Solver:
@@ -181,10 +179,6 @@ class _Solver:
         )
         rings = output_radii(discretisation.rings, largest, scene.indenter.rim)
         return cls(scene, bodies, discretisation.tolerance, fineness, rings, largest)
-
-    def spent(self) -> float:
-        """Return 0: work does not limit the bisection."""
-        return 0.0
 
     def advance(
         self,
@@ -200,10 +194,6 @@ class _Solver:
             if found.target == prescribed:
                 return found
         return normal_contact(self.bodies, self.scene.indenter, prescribed, self.fineness)
-
-    def undeformed_gap(self, last: Increment, tilt: Any) -> Array:
-        """Return the gap without tractions at the rings of an increment [length]."""
-        return undeformed_gap(self.scene, last)
 
     def report(self, reached: Reached[NormalContact], last: Increment | None) -> Increment:
         """Return the increment with its fields at the rings.

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from math import ceil, log10
+from typing import Any
 
 import numpy as np
 
@@ -61,10 +63,25 @@ def output_radii(count: int, largest: Sequence[NormalContact], rim: float | None
     return np.asarray(widest.radius * np.concatenate([inside, 1 + (REACH - 1) * outside**2]))
 
 
-def undeformed_gap(scene: Scene, last: Increment) -> Array:
-    """Return the gap without tractions at the rings and angles of an increment [length]."""
-    gap = np.asarray(scene.indenter.initial_gap(last.radii, 0.0))
-    return np.array(np.broadcast_to(gap, last.gap.T.shape).T)
+@dataclass(frozen=True)
+class StepsOnRings:
+    """Base of the solvers of load steps whose work does not limit the bisection."""
+
+    scene: Scene
+
+    @property
+    def most_spent(self) -> float:
+        """Work above which an increment that does not converge is not bisected any further."""
+        return 0.0
+
+    def spent(self) -> float:
+        """Return the work so far."""
+        return 0.0
+
+    def undeformed_gap(self, last: Increment, tilt: Any) -> Array:
+        """Return the gap without tractions at the rings of an increment [length]."""
+        gap = np.asarray(self.scene.indenter.initial_gap(last.radii, 0.0))
+        return np.array(np.broadcast_to(gap, last.gap.T.shape).T)
 
 
 def refuse_no_disc(radii: Array, p: Array, gap: Array) -> None:

@@ -45,7 +45,6 @@ class Plan:
     increments    number of increments of each load step
     effects       all effects with reasons, for output
     direction     unit vector of the first tangential load, (1, 0) without one
-    normal_steps  number of load steps before the first tangential load
     circle        angles of the contact at points (rings × angles), which solves contact and
                   friction together; None if no such solve is necessary
     fineness      multiple of the numbers of orders and points; with friction, of rings and angles
@@ -57,7 +56,6 @@ class Plan:
     increments: tuple[int, ...]
     effects: tuple[Effect, ...]
     direction: tuple[float, float] = (1.0, 0.0)
-    normal_steps: int = 0
     circle: Circle | None = None
     fineness: float = 1.0
 
@@ -75,11 +73,6 @@ class Plan:
     def angles(self) -> int:
         """Return the number of angles of a ring."""
         return 0 if self.circle is None else len(self.circle.angles(self.highest))
-
-    @property
-    def tangential_increments(self) -> int:
-        """Return the number of increments from the first tangential load on."""
-        return sum(self.increments[self.normal_steps :])
 
     @property
     def sheared(self) -> bool:
@@ -124,10 +117,7 @@ def plan(scene: Scene) -> Plan:
         effect.load_history(frictional or twists or pushed),
     )
     increments = _pushed_increments(scene, circle) if circle else _increments(scene, frictional)
-    normal_steps = next((n for n, ramp in enumerate(ramps) if any(ramp.tangential.end)), len(ramps))
-    return Plan(
-        frictional, twists, pushed, increments, effects, _direction(ramps), normal_steps, circle
-    )  # fmt: skip
+    return Plan(frictional, twists, pushed, increments, effects, _direction(ramps), circle)
 
 
 def _twists(ramp: LoadRamp, curved: bool) -> bool:

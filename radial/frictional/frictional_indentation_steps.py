@@ -5,8 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import ceil, exp, inf, log
-from typing import Any
+from math import ceil, exp, log
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -17,7 +16,6 @@ from contact_scene.bulk_strain import UNSTRAINED
 from contact_scene.quantities.residuals import Residuals
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.rig import of_contact
-from contact_scene.solver_errors import NotConverged
 from contact_scene.stepping.load_stepping import Reached
 from radial.fields import Increment
 from radial.frictional.coupling import Coupling
@@ -38,12 +36,10 @@ from radial.frictional.stick_slip import (
     frictional_contact,
 )
 from radial.normal.pressing import (
-    LARGEST_STEP,
-    LEAST_POWER,
-    NEAR,
     ROUND_OFF,
     NormalContact,
     Target,
+    contact_at_target,
     normal_contact,
 )
 from radial.normal.surface import (
@@ -51,16 +47,15 @@ from radial.normal.surface import (
     pressure,
 )
 from radial.output_points import (
+    StepsOnRings,
     largest_targets,
     output_radii,
     refuse_no_disc,
     refuse_round_off,
-    undeformed_gap,
 )
 from radial.output_points import target as target_of
 
 COUNT = 64  # rings, apart from those at the front and at the ends
-MAX_ITERATIONS = 40
 # Largest ratio of the contact radii of two solves, and first radius over that of the first
 # increment.
 GROWTH, FIRST = 1.1, 0.03
@@ -70,20 +65,18 @@ MIDDLE = 0.5  # first guess of the front over the contact radius
 
 
 @dataclass(frozen=True)
-class FrictionalSteps:
+class FrictionalSteps(StepsOnRings):
     """Solver of the increments of normal loading with friction.
 
     largest  contacts without friction, solved to place the output rings
     """
 
-    scene: Scene
     coupling: Coupling
     friction: CoulombFriction
     tolerance: float
     fineness: float
     radii: Array
     largest: tuple[NormalContact, ...]
-    most_spent: float = inf
 
     @classmethod
     def of(
@@ -103,10 +96,6 @@ class FrictionalSteps:
         return cls(
             scene, coupling, scene.friction, discretisation.tolerance, fineness, radii, largest
         )
-
-    def spent(self) -> float:
-        """Return 0: work does not limit the bisection."""
-        return 0.0
 
     def advance(
         self,
@@ -205,27 +194,15 @@ class FrictionalSteps:
         """
         radial_displacement = _reference_displacement(before, strain)
         like = before.end if before else None
-        x, power = log(radius), self._power(target, before)
-        best: FrictionalContact | None = None
-        nearest, last_x, last = inf, x, inf
-        for iterations in range(1, MAX_ITERATIONS + 1):
-            now = like = self._at(exp(x), rings, radial_displacement, like)
-            residual = target.residual(now)
-            if best is not None and nearest <= NEAR and abs(residual) >= nearest:
-                return best, iterations, power
-            if abs(residual) < nearest:
-                best, nearest = now, abs(residual)
-            if best is not None and nearest <= 10 * ROUND_OFF:
-                return best, iterations, power
-            if last < inf and x != last_x:
-                power = max((residual - last) / (x - last_x), LEAST_POWER)
-            last_x, last = x, residual
-            x -= min(max(residual / power, -LARGEST_STEP), LARGEST_STEP)
-        raise NotConverged("the contact radius", MAX_ITERATIONS, nearest, ROUND_OFF)
 
-    def undeformed_gap(self, last: Increment, tilt: Any) -> Array:
-        """Return the gap without tractions at the rings of an increment [length]."""
-        return undeformed_gap(self.scene, last)
+        def solve(a: float) -> FrictionalContact:
+            """Solve the contact of a radius, from the slip zone of the last one."""
+            nonlocal like
+            like = self._at(a, rings, radial_displacement, like)
+            return like
+
+        power = self._power(target, before)
+        return contact_at_target(solve, target, radius, power, 10 * ROUND_OFF)
 
     def report(self, reached: Reached[FrictionalState], last: Increment | None) -> Increment:
         """Return the increment with its fields at the rings.

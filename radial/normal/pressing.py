@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import exp, inf, isfinite, log
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from contact_scene.solver_errors import NotConverged, UnsupportedScene
 from radial.normal.disc import (
@@ -40,6 +41,9 @@ class Loaded(Protocol):
     def approach(self) -> float: ...
 
 
+C = TypeVar("C", bound=Loaded)
+
+
 @dataclass(frozen=True)
 class Target:
     """Prescribed normal force [force] or approach [length].
@@ -52,30 +56,31 @@ class Target:
     approach: float | None
     spring: float = 0.0
 
+    @property
+    def prescribed(self) -> float:
+        """Prescribed value [force or length]."""
+        value = self.approach if self.force is None else self.force
+        assert value is not None
+        return value
+
+    def value(self, contact: Loaded) -> float:
+        """Return the value of the prescribed quantity for a contact [force or length]."""
+        return self.actuator_approach(contact) if self.force is None else contact.load
+
     def residual(self, contact: Loaded) -> float:
         """Return log(value of the contact / prescribed value).
 
         Raises UnsupportedScene for a contact beyond the end of the shape, whose load is not
         positive.
         """
-        has, prescribed = contact.load, self.force
-        if prescribed is None:
-            assert self.approach is not None
-            has, prescribed = self.actuator_approach(contact), self.approach
-        if not (has > 0 and isfinite(has)):
+        value = self.value(contact)
+        if not (value > 0 and isfinite(value)):
             raise UnsupportedScene(
                 f"no contact of radius {contact.radius:.3g} m carries the load: the contact "
                 "reaches the end of the shape (the equator of a sphere). Use "
                 "a smaller force or approach"
             )
-        return log(has / prescribed)
-
-    def is_beyond(self, contact: Disc) -> bool:
-        """Return true if the prescribed value exceeds that of the contact."""
-        if self.force is not None:
-            return self.force > contact.load
-        assert self.approach is not None
-        return self.approach > self.actuator_approach(contact)
+        return log(value / self.prescribed)
 
     def actuator_approach(self, contact: Loaded) -> float:
         """Return the approach of the far end of the spring [length]."""
@@ -113,23 +118,48 @@ def normal_contact(
     """
     if indenter.rim is not None:
         whole = disc(bodies, indenter, indenter.rim, fineness=fineness)
-        if target.is_beyond(whole):
-            return NormalContact(
-                _contact_at_rim(bodies, indenter, target, whole, fineness), target, 1
-            )
-    x, power = log(first_radius(bodies, indenter, target)), 2.0
-    best, nearest = None, inf
-    last_x, last = x, inf
+        if target.prescribed > target.value(whole):
+            contact = _contact_at_rim(bodies, indenter, target, whole, fineness)
+            return NormalContact(contact, target, 1)
+
+    def solve(radius: float) -> Disc:
+        """Solve the contact of a radius."""
+        return disc(bodies, indenter, radius, fineness=fineness)
+
+    radius = first_radius(bodies, indenter, target)
+    contact, iterations, _ = contact_at_target(solve, target, radius, 2.0)
+    return NormalContact(contact, target, iterations)
+
+
+def contact_at_target(
+    solve: Callable[[float], C],
+    target: Target,
+    radius: float,
+    power: float,
+    tolerance: float = ROUND_OFF,
+) -> tuple[C, int, float]:
+    """Find the contact at a target by the secant method for the logarithm of the radius.
+
+    Return the contact, the number of radii tried, and the exponent of the target in the radius.
+    Raises NotConverged, and the errors of `solve`.
+
+    solve      contact of a radius [length]
+    radius     starting value [length]
+    power      expected exponent
+    tolerance  of the residual
+    """
+    best, nearest, last, x = None, inf, inf, log(radius)
+    last_x = x
     for iterations in range(1, MAX_ITERATIONS + 1):
-        contact = disc(bodies, indenter, exp(x), fineness=fineness)
+        contact = solve(exp(x))
         residual = target.residual(contact)
         if best is not None and nearest <= NEAR and abs(residual) >= nearest:
-            return NormalContact(best, target, iterations)
+            return best, iterations, power
         if abs(residual) < nearest:
             best, nearest = contact, abs(residual)
-        if best is not None and nearest <= ROUND_OFF:
-            return NormalContact(best, target, iterations)
-        if last < inf:
+        if best is not None and nearest <= tolerance:
+            return best, iterations, power
+        if last < inf and x != last_x:
             power = max((residual - last) / (x - last_x), LEAST_POWER)
         last_x, last = x, residual
         x -= min(max(residual / power, -LARGEST_STEP), LARGEST_STEP)
@@ -143,20 +173,11 @@ def _contact_at_rim(
 
     whole  contact that just reaches the rim
     """
+    missing = further = target.prescribed - target.value(whole)
     if target.force is not None:
-        missing = target.force - whole.load
         further = missing / (2 * bodies.modulus * whole.radius)
-    else:
-        assert target.approach is not None
-        missing = further = target.approach - target.actuator_approach(whole)
     probe = disc(bodies, indenter, whole.radius, whole.approach + further, fineness)
-    by_force = target.force is not None
-    has = (
-        probe.load - whole.load
-        if by_force
-        else target.actuator_approach(probe) - target.actuator_approach(whole)
-    )
-    further *= missing / has
+    further *= missing / (target.value(probe) - target.value(whole))
     return disc(bodies, indenter, whole.radius, whole.approach + further, fineness)
 
 

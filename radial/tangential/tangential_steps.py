@@ -4,7 +4,6 @@ torsion."""
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
@@ -25,10 +24,10 @@ from radial.normal.pressing import (
 )
 from radial.normal.surface import pressure
 from radial.output_points import (
+    StepsOnRings,
     largest_targets,
     target,
     targets,
-    undeformed_gap,
 )
 from radial.plan import ELSEWHERE, Plan
 from radial.response.bodies import Bodies
@@ -61,7 +60,7 @@ NOTHING = (0.0, 0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
-class TangentialSteps:
+class TangentialSteps(StepsOnRings):
     """Solver of the increments of a contact at points.
 
     direction  unit vector of the angle 0
@@ -70,14 +69,17 @@ class TangentialSteps:
     taken      steps of Newton's method of every solve
     """
 
-    scene: Scene
     friction: CoulombFriction
     direction: Pair
     twists: bool
     tolerance: float
     points: Points
     taken: list[int] = field(default_factory=list)
-    most_spent: float = 4.0 * MAX_STEPS
+
+    @property
+    def most_spent(self) -> float:
+        """Steps of Newton's method above which an increment is not bisected any further."""
+        return 4.0 * MAX_STEPS
 
     @classmethod
     def of(
@@ -241,10 +243,6 @@ class TangentialSteps:
                 f"for the largest contact and require more than {depth:.3g} m. Use fewer "
                 "increments, or prescribe the normal force"
             )
-
-    def undeformed_gap(self, last: Increment, tilt: Any) -> Array:
-        """Return the gap without tractions at the rings of an increment [length]."""
-        return undeformed_gap(self.scene, last)
 
     def report(self, reached: Reached[TangentialState], last: Increment | None) -> Increment:
         """Return the increment on rings and angles; raise NotConverged above the tolerance."""

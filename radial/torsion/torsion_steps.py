@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
-from contact_scene import ControlKind, LoadRamp, Scene
+from contact_scene import ControlKind, LoadRamp
 from contact_scene.array_types import Array
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import UnsupportedScene
@@ -17,7 +16,7 @@ from contact_scene.stepping.load_stepping import (
 )
 from radial.fields import Increment
 from radial.normal.pressing import NormalContact
-from radial.output_points import undeformed_gap
+from radial.output_points import StepsOnRings
 from radial.plan import ELSEWHERE
 from radial.torsion.torsion import Torsion
 from radial.torsion.twist_path import TwistPath
@@ -53,7 +52,7 @@ class TorsionState:
 
 
 @dataclass(frozen=True)
-class TorsionSteps:
+class TorsionSteps(StepsOnRings):
     """Solver of the increments of normal load and torsion.
 
     pressing   solver of the normal problem, which does not depend on the twist
@@ -62,16 +61,10 @@ class TorsionSteps:
     tolerance  of every residual
     """
 
-    scene: Scene
     pressing: Solver[NormalContact, Increment]
     friction: float
     fineness: int
     tolerance: float
-    most_spent: float = 0.0
-
-    def spent(self) -> float:
-        """Return 0: work does not limit the bisection."""
-        return 0.0
 
     def advance(
         self,
@@ -98,10 +91,6 @@ class TorsionSteps:
             assert torque is not None
             return TorsionState(normal_contact, path.to_torque(torque), (ControlKind.FORCE, torque))
         return TorsionState(normal_contact, path.to_twist(twist), (ControlKind.DISPLACEMENT, twist))
-
-    def undeformed_gap(self, last: Increment, tilt: Any) -> Array:
-        """Return the gap without tractions at the rings of an increment [length]."""
-        return undeformed_gap(self.scene, last)
 
     def report(self, reached: Reached[TorsionState], last: Increment | None) -> Increment:
         """Return the increment with its fields at the rings.
