@@ -10,7 +10,7 @@ from contact_scene.reading.description import Description
 from contact_scene.reading.quantity import PositiveLength
 
 # Differences of ln E and of ν below which a grid need not resolve two materials separately.
-ALIKE = 0.1, 0.01
+NEARLY_EQUAL = 0.1, 0.01
 
 
 class Layer(Description):
@@ -47,27 +47,23 @@ class Body(Description):
     def thinnest(self) -> float:
         """Smallest thickness of nearly uniform material [length]; infinite for a uniform body.
 
-        Adjacent layers count as one if their materials differ by less than `ALIKE`.
+        Adjacent layers count as one if their materials differ by less than `NEARLY_EQUAL`.
         """
-        return min(map(self._depth_alike, range(len(self.layers))), default=inf)
+        return min(map(self._uniform_depth, range(len(self.layers))), default=inf)
 
-    def _depth_alike(self, layer: int) -> float:
+    def _uniform_depth(self, layer: int) -> float:
         materials = (*(other.material for other in self.layers), self.material)
         thickness = (*(other.thickness for other in self.layers), inf)
-
-        def alike(other: int) -> bool:
-            return _alike(materials[layer], materials[other])
-
-        above = takewhile(alike, range(layer - 1, -1, -1))
-        below = takewhile(alike, range(layer + 1, len(materials)))
+        equal = [_nearly_equal(materials[layer], other) for other in materials]
+        above = takewhile(equal.__getitem__, range(layer - 1, -1, -1))
+        below = takewhile(equal.__getitem__, range(layer + 1, len(materials)))
         return thickness[layer] + sum(thickness[other] for other in (*above, *below))
 
 
-def _alike(one: Material, other: Material) -> bool:
+def _nearly_equal(one: Material, other: Material) -> bool:
     if not (isinstance(one, IsotropicMaterial) and isinstance(other, IsotropicMaterial)):
         return False
-    stiffer, wider = ALIKE
     return (
-        abs(log(one.young_modulus / other.young_modulus)) < stiffer
-        and abs(one.poisson_ratio - other.poisson_ratio) < wider
+        abs(log(one.young_modulus / other.young_modulus)) < NEARLY_EQUAL[0]
+        and abs(one.poisson_ratio - other.poisson_ratio) < NEARLY_EQUAL[1]
     )

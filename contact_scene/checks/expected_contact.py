@@ -29,16 +29,19 @@ def refuse_equator(scene: Scene) -> None:
     indenter = scene.indenter
     if not isinstance(indenter, Sphere):
         return
-    R, layered = indenter.radius, scene.body.layers or indenter.layers
+    R, modulus, layered = (
+        indenter.radius,
+        contact_modulus(scene),
+        scene.body.layers + indenter.layers,
+    )
     for ramp in scene.load_path():
-        end, by_force = ramp.normal.end, ramp.normal.kind is ControlKind.FORCE
-        if by_force and layered:
-            continue
-        if not by_force:
-            end = contact_approach(scene, end, contact_modulus(scene))
-        most = _AT_EQUATOR * contact_modulus(scene) * R**2 if by_force else R
+        if ramp.normal.kind is ControlKind.FORCE:
+            load, unit, end = "normal force", "N", ramp.normal.end
+            most = math.inf if layered else _AT_EQUATOR * modulus * R**2
+        else:
+            load, unit, end = "approach", "m", contact_approach(scene, ramp.normal.end, modulus)
+            most = R
         if end >= most:
-            load, unit = ("normal force", "N") if by_force else ("approach", "m")
             raise UnsupportedScene(
                 f"step {ramp.step} presses the sphere to its equator: its {load} is {end:.4g} "
                 f"{unit}, and at {most:.4g} {unit} the approach is the radius; take less, or a "

@@ -126,7 +126,7 @@ def _loss_with_coupling(patches: Patches) -> None:
 
         return sheared
 
-    patches.method(coupled_increment._Trial, "_sheared", wrap)
+    patches.method(coupled_increment._Trial, "_tangential_state", wrap)
 
 
 def _map_transposed(patches: Patches) -> None:
