@@ -301,7 +301,7 @@ def test_stress_is_refused_before_it_takes_more_memory_than_there_is(
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     required.append(int(0.95 * peak))
-    with pytest.raises(ResourceRefused, match="take fewer cells or depths"):
+    with pytest.raises(ResourceRefused, match="Use fewer cells or depths"):
         stress_on_cells.stress_on_cells(state, volume=True)
     required.append(int(2.5 * peak))
     again = stress_on_cells.stress_on_cells(state, volume=True).volume

@@ -245,7 +245,7 @@ def test_the_semi_analytical_solver_solves_or_refuses_any_shape(shape) -> None:
 
 @pytest.mark.parametrize("shape", NEW, ids=lambda shape: type(shape).__name__)
 def test_a_shape_that_says_nothing_is_solved_where_its_window_is_given(shape) -> None:
-    with pytest.raises(UnsupportedScene, match="give a window"):
+    with pytest.raises(UnsupportedScene, match="Set window"):
         solve_discretised(on(shape), SurfaceDiscretisation(cells=(16, 16)))
     window = (6 * A, 6 * A)
     asked = SurfaceDiscretisation(cells=(24, 24), window=window, tolerance=1e-6)

@@ -38,11 +38,13 @@ class Fits:
 
     quadratic  quadratics about the cell centres
     rms        weighted root mean square of the residuals
+    mean       weighted mean of the data
     count      number of data with a positive weight
     """
 
     quadratic: Quadratic
     rms: Field
+    mean: Field
     count: Indices
 
 
@@ -71,7 +73,7 @@ def fit_about(
         factor, (x, y) = domain.framed(sensitivity[0], stencil.reach), sensitivity[1]
         foot = np.stack([x**0, x, y, x**2 / 2, x * y, y**2 / 2])
     found = np.zeros((6, len(i)))
-    rms, count = np.empty(len(i)), np.empty(len(i), dtype=int)
+    rms, mean, count = np.empty(len(i)), np.empty(len(i)), np.empty(len(i), dtype=int)
     for first in range(0, len(i), CHUNK):
         some = slice(first, first + CHUNK)
         at = i[some], j[some], stencil
@@ -87,13 +89,14 @@ def fit_about(
             fit += to * np.sum(w * c * given, axis=1)
         solve(factorise(normal), fit)
         found[: len(basis), some] = fit
+        total = np.maximum(np.sum(w, axis=1), LEAST_TOTAL)
+        mean[some] = np.sum(w * given, axis=1) / total
         given -= fit.T @ basis
         if sensitivity is not None:
             given -= c * np.sum(fit * to, axis=0)[:, None]
-        total = np.maximum(np.sum(w, axis=1), LEAST_TOTAL)
         rms[some] = np.sqrt(np.sum(w * given**2, axis=1) / total)
         count[some] = np.count_nonzero(w, axis=1)
-    return Fits(Quadratic(i.astype(float), j.astype(float), *found), rms, count)
+    return Fits(Quadratic(i.astype(float), j.astype(float), *found), rms, mean, count)
 
 
 def in_windows(padded: Field, i: Indices, j: Indices, stencil: Stencil) -> Field:

@@ -11,23 +11,12 @@ Deresiewicz 1953).
 import numpy as np
 from scipy.ndimage import distance_transform_edt
 
-from contact_scene.array_types import Field, Indices, Mask
-from semi_analytical.edge.clipped_power_means import mean_power
+from contact_scene.array_types import Field, Mask
+from semi_analytical.edge.fit import Stencil, fit_about
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
 
-REACH = 4
-FRAME = REACH + 1  # a cell is used for fits if its neighbours are inside
-LENGTH = 1.7
+STENCIL = Stencil(4, 1.7)
 LEAST_CELLS = 12
-AT_ONCE = 4096  # fits per batch, of four kilobytes each: a long contact has tens of thousands
-# Stencil of a fit: offsets along x and y, weights, the terms of a quadratic (cells, 6), and the
-# products of all pairs of terms (cells, 36).
-DI, DJ = (shift.ravel() for shift in np.mgrid[-REACH : REACH + 1, -REACH : REACH + 1])
-NEARNESS = np.exp(-(DI**2 + DJ**2) / (2 * LENGTH**2))
-BASIS = np.stack([np.ones_like(DI), DI, DJ, DI * DI, DI * DJ, DJ * DJ], axis=-1).astype(float)
-PRODUCTS = (BASIS[:, :, None] * BASIS[:, None, :]).reshape(-1, 36)
-# Regularisation of the normal equations, relative to their trace.
-RIDGE = 1e-9 * np.eye(6)
 # Largest ratio of the fit at an edge cell to the mean of its data.
 LEAST_FALL = 0.9
 
@@ -41,26 +30,21 @@ def covered_cells(values: Field, inside: Mask, domain: ReducedDomain = WINDOW) -
     An edge cell counts as 1 or 0 by its centre where the region is too thin for a fit, or where the
     values do not fall towards the edge (flat punch).
     """
-    framed = domain.framed(inside, FRAME)
-    trusted = np.zeros_like(framed)
-    trusted[1:-1, 1:-1] = ~_near(~framed)
-    core = slice(FRAME, -FRAME)
-    near = _near(framed)[FRAME - 1 : 1 - FRAME, FRAME - 1 : 1 - FRAME]
-    i, j = np.nonzero(near & ~trusted[core, core])
+    framed = domain.framed(inside, 1)
+    trusted = ~_near(~framed)  # cells whose neighbours are inside, too
+    i, j = np.nonzero(_near(framed) & ~trusted)
     if len(i) == 0:
         return float(np.count_nonzero(inside))
-    phi = domain.framed(np.square(values / np.max(values)), FRAME)
-    pieces = range(0, len(i), AT_ONCE)
-    fits = [_fit(phi, trusted, i[k : k + AT_ONCE], j[k : k + AT_ONCE]) for k in pieces]
-    f, f_x, f_y, mean, count = np.concatenate(fits, axis=1)
+    phi = np.square(values / np.max(values))
+    fits = fit_about(phi, trusted.astype(float), i, j, STENCIL, domain=domain)
     centre_inside = inside[i, j]
     parts = np.clip(
-        mean_power(f, f_x, f_y, 0.0),
+        fits.quadratic.cell_mean(0.0),
         np.where(centre_inside, 0.5, 0),
         np.where(centre_inside, 1, 0.5),
     )
-    believed = (count >= LEAST_CELLS) & (f < LEAST_FALL * mean)
-    whole = np.count_nonzero(trusted[core, core])
+    believed = (fits.count >= LEAST_CELLS) & (fits.quadratic.mean < LEAST_FALL * fits.mean)
+    whole = np.count_nonzero(trusted)
     return float(whole + np.sum(np.where(believed, parts, centre_inside)))
 
 
@@ -96,22 +80,3 @@ def _near(marked: Mask) -> Mask:
     - 2)."""
     along = marked[:-2] | marked[1:-1] | marked[2:]
     return np.asarray(along[:, :-2] | along[:, 1:-1] | along[:, 2:])
-
-
-def _fit(phi: Field, trusted: Mask, i: Indices, j: Indices) -> Field:
-    """Fit weighted quadratics about the cells (i, j).
-
-    Returns value and gradient (x, y) per cell, mean of the data, and number of data (5, cells). phi
-    and trusted include the frame.
-    """
-    rows = phi.shape[1]
-    at = ((i + FRAME) * rows + j + FRAME)[:, None] + (DI * rows + DJ)
-    use = np.take(trusted, at)
-    weight = use * NEARNESS
-    normal = (weight @ PRODUCTS).reshape(-1, 6, 6)
-    right = (weight * np.take(phi, at)) @ BASIS
-    mean = right[:, 0] / np.maximum(normal[:, 0, 0], 1e-30)
-    # The regularisation determines coefficients that the data leave undetermined.
-    normal += RIDGE * (np.trace(normal, axis1=1, axis2=2)[:, None, None] + 1e-30)
-    f, f_x, f_y = np.linalg.solve(normal, right[..., None])[:, :3, 0].T
-    return np.stack([f, f_x, f_y, mean, use.sum(axis=1)])
