@@ -81,7 +81,7 @@ def edge_pressure(
         edge = problem.fit_edge(p, edge)
         approach, _ = state.target.reached(operators.model, solved.motion)
         response = problem.response(approach, p)
-        if next_change(changes) <= SETTLED and _radius_change(before.edge, edge) <= SETTLED:
+        if next_change(changes) <= SETTLED and radius_change(before.edge, edge) <= SETTLED:
             break
     change = changes[-1]
     if change > LEAST_SETTLED:
@@ -110,7 +110,7 @@ def relaxation_factor(factor: float, last: Field, change: Field) -> float:
     return float(np.clip(factor * np.sum(last * fall) / np.sum(fall**2), LEAST_FACTOR, 1.0))
 
 
-def _radius_change(before: SubcellTractions, after: SubcellTractions) -> float:
+def radius_change(before: SubcellTractions, after: SubcellTractions) -> float:
     """Compute the relative change of the contact radius between two iterates."""
     return abs((after.area / before.area) ** 0.5 - 1)
 
@@ -237,7 +237,7 @@ class _Problem:
             response=abs(last.response / before.response - 1),
             peak=abs(peak.value / before_peak.value - 1),
             ridge=peak.ridge,
-            radius=_radius_change(before.edge, edge),
+            radius=radius_change(before.edge, edge),
         )
         return Corrected(
             pressure=p,

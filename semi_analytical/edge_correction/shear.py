@@ -8,6 +8,7 @@ Deresiewicz 1953): q = q' + µp (n - n') - d.
 """
 
 from dataclasses import dataclass, replace
+from math import inf
 
 import numpy as np
 
@@ -27,6 +28,7 @@ from semi_analytical.edge_correction.pressure import (
     MAX_UNSAFE,
     SETTLED,
     next_change,
+    radius_change,
     relaxation_factor,
 )
 from semi_analytical.edge_correction.shear_at_edge import direction_of_slip
@@ -221,7 +223,7 @@ def edge_shear(
     full = problem.full(problem.bound, deficit.slip, problem.before[0])
     deficit = replace(deficit, full=full)
     q, motion = full - deficit.shear, solved.shift
-    step, factor, changes = np.zeros_like(q), 1.0, list[float]()
+    step, factor, changes, of_radius = np.zeros_like(q), 1.0, list[float](), inf
     for number in range(MAX_ITERATIONS):
         within = problem.within(q, deficit)
         u = problem.operators.by_shear(*within)
@@ -232,7 +234,8 @@ def edge_shear(
         answer, motion = solution.shear, solution.motion
         last, step = step, answer - q
         changes.append(float(np.sum(magnitude(step)) / np.sum(problem.bound)))
-        if next_change(changes) <= SETTLED or number == MAX_ITERATIONS - 1:
+        settled = next_change(changes) <= SETTLED and of_radius <= SETTLED
+        if settled or number == MAX_ITERATIONS - 1:
             break
         edge, stick = deficit.edge, (problem.bound > 0) & ~solution.in_slip
         if number:
@@ -241,7 +244,7 @@ def edge_shear(
         following = problem.deficit(q, problem.bound, problem.before[0], stick | edge.outer, edge)
         if following is None:
             return None
-        deficit = following
+        deficit, of_radius = following, radius_change(edge, following.edge)
     if changes[-1] > LEAST_SETTLED:
         return None
     return CorrectedShear(
