@@ -58,9 +58,6 @@ DOUBT, FURTHEST = 4.0, 1e4
 # A number below this fraction of its natural size is zero with round-off.
 ROUND_OFF = 1e-7
 
-ABSENT = "the results of this scene by this solver do not have it"
-INFINITE = "it is infinite in the exact answer"
-
 
 def _no_context(fineness: object) -> AbstractContextManager[None]:
     """Context of a solve without observer or checkpoint store."""
@@ -371,9 +368,9 @@ def targets_of(request: AccuracyRequest, level: RefinementLevel, levels: Levels)
 def _why_left_out(name: str, level: RefinementLevel) -> str:
     """Return the reason why a number has no accuracy; empty if it has one."""
     if not any(name in step for step in level.stated.steps):
-        return ABSENT
+        return "the results of this scene by this solver do not contain it"
     if name == "peak_pressure" and any(features.infinite for features in level.run.features):
-        return INFINITE
+        return "its exact value is infinite"
     natural = max(scale(name, step) for step in level.run.values)
     return "it is zero throughout" if level.largest(name) <= ROUND_OFF * natural else ""
 

@@ -16,9 +16,8 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
 from math import ceil
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 from contact_scene.machine.disk_cache import without_cache
 
@@ -37,18 +36,21 @@ COARSE = 1 / 2, 2 / 5
 MAX_CELLS, MAX_ELEMENTS, MAX_STEPS, MAX_INCREMENTS = 32, 8, 12, 48
 
 
-@dataclass(frozen=True)
-class Work:
+class Work(NamedTuple):
     """Size of a solve.
 
     unknowns     components of traction in all cells, or the squared elements over the radius
-    repetitions  increments, or what is proportional to them
+    repetitions  increments, or a multiple of them
     overhead     unknowns whose work equals the overhead of an operation
     """
 
     unknowns: float
     repetitions: float
     overhead: float
+
+    def cost(self, share: float = 1.0) -> float:
+        """Return the cost with a fraction of the cells along a side, in a unit of the scene."""
+        return self.repetitions * (share**2 * self.unknowns + self.overhead) ** EXPONENT
 
 
 def work_on_cells(cells: tuple[int, int], increments: Sequence[int], shear: bool) -> Work:
@@ -75,8 +77,7 @@ def estimated_seconds(measured: float, coarse: Work, solve: Work) -> float:
 
     measured  CPU seconds of the coarse solve
     """
-    unknowns = (solve.unknowns + solve.overhead) / (coarse.unknowns + coarse.overhead)
-    return measured * solve.repetitions / coarse.repetitions * unknowns**EXPONENT
+    return measured * solve.cost() / coarse.cost()
 
 
 def estimated_run_seconds(solved: float, judged: float, coarse: Work, run: Work) -> float:
@@ -85,11 +86,8 @@ def estimated_run_seconds(solved: float, judged: float, coarse: Work, run: Work)
     solved  CPU seconds of the coarse solve
     judged  CPU seconds of the error estimate of the coarse solve
     """
-    fewer = [replace(run, unknowns=share**2 * run.unknowns) for share in COARSE]
-    return (
-        sum(estimated_seconds(solved, coarse, each) for each in (run, *fewer))
-        + judged * run.repetitions / coarse.repetitions
-    )
+    solves = sum(run.cost(share) for share in (1.0, *COARSE))
+    return solved * solves / coarse.cost() + judged * run.repetitions / coarse.repetitions
 
 
 def coarse_increments(increments: Sequence[int]) -> tuple[int, ...]:

@@ -17,7 +17,7 @@ from contact_scene.checks.expected_contact import contact_approach
 from contact_scene.reading.scene_text import shape_text
 from contact_scene.solver_errors import ContactAtZoneEdge, UnsupportedScene
 from fem_reference.contact.method import ContactMethod
-from fem_reference.history import march
+from fem_reference.history import solved_increments
 from fem_reference.mesh.section_mesh import SectionMesh
 from fem_reference.mesh.section_outline import sufficient_box
 from fem_reference.model import ContactModel, outermost_modulus
@@ -121,7 +121,7 @@ def _coarse_radius(scene: Scene, ramp: LoadRamp, guess: float) -> float:
     for _ in range(MAX_TRIALS):
         model = ContactModel.of(pressing, _coarse(scene, radius), radius)
         try:
-            (pressed,) = march(ContactMethod(model, decided), COARSE_TOLERANCE)
+            (pressed,) = solved_increments(ContactMethod(model, decided), COARSE_TOLERANCE)
         except ContactAtZoneEdge:
             radius *= GROWTH
             continue

@@ -27,12 +27,12 @@ from fem_reference.loads import STILL, Loads, NormalTarget, TangentialTarget
 from fem_reference.plan import Path
 
 
-def march(method: ContactMethod, tolerance: float) -> Iterator[Increment]:
-    """Yield the increments of the scene's load path; raises the errors of `marked`."""
-    return (increment for increment, _ in marked(method, tolerance))
+def solved_increments(method: ContactMethod, tolerance: float) -> Iterator[Increment]:
+    """Yield the increments of the scene's load path; raises the errors of `resumable_solve`."""
+    return (increment for increment, _ in resumable_solve(method, tolerance))
 
 
-def marked(
+def resumable_solve(
     method: ContactMethod, tolerance: float, since: Checkpoint | None = None
 ) -> Iterator[tuple[Increment, ResumePoint[PointState]]]:
     """Yield the increments of the scene's load path, each with its resume point.

@@ -17,6 +17,7 @@ from contact_scene.normal_form import normal_form
 from contact_scene.quantities.cycles import loop_increments
 from contact_scene.reading.scene_text import shape_text
 from contact_scene.solver_errors import UnsupportedScene
+from contact_scene.stepping.load_path import first_direction
 
 # Largest ratio of shear moduli within a body. Above it the stiffness matrix loses the softest
 # material.
@@ -80,7 +81,7 @@ def plan(scene: Scene) -> Plan:
     matters = _path_matters(ramps, path)
     return Plan(
         path,
-        _direction(ramps),
+        first_direction(ramps),
         _increments(scene, matters),
         matters,
         _effects(scene, path, (friction, loaded, twisted, couples), why),
@@ -95,15 +96,6 @@ def _path(friction: bool, loaded: bool, twisted: bool, couples: bool) -> Path:
     if loaded:
         return Path.HARMONICS if couples else Path.SHEARING
     return Path.PRESSING_WITH_FRICTION if couples else Path.PRESSING
-
-
-def _direction(ramps: tuple[LoadRamp, ...]) -> tuple[float, float]:
-    """Return the unit vector of the first nonzero tangential load."""
-    for ramp in ramps:
-        x, y = ramp.tangential.end
-        if x or y:
-            return x / hypot(x, y), y / hypot(x, y)
-    return 1.0, 0.0
 
 
 def _path_matters(ramps: tuple[LoadRamp, ...], path: Path) -> tuple[bool, ...]:

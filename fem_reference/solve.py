@@ -19,7 +19,7 @@ from fem_reference.contact.method import ContactMethod
 from fem_reference.contact.point_state import PointState
 from fem_reference.expected_radius import meshed_radius
 from fem_reference.fields import Increment, Method, Result
-from fem_reference.history import marked
+from fem_reference.history import resumable_solve
 from fem_reference.model import ContactModel
 from fem_reference.plan import Plan, plan
 
@@ -72,21 +72,21 @@ def solve(
         An increment did not reach the tolerance. `last_state` is the last converged increment.
     """
     scene = normal_form(scene)
-    decided = plan(scene)
+    chosen_plan = plan(scene)
     last = store.last() if store else None
-    asked = discretisation.contact_radius
-    radius = last.extent if last else meshed_radius(scene, asked)
+    requested_radius = discretisation.contact_radius
+    radius = last.extent if last else meshed_radius(scene, requested_radius)
     enlargements = 0
     while True:
         model = ContactModel.of(scene, discretisation, radius)
         if last:
             model.settled.update(last.settled)
-        solver = _solver(model, decided, discretisation, method)
-        history = marked(solver, discretisation.tolerance, last)
+        solver = _solver(model, chosen_plan, discretisation, method)
+        history = resumable_solve(solver, discretisation.tolerance, last)
         try:
-            increments = tuple(_told(model, radius, history, last, progress, store))
+            increments = tuple(_counted_increments(model, radius, history, last, progress, store))
         except ContactAtZoneEdge:
-            if radius == asked or enlargements == MAX_ENLARGEMENTS:
+            if radius == requested_radius or enlargements == MAX_ENLARGEMENTS:
                 raise
             enlargements += 1
             radius *= GROWTH
@@ -94,7 +94,7 @@ def solve(
             reached = max(increment.contact_radius for increment in increments)
             if not 0 < TOO_LARGE * reached < radius:
                 return Result(
-                    scene, discretisation, model.sections, radius, decided, increments, method
+                    scene, discretisation, model.sections, radius, chosen_plan, increments, method
                 )
             radius = reached
         last = None
@@ -102,7 +102,7 @@ def solve(
 
 def _solver(
     model: ContactModel,
-    decided: Plan,
+    chosen_plan: Plan,
     discretisation: FiniteElementDiscretisation,
     method: Method,
 ) -> ContactMethod:
@@ -112,10 +112,10 @@ def _solver(
         penalty = Penalty(
             discretisation.penalty, discretisation.augmentations, discretisation.overlap
         )
-    return ContactMethod(model, decided, penalty, end_grid(discretisation.harmonics))
+    return ContactMethod(model, chosen_plan, penalty, end_grid(discretisation.harmonics))
 
 
-def _told(
+def _counted_increments(
     model: ContactModel,
     radius: float,
     history: Iterator[tuple[Increment, ResumePoint[PointState]]],
@@ -124,19 +124,19 @@ def _told(
     store: CheckpointStore | None,
 ) -> Iterator[Increment]:
     """Yield all increments, first stored ones, each with its number of sparse factorisations."""
-    told: list[Increment] = []
+    increments: list[Increment] = []
     fields = FieldStore()
     for increment in since.increments if since else ():
         if progress is not None:
             progress(increment)
-        told.append(increment)
+        increments.append(increment)
         yield increment
     counted = 0
     for increment, mark in history:
         spent, counted = model.factorizations - counted, model.factorizations
-        told.append(fields.kept(replace(increment, factorizations=spent)))
+        increments.append(fields.kept(replace(increment, factorizations=spent)))
         if store is not None:
-            store.keep(Checkpoint(tuple(told), mark, radius, tuple(sorted(model.settled))))
+            store.keep(Checkpoint(tuple(increments), mark, radius, tuple(sorted(model.settled))))
         if progress is not None:
-            progress(told[-1])
-        yield told[-1]
+            progress(increments[-1])
+        yield increments[-1]

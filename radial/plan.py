@@ -17,7 +17,7 @@ from contact_scene.normal_form import normal_form
 from contact_scene.quantities.cycles import loop_increments
 from contact_scene.reading.scene_text import shape_text
 from contact_scene.solver_errors import UnsupportedScene
-from contact_scene.stepping.load_path import along_one_line
+from contact_scene.stepping.load_path import along_one_line, first_direction
 from radial.angular_grid import Circle
 
 # Largest ratio of shear moduli within a body. Above it round-off affects the results.
@@ -117,7 +117,7 @@ def plan(scene: Scene) -> Plan:
         effect.load_history(frictional or twists or pushed),
     )
     increments = _pushed_increments(scene, circle) if circle else _increments(scene, frictional)
-    return Plan(frictional, twists, pushed, increments, effects, _direction(ramps), circle)
+    return Plan(frictional, twists, pushed, increments, effects, first_direction(ramps), circle)
 
 
 def _twists(ramp: LoadRamp, curved: bool) -> bool:
@@ -146,15 +146,6 @@ def _normal_changes_in_torsion(ramps: tuple[LoadRamp, ...]) -> bool:
         if twisted and ramp.normal.start != ramp.normal.end:
             return True
     return False
-
-
-def _direction(ramps: tuple[LoadRamp, ...]) -> tuple[float, float]:
-    """Return the unit vector of the first nonzero tangential load."""
-    for ramp in ramps:
-        x, y = ramp.tangential.end
-        if x or y:
-            return x / hypot(x, y), y / hypot(x, y)
-    return 1.0, 0.0
 
 
 def _pushed_increments(scene: Scene, circle: Circle) -> tuple[int, ...]:

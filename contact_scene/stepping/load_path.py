@@ -146,6 +146,15 @@ def load_path(loading: Sequence[LoadStep], base: Material | None = None) -> tupl
     return tuple(ramps)
 
 
+def first_direction(ramps: Sequence[LoadRamp]) -> tuple[float, float]:
+    """Return the unit vector of the first nonzero tangential load, (1, 0) without one."""
+    for ramp in ramps:
+        x, y = ramp.tangential.end
+        if x or y:
+            return x / hypot(x, y), y / hypot(x, y)
+    return 1.0, 0.0
+
+
 def along_one_line(ramps: Sequence[LoadRamp]) -> bool:
     """Determine if all tangential loads are on one line to round-off, or zero."""
     ends = [ramp.tangential.end for ramp in ramps]

@@ -14,7 +14,7 @@ from fem_reference.compliance.angular_grid import (
 from fem_reference.contact.method import ContactMethod
 from fem_reference.expected_radius import meshed_radius
 from fem_reference.fields import Increment
-from fem_reference.history import march
+from fem_reference.history import solved_increments
 from fem_reference.model import ContactModel
 from verification.judging.run import SectionRun
 
@@ -37,7 +37,7 @@ class PointsRun(SectionRun):
         radius = meshed_radius(scene, discretisation.contact_radius)
         model = ContactModel.of(scene, discretisation, radius)
         own, between = (
-            march(
+            solved_increments(
                 ContactMethod(model, decided, around=grid(discretisation.harmonics)),
                 self.tolerance,
             )
