@@ -118,9 +118,9 @@ def fretting_cycles(result: Result) -> tuple[FrettingCycle, ...]:
     closed = load_cycles(result.scene.load_path())
     tension: Any = None
     if closed and isinstance(surface, Cells):
-        from semi_analytical.surface_tensile_stress import SurfaceTension
+        from semi_analytical.surface_tensile_stress import SurfaceTensileStress
 
-        tension = SurfaceTension(cast(Any, result))
+        tension = SurfaceTensileStress(cast(Any, result))
     cycles, fields = [], FieldStore()
     increments: Sequence[Increment] = result.increments
     steps = [list(within) for _, within in groupby(increments, lambda i: i.step)]

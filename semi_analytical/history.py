@@ -50,7 +50,7 @@ class Correct(Protocol):
     """See `edge_correction.correction.EdgeCorrection`."""
 
     def __call__(
-        self, last: State | None, state: State, *, way_known: bool, tolerance: float
+        self, last: State | None, state: State, *, path_known: bool, tolerance: float
     ) -> Corrected | EdgeReport: ...
 
 
@@ -132,7 +132,7 @@ class _Solver:
         edges = self.correct(
             last,
             after,
-            way_known=last is before or not matters,
+            path_known=last is before or not matters,
             tolerance=self.tolerance,
         )
         if isinstance(edges, EdgeReport):

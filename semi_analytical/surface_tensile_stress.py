@@ -14,7 +14,7 @@ from semi_analytical.stress import subsurface
 ROUND_OFF = 1e-9
 
 
-class SurfaceTension:
+class SurfaceTensileStress:
     """Surface tensile stress of a result; load steps shared by cycles are evaluated once."""
 
     def __init__(self, result: Result) -> None:

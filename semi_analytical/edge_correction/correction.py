@@ -31,13 +31,13 @@ class EdgeCorrection:
         self._operators = EdgeOperators(model.on_window if coupled else model)
 
     def __call__(
-        self, last: State | None, state: State, *, way_known: bool, tolerance: float
+        self, last: State | None, state: State, *, path_known: bool, tolerance: float
     ) -> Corrected | EdgeReport:
         """Correct a state, or report why it cannot be corrected.
 
-        last       earlier state that determines the stick border of uncoupled bodies; None before
-                   the first contact
-        way_known  True if the path from `last` to the state is one increment, or has no effect
+        last        earlier state that determines the stick border of uncoupled bodies; None before
+                    the first contact
+        path_known  True if the path from `last` to the state is one increment, or has no effect
         """
         extended = self._extended(state)
         try:
@@ -48,7 +48,7 @@ class EdgeCorrection:
         if self._coupled or sheared is None:
             return corrected
         free = not np.any(sheared.shear) or not np.any(sheared.in_stick)
-        before = self._extended(last) if last and way_known else None
+        before = self._extended(last) if last and path_known else None
         if free or _determines_border(before, state, sheared):
             shear = self._corrected_shear(before, sheared, corrected, tolerance)
             return replace(corrected, sheared=shear)

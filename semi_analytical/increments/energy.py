@@ -49,7 +49,7 @@ class Configuration:
     shear, tangential_displacement      q and u (2, nx, ny)
     friction_limit                      µp (nx, ny)
     slipped                             u less the rigid motion (2, nx, ny); its change is the slip
-    touching                            contact fraction κ of the increment that ends here (nx, ny)
+    contact_fraction                    κ of the increment that ends here (nx, ny)
     forces, motions                     f and ω in one order; motions None where undefined
     """
 
@@ -60,7 +60,7 @@ class Configuration:
     friction_limit: Field
     tangential_displacement: VectorField
     slipped: VectorField | None
-    touching: Field
+    contact_fraction: Field
     forces: Vector
     motions: Vector | None
 
@@ -77,7 +77,7 @@ class Configuration:
             friction_limit=np.zeros_like(after.friction_limit),
             tangential_displacement=unsheared,
             slipped=unsheared,
-            touching=np.zeros_like(after.touching),
+            contact_fraction=np.zeros_like(after.contact_fraction),
             forces=np.zeros_like(after.forces),
             motions=np.zeros_like(after.forces),
         )
@@ -196,7 +196,7 @@ def _unresolved_sliding(before: Configuration, after: Configuration) -> float:
     friction = sliding_friction(
         before.shear, after.shear, -slipped, before.friction_limit, after.friction_limit
     )
-    missed = after.touching * friction - 0.5 * (before.shear + after.shear)
+    missed = after.contact_fraction * friction - 0.5 * (before.shear + after.shear)
     return float(np.sum(missed * slipped))
 
 
@@ -205,7 +205,7 @@ def friction_changed(before: Configuration, after: Configuration, cell_area: flo
     assert before.slipped is not None
     assert after.slipped is not None
     changed, slipped = after.shear - before.shear, after.slipped - before.slipped
-    way = after.touching * np.hypot(*slipped)
+    way = after.contact_fraction * np.hypot(*slipped)
     return float(np.sum(np.hypot(*changed) * way)) * cell_area
 
 

@@ -63,7 +63,7 @@ def configuration(model: ContactModel, state: State) -> Configuration:
             friction_limit=nothing[0],
             tangential_displacement=nothing,
             slipped=nothing,
-            touching=nothing[0],
+            contact_fraction=nothing[0],
             forces=np.array([normal, *(state.moment or ())]),
             motions=np.array([approach, *(pressing.tilt or ())]),
         )
@@ -88,7 +88,7 @@ def configuration(model: ContactModel, state: State) -> Configuration:
         friction_limit=model.friction_limit(sheared.pressure),
         tangential_displacement=sheared.displacement - everywhere(extension),
         slipped=slipped,
-        touching=sheared.touching,
+        contact_fraction=sheared.contact_fraction,
         forces=np.array([normal, *sheared.force, *moments]),
         motions=motions,
     )

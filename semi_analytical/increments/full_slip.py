@@ -103,13 +103,13 @@ def unresisted(
     motion        rigid motion of the indenter
     """
     nothing = np.zeros_like(last.shear)
-    touching = touching_share(last.pressure, pressure, model.gap)
+    contact_fraction = touching_share(last.pressure, pressure, model.gap)
     twist, torque = torsion_reached(model, load, motion, nothing)
     after = replace(
         last,
         shear=nothing,
         pressure=pressure,
-        touching=touching,
+        contact_fraction=contact_fraction,
         displacement=displacement,
         shift=motion[:2],
         in_stick=np.zeros_like(last.in_stick),
@@ -121,9 +121,14 @@ def unresisted(
         torque=torque,
         strain=load.strain,
     )
-    passed = rigid(model, after.motion) - rigid(model, last.motion)
-    passed = passed + last.displacement - displacement - stretched(model, load.strain, last.strain)
-    slipped = np.where((pressure > 0) | (last.pressure > 0), touching * passed, 0.0)
+    relative_slip = rigid(model, after.motion) - rigid(model, last.motion)
+    relative_slip = (
+        relative_slip
+        + last.displacement
+        - displacement
+        - stretched(model, load.strain, last.strain)
+    )
+    slipped = np.where((pressure > 0) | (last.pressure > 0), contact_fraction * relative_slip, 0.0)
     return replace(
         after,
         slip=last.slip - slipped,

@@ -41,12 +41,12 @@ def further(
     if behind is None or behind.target != now.target or tangential.twists:
         return 0.0
     if tangential.force is not None:
-        way, last = tangential.force - now.force, now.force - behind.force
+        step, last = tangential.force - now.force, now.force - behind.force
     else:
         assert tangential.shift is not None
-        way, last = tangential.shift - now.shift, now.shift - behind.shift
-    along, size = float(np.sum(way * last)), float(np.sum(last * last))
-    across = abs(float(way[0] * last[1] - way[1] * last[0]))
+        step, last = tangential.shift - now.shift, now.shift - behind.shift
+    along, size = float(np.sum(step * last)), float(np.sum(last * last))
+    across = abs(float(step[0] * last[1] - step[1] * last[0]))
     if not 0 < along <= FURTHEST * size or across > STRAIGHT * along:
         return 0.0
     return along / size
@@ -56,10 +56,10 @@ def further_shear(
     now: PreviousIncrement, behind: PreviousIncrement | None, tangential: TangentialTarget
 ) -> Point:
     """Extrapolate shear and displacement linearly in the tangential load; see `further`."""
-    part = further(now, behind, tangential)
-    if behind is None or part == 0:
+    ratio = further(now, behind, tangential)
+    if behind is None or ratio == 0:
         return Point(now.shear, now.displacement)
     return Point(
-        now.shear + part * (now.shear - behind.shear),
-        now.displacement + part * (now.displacement - behind.displacement),
+        now.shear + ratio * (now.shear - behind.shear),
+        now.displacement + ratio * (now.displacement - behind.displacement),
     )

@@ -48,36 +48,36 @@ def slip_and_stick(
     last: TangentialState,
     load: TangentialTarget,
     tolerance: float,
-    ahead: Point | None = None,
+    guess: Point | None = None,
 ) -> TangentialState:
     """Solve the tangential problem of an increment at given pressure, from the state `last`.
 
-    ahead   initial guess of the shear with its displacement; None for that of the last state
+    guess   initial guess of the shear with its displacement; None for that of the last state
     raises  NotConverged; GrossSliding if a force exceeds the friction limit
     """
     bound = model.friction_limit(pressure)
     if last.shift is None:
         raise motion_undefined()
-    ended = _without_solving(model, pressure, bound, last, load)
-    if ended is not None:
-        return ended
+    trivial = _trivial_state(model, pressure, bound, last, load)
+    if trivial is not None:
+        return trivial
     target = surface_target(model, last, load)
-    start, motion = ahead or Point(last.shear, last.displacement), first_motion(last, load)
+    start, motion = guess or Point(last.shear, last.displacement), first_motion(last, load)
     aim, iterations = tolerance, 0
     for _ in range(MAX_ATTEMPTS):
         solution = shear(model, bound, target, load, start, motion, 0.5 * aim)
         iterations += solution.iterations
         # Slip of the indenter relative to the body in this increment.
-        passed = rigid(model, solution.motion) + target - solution.displacement
-        residuals = shear_residuals(model, solution, bound, passed, load, last)
+        relative_slip = rigid(model, solution.motion) + target - solution.displacement
+        residuals = shear_residuals(model, solution, bound, relative_slip, load, last)
         if residuals.worst <= tolerance:
-            return advanced(model, pressure, bound, last, load, solution, passed, residuals)
+            return advanced(model, pressure, bound, last, load, solution, relative_slip, residuals)
         start, motion = Point(solution.shear, solution.displacement), solution.motion
         aim *= 0.1
     raise NotConverged("the shear", iterations, residuals.worst, tolerance)
 
 
-def _without_solving(
+def _trivial_state(
     model: ContactModel,
     pressure: Field,
     bound: Field,
@@ -113,14 +113,14 @@ def shear_residuals(
     model: ContactModel,
     solution: TangentialSolution,
     bound: Field,
-    passed: VectorField,
+    relative_slip: VectorField,
     load: TangentialTarget,
     last: TangentialState,
 ) -> ShearResiduals:
     """Compute the residuals of Coulomb friction and of tangential equilibrium.
 
-    passed  slip of the indenter relative to the body (2, nx, ny) [length]
-    last    previous state: it sets the scale of displacement where the load returns to zero
+    relative_slip  slip of the indenter relative to the body (2, nx, ny) [length]
+    last           previous state: it sets the scale of displacement where the load returns to zero
     """
     q = solution.shear
     equilibrium = None
@@ -136,7 +136,7 @@ def shear_residuals(
     moved = np.maximum(moved, OF_MOTION * np.abs(rigid(model, solution.motion)))
     return ShearResiduals(
         friction_cone(q, bound),
-        slip_direction(q, bound, passed, moved),
+        slip_direction(q, bound, relative_slip, moved),
         equilibrium,
         torque_equilibrium,
     )
@@ -149,18 +149,20 @@ def advanced(
     last: TangentialState,
     load: TangentialTarget,
     solution: TangentialSolution,
-    passed: VectorField,
+    relative_slip: VectorField,
     residuals: ShearResiduals,
 ) -> TangentialState:
     """Build the accepted state: add slip and dissipation of the increment to those of `last`."""
     q = solution.shear
     # Within the tolerance of the solver slip may oppose the shear: such cells count as sticking.
-    backward = q[0] * passed[0] + q[1] * passed[1] < 0
+    backward = q[0] * relative_slip[0] + q[1] * relative_slip[1] < 0
     in_stick = (bound > 0) & (~solution.in_slip | backward)
-    touching = touching_share(last.pressure, pressure, model.gap)
+    contact_fraction = touching_share(last.pressure, pressure, model.gap)
     slips = ((pressure > 0) | (last.pressure > 0)) & ~in_stick
-    slipped = np.where(slips, touching * passed, 0.0)
-    friction = sliding_friction(last.shear, q, passed, model.friction_limit(last.pressure), bound)
+    slipped = np.where(slips, contact_fraction * relative_slip, 0.0)
+    friction = sliding_friction(
+        last.shear, q, relative_slip, model.friction_limit(last.pressure), bound
+    )
     lost = np.sum(friction * slipped, axis=0)
     force = model.domain.resultant(q) * model.grid.cell_area
     assert last.dissipated_energy is not None
@@ -168,7 +170,7 @@ def advanced(
     after = TangentialState(
         shear=q,
         pressure=pressure,
-        touching=touching,
+        contact_fraction=contact_fraction,
         displacement=solution.displacement,
         shift=solution.motion[:2],
         slip=last.slip - slipped,

@@ -22,7 +22,7 @@ class TangentialState:
     """Tangential part of a state; all fields are on the domain.
 
     pressure           p at which the tangential problem was solved (nx, ny) [force/length^2]
-    touching           contact fraction of the increment for cells in contact at its start or end
+    contact_fraction   of the increment, for cells in contact at its start or end (nx, ny)
     displacement       u_t by the tractions (2, nx, ny) [length]
     shift              of the indenter; None at the friction limit under force control
     twist, torque      of the indenter; None without torsion
@@ -35,7 +35,7 @@ class TangentialState:
 
     shear: VectorField
     pressure: Field
-    touching: Field
+    contact_fraction: Field
     displacement: VectorField
     shift: Vector | None
     slip: VectorField
@@ -64,7 +64,7 @@ def untouched(cells: tuple[int, int]) -> TangentialState:
     return TangentialState(
         shear=nothing,
         pressure=nothing[0],
-        touching=nothing[0],
+        contact_fraction=nothing[0],
         displacement=nothing,
         shift=np.zeros(2),
         slip=nothing,
@@ -158,11 +158,11 @@ def touching_share(before: Field, after: Field, gap: Field) -> Field:
         apart = ~touched if np.any(touched) else gap > 0
         changes = (more > 0) & apart
         if np.any(changes):
-            share[changes] = _own_part(less, more, changes)
+            share[changes] = _new_contact_fraction(less, more, changes)
     return share
 
 
-def _own_part(less: Field, more: Field, changes: Mask) -> Field:
+def _new_contact_fraction(less: Field, more: Field, changes: Mask) -> Field:
     """Compute p² over its growth at the nearest lasting contact, for cells in contact at one end
     only."""
     touched, largest = less > 0, np.max(more)

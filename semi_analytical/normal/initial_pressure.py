@@ -30,8 +30,8 @@ def bearing_pressure(gap: Field, load: NormalLoad, modulus: float, area: float) 
     gaps, counts = np.unique(gap[touchable], return_counts=True)
     radii = np.sqrt(area / pi * np.cumsum(counts))
     depth = load.bearing_depth(gaps, 8 / 3 * modulus / area * radii)
-    bears = gap < depth
-    if modulus <= 0 or not load.touches(np.where(bears, gap, np.inf)):
+    bearing = gap < depth
+    if modulus <= 0 or not load.touches(np.where(bearing, gap, np.inf)):
         return np.where(touchable, 1.0, 0.0)
     factor = 4 * modulus / (pi * radii[np.count_nonzero(gaps < depth) - 1])
     return np.asarray(factor * np.sqrt(depth * np.maximum(depth - gap, 0.0)))

@@ -106,7 +106,7 @@ def solve_normal(
         last = contact
         newton, newton_u, spent = _solve_on(contact, problem, p, u, g, depth)
         iterations += spent
-        p, u, spent = _step_toward(newton, newton_u, problem, p, u, g)
+        p, u, spent = _line_search(newton, newton_u, problem, p, u, g)
         iterations += spent
     raise NotConverged("the pressure", iterations, residual, tolerance)
 
@@ -150,7 +150,7 @@ def close_gap(
     return p, u, iterations
 
 
-def _step_toward(
+def _line_search(
     newton: Field,
     newton_u: Field,
     problem: _Problem,
@@ -171,16 +171,16 @@ def _step_toward(
         if target.min() < 0:
             target = problem.load.admissible(target)
             target_u = problem.displace(target)
-        if _falls(target - p, target_u - u, g):
+        if _decreases_energy(target - p, target_u - u, g):
             return target, target_u, 0
         step /= 2
-    lower, lower_u, spent = _let_go(newton, newton_u, problem, p, u, g)
+    lower, lower_u, spent = _remove_tension(newton, newton_u, problem, p, u, g)
     if np.sum((lower - p) * g) < 0:
         return lower, lower_u, spent
     return *_gradient_step(problem, p, u, g), spent
 
 
-def _let_go(
+def _remove_tension(
     newton: Field,
     newton_u: Field,
     problem: _Problem,
@@ -212,7 +212,7 @@ def _let_go(
             target = problem.load.admissible(target)
             target_u = problem.displace(target)
             iterations += 1
-            if _falls(target - p, target_u - u, g):
+            if _decreases_energy(target - p, target_u - u, g):
                 break
             many //= 2
         contact = contact & (part_of_way > part)
@@ -222,7 +222,7 @@ def _let_go(
     return newton, newton_u, iterations
 
 
-def _falls(d: Field, d_u: Field, g: Field) -> bool:
+def _decreases_energy(d: Field, d_u: Field, g: Field) -> bool:
     """Return whether a change of the pressure satisfies Armijo's condition on the energy."""
     slope = np.vdot(d, g)
     return bool(slope + 0.5 * np.vdot(d, d_u) <= LEAST_FALL * slope)

@@ -55,7 +55,8 @@ def default_depths(body: Body | Stack, contact_radius: float) -> tuple[Level, ..
         # Layers thinner than the spacing of the depths are resolved.
         depths += [top + (bottom - top) * part for part in (0.25, 0.5, 0.75)]
     sides = [side for pair in interfaces(stack) for side in pair]
-    between = [_level(stack, d) for d in depths if not _near_any(d, bottoms, contact_radius)]
+    near = 1e-6 * contact_radius
+    between = [_level(stack, d) for d in depths if all(abs(d - z) > near for z in bottoms)]
     return tuple(sorted({*between, *sides}, key=lambda level: (level.depth, level.layer)))
 
 
@@ -65,10 +66,6 @@ def _stack(body: Body | Stack) -> Stack:
 
 def _bottoms(stack: Stack) -> tuple[float, ...]:
     return tuple(float(z) for z in np.cumsum([film.thickness for film in stack.layers]))
-
-
-def _near_any(depth: float, bottoms: Sequence[float], contact_radius: float) -> bool:
-    return any(abs(depth - bottom) <= 1e-6 * contact_radius for bottom in bottoms)
 
 
 def _level(stack: Stack, depth: float) -> Level:

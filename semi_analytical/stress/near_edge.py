@@ -99,7 +99,12 @@ class NearEdge:
     @property
     def beside(self) -> Mask:
         """Cells (nx, ny) of the region in which the stress is corrected."""
-        return _beside(self.tractions)
+        shape = self.tractions.shape
+        away = distance_transform_edt(shape.depth == 0)
+        beside = (shape.depth <= BESIDE + 0.5) & (away <= BESIDE)
+        inner = np.zeros_like(beside)
+        inner[NODES:-NODES, NODES:-NODES] = True
+        return np.asarray(beside & inner)
 
     def corrected(self, field: SubsurfaceField) -> SubsurfaceField:
         """Return a field, on all or some rows of cells, with the stress near the edge corrected."""
@@ -211,16 +216,6 @@ def _at_surface(found: NearEdge, phi: Quadratic) -> Field:
     return stress_at_surface(
         found.tractions, phi, found.plane, found.stack.outer, found.grid.spacing
     )
-
-
-def _beside(tractions: EdgedTractions) -> Mask:
-    """Return the cells within BESIDE cells of the edge, inside and outside."""
-    shape = tractions.shape
-    away = distance_transform_edt(shape.depth == 0)
-    beside = (shape.depth <= BESIDE + 0.5) & (away <= BESIDE)
-    inner = np.zeros_like(beside)
-    inner[NODES:-NODES, NODES:-NODES] = True
-    return np.asarray(beside & inner)
 
 
 def _largest(stress: Field) -> Field:

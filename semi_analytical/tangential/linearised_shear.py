@@ -46,7 +46,7 @@ class LinearisedShear:
         """Compute the carriers, or reuse `carriers` of another point with the same zones."""
         self._displace, self._inverse, self._zones, self._load = displace, inverse, zones, load
         if carriers is None:
-            units = load.free_motions(zones.pulled.shape)
+            units = load.free_motions(zones.sliding_shear.shape)
             self.carriers = [zones.preconditioned(zones.free(unit), inverse) for unit in units]
         else:
             self.carriers = [zones.free(carrier) for carrier in carriers]
@@ -56,7 +56,7 @@ class LinearisedShear:
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
         """Return an admissible shear near q that slips in the slip zone."""
-        near = self._zones.pulled + self._zones.free(q)
+        near = self._zones.sliding_shear + self._zones.free(q)
         self._carry(self._load.given - self._load.forces(near), near)
         return self._load.admissible(near, bound)
 
@@ -70,14 +70,14 @@ class LinearisedShear:
         """
         zones = self._zones
         q, u = base.shear.copy(), base.displacement.copy()
-        r = zones.free(slipped - zones.turning * q)
+        r = zones.free(slipped - zones.slip_compliance * q)
         t = z = self._preconditioned(r)
         rz = first = float(np.sum(r * z))
         iterations = 0
         while rz > depth**2 * first and iterations < MAX_ITERATIONS:
             iterations += 1
             A_t = self._displace(t)
-            H_t = zones.free(A_t) + zones.turning * t
+            H_t = zones.free(A_t) + zones.slip_compliance * t
             step = rz / float(np.sum(t * H_t))
             q += step * t
             u += step * A_t

@@ -27,9 +27,9 @@ STIFFEST = 1e6
 class ShearZones:
     """Stick and slip zones at a point z of the natural map.
 
-    slip     slipping cells (nx, ny)
-    pulled   µp n in slipping cells (2, nx, ny) [force/length^2]
-    turning  compliance d of slipping cells (nx, ny) [length^3/force]
+    slip             slipping cells (nx, ny)
+    sliding_shear    µp n in slipping cells (2, nx, ny) [force/length^2]
+    slip_compliance  compliance d of slipping cells (nx, ny) [length^3/force]
     """
 
     def __init__(self, z: VectorField, bound: Field, self_compliance: float) -> None:
@@ -38,10 +38,10 @@ class ShearZones:
         self._self_compliance = self_compliance
         self.slip = self._open & (length > bound)
         normal = z * np.divide(1.0, length, out=np.zeros_like(length), where=self.slip)
-        self.pulled = bound * normal
+        self.sliding_shear = bound * normal
         excess = np.where(self.slip, length - bound, 0.0)
         least = excess / STIFFEST
-        self.turning = self_compliance * np.divide(
+        self.slip_compliance = self_compliance * np.divide(
             excess, np.maximum(bound, least), out=np.zeros_like(excess), where=self.slip
         )
         self._tangent = np.stack([-normal[1], normal[0]])
@@ -65,17 +65,17 @@ class ShearZones:
 
     @cached_property
     def _shares(self) -> Field:
-        found = shares(self.turning / self._self_compliance) * self.slip
+        found = shares(self.slip_compliance / self._self_compliance) * self.slip
         found[-1] *= np.sqrt(1 - self._beyond)
         return found
 
     @cached_property
     def _beyond(self) -> Field:
-        return beyond(self.turning / self._self_compliance)
+        return beyond(self.slip_compliance / self._self_compliance)
 
     @cached_property
     def _alone(self) -> Field:
-        return self._beyond / (self._self_compliance + self.turning)
+        return self._beyond / (self._self_compliance + self.slip_compliance)
 
     def preconditioned(self, v: VectorField, inverse: Map) -> VectorField:
         """Apply an approximate inverse of the derivative,

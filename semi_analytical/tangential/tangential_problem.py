@@ -105,7 +105,7 @@ def solve_tangential(
     guess, natural = start, problem.natural(start, motion)
     zones: ShearZones | None = None
     carriers: list[VectorField] | None = None
-    taken: tuple[Point, float] | None = None  # with its distance from P(z)
+    accepted: tuple[Point, float] | None = None  # with its distance from P(z)
     iterations, first, residual = 0, np.inf, np.inf
     for number in range(MAX_STEPS):
         if not np.isfinite(natural.error):
@@ -116,9 +116,9 @@ def solve_tangential(
         linearised = LinearisedShear(displace, inverse, zones, load, carriers if settled else None)
         carriers = linearised.carriers
         q = linearised.admissible(guess.shear, bound)
-        point, natural = _toward(problem, taken, Point(q, displace(q)), natural.motion)
-        on_the_way = point.shear is not q
-        taken = point, natural.error
+        point, natural = _line_search(problem, accepted, Point(q, displace(q)), natural.motion)
+        shortened = point.shear is not q
+        accepted = point, natural.error
         in_slip = (bound > 0) & (magnitude(natural.z) > bound)
         moved = point.displacement
         if not np.any(in_slip):  # the displacement of a single cell may be zero at its centre
@@ -131,7 +131,7 @@ def solve_tangential(
         if residual <= aim:
             return TangentialSolution(*point, natural.motion, in_slip, residual, iterations)
         guess = point
-        if on_the_way:  # a shortened step has other zones
+        if shortened:  # a shortened step has other zones
             continue
         # Newton's method squares the error, so that a more accurate linear solve has no benefit.
         depth = max(residual if settled else ROUGHLY, FINE * aim / residual)
@@ -141,8 +141,8 @@ def solve_tangential(
     raise NotConverged("the shear", iterations, residual, tolerance)
 
 
-def _toward(
-    problem: _Problem, taken: tuple[Point, float] | None, newton: Point, motion: Vector
+def _line_search(
+    problem: _Problem, accepted: tuple[Point, float] | None, newton: Point, motion: Vector
 ) -> tuple[Point, NaturalShear]:
     """Accept the Newton point, a shortened step, or a step along the projected gradient (line
     search).
@@ -152,9 +152,9 @@ def _toward(
     energy and lead to cycles.
     """
     natural = problem.natural(newton, motion)
-    if taken is None:
+    if accepted is None:
         return newton, natural
-    (q, u), error = taken
+    (q, u), error = accepted
     gradient = u - problem.target - problem.load.rigid(natural.motion)
     d, d_u = newton.shear - q, newton.displacement - u
     slope, curvature = np.sum(d * gradient), np.sum(d * d_u)
