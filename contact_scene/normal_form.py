@@ -4,6 +4,7 @@ All solvers plan and solve the normal form. A scene and its degenerate variants 
 same plan and the same numbers.
 """
 
+from itertools import groupby
 from typing import TypeVar
 
 from contact_scene.body import Body, Layer
@@ -49,17 +50,13 @@ def normal_form(scene: Scene) -> Scene:
 
 def _merged(body: B) -> B:
     """Merge layers with the material below them."""
-    layers: list[Layer] = []
-    below = body.material
-    for layer in reversed(body.layers):
-        if layer.material != below:
-            layers.insert(0, layer)
-        elif layers:
-            thickness = layer.thickness + layers[0].thickness
-            layers[0] = Layer(thickness=thickness, material=layer.material)
-        below = layer.material
-    if len(layers) == len(body.layers):
-        return body
+    equal = groupby(body.layers, key=lambda layer: layer.material)
+    layers = [
+        Layer(thickness=sum(layer.thickness for layer in reversed([*some])), material=material)
+        for material, some in equal
+    ]
+    if layers and layers[-1].material == body.material:
+        layers.pop()
     return body.model_copy(update={"layers": tuple(layers)})
 
 

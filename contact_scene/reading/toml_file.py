@@ -47,12 +47,10 @@ def read_toml(file: FilePath) -> tuple[dict[str, Any], dict[Path, int]]:
 
 def _text(file: FilePath) -> str:
     try:
-        if file.is_dir():
-            raise _refused(file, "is a folder", "a scene file (TOML)")
-        if not file.exists():
-            raise _refused(file, "there is no such file", "a scene file (TOML)")
         if not file.is_file():
-            raise _refused(file, "is not a regular file", "a scene file (TOML)")
+            other = "is a folder" if file.is_dir() else "is not a regular file"
+            message = other if file.exists() else "there is no such file"
+            raise _refused(file, message, "a scene file (TOML)")
         with file.open("rb") as stream:
             contents = stream.read(_MAX_SIZE + 1)
     except (OSError, ValueError) as error:

@@ -5,10 +5,7 @@ from dataclasses import dataclass
 from decimal import Context, Decimal
 from functools import cache
 from types import MappingProxyType
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from pint import UnitRegistry
+from typing import Any
 
 
 class UnknownUnit(ValueError):
@@ -72,7 +69,7 @@ SHARE = Kind("1", '"0.1 %"', MappingProxyType({"%": Decimal("0.01")}))
 
 
 @cache
-def _registry() -> "UnitRegistry[Decimal]":
+def _registry() -> Any:
     # Imported here: the import takes longer than reading a scene.
     from pint import UnitRegistry
 

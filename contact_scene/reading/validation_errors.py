@@ -60,7 +60,10 @@ def _problem(document: Mapping[str, Any], detail: ErrorDetails) -> Problem:
         return Problem(path[:-1], got, expected)
     if kind == "extra_forbidden":
         model = _model_at(location[:-1])
-        return _unknown_key(path, list(model.model_fields) if model else [])
+        known = list(model.model_fields) if model else []
+        near = get_close_matches(str(path[-1])[:100].lower(), known, n=1, cutoff=0.65)
+        hint = _did_you_mean(near[0]) if near else f"the keys here are {', '.join(known)}"
+        return Problem(path, "unknown key", hint=hint)
     if kind.startswith("union_tag"):
         return _unknown_shape(path, detail["input"])
     if kind in _NO_TABLE:
@@ -97,12 +100,6 @@ def _as_written(document: Mapping[str, Any], detail: ErrorDetails) -> Path:
         found = isinstance(value, dict) or part < len(value)
         value = value.get(part) if isinstance(value, dict) else value[part] if found else None
     return (*path, *unknown)
-
-
-def _unknown_key(path: Path, known: list[str]) -> Problem:
-    near = get_close_matches(str(path[-1])[:100].lower(), known, n=1, cutoff=0.65)
-    hint = _did_you_mean(near[0]) if near else f"the keys here are {', '.join(known)}"
-    return Problem(path, "unknown key", hint=hint)
 
 
 def _did_you_mean(key: str) -> str:

@@ -171,12 +171,9 @@ def _stretched(
     """Determine the bulk strain at start and end of a step."""
     if last.stretch is None:
         return None
-    end = last.stretch[1]
-    if step.bulk_strain is not None:
-        end = step.bulk_strain
-    elif step.bulk_stress is not None and base is not None:
-        end = strain_under(step.bulk_stress, base)
-    return last.stretch[1], end
+    start = last.stretch[1]
+    by_stress = strain_under(step.bulk_stress, base) if step.bulk_stress and base else None
+    return start, step.bulk_strain or by_stress or start
 
 
 def _next(
