@@ -1,27 +1,16 @@
-"""Operators for tractions that vary within the cells, and the linear solve in a given contact.
-
-The sub-cell edge determines the contact cells. The normal problem is then linear, because the set
-of contact cells is fixed.
-"""
+"""Operators for tractions that vary within the cells of a model."""
 
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
-from contact_scene.array_types import Field, Mask
+from contact_scene.array_types import Mask
 from semi_analytical.edge.displacement import EdgeOperator
 from semi_analytical.edge.film import FilmLaw, film_law
 from semi_analytical.edge.kernels import PARITY, PART_OFFSETS, PARTS, EdgeKernels
 from semi_analytical.edge.shape import depth_of
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.model import ContactModel
-from semi_analytical.normal.normal_load import (
-    Map,
-    Motion,
-    NormalLoad,
-)
-from semi_analytical.normal.normal_problem import close_gap
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
 
 Row = tuple[tuple[int, str], ...]
@@ -88,41 +77,3 @@ class EdgeOperators:
             model.scene.rig,
         )
         return {name: EdgeKernels(name, model.coefficients, parts) for name in PARITY}
-
-
-class Closed(NamedTuple):
-    """Pressure (nx, ny), gap (nx, ny) and motion of the load."""
-
-    pressure: Field
-    gap: Field
-    motion: Motion
-
-
-def closed(
-    displace: Map,
-    precondition: Map,
-    gap: Field,
-    load: NormalLoad,
-    contact: Mask,
-    start: Field,
-    fixed: Field,
-    reduction: float,
-) -> Closed:
-    """Close the gap of the contact cells by conjugate gradients.
-
-    gap        gap without pressure (nx, ny) [length]
-    load       load on the contact cells
-    contact    cells with zero gap (nx, ny)
-    start      initial guess of the pressure, not zero in all contact cells
-    fixed      pressure of the other cells (nx, ny)
-    reduction  factor by which the residual gap is reduced
-    """
-    p = load.admissible(np.where(contact, start, 0.0))
-    u = displace(p + fixed)
-    h = np.where(contact, gap, 0.0)  # removes infinite gaps
-    motion = load.motion(p, u + h)
-    projected = load.projection(contact.astype(np.float64))
-    g = u + h - load.closure(motion)
-    p, u, _ = close_gap(displace, precondition, projected, p, u, g, reduction)
-    motion = load.motion(p, u + h)
-    return Closed(np.maximum(p, 0.0) + fixed, u + gap - load.closure(motion), motion)

@@ -24,12 +24,13 @@ from semi_analytical.edge.subcell_tractions import (
     SubcellTractions,
     fit_edge,
 )
-from semi_analytical.edge_correction.operators import EdgeOperators, closed
+from semi_analytical.edge_correction.operators import EdgeOperators
 from semi_analytical.edge_correction.shear_at_edge import FollowingShear
 from semi_analytical.increments.increment import State
 from semi_analytical.increments.normal_solve import MARGIN
 from semi_analytical.model import ContactModel
 from semi_analytical.normal.normal_load import Motion
+from semi_analytical.normal.normal_problem import close_gap
 from semi_analytical.operator.box import (
     Box,
     box_around,
@@ -189,27 +190,24 @@ class _Problem:
         return approach if self.state.target.approach is None else float(np.sum(p))
 
     def solve(self, p: Field, edge: SubcellTractions) -> _Solved:
-        """Solve the normal problem for the edge of an iterate.
+        """Solve the normal problem for the edge of an iterate by conjugate gradients.
 
-        Partly covered cells with a centre outside the edge carry the pressure of the fit. The
-        contact cells carry the rest of the load.
+        The problem is linear, because the edge determines the contact cells. Partly covered cells
+        with a centre outside the edge carry the pressure of the fit. The contact cells carry the
+        rest of the load.
         """
-        box, model = self.box.slices, self.model
-        outer = np.where(edge.outer, edge.means, 0.0)[box]
+        box, operator = self.box.slices, self.model.operator(self.box.shape)
+        contact, outer = edge.region[box], np.where(edge.outer, edge.means, 0.0)[box]
         by_edge = self.by_edge(p, edge)
-        operator = model.operator(self.box.shape)
-        load = self.state.target.on(model, self.box)
-        found = closed(
-            operator.normal,
-            operator.precondition,
-            (self.gap + by_edge)[box],
-            load.less(outer),
-            edge.region[box],
-            p[box],
-            outer,
-            INNER_REDUCTION,
-        )
-        return _Solved(self.box.embed(found.pressure, p.shape), found.motion, by_edge)
+        gap = np.where(contact, (self.gap + by_edge)[box], 0.0)  # removes infinite gaps
+        load = self.state.target.on(self.model, self.box).less(outer)
+        inner = load.admissible(np.where(contact, p[box], 0.0))
+        u = operator.normal(inner + outer)
+        residual = u + gap - load.closure(load.motion(inner, u + gap))
+        solver = operator.normal, operator.precondition, load.projection(contact.astype(np.float64))
+        inner, u, _ = close_gap(*solver, inner, u, residual, INNER_REDUCTION)
+        pressure = self.box.embed(np.maximum(inner, 0.0) + outer, p.shape)
+        return _Solved(pressure, load.motion(inner, u + gap), by_edge)
 
     def by_edge(self, p: Field, edge: SubcellTractions) -> Field:
         """Compute u_z by the pressure variation within cells and by the shear of coupled bodies."""

@@ -19,7 +19,12 @@ import numpy as np
 from contact_scene.array_types import Array
 from semi_analytical.frf.compound import OPAQUE, compound_rows, decaying_waves
 from semi_analytical.frf.stack import HalfSpace, Stack
-from semi_analytical.frf.surface import remainder_scalars
+from semi_analytical.frf.surface import (
+    Compliance,
+    compliance_above,
+    compliances_below,
+    remainder_scalars,
+)
 
 
 class DepthScalars(NamedTuple):
@@ -65,16 +70,6 @@ class Level:
     layer: int
 
 
-class Compliance(NamedTuple):
-    """Answer of everything below a plane: (det C, C11, C12, C22, 1) in units of 1/(2 G alpha).
-
-    shear  transverse, in units of 1/(G alpha)
-    """
-
-    rows: tuple[Array, ...]
-    shear: Array
-
-
 class Descent:
     """Propagation of surface tractions to depths of a stack, for fixed wavenumbers.
 
@@ -85,7 +80,7 @@ class Descent:
         self.stack = stack
         self.alpha = alpha
         self._tops = np.cumsum([0.0, *(film.thickness for film in stack.layers)])
-        self._below = self._compliances()
+        self._below = compliances_below(stack, alpha)
         unit, zero = np.ones_like(alpha), np.zeros_like(alpha)
         self._traction = [np.array([[unit, zero], [zero, unit]])]
         self._transverse = [unit]
@@ -108,7 +103,7 @@ class Descent:
             if level.depth >= self._tops[k + 1]:
                 crossed = thickness
             left = max(0.0, thickness - crossed)
-            below = _compliance_above(below, nu, self.alpha * left)
+            below = compliance_above(below, nu, self.alpha * left)
         through, across = _transmitted(below, nu, self.alpha * crossed)
         traction = _product(through, self._traction[k])
         transverse = across * self._transverse[k]
@@ -148,24 +143,6 @@ class Descent:
             csh / unit * ch,
             -csh / 2 * sh,
         )
-
-    def _compliances(self) -> list[Compliance]:
-        """Of what lies below each layer, in units of that layer; last that of the base itself."""
-        one, zero = np.ones_like(self.alpha), np.zeros_like(self.alpha)
-        base = self.stack.base
-        if base is None:
-            here, G = Compliance((zero, zero, zero, zero, one), zero), 1.0
-        else:
-            G, nu = base
-            rows = (3 - 4 * nu, 2 - 2 * nu, 1 - 2 * nu, 2 - 2 * nu, 1.0)
-            here = Compliance(tuple(row * one for row in rows), one)
-        found = [here]
-        for film in reversed(self.stack.layers):
-            below = _changed_units(here, film.shear_modulus / G)
-            found.append(below)
-            here = _compliance_above(below, film.poisson_ratio, self.alpha * film.thickness)
-            G = film.shear_modulus
-        return found[::-1]
 
 
 def material_at(stack: Stack, level: Level) -> HalfSpace:
@@ -213,25 +190,6 @@ def _transmitted(below: Compliance, nu: float, x: Array) -> tuple[Array, Array]:
     divisor = compound_rows(below.rows, nu, decaying_waves(x))[4]
     sagittal = decay / divisor * np.array([[m22, -m12], [-m21, m11]])
     return sagittal, decay / (ch + sh * below.shear)
-
-
-def _compliance_above(below: Compliance, nu: float, x: Array) -> Compliance:
-    """Carry the compliance upward through x = alpha d of one material."""
-    x = np.minimum(x, OPAQUE)
-    *rows, divisor = compound_rows(below.rows, nu, decaying_waves(x))
-    tanh = np.tanh(x)
-    return Compliance(
-        (*(row / divisor for row in rows), np.ones_like(x)),
-        (below.shear + tanh) / (1 + below.shear * tanh),
-    )
-
-
-def _changed_units(here: Compliance, ratio: float) -> Compliance:
-    """Cross an interface upward: the units change by the ratio of shear moduli, above/below."""
-    det, c11, c12, c22, one = here.rows
-    return Compliance(
-        (det * ratio**2, c11 * ratio, c12 * ratio, c22 * ratio, one), here.shear * ratio
-    )
 
 
 def _x_cosh_minus_sinh(x: Array, scale: Array | float = 1.0) -> Array:

@@ -20,6 +20,17 @@ from semi_analytical.frf.compound import (
 from semi_analytical.frf.stack import HalfSpace, Stack
 
 
+class Compliance(NamedTuple):
+    """Compliance of the material below a plane.
+
+    rows   (det C, C11, C12, C22, 1) in units of 1/(2 G alpha)
+    shear  transverse compliance in units of 1/(G alpha)
+    """
+
+    rows: tuple[Array, ...]
+    shear: Array
+
+
 class SurfaceScalars(NamedTuple):
     """The four scalar responses [length^3/force], each of the shape of the wavenumbers.
 
@@ -114,37 +125,44 @@ def _echo(stack: Stack, alpha: Array) -> SurfaceScalars:
     )
 
 
-def _underside(stack: Stack, alpha: Array) -> tuple[tuple[Array, ...], Array]:
-    """Compute the compliance below the outermost layer, in units of this layer.
+def _underside(stack: Stack, alpha: Array) -> Compliance:
+    """Compute the compliance below the outermost layer, in units of this layer."""
+    return compliances_below(stack, alpha)[0]
 
-    returns  (det C, C11, C12, C22, 1) in units of 1/(2 G alpha), and Csh in units of 1/(G alpha)
+
+def compliances_below(stack: Stack, alpha: Array) -> list[Compliance]:
+    """Compute the compliance below each layer, in units of this layer, and that of the base.
+
+    The list begins with the outermost layer and ends with the base in its own units.
     """
     one, zero = np.ones_like(alpha), np.zeros_like(alpha)
     if stack.base is None:
-        y: tuple[Array, ...] = (zero, zero, zero, zero, one)
-        shear = zero
-        G = stack.layers[-1].shear_modulus
+        here, G = Compliance((zero, zero, zero, zero, one), zero), 1.0
     else:
         G, nu = stack.base
-        y = ((3 - 4 * nu) * one, 2 * (1 - nu) * one, (1 - 2 * nu) * one, 2 * (1 - nu) * one, one)
-        shear = one
-    for film in reversed(stack.layers[1:]):
-        y, shear = _changed_units(y, shear, film.shear_modulus / G)
-        x = np.minimum(alpha * film.thickness, OPAQUE)
-        rows = compound_rows(y, film.poisson_ratio, decaying_waves(x))
-        y = (*(row / rows[4] for row in rows[:4]), one)
-        tanh = np.tanh(x)
-        shear = (shear + tanh) / (1 + shear * tanh)
-        G = film.shear_modulus
-    return _changed_units(y, shear, stack.outer.shear_modulus / G)
+        rows = (3 - 4 * nu, 2 - 2 * nu, 1 - 2 * nu, 2 - 2 * nu, 1.0)
+        here = Compliance(tuple(row * one for row in rows), one)
+    found, upward = [here], stack.layers[::-1]
+    for film, lower in zip(upward, (None, *upward), strict=False):
+        if lower is not None:
+            here = compliance_above(here, lower.poisson_ratio, alpha * lower.thickness)
+            G = lower.shear_modulus
+        (det, c11, c12, c22, unit), ratio = here.rows, film.shear_modulus / G
+        scaled = (det * ratio**2, c11 * ratio, c12 * ratio, c22 * ratio, unit)
+        here = Compliance(scaled, here.shear * ratio)
+        found.append(here)
+    return found[::-1]
 
 
-def _changed_units(
-    y: tuple[Array, ...], shear: Array, ratio: float
-) -> tuple[tuple[Array, ...], Array]:
-    """Cross an interface upward: the units change by the ratio of shear moduli, above/below."""
-    det, c11, c12, c22, one = y
-    return (det * ratio**2, c11 * ratio, c12 * ratio, c22 * ratio, one), shear * ratio
+def compliance_above(below: Compliance, nu: float, x: Array) -> Compliance:
+    """Propagate the compliance upward through x = alpha d of one material."""
+    x = np.minimum(x, OPAQUE)
+    *rows, divisor = compound_rows(below.rows, nu, decaying_waves(x))
+    tanh = np.tanh(x)
+    return Compliance(
+        (*(row / divisor for row in rows), np.ones_like(x)),
+        (below.shear + tanh) / (1 + below.shear * tanh),
+    )
 
 
 def _checked(alpha: ArrayLike) -> Array:

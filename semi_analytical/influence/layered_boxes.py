@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -34,9 +34,7 @@ class Boxes:
 
     def chosen(self, which: Mask | slice) -> Boxes:
         """Select some of the boxes."""
-        return Boxes(
-            self.x[which], self.y[which], self.half_x[which], self.half_y[which], self.cell[which]
-        )
+        return Boxes(*(values[which] for values in vars(self).values()))
 
     def batches(self, points: int) -> Iterator[Boxes]:
         """Split the boxes into batches of about `points` Gauss points."""
@@ -59,14 +57,9 @@ class Boxes:
 def joined(parts: list[Boxes]) -> Boxes:
     """Concatenate collections of boxes."""
     none = np.empty(0)
-    parts = [Boxes(none, none, none, none, np.empty(0, np.intp)), *parts]
-    return Boxes(
-        np.concatenate([part.x for part in parts]),
-        np.concatenate([part.y for part in parts]),
-        np.concatenate([part.half_x for part in parts]),
-        np.concatenate([part.half_y for part in parts]),
-        np.concatenate([part.cell for part in parts]),
-    )
+    empty = Boxes(none, none, none, none, np.empty(0, np.intp))
+    columns = zip(*(vars(part).values() for part in (empty, *parts)), strict=True)
+    return Boxes(*map(np.concatenate, columns))
 
 
 def boxes_of_cells(spacing: tuple[float, float], cells: Indices) -> Boxes:
@@ -112,25 +105,17 @@ def _cut(boxes: Boxes) -> Boxes:
         long_x = CLEARANCE * boxes.half_x > distance
         long_y = CLEARANCE * boxes.half_y > distance
         done.append(boxes.chosen(~(long_x | long_y)))
-        boxes = joined([_halved_x(boxes.chosen(long_x)), _halved_y(boxes.chosen(long_y & ~long_x))])
+        along_x, along_y = boxes.chosen(long_x), boxes.chosen(long_y & ~long_x)
+        (left, right), (lower, upper) = _ends(along_x.half_x), _ends(along_y.half_y)
+        boxes = joined(
+            [
+                *(replace(along_x, x=along_x.x + s, half_x=right) for s in (left, right)),
+                *(replace(along_y, y=along_y.y + s, half_y=upper) for s in (lower, upper)),
+            ]
+        )
     return joined(done)
 
 
-def _halved_x(boxes: Boxes) -> Boxes:
-    quarter = boxes.half_x / 2
-    return joined(
-        [
-            Boxes(boxes.x + shift, boxes.y, quarter, boxes.half_y, boxes.cell)
-            for shift in (-quarter, quarter)
-        ]
-    )
-
-
-def _halved_y(boxes: Boxes) -> Boxes:
-    quarter = boxes.half_y / 2
-    return joined(
-        [
-            Boxes(boxes.x, boxes.y + shift, boxes.half_x, quarter, boxes.cell)
-            for shift in (-quarter, quarter)
-        ]
-    )
+def _ends(half: Array) -> tuple[Array, Array]:
+    """Return the positions of the centres of both halves of a side."""
+    return -half / 2, half / 2
