@@ -73,11 +73,6 @@ class PartialSlip:
         return copysign(self.sliding_shift * fraction, self.tangential_force)
 
     @property
-    def stiffness(self) -> float:
-        """Tangent stiffness dT/d(shift) = 2G*c for further loading [force/length]."""
-        return 2 * self.tangential_modulus * self.stick_radius
-
-    @property
     def dissipated_energy(self) -> float:
         """Energy dissipated by friction since T = 0 [force*length], a quarter of that of a full
         cycle.

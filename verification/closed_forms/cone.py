@@ -59,15 +59,6 @@ class ConeContact:
             ratio = np.divide(a, rho, out=np.ones_like(rho), where=inside)
         return np.asarray(self.contact_modulus / 2 * tan(self.slope_angle) * np.arccosh(ratio))
 
-    def surface_displacement(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the normal displacement, sum of both bodies, inside and outside [length]."""
-        a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
-        outside = np.maximum(rho, a)
-        root = np.sqrt((outside - a) * (outside + a))
-        far = a * np.arctan2(a, root) - outside + root
-        inside = pi / 2 * a - rho
-        return np.asarray(tan(self.slope_angle) * np.where(rho < a, inside, far))
-
     def gap(self, r: ArrayLike) -> NDArray[np.float64]:
         """Compute the deformed gap tan(slope) [√(r²-a²) - a arccos(a/r)] [length], zero inside."""
         a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))

@@ -1,6 +1,6 @@
 """Rigid flat-ended circular punch on a half-space.
 
-Valid for frictionless faces or pairs without normal–tangential coupling; pressure and shear are
+Valid for frictionless faces or pairs without normal–tangential coupling; the pressure is
 singular at the rim.
 """
 
@@ -48,29 +48,11 @@ class FlatPunchContact:
         outside."""
         return _rim_singular(self.load, self.contact_radius, r)
 
-    def surface_displacement(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the normal displacement, which is (2/π) approach asin(a/r) outside the rim
-        [length]."""
-        a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
-        return np.asarray(2 / pi * self.approach * np.arcsin(a / np.maximum(rho, a)))
-
     def gap(self, r: ArrayLike) -> NDArray[np.float64]:
         """Return the gap [length]: zero under the punch and infinite outside, where there is no
         surface."""
         rho = np.abs(np.asarray(r, dtype=float))
         return np.asarray(np.where(rho <= self.contact_radius, 0.0, np.inf))
-
-    def shear(self, r: ArrayLike, tangential_force: float) -> NDArray[np.float64]:
-        """Compute the shear of the stuck punch under T [force/length²] (Mindlin 1949).
-
-        The shear has the profile of the pressure, so that all points start to slip at |T| = µW.
-        """
-        return _rim_singular(tangential_force, self.contact_radius, r)
-
-    def shift(self, tangential_force: float, tangential_modulus: float) -> float:
-        """Compute the tangential shift T/2G*a of the stuck punch [length] (Mindlin 1949)."""
-        require_positive(tangential_modulus=tangential_modulus)
-        return tangential_force / (2 * tangential_modulus * self.contact_radius)
 
 
 def _rim_singular(force: float, a: float, r: ArrayLike) -> NDArray[np.float64]:

@@ -99,17 +99,6 @@ class PointContact:
         slope = 2 * self.contact_modulus / (pi * self.radius)
         return np.asarray(slope * np.sqrt(np.maximum((a - rho) * (a + rho), 0)))
 
-    def surface_displacement(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the normal displacement, sum of both bodies, positive into the bodies [length].
-
-        Inside: approach - r²/2R. Outside: the field of the Hertz pressure (Johnson 1985, ch. 3.4).
-        """
-        a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
-        outside = np.maximum(rho, a)
-        root = np.sqrt((outside - a) * (outside + a))
-        far = ((2 * a**2 - outside**2) * np.arctan2(a, root) + a * root) / (pi * self.radius)
-        return np.asarray(np.where(rho < a, self.approach - rho**2 / (2 * self.radius), far))
-
     def gap(self, r: ArrayLike) -> NDArray[np.float64]:
         """Compute the deformed gap r²/2R - approach + displacement [length], exactly zero
         inside."""

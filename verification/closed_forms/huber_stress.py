@@ -22,13 +22,6 @@ class AxisymmetricStress:
     axial: NDArray[np.float64]
     shear: NDArray[np.float64]
 
-    @property
-    def von_mises(self) -> NDArray[np.float64]:
-        """Equivalent stress of von Mises [force/length²]."""
-        rr, tt, zz = self.radial, self.hoop, self.axial
-        normal = ((rr - tt) ** 2 + (tt - zz) ** 2 + (zz - rr) ** 2) / 2
-        return np.asarray(np.sqrt(normal + 3 * self.shear**2))
-
 
 def huber_stress(
     r: ArrayLike, z: ArrayLike, contact_radius: float, peak_pressure: float, poisson_ratio: float

@@ -27,7 +27,6 @@ from verification.closed_forms.coated_indentation import (
 )
 from verification.problems import paper_scene as paper
 from verification.problems.paper_scene import HERTZ, pressing
-from verification.problems.problem import Reference, ReferenceKind
 
 SUBSTRATE = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 FREDHOLM = "Fredholm equation for the Abel transform of the pressure, to 1e-13"
@@ -109,8 +108,3 @@ def surface_of(*bodies: Body) -> LayeredSurface:
 def exact_contact(*bodies: Body) -> LayeredIndentation:
     """Solve the paper's ball on these bodies under the paper's force, semi-closed."""
     return paraboloid_under(paper.NORMAL_FORCE, surface_of(*bodies), paper.RADIUS)
-
-
-def semi_closed(value: float) -> Reference:
-    """Return a number of the semi-closed solution as a reference."""
-    return Reference(value, ReferenceKind.SEMI_CLOSED, FREDHOLM, SEMI_CLOSED_ERROR * abs(value))
