@@ -70,8 +70,9 @@ class RefinementLevel:
 
     values, stated  numbers and their errors at the ends of the steps
     run             the result with its coarse solves
-    seconds, processor_seconds
-                    of the solve with its coarse solves
+    seconds         elapsed time of the solve with its coarse solves
+    processor_seconds
+                    CPU time of the same solves
     """
 
     fineness: Fineness
@@ -129,8 +130,8 @@ class Levels:
     """Refinement levels of a scene by one solver.
 
     stress_at  load step at whose end the largest tensile stress is requested, or None
-    watching, keeping
-               contexts of each solve, with its progress and its checkpoint store
+    watching   context of each solve, with its progress
+    keeping    context of each solve, with its checkpoint store
     """
 
     solver: DiscretisedSolver
@@ -140,8 +141,10 @@ class Levels:
 
     def first(self) -> RefinementLevel:
         """Solve the coarsest level whose cells resolve the contact; raises a SolverError."""
-        asked, plan = self.solver.asked, self.solver.plan
-        fineness = Fineness(self.solver.first(), plan.increments, asked.tolerance)
+        plan = self.solver.plan
+        fineness = Fineness(
+            self.solver.first(), plan.increments, self.solver.discretisation.tolerance
+        )
         for _ in range(MAX_DOUBLINGS):
             try:
                 return self.solved(fineness)

@@ -88,13 +88,13 @@ class CoarseSolve:
 class DiscretisedSolver(ABC):
     """Solver of one scene with its discretisation parameters.
 
-    asked    parameters that are not changed, and the coarsest values of the others
-    decided  plan of a result; None for that of the first level of refinement
+    discretisation  parameters that are not changed, and the coarsest values of the others
+    chosen_plan     plan of a result; None for that of the first level of refinement
     """
 
     scene: Scene
-    asked: Any
-    decided: Any = None
+    discretisation: Any
+    chosen_plan: Any = None
 
     # Part of the error, name of the cells, their largest number along a side (over the radius, or
     # multiple of the rings), and coarse solves.

@@ -80,8 +80,9 @@ class Features:
     stick     smaller semi-axis of the stick zone
     annulus   width of the slip zone around it; 0 if a contact with slip in all cells may have a
               stick zone
-    fitted    true if the edge of the contact is fitted within the cells stick_fitted true if the
-              edge of the stick zone is fitted within the cells
+    fitted    true if the edge of the contact is fitted within the cells
+    stick_fitted
+              true if the edge of the stick zone is fitted within the cells
     sharp     true for an indenter with a rim or a tip; all numbers then have the order 1
     infinite  true if the exact peak pressure is infinite
     cusp      true if the pressure has a cusp, because shear changes the pressure or the gap is a

@@ -53,12 +53,12 @@ ROOM, MAX_ENLARGEMENTS = 1.25, 5
 class CellSolver(DiscretisedSolver):
     """Semi-analytical solver. Its discretisation in space is a grid.
 
-    asked   window if given, ratio of the cells along the sides, largest tolerance
-    stress  true if the stress in the body is computed as well
+    discretisation  window if given, ratio of the cells along the sides, largest tolerance
+    stress          true if the stress in the body is computed as well
     """
 
-    asked: SurfaceDiscretisation
-    decided: Plan | None = None
+    discretisation: SurfaceDiscretisation
+    chosen_plan: Plan | None = None
     stress: bool = False
 
     part: ClassVar[Part] = "cells"
@@ -72,14 +72,14 @@ class CellSolver(DiscretisedSolver):
     @property
     def plan(self) -> Plan:
         """Effects, and at least the increments that the scene prescribes."""
-        return self.decided or semi_analytical.plan(
-            self.scene, FIRST_PATH_ACCURACY, self.asked.edge
+        return self.chosen_plan or semi_analytical.plan(
+            self.scene, FIRST_PATH_ACCURACY, self.discretisation.edge
         )
 
     def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Result:
         """Solve on a larger window with equal cells if a fitted window is too small."""
         grids, plan = [fineness.space], self.plan.cut_into(fineness.increments)
-        fixed = self.asked.window is not None or self.scene.indenter.extent is not None
+        fixed = self.discretisation.window is not None or self.scene.indenter.extent is not None
         for _ in range(0 if fixed else MAX_ENLARGEMENTS):
             cells, (hx, hy) = scaled(grids[-1].cells, ROOM), grids[-1].spacing
             grids.append(SurfaceGrid(cells, (cells[0] * hx, cells[1] * hy)))
@@ -138,7 +138,7 @@ class CellSolver(DiscretisedSolver):
         return at_ends(result, at)
 
     def first(self) -> SurfaceGrid:
-        grid = semi_analytical.discretise(self.scene, self.asked)
+        grid = semi_analytical.discretise(self.scene, self.discretisation)
         return SurfaceGrid(scaled(grid.cells, FIRST_CELLS / min(grid.cells)), grid.window)
 
     def finer(self, space: SurfaceGrid, by: Refinement) -> SurfaceGrid:

@@ -52,8 +52,8 @@ class ElementSolver(DiscretisedSolver):
     method  for the contact and friction laws
     """
 
-    asked: FiniteElementDiscretisation
-    decided: Plan | None = None
+    discretisation: FiniteElementDiscretisation
+    chosen_plan: Plan | None = None
     method: Method = Method.COMPLEMENTARITY
 
     part: ClassVar[Part] = "elements"
@@ -66,7 +66,7 @@ class ElementSolver(DiscretisedSolver):
 
     @property
     def plan(self) -> Plan:
-        return self.decided or fem_reference.plan(self.scene)
+        return self.chosen_plan or fem_reference.plan(self.scene)
 
     def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Result:
         """Solve the scene, with a larger overlap if coarse elements exceed that of the run."""
@@ -146,7 +146,7 @@ class ElementSolver(DiscretisedSolver):
         return dict.fromkeys(ACROSS, (nu / (4 - 2 * nu)) ** 2 / 2)
 
     def first(self) -> FiniteElementDiscretisation:
-        return _with(self.asked, elements_per_radius=FIRST_ELEMENTS)
+        return _with(self.discretisation, elements_per_radius=FIRST_ELEMENTS)
 
     def finer(
         self, space: FiniteElementDiscretisation, by: Refinement

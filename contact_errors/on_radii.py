@@ -38,8 +38,8 @@ class RingSolver(DiscretisedSolver):
     """Radial solver. Its discretisation in space is a multiple of its rings, or orders and
     points."""
 
-    asked: RadialDiscretisation
-    decided: Plan | None = None
+    discretisation: RadialDiscretisation
+    chosen_plan: Plan | None = None
 
     part: ClassVar[Part] = "quadrature"
     cells: ClassVar[str] = "rings"
@@ -57,7 +57,7 @@ class RingSolver(DiscretisedSolver):
     @property
     def plan(self) -> Plan:
         """Effects, and increments of the first level."""
-        return self.decided or radial.plan(self.scene)
+        return self.chosen_plan or radial.plan(self.scene)
 
     @property
     def counted(self) -> bool:
@@ -66,8 +66,8 @@ class RingSolver(DiscretisedSolver):
 
     def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Result:
         plan = self._plan_of(fineness)
-        asked = self.asked.model_copy(update={"tolerance": fineness.tolerance})
-        return radial.solve(self.scene, asked, progress, plan, store)
+        discretisation = self.discretisation.model_copy(update={"tolerance": fineness.tolerance})
+        return radial.solve(self.scene, discretisation, progress, plan, store)
 
     def space_of(self, result: Result) -> float:
         return result.plan.fineness

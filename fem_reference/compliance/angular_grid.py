@@ -17,10 +17,10 @@ from contact_scene.array_types import Matrix, Vector
 class AngularGrid:
     """Angles on the half circle with the transforms between point values and amplitudes.
 
-    angles    θ_j (points,)
-    weights   what part of the full circle each point stands for (points,), summing to 2π
-    cosines   amplitudes of cos nθ from point values (harmonics, points)
-    sines     amplitudes of sin nθ likewise; zero where sin nθ vanishes at all points
+    angles   θ_j (points,)
+    weights  angle of the full circle that each point represents (points,), summing to 2π
+    cosines  amplitudes of cos nθ from point values (harmonics, points)
+    sines    amplitudes of sin nθ from point values; zero if sin nθ is zero at all points
     """
 
     angles: Vector

@@ -158,7 +158,8 @@ class PointCompliance:
         return np.concatenate([axis[:, None], values[:, 1:].reshape(3, rings - 1, angles)], axis=1)
 
     def _summed_on_axis(self, weak: NDArray[np.float64]) -> NDArray[np.float64]:
-        """(3, points, …) from what tractions on the grid (3, rings, angles, …) do work on."""
+        """Return the displacement (3, points, …) on which tractions (3, rings, angles, …) do
+        work."""
         axis = np.einsum("cak,ak...->c...", self._axis, weak[:, 0])
         rest = weak[:, 1:].reshape(3, -1, *weak.shape[3:])
         return np.concatenate([axis[:, None], rest], axis=1)

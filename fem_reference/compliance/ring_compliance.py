@@ -32,14 +32,15 @@ class RingCompliance:
     areas      ∫ φ r dr (rings,) [length^2]
     gap        undeformed, the mean over φ (rings,) [length]
     harmonics  for n = 0, 1, …: ∫ φ_i u r dr of the components r, θ, z of the displacement, lower
-               body less indenter, per traction with profile φ_k (3, rings, 3, rings)
-               [length^5/force], symmetric. On Path.SHEARING the component r is that along the load
-    path       which tractions are solved for
+               body minus indenter, per traction with profile φ_k (3, rings, 3, rings)
+               [length^5/force], symmetric. On Path.SHEARING the component r is the one along the
+               load
+    path       tractions of the solve
     motion     displacement of the rings per unit of the indenter's shift or twist (2, rings), for
-               tractions that do not depend on θ; zero where symmetry keeps the indenter in place
+               tractions that do not depend on θ; zero if symmetry excludes the motion
     stretch    radius of the rings, the mean over φ (rings,) [length]
     reach      outer end of the last element [length]
-    edge       how the edge of the contact is found between rings
+    edge       rule that determines the edge of the contact between rings
     """
 
     radii: Vector

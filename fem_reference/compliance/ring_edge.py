@@ -88,7 +88,7 @@ class HatEdge:
 
     @property
     def of_stick(self) -> "HatEdge":
-        """The rule of a half-plane: slip differs from separation by what elements add."""
+        """Rule of a half-plane for the border of stick, without the correction of elements."""
         return HatEdge()
 
     def radius(self, radii: Field, values: Field, last: int, step: int = 1) -> float:

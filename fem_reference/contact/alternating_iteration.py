@@ -72,9 +72,8 @@ class CoupledProblem:
 class CoupledSolution:
     """Pressure (points,) and shear (2, points) with the rigid motion.
 
-    shift  of the indenter, or twist; None where the load is all that friction can carry:
-           everything slips along it
-    way    how it was found
+    shift  of the indenter, or twist; None if the load equals the friction limit, with gross slip
+    way    algorithm used
     """
 
     pressure: Vector

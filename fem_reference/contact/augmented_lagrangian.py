@@ -21,11 +21,11 @@ P = TypeVar("P")
 class Penalty:
     """Stiffness of the springs, and limits on the updates of the multipliers.
 
-    factor         c, stiffness ε = c E* / h with E* the contact modulus of the outermost
-                   materials and h the length of a contact edge [1]
-    augmentations  most Uzawa updates of the multipliers in each increment; with none the pressure
-                   is that of springs of stiffness ε between the surfaces
-    overlap        that may be left, relative to what the bodies move [1]
+    factor         c, stiffness ε = c E* / h with E* the contact modulus of the outermost materials
+                   and h the length of a contact edge [1]
+    augmentations  largest number of Uzawa updates of the multipliers in each increment; without any
+                   the pressure is that of springs of stiffness ε between the surfaces
+    overlap        largest overlap over the displacement of the bodies [1]
     """
 
     factor: float = 10.0
@@ -58,14 +58,14 @@ def augmented(
     """Return all passes of an increment, the last one the best.
 
     (Alart and Curnier 1991, Comput. Methods Appl. Mech. Eng. 92, 353; Simo and Laursen 1992,
-    Comput. Struct. 42, 97.) One update of stiff springs removes nearly all of the penalty's
-    error. The updates end as soon as the remaining error is allowed. At Gauss points the
-    displacements do not determine all pressures, and further updates would accumulate ripples.
+    Comput. Struct. 42, 97.) One update of stiff springs removes nearly all of the penalty's error.
+    The updates end when the remaining error is allowed. At Gauss points the displacements do not
+    determine all pressures, and further updates would accumulate oscillations.
 
-    again   from a pass to the next, whose multipliers are its tractions
-    left    what a pass leaves of overlap, relative to what the bodies move
-    fewest  updates that are made in any case, if so many are allowed
-    raises  SurfacesOverlap: more is left than allowed after the last update
+    again   function from a pass to the next, whose multipliers are its tractions
+    left    function of a pass: its overlap over the displacement of the bodies
+    fewest  least number of updates, if their limit allows it
+    raises  SurfacesOverlap if the overlap after the last update is not allowed
     """
     passes = [first]
     for update in range(penalty.augmentations + 1):

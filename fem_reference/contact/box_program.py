@@ -1,16 +1,16 @@
-"""Convex quadratic programs with bounds: the form that pressure and shear share.
+"""Convex quadratic programs with bounds, common to pressure and shear.
 
-    minimise ½ xᵀA x - cᵀx   with   lower <= x <= upper   and, if asked for,   v·x = t
+    minimise ½ xᵀA x - cᵀx   with   lower <= x <= upper   and, optionally,   v·x = t
 
-A is symmetric and positive definite. Contact pressure is one of them with bounds (0, ∞), its
-gradient the gap and the multiplier of its load the approach; shear below a given friction limit is
-another with bounds ±µp, its gradient the slip and its multiplier the shift (Tresca's problem).
+A is symmetric and positive definite. The contact pressure has the bounds (0, ∞), the gap as
+gradient and the approach as multiplier of its load. Shear below a given friction limit has the
+bounds ±µp, the slip as gradient and the shift as multiplier (Tresca's problem).
 
-A guess which components sit at which bound is improved by a primal-dual active set step at a time
-(Hintermüller, Ito and Kunisch 2002): on the free components the equations are solved exactly, and
-none jumps from one bound to the other without having been free. That takes few steps but might
-cycle; then a primal active set method takes over, which releases one component at a time, never
-increases the energy and therefore ends (Nocedal and Wright 2006, section 16.5).
+A primal-dual active-set method improves a guess of the components at their bounds (Hintermüller,
+Ito and Kunisch 2002). Each step solves the equations of the free components exactly, and no
+component changes from one bound to the other without being free in between. This method takes few
+steps but may cycle. A primal active-set method then continues: it releases one component per step,
+never increases the energy and therefore terminates (Nocedal and Wright 2006, section 16.5).
 """
 
 from dataclasses import dataclass
@@ -66,9 +66,9 @@ class BoxSolution:
 
 
 def solve_box(program: BoxProgram, guess: Sides) -> BoxSolution:
-    """Compute the minimiser from a guess of the sides; raises NotConverged.
+    """Compute the minimiser from a guess of the active bounds; raise NotConverged.
 
-    The program must be feasible: the total, if any, lies between those of the two bounds.
+    The program must be feasible: the total, if any, is between the totals of the two bounds.
     """
     fixed = program.lower == program.upper
     sides = np.where(fixed, -1, guess).astype(np.int8)

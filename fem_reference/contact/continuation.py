@@ -1,14 +1,15 @@
-"""Pressure and shear by continuation: from contact through springs to contact without.
+"""Pressure and shear by continuation, from contact with springs to contact without springs.
 
-Strong friction on strongly coupled bodies has several states that obey all laws; pairs of them
-appear and vanish as loads change, and Newton's method runs to and fro between the kinks where one
-has vanished. With soft enough springs between the surfaces there is one state. It is followed while
-the springs are taken away, by the length of its path and not by the springs: where two states meet,
-the path turns back to softer springs and on to stiffer ones later (Keller 1977, in Applications of
-Bifurcation Theory, p. 359; Allgower and Georg 1990, Numerical Continuation Methods, ch. 2 and 12).
+Strong friction with strongly coupled bodies has several states that satisfy all laws. Pairs of
+states appear and vanish as loads change, and Newton's method then cycles between kinks.
+Sufficiently soft springs between the surfaces leave one state. The state is followed while the
+spring compliance decreases, with the arc length as parameter: at a limit point the path returns to
+softer springs and later to stiffer ones (Keller 1977, in Applications of Bifurcation Theory, p.
+359; Allgower and Georg 1990, Numerical Continuation Methods, ch. 2 and 12).
 
-The direction along the path is that in which the determinant of the derivative, with the direction
-as its last row, keeps its sign. This holds across kinks too, where directions change at once.
+The direction along the path preserves the sign of the determinant of the derivative with the
+direction as its last row. This condition applies across kinks, too, where directions are
+discontinuous.
 """
 
 from dataclasses import dataclass
@@ -37,8 +38,8 @@ def solve_by_continuation(
     """Solve an increment by continuation.
 
     tolerance  as of `solve_by_newton`
-    raises     NotConverged: the path does not begin, or is not at its end after MAX_STEPS; the
-               residual is then what is left of the springs, over the compliance of the bodies
+    raises     NotConverged if the path does not begin or end within MAX_STEPS; the residual is then
+               the spring compliance over the compliance of the bodies
     """
     points = len(problem.compliance.areas)
     itself = np.diagonal(problem.compliance.matrix)[2 * points :] / problem.compliance.areas
@@ -63,10 +64,10 @@ class _Reached:
 
 
 class _Path:
-    """A place on the path, the direction in which it goes on, and the length of the next step.
+    """Point on the path, the direction of the path, and the length of the next step.
 
-    Lengths are those of values over their scales: mean pressure, what friction makes of it, the
-    approach, and the compliance of the bodies for that of the springs.
+    Lengths are relative to scales: mean pressure, friction limit of this pressure, approach, and
+    the compliance of the bodies for that of the springs.
     """
 
     def __init__(self, problem: CoupledProblem, begun: Root, softness: float) -> None:

@@ -1,9 +1,9 @@
-"""Semismooth Newton method for pressure and shear together.
+"""Semismooth Newton method for the coupled pressure and shear.
 
-The alternating iteration provides its initial guess. If that iteration diverges, as below thin
-incompressible films and for µ|β| far above one, Newton's method starts from the previous increment.
-The derivative is that of the natural map on the side of each kink where the iterate lies. The
-method may cycle between kinks: see `continuation`.
+The alternating iteration provides its initial guess. If this iteration diverges, as below thin
+incompressible films and for µ|β| far above 1, Newton's method starts from the previous increment.
+The derivative is that of the natural map on the current side of each kink. The method may cycle
+between kinks: see `continuation`.
 """
 
 from dataclasses import dataclass
@@ -49,7 +49,7 @@ class Root:
 def solve_by_newton(problem: CoupledProblem, start: Start, tolerance: float) -> CoupledSolution:
     """Solve pressure and shear together.
 
-    tolerance  of Σ w |p − ⟨z_z⟩| / Σ w p + Σ w |q − P(z_t)| / Σ w µp, with what the forces lack
+    tolerance  of Σ w |p − ⟨z_z⟩| / Σ w p + Σ w |q − P(z_t)| / Σ w µp, plus the error of the loads
     raises     NotConverged
     """
     found = root(problem, start, tolerance)

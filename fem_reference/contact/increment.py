@@ -83,15 +83,16 @@ def _refuse_unresolved(contact: PointContact, loads: Loads) -> None:
 
 @dataclass(frozen=True)
 class _Pass:
-    """A solution at given multipliers, with its displacements and residuals.
+    """Solution for given multipliers, with its displacements and residuals.
 
-    multiplier    as of the state
+    multiplier    see `PointState`
     displacement  u_t of the bodies [length]
     law_gap       gap with the strain of springs, zero where there is pressure [length]
-    passed        how far the indenter's particles moved past the body's in the increment, less the
-                  strain of springs (2, points): that way they pull these along
-    motion        as of the state
-    turns         of the alternating iteration, in all attempts; solves likewise
+    passed        slip of the indenter relative to the body in the increment, minus the strain of
+                  springs (2, points); springs pull particles in this direction
+    motion        see `PointState`
+    turns         alternating iterations of all attempts
+    solves        linear systems of all attempts
     """
 
     problem: CoupledProblem

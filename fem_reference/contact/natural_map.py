@@ -2,9 +2,9 @@
 
     p = ⟨z_z⟩,  z_z = p − (w g)/d_z        q = P(z_t),  z_t = q + (w s)/d_t,
 
-with P the projection onto the disc of radius µ⟨z_z⟩ and s how far the indenter has gone past the
+with P the projection onto the disc of radius µ⟨z_z⟩ and s the slip of the indenter relative to the
 body (Alart and Curnier 1991, Comput. Methods Appl. Mech. Eng. 92, 353). Springs between the
-surfaces, as soft along them as across, may deepen the approach and lag behind the shift.
+surfaces, equally soft in both directions, may increase the approach and reduce the slip.
 """
 
 from dataclasses import dataclass
@@ -60,8 +60,8 @@ class Equations:
     def linearised(self, at: Iterate) -> tuple[Vector, Matrix, Mask]:
         """Compute the residual, its generalised derivative, and the mask of slipping points.
 
-        The derivative is by the values of an iterate (3 points + 2, 3 points + 3). At a kink it is
-        that of the side on which the iterate lies.
+        The derivative is with respect to the values of an iterate (3 points + 2, 3 points + 3). At
+        a kink it is that of the side of the iterate.
         """
         n, K, w = self.n, self.K, self.w
         missed, z_t, z_z, bound = self._equations(at)
@@ -111,7 +111,7 @@ class Equations:
         """Compute the norm of a residual [1].
 
         It is the sum of its parts relative to the normal load and to the friction limit. It is
-        infinite if no load is prescribed and none is carried.
+        infinite without a prescribed load and without tractions.
         """
         n, p = self.n, at.tractions[2 * self.n :]
         load = self.pressed or float(np.sum(self.w * np.abs(p)))

@@ -14,22 +14,23 @@ class PointState:
     """Converged fields; vectors (2, points) are components r and θ, on Path.SHEARING x alone.
 
     axisymmetric       true if points are whole rings
-    displacement       u_t of the bodies [length]; with the motion the memory of the next increment
-    multiplier         tractions that need no springs, r, θ, z (3, points); zero for the exact law
-    edge_tractions     r, θ, z (3, points) by which the edges of contact and stick are found: of the
-                       first pass of a penalty that does not move them, as later ones ripple there
-    gap                between the bodies, negative where they overlap [length]
-    slip               since the start, of the lower body's particles past the indenter's [length]
+    displacement       u_t of the bodies [length]; with the motion the history of the next increment
+    multiplier         tractions without springs, r, θ, z (3, points); zero for the exact law
+    edge_tractions     r, θ, z (3, points) that determine the edges of contact and stick: of the
+                       first pass of a penalty that does not move them, because later passes
+                       oscillate there
+    gap                between the bodies, negative for an overlap [length]
+    slip               since the start, of the lower body's particles relative to the indenter's
+                       [length]
     load               tangential force [force] or torque [force length]
     motion             shift [length] or twist [radian]; None at the friction limit under a load
-    dissipated_energy  None where the motion is
-    overlap            largest overlap that springs leave [length]
+    dissipated_energy  None if the motion is None
+    overlap            largest overlap by springs [length]
     moved              largest mean tangential displacement so far, weighted with the shear [length]
-    turns, solves      of the alternating iteration, and linear systems solved
-    augmentations      updates of the multipliers
-    strain             of the lower body since first touch, the same all around
-    way                how pressure and shear were found; None where they do not depend on each
-                       other
+    turns, solves      numbers of alternating iterations and of linear systems
+    augmentations      number of updates of the multipliers
+    strain             of the lower body since first contact, equal in all directions
+    way                algorithm for pressure and shear; None if they are not coupled
     """
 
     axisymmetric: bool

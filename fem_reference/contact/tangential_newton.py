@@ -110,7 +110,7 @@ def _sum(areas: Vector, vectors: Field) -> float:
 
 
 def _lowest(K: Matrix, slope: Field, q: Field, end: Field) -> tuple[Field, float]:
-    """The point of least energy between q and `end`, and how much lower it is."""
+    """Return the point of least energy between q and `end`, and the decrease of the energy."""
     step = end - q
     falls = float(np.sum(slope * step))
     curvature = float(np.sum(step.ravel() * (K @ step.ravel())))

@@ -24,14 +24,14 @@ FOLDERS = ("mesh", "elasticity")
 class NodalCompliance:
     """Displacement of the surface's Q2 nodes in the contact zone per unit generalised nodal force.
 
-    motion           harmonic n and components: (r, z) for n = 0, (theta) in torsion, else all three
-    radii            (m,) of the nodes; corners at even indices, midsides between; radii[0] = 0
-    matrix           (c, m, c, m), symmetric. The generalised forces are the integrals of
-                     psi_i t r dr of the traction amplitudes t, with psi the quadratic trace
-                     functions; no 2 pi, no pi
-    factorizations   sparse factorisations it takes, in the cache or not: what a scene costs must
-                     not depend on what was solved before
-    from_cache       whether nothing had to be factorised
+    motion          harmonic n and components: (r, z) for n = 0, (theta) in torsion, else all three
+    radii           (m,) of the nodes; corners at even indices, midsides between; radii[0] = 0
+    matrix          (c, m, c, m), symmetric. The generalised forces are the integrals of psi_i t r
+                    dr of the traction amplitudes t, with psi the quadratic trace functions, without
+                    2 pi or pi
+    factorizations  number of sparse factorisations, counted also if the matrix comes from the
+                    cache, so that the cost of a scene does not depend on previous solves
+    from_cache      true if the matrix comes from the cache
     """
 
     motion: Motion

@@ -23,16 +23,16 @@ BLOCK = 64
 
 
 class FactoredSection:
-    """The stiffness of a section in one harmonic, factored once, and solves with it.
+    """Factorised stiffness of a section in one harmonic, with solves.
 
-    Unknowns are ordered as they are eliminated, those of the contact zone last. Symmetric and
-    eliminated in that order without pivoting, the last block of the factors is the stiffness of the
-    contact zone alone, everything else having followed.
+    Unknowns are in the order of elimination, those of the contact zone last. The symmetric matrix
+    is eliminated in this order without pivoting, so that the last block of the factors is the
+    stiffness of the contact zone after condensation of all other unknowns.
 
-    section, motion  what was factored
+    section, motion  factorised problem
     nodes            (2, n) positions (r, z) of the nodes
-    surface          (m,) nodes of the contact zone, by radius
-    Raises ResourceRefused where the memory does not suffice.
+    surface          (m,) nodes of the contact zone, by radius Raises ResourceRefused if the memory
+                     is insufficient.
     """
 
     def __init__(self, section: SectionMesh, motion: Motion) -> None:

@@ -23,13 +23,13 @@ LEAF = 4  # elements that are not divided further
 
 @dataclass(frozen=True, eq=False)
 class Numbering:
-    """A displacement is a factor times a degree of freedom: on the axis components share one.
+    """Degrees of freedom: a displacement is a factor times one. On the axis components share one.
 
     dofs      (c, n) degree of freedom of every displacement
     factor    (c, n)
-    pressure  (m, 3) those of the elements whose pressure is unknown; they come after all others
-    order     (u,) the unknown ones as they are eliminated: those of the contact zone last
-    contact   how many come before these
+    pressure  (m, 3) those of the elements whose pressure is unknown; they have the last numbers
+    order     (u,) unknowns in the order of elimination: those of the contact zone last
+    contact   number of unknowns before those of the contact zone
     size      number of degrees of freedom, prescribed ones included
     """
 
@@ -44,7 +44,7 @@ class Numbering:
 def number_unknowns(
     section: SectionMesh, motion: Motion, basis: Basis, mixed: NDArray[np.bool_]
 ) -> Numbering:
-    """Number what can move.
+    """Number the degrees of freedom.
 
     basis  of one component
     mixed  (e,) elements whose pressure is unknown

@@ -1,7 +1,7 @@
 """Bases of a section: biquadratic displacements, and pressures linear in an element.
 
-A field that goes as cos or sin of n theta has, apart from n, the derivatives u/r, u_,r and u_,z.
-Integrals carry the weight r; the factors 2 pi and pi of the angle belong to the resultants.
+A field ∝ cos n theta or sin n theta has, apart from n, the derivatives u/r, u_,r and u_,z.
+Integrals have the weight r; the factors 2 pi and pi of the angle belong to the resultants.
 """
 
 from typing import Any

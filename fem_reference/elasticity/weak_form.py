@@ -1,13 +1,13 @@
-"""The weak form of elasticity in a section, for one angular harmonic.
+"""Weak form of elasticity in a section, for one angular harmonic.
 
-A load that goes as cos n theta (r and z components) and sin n theta (theta) moves the body in the
-same way, so the angle is integrated out and n enters the strains as a number:
+A load ∝ cos n theta (r and z components) and sin n theta (theta) causes displacements of this form,
+so the angle is integrated analytically and n enters the strains as a number:
 
     e_rr = u_r,r              g_rz = u_r,z + u_z,r
     e_tt = (u_r + n u_t)/r    g_rt = u_t,r - (u_t + n u_r)/r
     e_zz = u_z,z              g_tz = u_t,z - n u_z/r
 
-Energies are integrals over r dr dz (see `section_basis`), of every element one product of matrices
+Energies are integrals over r dr dz (see `section_basis`). Every element has one product of matrices
 of its strains: a scikit-fem form for each pair of components would take four times the time.
 """
 
@@ -101,7 +101,7 @@ def _linear(basis: Basis) -> Field:
 
 
 def _orthonormal(basis: Basis, linear: Field) -> Field:
-    """(e, 3, q) what linear functions become that are made orthonormal in their element."""
+    """Return linear functions (e, 3, q), orthonormal in their element."""
     functions = _linear(basis)
     gram = (functions * basis.dx[:, None]) @ functions.transpose(0, 2, 1)
     return np.asarray(np.linalg.solve(np.linalg.cholesky(gram), linear))

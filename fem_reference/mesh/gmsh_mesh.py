@@ -48,10 +48,10 @@ class GmshMissing(SolverError):
 def gmsh_section_mesh(
     body: Body, elements_per_radius: int, box: float | None = None, zone: float = CONTACT_ZONE
 ) -> SectionMesh:
-    """The mesh of a body whose unit of length is the contact radius; arguments of `section_mesh`.
+    """Create the mesh of a body whose unit of length is the contact radius; see `section_mesh`.
 
-    Raises GmshMissing where the library or what it rests on is not installed, and SolverError where
-    it has not filled the section with quadrilaterals.
+    Raises GmshMissing if the library or its dependencies are not installed, and SolverError if gmsh
+    does not fill the section with quadrilaterals.
     """
     outline = section_outline(body, elements_per_radius, box, zone)
     with _gmsh_model() as gmsh:

@@ -23,10 +23,10 @@ CLOSEST = 0.25
 class SectionMesh:
     """Quadrilaterals that fill a section. Lengths are in units of the expected contact radius.
 
-    points   (2, n) corners (r, z); those on an edge, an interface or the axis exactly so
+    points   (2, n) corners (r, z), exact on an edge, an interface or the axis
     quads    (4, e) indices of the corners of an element, counted around it
-    outline  what the mesh fits
-    Raises SolverError where elements are missing: the areas do not sum up to the section's.
+    outline  edges, interfaces and element sizes of the section Raises SolverError for missing
+             elements: the sum of the areas differs from that of the section.
     """
 
     points: NDArray[np.float64]

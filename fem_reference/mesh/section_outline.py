@@ -37,7 +37,8 @@ class SectionOutline:
     box         outer radius
     interfaces  depths of the interfaces and of the base, increasing; the base is the last
     materials   above each of these, moduli in one common unit
-    rigid_base  whether the base is the surface of a rigid substrate, not a cut through an elastic
+    rigid_base  true if the base is the surface of a rigid substrate, false for a cut through an
+                elastic one
     """
 
     size: float

@@ -35,12 +35,12 @@ class Amplitude:
 
 @dataclass(frozen=True, eq=False)
 class SectionField:
-    """Fields of one body over its section, z into it; at an interface a point for each material.
+    """Fields of one body over its section, z into it; at an interface one point for each material.
 
-    points      r and z (2, n) [length]
-    material    (n,) 0 for the outermost layer
-    cells       (e, 9) points of an element: corners, midsides, middle
-    parts       what adds up to the fields
+    points    r and z (2, n) [length]
+    material  (n,) 0 for the outermost layer
+    cells     (e, 9) points of an element: corners, midsides, middle
+    parts     contributions whose sum is the field
     """
 
     points: Field

@@ -178,7 +178,8 @@ class SurfaceTractions:
         return self._harmonics(factors, fine)[..., : self._grid.highest + 1]
 
     def _harmonics(self, values: Field, grid: AngularGrid | None = None) -> Field:
-        """(4, radii, harmonics) of values (4, radii, angles), or of what has no angle itself."""
+        """Return harmonics (4, radii, harmonics) of values (4, radii, angles), or of axisymmetric
+        values."""
         if self.angles is None:
             return values
         on = grid or self._grid

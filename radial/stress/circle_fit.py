@@ -29,23 +29,23 @@ PERIOD = 4  # angles beyond a full turn that are repeated
 class Fit(NamedTuple):
     """Region in which p² is fitted.
 
-    begins  smallest radius over that of the outermost loaded ring
-    over    smallest pressure over the largest: nodes beyond the edge have less
-    powers  of 1 - r²/a²
-    beside  radius over that of the circle, from which the fit replaces p
-    last    radius over that of the circle, up to which the direction of the shear is used
+    begins       smallest radius over that of the outermost loaded ring
+    over         smallest pressure over the largest: nodes beyond the edge have less
+    powers       of 1 - r²/a²
+    fitted_from  radius over that of the circle, from which the fit replaces p
+    last         radius over that of the circle, up to which the direction of the shear is used
     """
 
     begins: float = 0.7
     over: float = 0.2
     powers: int = 2
-    beside: float = 0.9
+    fitted_from: float = 0.9
     last: float = 0.965
 
 
 USUAL = Fit()
 # Second fit of equal quality. The difference of both is an error estimate.
-ANOTHER = Fit(begins=0.6, over=0.3, powers=3, beside=0.87)
+ANOTHER = Fit(begins=0.6, over=0.3, powers=3, fitted_from=0.87)
 
 
 def round_circle(
@@ -61,8 +61,10 @@ def round_circle(
     root = np.sqrt((1 - eta) * (1 + eta))
     places = np.linspace(0.0, 1.0, RADII)
     smooth = CubicSpline(eta, p[within] / root)(places)
-    ways = [np.interp(places, eta, q[within] / p[within]) * smooth for q in (outward, around)]
-    return LoadedCircle(radius, 0.0, np.stack([*ways, smooth])[..., None])
+    shear_ratios = [
+        np.interp(places, eta, q[within] / p[within]) * smooth for q in (outward, around)
+    ]
+    return LoadedCircle(radius, 0.0, np.stack([*shear_ratios, smooth])[..., None])
 
 
 def pushed_circle(
@@ -75,24 +77,22 @@ def pushed_circle(
     size = float(radii[np.flatnonzero(np.max(p, axis=1) > 0)[-1]])
     weights = np.gradient(radii)[:, None] * radii[:, None] * np.ones_like(angles)
     r, theta = np.broadcast_arrays(radii[:, None] / size, angles)
-    told = (p > fit.over * np.max(p)) & (r > fit.begins)
-    _refuse_few(int(np.min(np.count_nonzero(told, axis=0))))
-    squared = _least_squares(1 - r * r, theta, p * p, np.where(told, weights, 0), fit.powers + 1)
+    fitted = (p > fit.over * np.max(p)) & (r > fit.begins)
+    _refuse_few(int(np.min(np.count_nonzero(fitted, axis=0))))
+    squared = _least_squares(1 - r * r, theta, p * p, np.where(fitted, weights, 0), fit.powers + 1)
     centre, radius = _zeros(squared, angles)
     cos, sin = np.cos(theta), np.sin(theta)
     x, y = r * cos, r * sin
-    rho, turned = np.hypot(x - centre, y) / radius, np.arctan2(y, x - centre)
-    beside = 1 - rho**2
+    rho, angle = np.hypot(x - centre, y) / radius, np.arctan2(y, x - centre)
+    margin = 1 - rho**2
     # p² is fitted as a multiple of 1 - ρ², with weights (1 - ρ²)².
-    weights = np.where(told & (beside > 0), weights * beside**2, 0.0)
-    factor = _least_squares(
-        beside, turned, p * p / np.where(beside, beside, 1), weights, fit.powers
-    )
-    inner = (rho < fit.beside) & (p > 0)
-    smooth = np.sqrt(np.maximum(factor(beside, turned), 0.0))
-    smooth[inner] = p[inner] / np.sqrt(beside[inner])
+    weights = np.where(fitted & (margin > 0), weights * margin**2, 0.0)
+    factor = _least_squares(margin, angle, p * p / np.where(margin, margin, 1), weights, fit.powers)
+    inner = (rho < fit.fitted_from) & (p > 0)
+    smooth = np.sqrt(np.maximum(factor(margin, angle), 0.0))
+    smooth[inner] = p[inner] / np.sqrt(margin[inner])
     known = (rho < fit.last) & (p > 0)
-    ways = [
+    shear_ratios = [
         _continued(q / np.where(known, p, 1.0), known)
         for q in (outward * cos - around * sin, outward * sin + around * cos)
     ]
@@ -101,7 +101,11 @@ def pushed_circle(
     at, to = np.hypot(x, y), np.arctan2(y, x)
     fields = [
         _all_around(field, r[:, 0], angles, sense, degree)(at, to, grid=False)
-        for field, sense, degree in ((ways[0], 1, 1), (ways[1], -1, 1), (smooth, 1, 3))
+        for field, sense, degree in (
+            (shear_ratios[0], 1, 1),
+            (shear_ratios[1], -1, 1),
+            (smooth, 1, 3),
+        )
     ]
     whole = np.stack([fields[0] * fields[2], fields[1] * fields[2], fields[2]])
     circle = LoadedCircle(radius * size, centre * size, whole)

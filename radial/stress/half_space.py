@@ -97,7 +97,7 @@ def _places(contact: Disc, x: Array, depth: float) -> tuple[Array, Array]:
 
 
 def _distance(x: Array, depth: float, offset: Array) -> tuple[Complex, Complex]:
-    """Return c and R at t = x + beside."""
+    """Return c and R at t = x + offset."""
     t = x + offset
     c = np.asarray(depth + 1j * t, dtype=np.complex128)
     return c, np.asarray(np.sqrt(depth**2 - offset * (x + t) + 2j * depth * t))

@@ -74,11 +74,11 @@ class LoadedCircle:
             return np.stack([outward * cos - around * sin, outward * sin + around * cos, p])
         turn = np.arctan2(y, x) * (angles / (2 * np.pi)) % angles
         j = np.minimum(turn.astype(np.intp), angles - 1)
-        beside = turn - j
+        offset = turn - j
         flat = self.smooth.reshape(3, -1)
         here, next_ = k * angles + j, k * angles + (j + 1) % angles
-        inner = flat[:, here] * (1 - beside) + flat[:, next_] * beside
-        outer = flat[:, here + angles] * (1 - beside) + flat[:, next_ + angles] * beside
+        inner = flat[:, here] * (1 - offset) + flat[:, next_] * offset
+        outer = flat[:, here + angles] * (1 - offset) + flat[:, next_ + angles] * offset
         return np.asarray(root * (inner * (1 - off) + outer * off))
 
     def harmonics(self, eta: Array, highest: int) -> tuple[Complex, Complex, Complex]:

@@ -74,12 +74,12 @@ class SubsurfaceCircle:
         """Return J_0 … J_{M+2}."""
         return list(bessel_functions(self.highest + 2, at))
 
-    def _blocks(self, beside: int) -> list[slice]:
+    def _blocks(self, points: int) -> list[slice]:
         """Return blocks of wavenumbers that limit the memory of the Bessel functions.
 
-        beside  number of points
+        points  number of points
         """
-        step = max(MAX_AT_ONCE // (beside * (self.highest + 3)), 1)
+        step = max(MAX_AT_ONCE // (points * (self.highest + 3)), 1)
         return [slice(k, k + step) for k in range(0, len(self._kappa), step)]
 
     def at(self, levels: Sequence[Level], x: Array, y: Array) -> Array:

@@ -36,7 +36,7 @@ class Unit(NamedTuple):
     """Galerkin integrals of hats i and j (harmonics, n + 1, n + 1), lengths in units of the radius.
 
     equal_order  of G_m, m = 0 … M + 1
-    shifted      of ∫ J_{m-1}(kr_i) J_{m+1}(ks_j) dk, m = 1 … M; for m = 0 it is -alike[1]
+    shifted      of ∫ J_{m-1}(kr_i) J_{m+1}(ks_j) dk, m = 1 … M; for m = 0 it is -equal_order[1]
     stepped      of ∫ J_m(kr_i) J_{m+1}(ks_j) dk, m = 0 … M
     """
 
