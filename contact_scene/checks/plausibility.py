@@ -122,19 +122,17 @@ def _unusual(numbers: Iterator[tuple[Path, float]]) -> Iterator[str]:
         usual = USUAL.get(next((part for part in reversed(path) if isinstance(part, str)), ""))
         if usual is None or not value:
             continue
-        if not usual.least <= (value if usual.signed else abs(value)) <= usual.most:
-            yield f"{dotted(path)}: {_odd(value, usual)}"
-
-
-def _odd(value: float, usual: Usual) -> str:
-    small = (value if usual.signed else abs(value)) < usual.least
-    side, limit = ("below", usual.least) if small else ("above", usual.most)
-    meant = (
-        f'; was "{value:g} {unit}" meant?'
-        for unit, size in usual.meant.items()
-        if usual.least <= abs(value * size) <= usual.most and not isinstance(value, WithUnit)
-    )
-    return f"{_text(value, usual)} is {side} the usual {_text(limit, usual)}{next(meant, '')}"
+        size = value if usual.signed else abs(value)
+        if usual.least <= size <= usual.most:
+            continue
+        side, limit = ("below", usual.least) if size < usual.least else ("above", usual.most)
+        meant = [
+            f'; was "{value:g} {unit}" meant?'
+            for unit, factor in usual.meant.items()
+            if usual.least <= abs(value * factor) <= usual.most and not isinstance(value, WithUnit)
+        ]
+        text, limit_text = _text(value, usual), _text(limit, usual)
+        yield f"{dotted(path)}: {text} is {side} the usual {limit_text}{''.join(meant[:1])}"
 
 
 def _text(value: float, usual: Usual) -> str:

@@ -50,8 +50,8 @@ class StatedError(Description):
     harmonics; quadrature; neglected effects."""
 
     status: ErrorStatus
-    """"estimated"; "not converged" for unreliable numbers; "exact" for numbers that the load
-    prescribes."""
+    """Status of the error: "estimated"; "not converged" for an unreliable number; "exact" for a
+    number that the load prescribes."""
 
 
 EXACT = StatedError(error=0.0, parts={}, status=ErrorStatus.EXACT)

@@ -114,7 +114,7 @@ class Closed:
     ] = None
     loop_opening: Annotated[
         float | None,
-        Reported("m", "delta_g, half the difference of the two shifts at the mean force."),
+        Reported("m", "delta_g, half the difference of the two shifts at the mid-range force."),
     ] = None
     energy_ratio: Annotated[
         float | None,
