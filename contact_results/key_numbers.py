@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeVar
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -30,20 +30,8 @@ Errors = Mapping[str, StatedError]
 Shown = TypeVar("Shown")
 
 
-class Loaded(Protocol):
-    """The end of a loading step."""
-
-    @property
-    def normal_force(self) -> float: ...
-    @property
-    def approach(self) -> float: ...
-    @property
-    def contact_radius(self) -> float: ...
-
-
-def natural_size(ends: Iterable[Loaded], unit: str) -> float:
+def natural_size(ends: Sequence[State], unit: str) -> float:
     """Return the typical size of a quantity with this unit under these loads; 0 if unknown."""
-    ends = list(ends)
     force, radius, approach = (
         max((abs(getattr(end, name)) for end in ends), default=0.0)
         for name in ("normal_force", "contact_radius", "approach")

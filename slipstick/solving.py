@@ -231,7 +231,7 @@ def _asked(
     if solver not in names:
         raise ValueError(f"there is no solver {solver!r}; expected one of {', '.join(names)}")
     chosen = SolverName(solver).solver
-    fineness = chosen.fineness(scene) if isinstance(scene, SceneFile) else chosen.default()
+    fineness = chosen.fineness(scene) if isinstance(scene, SceneFile) else chosen.discretisation()
     if discretisation is not None:
         if type(discretisation) is not type(fineness):
             raise ValueError(

@@ -563,7 +563,7 @@ def test_a_run_killed_while_it_writes_solves_its_last_round_once(
 @pytest.mark.parametrize("solver", ["semi-analytical", "fem", "radial"])
 def test_where_a_climb_stands_is_the_same_after_it_was_kept(tmp_path: Path, solver: str) -> None:
     chosen = SolverName(solver).solver
-    first = Fineness(chosen.refined(scene(PRESS), chosen.default()).first(), (1,), 1e-8)
+    first = Fineness(chosen.refined(scene(PRESS), chosen.discretisation()).first(), (1,), 1e-8)
     way = Progress(Targets({"approach": 0.1}, {}), 1, 2.0, first, first, 1.0)
     path = tmp_path / "kept"
     pack(way, "of this", path)

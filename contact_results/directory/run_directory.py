@@ -44,11 +44,9 @@ def run_directory(target: Path, *, overwrite: bool = False) -> Iterator[Path]:
         with (
             cleaned_up_when_stopped(remove_created),
             in_sole_use(target),
-            _staging(target) as staging,
+            files_at_once(target, SUMMARY, RUN_FILES) as staging,
         ):
             yield staging
-            with stop_signals_held():
-                _publish(staging, target, SUMMARY, RUN_FILES)
     finally:
         remove_created()
 

@@ -86,9 +86,20 @@ def write_files(
     of_indenter = which == "indenter"
     body = state.indenter if of_indenter else state.body
     convention = OF_THE_INDENTER if of_indenter else CONVENTION
-    write_maxima(found, errors, directory)
-    write_axis(field, body, directory)
-    write_interfaces(field, body, directory)
+    sizes = [e.error for e in errors] if errors else [None] * len(found)
+    maxima = (
+        (e.region, e.measure, e.value, size, e.x, e.y, e.depth)
+        for e, size in zip(found, sizes, strict=True)
+    )
+    write_table(directory / MAXIMA, LARGEST_COLUMNS, maxima)
+    axis = _rows(field.axis.turned(field.direction), body)
+    write_table(directory / AXIS, POINT_COLUMNS, axis)
+    interfaces = (
+        (number, name, *row)
+        for number, name, points in sides(field, body)
+        for row in _rows(points.turned(field.direction), body)
+    )
+    write_table(directory / INTERFACES, SIDE_COLUMNS, interfaces)
     write_points(field.section.turned(field.direction), directory / SECTION, convention)
     files = {
         MAXIMA: LARGEST_COLUMNS,
@@ -122,34 +133,6 @@ def write_points(points: StressPoints, path: Path, convention: str) -> None:
     )
     arrays = {column.header: array for column, array in zip(POINT_ARRAYS, values, strict=True)}
     write_mesh(Mesh(places, points.cells, arrays), path, convention)
-
-
-def write_maxima(
-    found: Sequence[Extreme], errors: Sequence[StatedError] | None, directory: Path
-) -> None:
-    """Write one row per region and measure; unknown errors are empty cells."""
-    sizes = [e.error for e in errors] if errors else [None] * len(found)
-    rows = (
-        (e.region, e.measure, e.value, size, e.x, e.y, e.depth)
-        for e, size in zip(found, sizes, strict=True)
-    )
-    write_table(directory / MAXIMA, LARGEST_COLUMNS, rows)
-
-
-def write_axis(field: StressField, body: Body, directory: Path) -> None:
-    """Write one row per point on the z axis, with two points at every interface."""
-    rows = _rows(field.axis.turned(field.direction), body)
-    write_table(directory / AXIS, POINT_COLUMNS, rows)
-
-
-def write_interfaces(field: StressField, body: Body, directory: Path) -> None:
-    """Write one row per point of the section on each side of every interface."""
-    rows = (
-        (number, name, *row)
-        for number, name, points in sides(field, body)
-        for row in _rows(points.turned(field.direction), body)
-    )
-    write_table(directory / INTERFACES, SIDE_COLUMNS, rows)
 
 
 def sides(field: StressField, body: Body) -> Iterator[tuple[int, str, StressPoints]]:

@@ -13,8 +13,7 @@ from contact_errors.cost_estimate import (
     coarse_increments,
     work_on_cells,
 )
-from contact_scene import Scene, SceneFile, SurfaceDiscretisation
-from contact_scene.quantities.stated_error import StatedErrors
+from contact_scene import Scene, SurfaceDiscretisation
 from contact_scene.reading.engineering_units import engineering_unit
 from contact_scene.solver_errors import ContactNotResolved, SolverError
 from contact_scene.stepping.checkpoint import CheckpointStore
@@ -24,6 +23,7 @@ from slipstick.solvers.solver import (
     MAX_STEPS_SHOWN,
     Pairs,
     Progress,
+    Solver,
     increments_text,
     time_of_run,
 )
@@ -37,14 +37,11 @@ LEAST_SAVING = 1.1  # smallest ratio of convolutions that is reported
 FEWEST = 8  # smallest number of cells along a side of the coarse solve for the time estimate
 
 
-class OnCells:
+class OnCells(Solver):
     """Implementation of `solver.Solver`."""
 
-    def fineness(self, contents: SceneFile) -> SurfaceDiscretisation:
-        return contents.semi_analytical
-
-    def default(self) -> SurfaceDiscretisation:
-        return SurfaceDiscretisation()
+    table = "semi_analytical"
+    discretisation = SurfaceDiscretisation
 
     def plan(self, scene: Scene, fineness: SurfaceDiscretisation) -> Plan:
         return semi_analytical.plan(scene, fineness.path_accuracy, fineness.edge)
@@ -59,17 +56,16 @@ class OnCells:
     ) -> Result:
         return semi_analytical.solve_discretised(scene, fineness, progress, plan, store)
 
-    def errors(self, result: Result) -> StatedErrors:
+    @property
+    def refinable(self) -> type[CellSolver]:
         from contact_errors.on_cells import CellSolver
 
-        return CellSolver.stated_errors(result)
+        return CellSolver
 
     def refined(
         self, scene: Scene, fineness: SurfaceDiscretisation, *, stress: bool = False
     ) -> CellSolver:
-        from contact_errors.on_cells import CellSolver
-
-        return CellSolver(scene, fineness, stress=stress)
+        return self.refinable(scene, fineness, stress=stress)
 
     def work(self, scene: Scene, fineness: SurfaceDiscretisation, plan: Plan) -> Pairs:
         """Yield grid, tolerance, increments, time and memory; chosen values are marked."""

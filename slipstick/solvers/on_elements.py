@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -13,22 +13,21 @@ from contact_errors.cost_estimate import (
     coarse_increments,
     work_on_elements,
 )
-from contact_scene import FiniteElementDiscretisation, Scene, SceneFile
-from contact_scene.quantities.stated_error import StatedErrors
+from contact_scene import FiniteElementDiscretisation, Scene
 from contact_scene.reading.engineering_units import quantity
 from contact_scene.stepping.checkpoint import CheckpointStore
 from fem_reference import Method, Path, Plan, Result
 from fem_reference.expected_radius import meshed_radius, sections_of
 from fem_reference.memory import largest_bytes, run_bytes
 from fem_reference.mesh.section_mesh import SectionMesh
-from slipstick.solvers.solver import Pairs, Progress, increments_text, time_of_run
+from slipstick.solvers.solver import Pairs, Progress, Solver, increments_text, time_of_run
 
 if TYPE_CHECKING:
     from contact_errors.on_elements import ElementSolver
 
 
 @dataclass(frozen=True)
-class OnElements:
+class OnElements(Solver):
     """Implementation of `solver.Solver`.
 
     method  contact method: complementarity or penalty
@@ -36,11 +35,8 @@ class OnElements:
 
     method: Method
 
-    def fineness(self, contents: SceneFile) -> FiniteElementDiscretisation:
-        return contents.fem_reference
-
-    def default(self) -> FiniteElementDiscretisation:
-        return FiniteElementDiscretisation()
+    table = "fem_reference"
+    discretisation = FiniteElementDiscretisation
 
     def plan(self, scene: Scene, fineness: FiniteElementDiscretisation) -> Plan:
         return fem_reference.plan(scene)
@@ -55,17 +51,16 @@ class OnElements:
     ) -> Result:
         return fem_reference.solve(scene, fineness, self.method, progress, store)
 
-    def errors(self, result: Result) -> StatedErrors:
+    @property
+    def refinable(self) -> type[ElementSolver]:
         from contact_errors.on_elements import ElementSolver
 
-        return ElementSolver.stated_errors(result)
+        return ElementSolver
 
     def refined(
         self, scene: Scene, fineness: FiniteElementDiscretisation, *, stress: bool = False
     ) -> ElementSolver:
-        from contact_errors.on_elements import ElementSolver
-
-        return ElementSolver(scene, fineness, method=self.method)
+        return self.refinable(scene, fineness, method=self.method)
 
     def work(self, scene: Scene, fineness: FiniteElementDiscretisation, plan: Plan) -> Pairs:
         """Yield method, mesh, tolerance, increments, factorisations, time and memory."""
@@ -100,9 +95,6 @@ class OnElements:
             work_on_elements(elements, increments, harmonics),
             work_on_elements(fineness.elements_per_radius, plan.increments, harmonics),
         )
-
-    def reasons(self, plan: Plan) -> Sequence[tuple[str, str, str]]:
-        return ()
 
     def layout(self, result: Result) -> Pairs:
         yield "method", _method_text(self.method, result.discretisation)

@@ -2,31 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import radial
 from contact_errors.cost_estimate import MAX_STEPS, coarse_increments, work_on_rings
-from contact_scene import RadialDiscretisation, Scene, SceneFile
-from contact_scene.quantities.stated_error import StatedErrors
+from contact_scene import RadialDiscretisation, Scene
 from contact_scene.stepping.checkpoint import CheckpointStore
 from radial import Plan, Result
 from radial.angular_grid import Circle
-from slipstick.solvers.solver import Pairs, Progress, increments_text, time_of_run
+from slipstick.solvers.solver import Pairs, Progress, Solver, increments_text, time_of_run
 
 if TYPE_CHECKING:
     from contact_errors.on_radii import RingSolver
 
 
-class OnRadii:
+class OnRadii(Solver):
     """Implementation of `solver.Solver`."""
 
-    def fineness(self, contents: SceneFile) -> RadialDiscretisation:
-        return contents.radial
-
-    def default(self) -> RadialDiscretisation:
-        return RadialDiscretisation()
+    table = "radial"
+    discretisation = RadialDiscretisation
 
     def plan(self, scene: Scene, fineness: RadialDiscretisation) -> Plan:
         return radial.plan(scene)
@@ -41,17 +36,16 @@ class OnRadii:
     ) -> Result:
         return radial.solve(scene, fineness, progress, plan, store)
 
-    def errors(self, result: Result) -> StatedErrors:
+    @property
+    def refinable(self) -> type[RingSolver]:
         from contact_errors.on_radii import RingSolver
 
-        return RingSolver.stated_errors(result)
+        return RingSolver
 
     def refined(
         self, scene: Scene, fineness: RadialDiscretisation, *, stress: bool = False
     ) -> RingSolver:
-        from contact_errors.on_radii import RingSolver
-
-        return RingSolver(scene, fineness)
+        return self.refinable(scene, fineness)
 
     def work(self, scene: Scene, fineness: RadialDiscretisation, plan: Plan) -> Pairs:
         """Yield rings, tolerance, increments, time and memory."""
@@ -72,9 +66,6 @@ class OnRadii:
             work_on_rings(cut.increments),
             work_on_rings(plan.increments),
         )
-
-    def reasons(self, plan: Plan) -> Sequence[tuple[str, str, str]]:
-        return ()
 
     def layout(self, result: Result) -> Pairs:
         yield "rings", _rings_text(result.fineness, result.plan)

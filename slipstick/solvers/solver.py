@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from contact_errors.cost_estimate import T, Work, cpu_seconds, estimated_run_seconds
 from contact_scene.solver_errors import ContactNotResolved, SolverError
@@ -32,18 +33,25 @@ Pairs: TypeAlias = Iterator[tuple[str, str]]
 MAX_STEPS_SHOWN = 12
 
 
-class Solver(Protocol):
-    """Interface of a solver. The plans of all solvers have `effects` and `increments`."""
+class Solver(ABC):
+    """Interface of a solver. The plans of all solvers have `effects` and `increments`.
 
-    def fineness(self, contents: SceneFile) -> Discretisation:
+    table           name of its table in a scene file
+    discretisation  class of this table
+    """
+
+    table: str
+    discretisation: type[Discretisation]
+
+    def fineness(self, contents: SceneFile) -> Any:
         """Return the discretisation that a scene file contains for this solver."""
+        return getattr(contents, self.table)
 
-    def default(self) -> Discretisation:
-        """Return the default discretisation."""
-
+    @abstractmethod
     def plan(self, scene: Scene, fineness: Any) -> Any:
         """Return the plan of a solve; raise UnsupportedScene."""
 
+    @abstractmethod
     def solve(
         self,
         scene: Scene,
@@ -54,21 +62,31 @@ class Solver(Protocol):
     ) -> Result:
         """Return the result of a plan; raise a SolverError."""
 
+    @property
+    @abstractmethod
+    def refinable(self) -> type[DiscretisedSolver]:
+        """Class of the solver with a refinable discretisation, for error estimates."""
+
     def errors(self, result: Any) -> StatedErrors:
         """Estimate the errors of a result by coarse solves."""
+        return self.refinable.stated_errors(result)
 
+    @abstractmethod
     def refined(self, scene: Scene, fineness: Any, *, stress: bool = False) -> DiscretisedSolver:
         """Return the solver of a scene with a refinable discretisation.
 
         stress  whether a stress in the body is required
         """
 
+    @abstractmethod
     def work(self, scene: Scene, fineness: Any, plan: Any) -> Pairs:
         """Yield names and texts of the discretisation, time and memory of a solve."""
 
     def reasons(self, plan: Any) -> Sequence[tuple[str, str, str]]:
         """Return number, increments and reason of load steps; empty if none has a reason."""
+        return ()
 
+    @abstractmethod
     def layout(self, result: Any) -> Pairs:
         """Yield names and texts of the discretisation of a result."""
 
