@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 from functools import partial
-from itertools import product
 from math import sqrt
 
 import numpy as np
@@ -171,12 +170,9 @@ def _largest_loads(scene: Scene, tilts: bool) -> list[NormalTarget]:
     pressing = (ramp for ramp in scene.load_path() if ramp.normal.end)
     ends = [normal_target(ramp, None, 1.0, tilts) for ramp in pressing]
     measures = (_size, *((partial(_lean, 0), partial(_lean, 1)) if tilts else ()))
-    kinds = [[end for end in ends if _control(end) == kind] for kind in _CONTROLS]
-    farthest = [max(kind, key=measure) for kind in kinds if kind for measure in measures]
-    return list(dict.fromkeys(farthest))
-
-
-_CONTROLS = list(product((True, False), repeat=2))
+    controls = sorted({_control(end) for end in ends}, reverse=True)
+    kinds = [[end for end in ends if _control(end) == control] for control in controls]
+    return list(dict.fromkeys(max(kind, key=measure) for kind in kinds for measure in measures))
 
 
 def _control(load: NormalTarget) -> tuple[bool, bool]:

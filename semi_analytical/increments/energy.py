@@ -48,7 +48,8 @@ class Configuration:
     gap                                 g (nx, ny); may be infinite where p is always zero
     shear, tangential_displacement      q and u (2, nx, ny)
     friction_limit                      µp (nx, ny)
-    slipped                             u less the rigid motion (2, nx, ny); its change is the slip
+    slipped                             u less the rigid motion (2, nx, ny); its change is the slip;
+                                        zero where the motion is undefined
     contact_fraction                    κ of the increment that ends here (nx, ny)
     forces, motions                     f and ω in one order; motions None where undefined
     """
@@ -59,7 +60,7 @@ class Configuration:
     shear: VectorField
     friction_limit: Field
     tangential_displacement: VectorField
-    slipped: VectorField | None
+    slipped: VectorField
     contact_fraction: Field
     forces: Vector
     motions: Vector | None
@@ -177,33 +178,22 @@ def unresolved_work(before: Configuration, after: Configuration, cell_area: floa
     The first sum is over cells where contact begins or ends: a gap within lasting contact is a
     residual of the solution and belongs to the imbalance.
     """
-    assert before.slipped is not None
-    assert after.slipped is not None
     p0, p1 = before.pressure, after.pressure
     begins, ends = (p0 == 0) & (p1 > 0), (p0 > 0) & (p1 == 0)
     closing = float(np.sum(p1[begins] * before.gap[begins]))
     opening = float(np.sum(p0[ends] * after.gap[ends]))
-    return (0.5 * (closing - opening) + _unresolved_sliding(before, after)) * cell_area
-
-
-def _unresolved_sliding(before: Configuration, after: Configuration) -> float:
-    """Compute Σ (κf - ½ (q₀ + q₁))·(s₁ - s₀)."""
-    assert before.slipped is not None
-    assert after.slipped is not None
-    slipped = after.slipped - before.slipped
-    if not np.any(slipped):
-        return 0.0
-    friction = sliding_friction(
-        before.shear, after.shear, -slipped, before.friction_limit, after.friction_limit
-    )
-    missed = after.contact_fraction * friction - 0.5 * (before.shear + after.shear)
-    return float(np.sum(missed * slipped))
+    sliding, slipped = 0.0, after.slipped - before.slipped
+    if np.any(slipped):
+        friction = sliding_friction(
+            before.shear, after.shear, -slipped, before.friction_limit, after.friction_limit
+        )
+        missed = after.contact_fraction * friction - 0.5 * (before.shear + after.shear)
+        sliding = float(np.sum(missed * slipped))
+    return (0.5 * (closing - opening) + sliding) * cell_area
 
 
 def friction_changed(before: Configuration, after: Configuration, cell_area: float) -> float:
     """Compute the uncertainty Σ |q₁ - q₀| κ|s₁ - s₀| Δ of the dissipation [force length]."""
-    assert before.slipped is not None
-    assert after.slipped is not None
     changed, slipped = after.shear - before.shear, after.slipped - before.slipped
     way = after.contact_fraction * np.hypot(*slipped)
     return float(np.sum(np.hypot(*changed) * way)) * cell_area

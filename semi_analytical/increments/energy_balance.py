@@ -69,7 +69,7 @@ def configuration(model: ContactModel, state: State) -> Configuration:
         )
     shift = sheared.shift
     extension = along * model.domain.resultant(sheared.shear)
-    slipped = motions = None
+    slipped, motions = np.zeros_like(sheared.shear), None
     moments = [*(state.moment or ()), *_some(sheared.torque)]
     rotations = [*(pressing.tilt or ()), *_some(sheared.twist)]
     if sheared.strain is not None:
