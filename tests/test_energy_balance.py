@@ -275,7 +275,7 @@ def loop(cells, *loading, window=1.1):
 def test_slip_amplitude_is_half_the_largest_distance_of_two_slips(monkeypatch):
     """Of more cells than are told at once, too."""
     monkeypatch.setattr(cycles, "MAX_AT_ONCE", 1000)
-    monkeypatch.setattr(cycles, "NEAR_AT_HAND", 200)
+    monkeypatch.setattr(cycles, "MAX_IN_CACHE", 200)
     result = loop(16, PRESS, push(0.8, 0.1), push(-0.8, increments=4), push(0.8, 0.1, increments=4))
     (found,) = fretting_cycles(result)
     slips = [i.slip for i in result.increments if i is result.steps[1] or i.step in (3, 4)]
