@@ -72,8 +72,8 @@ class CoupledProblem:
 class CoupledSolution:
     """Pressure (points,) and shear (2, points) with the rigid motion.
 
-    shift  of the indenter, or twist; None if the load equals the friction limit, with gross slip
-    way    algorithm used
+    shift      of the indenter, or twist; None if the load equals the friction limit (gross slip)
+    algorithm  algorithm used
     """
 
     pressure: Vector
@@ -81,17 +81,19 @@ class CoupledSolution:
     approach: float
     shift: float | None
     in_slip: Mask
-    turns: int
+    outer_iterations: int
     solves: int
-    way: str = "alternation"
+    algorithm: str = "alternation"
 
 
 class AlternationFailed(NotConverged):
     """The alternating iteration did not converge; with its iterations and linear solves."""
 
-    def __init__(self, turns: int, solves: int, residual: float, tolerance: float) -> None:
+    def __init__(
+        self, outer_iterations: int, solves: int, residual: float, tolerance: float
+    ) -> None:
         super().__init__("the coupled increment", solves, residual, tolerance)
-        self.turns = turns
+        self.outer_iterations = outer_iterations
         self.solves = solves
 
 
@@ -218,14 +220,14 @@ class _Anderson:
         self._changes = [*self._changes, answer - p][-REMEMBERED:]
         if len(self._points) < 2:
             return answer
-        steps, turns = np.diff(self._points, axis=0), np.diff(self._changes, axis=0)
-        size = np.sqrt(np.sum(turns**2, axis=1))
+        steps, differences = np.diff(self._points, axis=0), np.diff(self._changes, axis=0)
+        size = np.sqrt(np.sum(differences**2, axis=1))
         telling = size > 0
         if not np.any(telling):
             return answer
-        steps, turns = (d[telling] / size[telling, None] for d in (steps, turns))
-        share, *_ = np.linalg.lstsq(turns.T, self._changes[-1], rcond=DEPENDENT)
-        guess = answer - share @ (steps + turns)
+        steps, differences = (d[telling] / size[telling, None] for d in (steps, differences))
+        share, *_ = np.linalg.lstsq(differences.T, self._changes[-1], rcond=DEPENDENT)
+        guess = answer - share @ (steps + differences)
         guess = np.where(answer > 0, np.maximum(guess, 0.0), 0.0)
         if self._force is None:
             return np.asarray(guess)

@@ -91,7 +91,8 @@ class _Pass:
     passed        slip of the indenter relative to the body in the increment, minus the strain of
                   springs (2, points); springs pull particles in this direction
     motion        see `PointState`
-    turns         alternating iterations of all attempts
+    outer_iterations
+                  alternating iterations of all attempts
     solves        linear systems of all attempts
     """
 
@@ -103,7 +104,7 @@ class _Pass:
     passed: Field
     motion: float | None
     residuals: Residuals
-    turns: int
+    outer_iterations: int
     solves: int
 
     @property
@@ -156,8 +157,11 @@ class _Increment:
         """Solve the pass whose multipliers are the tractions of the last one."""
         motion = last.motion, last.solution.approach
         after = self._solve(last.tractions, last.tractions, motion)
-        turns, solves = last.turns + after.turns, last.solves + after.solves
-        return replace(after, turns=turns, solves=solves)
+        outer_iterations, solves = (
+            last.outer_iterations + after.outer_iterations,
+            last.solves + after.solves,
+        )
+        return replace(after, outer_iterations=outer_iterations, solves=solves)
 
     def left(self, one: _Pass) -> float:
         """Compute the error of the penalty in a pass [1].
@@ -223,11 +227,11 @@ class _Increment:
             residuals=last.residuals,
             overlap=last.overlap,
             moved=self.moved(last),
-            turns=last.turns,
+            outer_iterations=last.outer_iterations,
             solves=last.solves,
             augmentations=len(passes) - 1,
             strain=self.loads.strain,
-            way=solution.way if compliance.couples else None,
+            algorithm=solution.algorithm if compliance.couples else None,
         )
 
     def _solve(self, multiplier: Field, start: Field, motion: tuple[float | None, float]) -> _Pass:
@@ -255,12 +259,15 @@ class _Increment:
         )
         (q, p), (moved, approach) = (start[:2], start[2]), motion
         at = Start(p, q, moved if moved is not None else before.motion or 0.0, approach)
-        aim, turns, solves = 0.5 * self.tolerance, 0, 0
+        aim, outer_iterations, solves = 0.5 * self.tolerance, 0, 0
         for _ in range(MAX_ATTEMPTS):
             solution = _solved(problem, at, aim)
-            turns, solves = turns + solution.turns, solves + solution.solves
+            outer_iterations, solves = (
+                outer_iterations + solution.outer_iterations,
+                solves + solution.solves,
+            )
             refuse_beyond_limit(loads.tangential.load, problem.capacity(solution.pressure))
-            done = self._judged(problem, solution, multiplier, turns, solves)
+            done = self._judged(problem, solution, multiplier, outer_iterations, solves)
             if done.residuals.worst <= self.tolerance:
                 return done
             moved = at.shift if solution.shift is None else solution.shift
@@ -273,7 +280,7 @@ class _Increment:
         problem: CoupledProblem,
         solution: CoupledSolution,
         multiplier: Field,
-        turns: int,
+        outer_iterations: int,
         solves: int,
     ) -> _Pass:
         compliance, motion = problem.compliance, solution.shift
@@ -290,7 +297,7 @@ class _Increment:
         residuals = self._residuals(problem, solution, gap, passed if motion is not None else None)
         return _Pass(
             problem, solution, multiplier, displacement, gap, passed, motion, residuals,
-            turns, solves,
+            outer_iterations, solves,
         )  # fmt: skip
 
     def _status(
@@ -376,31 +383,45 @@ def _solved(problem: CoupledProblem, start: Start, tolerance: float) -> CoupledS
     alternating iteration continues. Only the latter can end at the friction limit, where no motion
     is defined.
     """
-    turns = spent = 0
+    outer_iterations = spent = 0
     try:
         if not problem.compliance.couples:
             return solve_coupled(problem, start.pressure, start.shear, tolerance)
         near = solve_coupled(problem, start.pressure, start.shear, max(NEAR, tolerance))
-        turns, spent = near.turns, near.solves
+        outer_iterations, spent = near.outer_iterations, near.solves
         if near.shift is not None:
             at = Start(near.pressure, near.shear, near.shift, near.approach)
             try:
                 solution = solve_by_newton(problem, at, tolerance)
-                return replace(solution, turns=turns, solves=spent + solution.solves, way=near.way)
+                return replace(
+                    solution,
+                    outer_iterations=outer_iterations,
+                    solves=spent + solution.solves,
+                    algorithm=near.algorithm,
+                )
             except NotConverged as error:
                 spent += error.iterations
         solution = solve_coupled(problem, near.pressure, near.shear, tolerance)
-        return replace(solution, turns=turns + solution.turns, solves=spent + solution.solves)
+        return replace(
+            solution,
+            outer_iterations=outer_iterations + solution.outer_iterations,
+            solves=spent + solution.solves,
+        )
     except AlternationFailed as error:
         failed = error
-    turns, spent = turns + failed.turns, spent + failed.solves
-    for way, solve in (("newton", solve_by_newton), ("continuation", solve_by_continuation)):
+    outer_iterations, spent = outer_iterations + failed.outer_iterations, spent + failed.solves
+    for algorithm, solve in (("newton", solve_by_newton), ("continuation", solve_by_continuation)):
         try:
             solution = solve(problem, start, tolerance)
         except NotConverged as error:
             spent += error.iterations
             continue
-        return replace(solution, turns=turns, solves=spent + solution.solves, way=way)
+        return replace(
+            solution,
+            outer_iterations=outer_iterations,
+            solves=spent + solution.solves,
+            algorithm=algorithm,
+        )
     raise NotConverged("the coupled increment", spent, failed.residual, tolerance)
 
 
@@ -418,9 +439,9 @@ def touching_share(
     apart_before, apart  rings with a gap at start and end
     edge_before, edge    a₀ and a₁ [length]; without contact 0
     """
-    widest, way = max(edge_before, edge), abs(edge - edge_before)
+    widest, travel = max(edge_before, edge), abs(edge - edge_before)
     passed = apart_before != apart
     share = np.where(apart, 0.0, 1.0)
-    if way > 0:
-        share[passed] = np.clip((widest - radii[passed]) / way, 0.0, 1.0)
+    if travel > 0:
+        share[passed] = np.clip((widest - radii[passed]) / travel, 0.0, 1.0)
     return share

@@ -44,10 +44,10 @@ def reported(
         peak_pressure=float(np.max(p)),
         residuals=state.residuals,
         iterations=state.solves,
-        sweeps=state.turns,
+        sweeps=state.outer_iterations,
         overlap=state.overlap if contact.penalty else None,
         augmentations=state.augmentations if contact.penalty else None,
-        path=state.way,
+        path=state.algorithm,
     )
     return (
         pressed

@@ -27,10 +27,11 @@ class PointState:
     dissipated_energy  None if the motion is None
     overlap            largest overlap by springs [length]
     moved              largest mean tangential displacement so far, weighted with the shear [length]
-    turns, solves      numbers of alternating iterations and of linear systems
+    outer_iterations, solves
+                       numbers of alternating iterations and of linear systems
     augmentations      number of updates of the multipliers
     strain             of the lower body since first contact, equal in all directions
-    way                algorithm for pressure and shear; None if they are not coupled
+    algorithm                algorithm for pressure and shear; None if they are not coupled
     """
 
     axisymmetric: bool
@@ -51,11 +52,11 @@ class PointState:
     residuals: Residuals
     overlap: float = 0.0
     moved: float = 0.0
-    turns: int = 0
+    outer_iterations: int = 0
     solves: int = 0
     augmentations: int = 0
     strain: float = 0.0
-    way: str | None = None
+    algorithm: str | None = None
 
     @property
     def tractions(self) -> Field:

@@ -28,7 +28,7 @@ from fem_reference.fields import Increment
 # The last element with pressure does not determine the smooth factor. Hats that do not end at the
 # edge have oscillating errors before it, with a factor of -0.3 from ring to ring: a line and this
 # oscillation are fitted to this number of elements before the last.
-FITTED, TURNS = 8, -0.3
+FITTED, OSCILLATION = 8, -0.3
 FEWEST_RINGS = 4
 BETWEEN_RAYS = 2  # rays of the tractions per computed ray
 
@@ -193,9 +193,9 @@ def _smooth_factor(radii: Field, at: Field, pressed: Field, edge: float, per_ele
     smooth = pressed[: len(inner)] / np.sqrt(1.0 - (inner / edge) ** 2)
     count = min(FITTED * per_element, len(inner))
     beside = inner[-count:] / edge - 1.0
-    turns = TURNS ** np.arange(count)[::-1] if per_element == 1 else np.zeros(count)
-    law = np.stack([np.ones(count), beside, turns], axis=1)
-    value, slope, turning = np.linalg.lstsq(law, smooth[-count:], rcond=None)[0]
-    smooth[-count:] -= turning * turns
+    oscillation = OSCILLATION ** np.arange(count)[::-1] if per_element == 1 else np.zeros(count)
+    law = np.stack([np.ones(count), beside, oscillation], axis=1)
+    value, slope, amplitude = np.linalg.lstsq(law, smooth[-count:], rcond=None)[0]
+    smooth[-count:] -= amplitude * oscillation
     line = value + slope * (radii / edge - 1.0)
     return np.where(radii < inner[-1], np.interp(radii, inner, smooth), line)
