@@ -40,11 +40,12 @@ def solve_together(
     can return gross slip at the friction limit.
     raises  NotConverged
     """
-    methods: tuple[Method, ...] = (_newton, _alternating_then_newton, solve_on_springs)
+    methods: tuple[Method, ...] = (solve_by_newton, _alternating_then_newton, solve_on_springs)
     if _gross_slip(problem, pressure):
         methods = (_alternating_then_newton,)
     elif not np.any(shear):
-        methods = (partial(_newton, furthest=FAR), _one_iteration_then_newton, *methods[1:])
+        near = partial(solve_by_newton, furthest=FAR)
+        methods = (near, _one_iteration_then_newton, *methods[1:])
     return _first_converged((*methods, solve_coupled), problem, pressure, shear, motion, tolerance)
 
 
@@ -88,21 +89,8 @@ def _one_iteration_then_newton(
     """Solve by Newton's method from the first alternating iteration at a pressure."""
     pressure, shear, motion, spent = one_iteration(problem, pressure, motion, tolerance)
     return _first_converged(
-        (_newton,), problem, pressure, shear, motion, tolerance, spent=(spent, 1)
+        (solve_by_newton,), problem, pressure, shear, motion, tolerance, spent=(spent, 1)
     )
-
-
-def _newton(
-    problem: CoupledProblem,
-    pressure: Field,
-    shear: VectorField,
-    motion: Vector,
-    tolerance: float,
-    furthest: float = np.inf,
-) -> CoupledSolution:
-    """Solve by Newton's method; for `furthest` see `solve_by_newton`."""
-    tractions = np.concatenate([shear, pressure[None]])
-    return solve_by_newton(problem, tractions, motion, tolerance, furthest)
 
 
 def _alternating_then_newton(
@@ -114,7 +102,7 @@ def _alternating_then_newton(
     """
     few = partial(solve_coupled, most_iterations=FEW_ITERATIONS)
     near = few(problem, pressure, shear, motion, max(NEAR, tolerance))
-    methods = (solve_coupled,) if _gross_slip(problem, near.pressure) else (_newton, few)
+    methods = (solve_coupled,) if _gross_slip(problem, near.pressure) else (solve_by_newton, few)
     start, spent = (
         (near.pressure, near.shear, near.motion),
         (near.iterations, near.outer_iterations),

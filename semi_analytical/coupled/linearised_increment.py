@@ -45,7 +45,7 @@ class LinearisedIncrement:
     ) -> None:
         """Assemble the system; `carriers` of similar zones (see `carriers_in`) save their solve."""
         self._problem, self._zones = problem, zones
-        self._precondition = GradedPreconditioner(zones, problem)
+        self._precondition = BinnedPreconditioner(zones, problem)
         shape = problem.gap.shape
         self._shifts = problem.tangential_load.free_motions((2, *shape))
         self._closures = problem.normal_load.free_motions(shape)
@@ -133,7 +133,7 @@ class LinearisedIncrement:
         return np.array([*self._problem.tangential_load.forces(t[:2]), *normal])
 
 
-class GradedPreconditioner:
+class BinnedPreconditioner:
     """Approximate inverse of the generalised derivative, with bins of the slip compliance.
 
     In the stick zone the derivative is the tangential operator. A slipping cell adds its slip

@@ -2,14 +2,13 @@
 
 import numpy as np
 
-from contact_scene.array_types import Vector
+from contact_scene.array_types import Field, Vector, VectorField
 from contact_scene.quantities.residuals import worst
 from contact_scene.solver_errors import NotConverged
 from semi_analytical.coupled.coupled_problem import (
     CoupledProblem,
     CoupledSolution,
 )
-from semi_analytical.coupled.generalised_derivative import Tractions
 from semi_analytical.coupled.newton_iterate import NewtonIterate
 from semi_analytical.residuals import complementarity, penetration, slip_direction
 
@@ -24,20 +23,19 @@ FINE = 0.1
 
 def solve_by_newton(
     problem: CoupledProblem,
-    start: Tractions,
+    pressure: Field,
+    shear: VectorField,
     motion: Vector,
     tolerance: float,
     furthest: float = np.inf,
 ) -> CoupledSolution:
-    """Iterate from tractions (3, nx, ny) and a motion until all residuals meet the tolerance.
-
-    The initial tractions are overwritten.
+    """Iterate from a pressure, shear and motion until all residuals meet the tolerance.
 
     furthest  largest merit of the first linearised tractions
     raises    NotConverged if the iteration stalls, the load reaches the friction limit, or the
               first merit exceeds `furthest`
     """
-    at = NewtonIterate(problem, start, motion)
+    at = NewtonIterate(problem, np.concatenate([shear, pressure[None]]), motion)
     best, idle = np.inf, 0
     for number in range(1, MAX_STEPS + 1):
         at.linearise()

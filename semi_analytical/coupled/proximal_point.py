@@ -63,7 +63,7 @@ def solve_on_springs(
         change = np.sum(np.abs(tractions - last)) / np.sum(np.abs(tractions))
         if change < NEAR:
             try:
-                solution = solve_by_newton(problem, tractions.copy(), motion, tolerance)
+                solution = solve_by_newton(problem, tractions[2], tractions[:2], motion, tolerance)
             except NotConverged as stalled:
                 iterations, residual = iterations + stalled.iterations, stalled.residual
             else:
