@@ -1055,9 +1055,9 @@ def _mean_shear(result: Any, _: int, problem: Problem) -> float:
     r = end.radii[end.pressure > 0] / end.contact_radius
     smooth = end.shear_radial[: len(r)] / np.sqrt(1 - r**2)
     x = one.radii / one.contact_radius
-    told = (x >= INNERMOST) & (np.abs(x / one.stick_part - 1) > BESIDE)
+    compared = (x >= INNERMOST) & (np.abs(x / one.stick_part - 1) > BESIDE)
     off = np.interp(x, r, smooth) * np.sqrt(1 - x**2) - one.shear(one.radii)
-    return float(np.mean(np.abs(off[told]))) / problem.scale(OVER_LIMIT)
+    return float(np.mean(np.abs(off[compared]))) / problem.scale(OVER_LIMIT)
 
 
 def radial_indentation(level: Level = Level.QUICK) -> Case:

@@ -274,7 +274,7 @@ class CoupledContact:
         return SectionRun(label, self.scene(self.history[:BACK], ", to and fro"), mesh)
 
 
-class LedByMotion:
+class MotionControlled:
     """Repeated solve of a history with the resulting approach and shift prescribed in each
     increment.
 
@@ -287,31 +287,33 @@ class LedByMotion:
 
     def difference(self, result: semi_analytical.Result) -> float:
         """Compute the larger of Σ|Δp|/Σp and Σ|Δq|/Σp in any increment."""
-        led = self._led(result)
-        if led is None:
+        repeated = self._repeated(result)
+        if repeated is None:
             return math.inf
         return worst(
             *(
                 float(np.sum(np.abs(one - other)) / np.sum(b.pressure))
-                for a, b in zip(led.increments, result.increments, strict=True)
+                for a, b in zip(repeated.increments, result.increments, strict=True)
                 for one, other in ((a.pressure, b.pressure), (shear_of(a), shear_of(b)))
             )
         )
 
     def violation(self, result: semi_analytical.Result) -> float:
         """Compute the largest violation of a law in the repeated solve [1]."""
-        led = self._led(result)
-        if led is None:
+        repeated = self._repeated(result)
+        if repeated is None:
             return math.inf
-        violation, imbalance = observed(led)
+        violation, imbalance = observed(repeated)
         return worst(violation, imbalance or 0.0)
 
     def iterations(self, result: semi_analytical.Result) -> float:
         """Return the iterations of all increments of the repeated solve."""
-        led = self._led(result)
-        return math.inf if led is None else float(sum(i.iterations for i in led.increments))
+        repeated = self._repeated(result)
+        return (
+            math.inf if repeated is None else float(sum(i.iterations for i in repeated.increments))
+        )
 
-    def _led(self, result: semi_analytical.Result) -> semi_analytical.Result | None:
+    def _repeated(self, result: semi_analytical.Result) -> semi_analytical.Result | None:
         if self._solved is None or self._solved[0] is not result:
             self._solved = result, solved_by_motion(result)
         return self._solved[1]
@@ -351,7 +353,7 @@ def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | No
     runs = [bare.run(cells), bare.run(cells, 30.0), bare.run(cells, 90.0)]
     films = [filmed.run(cells), filmed.run(cells, 90.0)]
     section = bare.section(elements, harmonics)
-    led = {run.label: LedByMotion() for run in (runs[0], films[0])}
+    repeated = {run.label: MotionControlled() for run in (runs[0], films[0])}
     carried = "residuals of two solves, amplified in the tractions and carried through the "
     "history"
     read: dict[str, tuple[str, float, Callable[[Any], float]]] = {
@@ -377,7 +379,7 @@ def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | No
                 name, meaning, "", label, measure, identity(0.0, source),
                 Required(allowed, because), 1.0, scale,
             )
-            for label, again in led.items()
+            for label, again in repeated.items()
             for name, meaning, measure, source, allowed, because, scale in (
                 (
                     "led_by_motion", "difference from the same history with prescribed approach "
@@ -402,7 +404,7 @@ def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | No
                 "cost of the solve for led_by_motion, in addition to the runs of this case; the "
                 "motions are known only after the run",
             )
-            for label, again in led.items()
+            for label, again in repeated.items()
         ),
         comparisons=(
             *(
@@ -489,22 +491,22 @@ def same_surface(level: Level = Level.QUICK) -> Case:
 
     def run(label: str, what: str, grid: SurfaceGrid = square, **other: Any) -> Run:
         """Return the run of the ball on the coated body with the given changes."""
-        told: dict[str, Any] = {
+        chosen: dict[str, Any] = {
             "indenter": rigid_ball(), "body": FILMED, "friction": MU, "degrees": 0.0,
         } | other  # fmt: skip
         scene = Scene(
             title=f"Rigid ball on a coated body, pressed and pushed: {what}",
-            indenter=told["indenter"],
-            body=told["body"],
-            friction=CoulombFriction(coefficient=told["friction"]),
-            loading=turned((pressing(3), PUSH), told["degrees"]),
+            indenter=chosen["indenter"],
+            body=chosen["body"],
+            friction=CoulombFriction(coefficient=chosen["friction"]),
+            loading=turned((pressing(3), PUSH), chosen["degrees"]),
         )
         return Run(label, scene, grid)
 
     def mapped(coefficients: Field) -> FrictionMap:
         return FrictionMap.model_validate({"map": coefficients, "spacing": square.spacing})
 
-    told = run("told by numbers", "numbers")
+    by_numbers = run("told by numbers", "numbers")
     by_heights = run(
         "ball as a map of heights", "heights",
         indenter=HeightMap(file=heights, spacing=square.spacing, material=RIGID),
@@ -532,10 +534,10 @@ def same_surface(level: Level = Level.QUICK) -> Case:
     )  # fmt: skip
     same, all_fields = "the same surface", "difference of all fields"
     pairs: tuple[tuple[str, str, Run, Run, Difference, float, str, str], ...] = (
-        ("heights", f"ball as a map of heights: {all_fields}", by_heights, told,
+        ("heights", f"ball as a map of heights: {all_fields}", by_heights, by_numbers,
          as_it_is, ROUNDING,
          "heights at cell centres equal the gap there, bit for bit", same),
-        ("friction", f"constant map of friction: {all_fields}", everywhere, told,
+        ("friction", f"constant map of friction: {all_fields}", everywhere, by_numbers,
          as_it_is, EXACT, ANSWERED, same),
         ("mirror", "mirrored patches of friction: difference of pressure and shear", mirrored,
          patchy, in_mirror, EXACT, ANSWERED, "a reflection at x = 0 maps one to the other"),
@@ -552,7 +554,7 @@ def same_surface(level: Level = Level.QUICK) -> Case:
         "constant map, use patches of friction and their mirror image, take rectangular cells, "
         "and put the coating on a body of its own material. Each variant is equivalent to "
         "another run, directly or after a reflection or rotation.",
-        runs=(told, by_heights, everywhere, patchy, mirrored, narrow, wide, whole, through),
+        runs=(by_numbers, by_heights, everywhere, patchy, mirrored, narrow, wide, whole, through),
         comparisons=(
             *(
                 Comparison(
@@ -562,7 +564,7 @@ def same_surface(level: Level = Level.QUICK) -> Case:
             ),
             Comparison(
                 "square_cells", "rectangular cells: difference of approach, shift and energy "
-                "from those of square cells, relative", (narrow.label, told.label),
+                "from those of square cells, relative", (narrow.label, by_numbers.label),
                 scalars_apart, 1.5e-3 * 33 / cells,
                 "set by hand: about three times the error of cells longer by a third on a 33 x "
                 "33 grid, proportional to the cell side on others",

@@ -151,7 +151,7 @@ def _stiffnesses(one: Any, other: Any) -> float:
 def tilted_punch(level: Level = Level.QUICK) -> Case:
     """Build the case of a flat punch with an eccentric force, which tilts."""
     punch = FlatPunch(radius=PUNCH_RADIUS, material=STEEL)
-    forced, led = (
+    forced, tilted = (
         paper.frictionless(title, punch, STEEL, step)
         for title, step in {
             "Flat punch pressed beside its axis": LoadStep(
@@ -207,7 +207,7 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
         "direction oblique to the grid. For eccentricities up to a third of the radius the whole "
         "face is in contact, and the solution for a plane of displacements has a closed form.",
         judged(grids, rows),
-        runs=(Run("given tilt", led, finest.grid),),
+        runs=(Run("given tilt", tilted, finest.grid),),
         comparisons=(
             Comparison(
                 "both_controls", "prescribed moment against prescribed tilt, by the stiffnesses: "
@@ -251,7 +251,7 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
         moment=(NORMAL_FORCE * e[1], NORMAL_FORCE * e[0]),
         increments=increments,
     )
-    led = LoadStep(normal_force=NORMAL_FORCE, tilt=(roll[1], roll[0]), increments=1)
+    tilted = LoadStep(normal_force=NORMAL_FORCE, tilt=(roll[1], roll[0]), increments=1)
     steel = (paper.paraboloid(STEEL), Body(material=STEEL))
     unlike = (rigid_ball(), Body(material=SUBSTRATE))
     runs = tuple(
@@ -259,7 +259,7 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
         for label, title, bodies, step in (
             ("centred", "Ball pressed at its tip", steel, paper.pressing(increments)),
             ("beside", "Ball pressed beside its tip", steel, forced),
-            ("given tilt", "Tilted ball", steel, led),
+            ("given tilt", "Tilted ball", steel, tilted),
             ("centred, unlike bodies", "Rigid ball", unlike, paper.pressing(increments)),
             ("beside, unlike bodies", "Rigid ball beside its tip", unlike, forced),
         )

@@ -414,12 +414,12 @@ def _apart_of_stated(ours: Any, _: int, problem: Problem) -> float:
         return 0.0 if value is None else float(np.linalg.norm(value))
 
     theirs, shares = problem.ends[-1](), []
-    said = (
+    both_errors = (
         RingSolver.stated_errors(ours),
         CellSolver.stated_errors(theirs),
     )
     for one, other, *stated in zip(
-        ours.steps, theirs.steps, *(errors.steps for errors in said), strict=True
+        ours.steps, theirs.steps, *(errors.steps for errors in both_errors), strict=True
     ):
         for of in (*SCALARS, *MOTIONS):
             values = getattr(one, of), getattr(other, of)

@@ -197,16 +197,16 @@ def columns() -> float:
     there = [name for name in SCALARS if f"increments/{name}" in found.arrays]
     apart = []
     for name in there:
-        told = found.column(name)
-        stored = found.arrays[f"increments/{name}"].reshape(told.shape).astype(float)
-        if not np.array_equal(np.isnan(told), np.isnan(stored)):
+        tabulated = found.column(name)
+        stored = found.arrays[f"increments/{name}"].reshape(tabulated.shape).astype(float)
+        if not np.array_equal(np.isnan(tabulated), np.isnan(stored)):
             return float("nan")
-        apart.append(_apart(np.nan_to_num(told), np.nan_to_num(stored)))
+        apart.append(_apart(np.nan_to_num(tabulated), np.nan_to_num(stored)))
     return worst(*apart)
 
 
-def _apart(told: Field, stored: Field) -> float:
-    return float(np.max(np.abs(told - stored)) / (np.max(np.abs(stored)) or 1.0))
+def _apart(tabulated: Field, stored: Field) -> float:
+    return float(np.max(np.abs(tabulated - stored)) / (np.max(np.abs(stored)) or 1.0))
 
 
 def place_of_f1() -> float:

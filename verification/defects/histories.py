@@ -79,12 +79,12 @@ def _limit_by_direction(patches: Patches) -> None:
 
 def _approach_when_unloading(patches: Patches) -> None:
     def wrap(whole: Any) -> Any:
-        def told(model: Any, before: Any, state: Any, *place: Any) -> Any:
+        def changed(model: Any, before: Any, state: Any, *place: Any) -> Any:
             increment = whole(model, before, state, *place)
             falls = before is not None and state.normal_force < LESS * before.normal_force
             return replace(increment, approach=0.95 * increment.approach) if falls else increment
 
-        return told
+        return changed
 
     patches.function(history, "_increment", wrap)
 
@@ -164,7 +164,7 @@ def _work_on_elements(patches: Patches) -> None:
 
 def _energy_of_springs(patches: Patches) -> None:
     def wrap(whole: Any) -> Any:
-        def told(increment: Any, given: Any) -> Any:
+        def changed(increment: Any, given: Any) -> Any:
             found, (_, along) = whole(increment, given), rig.compliances(given)
             force = increment.tangential_force
             if not along or force is None or increment.elastic_energy is None:
@@ -172,17 +172,17 @@ def _energy_of_springs(patches: Patches) -> None:
             stored = increment.elastic_energy + 0.5 * along * float(np.dot(force, force))
             return replace(found, elastic_energy=stored)
 
-        return told
+        return changed
 
     patches.function(rig, "of_contact", wrap)
 
 
 def _shift_of_actuator(patches: Patches) -> None:
     def wrap(whole: Any) -> Any:
-        def told(increment: Any, given: Any) -> Any:
+        def changed(increment: Any, given: Any) -> Any:
             return replace(whole(increment, given), tangential_shift=increment.tangential_shift)
 
-        return told
+        return changed
 
     patches.function(rig, "of_contact", wrap)
 

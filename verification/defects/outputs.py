@@ -71,8 +71,8 @@ def _weights_inverted(patches: Patches) -> None:
 
 def _torque_for_twist(patches: Patches) -> None:
     def exchanged(increment: Any) -> Any:
-        told = dict(numbers(increment))
-        return told | {"torque": told["twist"], "twist": told["torque"]}
+        values = dict(numbers(increment))
+        return values | {"torque": values["twist"], "twist": values["torque"]}
 
     patches.attribute(tables, "numbers", exchanged)
 

@@ -43,8 +43,11 @@ def _missed(
 ) -> float:
     """Compute the deviation of one load or motion; a value that a solver omits is zero."""
     by_force = control.kind is ControlKind.FORCE
-    told, scale = (force, scales[0]) if by_force else (motion, scales[1])
-    return float(np.max(np.abs(np.subtract(0.0 if told is None else told, control.end)))) / scale
+    found_end, scale = (force, scales[0]) if by_force else (motion, scales[1])
+    return (
+        float(np.max(np.abs(np.subtract(0.0 if found_end is None else found_end, control.end))))
+        / scale
+    )
 
 
 class Imbalance(float):
@@ -58,8 +61,8 @@ class Imbalance(float):
     def __new__(cls, number: int, largest: float, difference: float, **terms: float) -> Imbalance:
         """Compare energies [force length] of the increment of this number."""
         found = super().__new__(cls, abs(difference) / largest)
-        said = (f"{name.replace('_', ' ')} {energy:.6g} J" for name, energy in terms.items())
-        found.terms = f"increment {number}: {', '.join(said)}; difference {difference:.3g} J"
+        texts = (f"{name.replace('_', ' ')} {energy:.6g} J" for name, energy in terms.items())
+        found.terms = f"increment {number}: {', '.join(texts)}; difference {difference:.3g} J"
         return found
 
 

@@ -46,7 +46,9 @@ def ring_laws(result: Result) -> tuple[float, float]:
     violations += missed(result.scene, result.steps)
     imbalances, largest = list[Imbalance](), 0.0
     for number, (before, now) in enumerate(pairs, start=1):
-        largest = max(largest, now.told.elastic_energy or 0.0, abs(now.told.input_work or 0.0))
+        largest = max(
+            largest, now.increment.elastic_energy or 0.0, abs(now.increment.input_work or 0.0)
+        )
         for name, energy, stated in _energies(before, now):
             terms = {name: energy, "stated": stated}
             imbalances.append(Imbalance(number, largest, energy - stated, **terms))
@@ -57,17 +59,17 @@ def ring_laws(result: Result) -> tuple[float, float]:
 class _Surface:
     """Fields of an increment at positions (rings, angles).
 
-    arm      distance from the axis, on hat functions its mean [length]
-    weights  area of the positions [length^2]; None for contacts with too few rings
-    f        undeformed gap, on hat functions its mean; zero without pressure [length]
-    q, s     shear and slip, radial and circumferential (2, rings, angles)
-    limit    of friction [force/length^2]
-    along    unit vector at angle zero
-    on_disc  true for fields on a disc, false for hat functions
-    rubs     true if particles slip during indentation
+    arm                 distance from the axis, on hat functions its mean [length]
+    weights             area of the positions [length^2]; None for contacts with too few rings
+    f                   undeformed gap, on hat functions its mean; zero without pressure [length]
+    q, s                shear and slip, radial and circumferential (2, rings, angles)
+    limit               of friction [force/length^2]
+    along               unit vector at angle zero
+    on_disc             true for fields on a disc, false for hat functions
+    slips_when_pressed  true if particles slip during indentation
     """
 
-    told: Increment
+    increment: Increment
     arm: Field
     weights: Field | None
     f: Field
@@ -77,7 +79,7 @@ class _Surface:
     limit: Field
     along: tuple[float, float]
     on_disc: bool
-    rubs: bool
+    slips_when_pressed: bool
 
     @classmethod
     def of(cls, now: Increment, result: Result) -> _Surface:
@@ -102,7 +104,7 @@ class _Surface:
             weights = _over_hats(r, np.ones_like)
             arm, f = (_over_hats(r, g) / weights for g in (lambda r: r, lambda r: gap(r, 0.0)))
         return cls(
-            told=now,
+            increment=now,
             arm=arm[:, None],
             weights=None if weights is None else weights[:, None] * _shares(now.angles),
             f=np.where(p > 0, f[:, None], 0.0),
@@ -112,7 +114,7 @@ class _Surface:
             limit=(result.scene.friction or FRICTIONLESS).limit(p),
             along=result.plan.direction,
             on_disc=result.plan.circle is None,
-            rubs=result.plan.coupled,
+            slips_when_pressed=result.plan.coupled,
         )
 
     def over(self, field: Field) -> float:
@@ -127,20 +129,20 @@ class _Surface:
 
     def divided(self, before: _Surface | None) -> bool:
         """Return true if the solver used intermediate states, which the result does not contain."""
-        last = None if before is None else before.told
-        grown = last is None or self.told.contact_radius > GROWTH * last.contact_radius
-        return self.told.halvings > 0 or (self.on_disc and self.rubs and grown)
+        last = None if before is None else before.increment
+        grown = last is None or self.increment.contact_radius > GROWTH * last.contact_radius
+        return self.increment.halvings > 0 or (self.on_disc and self.slips_when_pressed and grown)
 
     @property
     def carried(self) -> Field:
         """Forces in x and y and moment about the axis, of the shear (3,)."""
         outward, around = self.q
-        if self.told.angles is None:
+        if self.increment.angles is None:
             return np.array([0.0, 0.0, self.over(self.arm * around)])
-        cos, sin = np.cos(self.told.angles), np.sin(self.told.angles)
+        cos, sin = np.cos(self.increment.angles), np.sin(self.increment.angles)
         ahead = self.over(outward * cos - around * sin)
         x, y = self.along
-        if self.told.angles[-1] <= np.pi:  # the other half is the mirror image
+        if self.increment.angles[-1] <= np.pi:  # the other half is the mirror image
             return np.array([x * ahead, y * ahead, 0.0])
         aside = self.over(outward * sin + around * cos)
         return np.array(
@@ -190,40 +192,43 @@ def _shares(angles: Field | None) -> Field:
 
 
 def _violations(before: _Surface | None, now: _Surface) -> Iterator[float]:
-    told, p, gap = now.told, now.p, now.told.gap.reshape(now.p.shape)
+    increment, p, gap = now.increment, now.p, now.increment.gap.reshape(now.p.shape)
     open_gap = np.where(np.isposinf(gap), 0.0, gap)
     yield float(np.max(-p) / np.max(p))
-    yield float(np.max(-open_gap) / told.approach)
-    yield float(np.max(p * np.abs(open_gap)) / (np.max(p) * told.approach))
+    yield float(np.max(-open_gap) / increment.approach)
+    yield float(np.max(p * np.abs(open_gap)) / (np.max(p) * increment.approach))
     if now.weights is None:
         return
-    yield abs(now.over(p) / told.normal_force - 1)
+    yield abs(now.over(p) / increment.normal_force - 1)
     if not (np.any(now.q) or np.any(now.limit)):
         return
     # The arm of an empty limit is no scale: without friction any shear is too much.
-    most = now.over(now.limit) or told.normal_force
+    most = now.over(now.limit) or increment.normal_force
     yield float(np.max(np.hypot(*now.q) - now.limit)) / (np.max(now.limit) or np.max(p))
-    due = np.array([*(told.tangential_force or (0.0, 0.0)), told.torque or 0.0])
+    due = np.array([*(increment.tangential_force or (0.0, 0.0)), increment.torque or 0.0])
     missing = np.abs(now.carried - due) / most
     yield from missing[:2]
-    if told.torque is not None:
-        yield float(missing[2]) / told.contact_radius
-    if told.angles is None and before is not None and not now.divided(before):
+    if increment.torque is not None:
+        yield float(missing[2]) / increment.contact_radius
+    if increment.angles is None and before is not None and not now.divided(before):
         passed = np.hypot(*(now.s - before.s)).ravel()
-        sticks = np.asarray(told.in_stick) & np.asarray(before.told.in_stick)
-        most_passed = max(float(np.max(passed)), LEAST_SLIP * told.approach)
+        sticks = np.asarray(increment.in_stick) & np.asarray(before.increment.in_stick)
+        most_passed = max(float(np.max(passed)), LEAST_SLIP * increment.approach)
         yield float(np.max(passed, where=sticks, initial=0.0)) / most_passed
-    if now.on_disc and np.count_nonzero(told.in_contact & ~np.asarray(told.in_stick)) < IN_ANNULUS:
+    if (
+        now.on_disc
+        and np.count_nonzero(increment.in_contact & ~np.asarray(increment.in_stick)) < IN_ANNULUS
+    ):
         return
     way, start = now.s, 0.0 if before is None else before.limit
-    so_far = told.dissipated_energy or 0.0
+    so_far = increment.dissipated_energy or 0.0
     lost = so_far
     if before is not None:
-        way, lost = way - before.s, so_far - (before.told.dissipated_energy or 0.0)
+        way, lost = way - before.s, so_far - (before.increment.dissipated_energy or 0.0)
     length = np.hypot(*way)
-    least = LEAST_SLIP * most * told.approach * most / told.normal_force
+    least = LEAST_SLIP * most * increment.approach * most / increment.normal_force
     scale = max(now.over(now.limit * length), so_far, least)
-    if not told.halvings:  # else slip may have turned
+    if not increment.halvings:  # else slip may have turned
         yield abs(now.over(now.limit * length + np.sum(now.q * way, axis=0))) / scale
     if not now.divided(before):
         yield abs(now.over(0.5 * (start + now.limit) * length) - lost) / scale
@@ -231,29 +236,40 @@ def _violations(before: _Surface | None, now: _Surface) -> Iterator[float]:
 
 def _energies(before: _Surface | None, now: _Surface) -> Iterator[tuple[str, float, float]]:
     """Yield energies and work of the fields, and as the solver states them [force length]."""
-    told, last = now.told, None if before is None else before.told
+    increment, last = now.increment, None if before is None else before.increment
     if now.weights is None or (before is not None and before.weights is None):
         return
     if now.divided(before):
         return
-    stored, lost, work = told.elastic_energy, told.dissipated_energy, told.trapezoidal_work
-    if stored is not None and not now.rubs:
-        by_motion = now.over(now.p * (told.approach - now.f)) + _power(told, told)
-        by_motion -= now.resisted(told)
+    stored, lost, work = (
+        increment.elastic_energy,
+        increment.dissipated_energy,
+        increment.trapezoidal_work,
+    )
+    if stored is not None and not now.slips_when_pressed:
+        by_motion = now.over(now.p * (increment.approach - now.f)) + _power(increment, increment)
+        by_motion -= now.resisted(increment)
         yield "stored", 0.5 * (by_motion + now.over(np.sum(now.q * now.s, axis=0))), stored
     if work is not None:
-        done = told.normal_force * told.approach + _power(told, told)
+        done = increment.normal_force * increment.approach + _power(increment, increment)
         if last is not None:
-            force, depth = told.normal_force + last.normal_force, told.approach - last.approach
+            force, depth = (
+                increment.normal_force + last.normal_force,
+                increment.approach - last.approach,
+            )
             done = force * depth + 2 * (last.trapezoidal_work or 0.0)
-            done += _power(told, told) - _power(told, last) + _power(last, told)
+            done += _power(increment, increment) - _power(increment, last) + _power(last, increment)
             done -= _power(last, last)
             if before is not None:
-                resisted = [one.resisted(told) - one.resisted(last) for one in (before, now)]
+                resisted = [one.resisted(increment) - one.resisted(last) for one in (before, now)]
                 done -= sum(resisted)
         yield "work", 0.5 * done, work
-        if told.unresolved_work is not None:
-            yield "stored and dissipated", (stored or 0.0) + (lost or 0.0), told.input_work or 0.0
+        if increment.unresolved_work is not None:
+            yield (
+                "stored and dissipated",
+                (stored or 0.0) + (lost or 0.0),
+                increment.input_work or 0.0,
+            )
 
 
 def _power(of: Increment, moved: Increment) -> float:

@@ -74,8 +74,8 @@ class Rings:
             hats = self.model.hats
             return np.stack([self.on_grid(None), self.on_grid(hats.arms / hats.weights)])
         vector = np.stack([np.cos(self.angles), -np.sin(self.angles)])[:, None]
-        led = self.path is Path.SHEARING or len(self.angles) > 1
-        return np.broadcast_to(vector if led else 0.0, (2, *self._shape))
+        tangential = self.path is Path.SHEARING or len(self.angles) > 1
+        return np.broadcast_to(vector if tangential else 0.0, (2, *self._shape))
 
     @cached_property
     def weights(self) -> Field:
@@ -94,26 +94,26 @@ class Rings:
             return np.zeros(self._shape)
         return np.broadcast_to(values if values.ndim == 2 else values[:, None], self._shape)
 
-    def stretched(self, told: Increment) -> Field:
+    def stretched(self, increment: Increment) -> Field:
         """Compute the displacement by the strain of the lower body, averaged over a ring
         [length]."""
-        strain = 0.0 if told.bulk_strain is None else told.bulk_strain[0]
+        strain = 0.0 if increment.bulk_strain is None else increment.bulk_strain[0]
         hats = self.model.hats
         return np.stack([self.on_grid(strain * hats.arms / hats.weights), self.on_grid(None)])
 
-    def shear(self, told: Increment) -> Field:
+    def shear(self, increment: Increment) -> Field:
         """Return q of an increment."""
-        return self._vector(told, "shear")
+        return self._vector(increment, "shear")
 
-    def slip(self, told: Increment) -> Field:
+    def slip(self, increment: Increment) -> Field:
         """Return s of an increment."""
-        return self._vector(told, "slip")
+        return self._vector(increment, "slip")
 
-    def _vector(self, told: Increment, name: str) -> Field:
-        along = getattr(told, f"{name}_along_load")
+    def _vector(self, increment: Increment, name: str) -> Field:
+        along = getattr(increment, f"{name}_along_load")
         if along is not None:
             return np.stack([self.on_grid(along), self.on_grid(None)])
-        around = (getattr(told, f"{name}_{part}") for part in ("radial", "circumferential"))
+        around = (getattr(increment, f"{name}_{part}") for part in ("radial", "circumferential"))
         return np.stack([self.on_grid(component) for component in around])
 
     def integral(self, values: Field) -> float:

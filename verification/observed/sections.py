@@ -73,7 +73,7 @@ class _Surface:
     stored   energy in bodies and springs [force length]
     """
 
-    told: Increment
+    increment: Increment
     rings: Rings
     pressure: Field
     shear: Field
@@ -85,29 +85,29 @@ class _Surface:
 
     @classmethod
     def of(
-        cls, told: Increment, rings: Rings, direction: tuple[float, float], spring: float
+        cls, increment: Increment, rings: Rings, direction: tuple[float, float], spring: float
     ) -> _Surface:
-        p, q = rings.on_grid(told.pressure), rings.shear(told)
+        p, q = rings.on_grid(increment.pressure), rings.shear(increment)
         along, u_z = rings.displacement(p, q)
         along, u_z = along + spring * q, u_z + spring * p
         if rings.path is Path.TWISTING:
-            force, motion = told.torque or 0.0, told.twist
+            force, motion = increment.torque or 0.0, increment.twist
         else:
-            force = float(np.dot(told.tangential_force or (0.0, 0.0), direction))
-            shift = told.tangential_shift
+            force = float(np.dot(increment.tangential_force or (0.0, 0.0), direction))
+            shift = increment.tangential_shift
             motion = None if shift is None else float(np.dot(shift, direction))
         if motion is None and force == 0.0:
             motion = 0.0
         return cls(
-            told=told,
+            increment=increment,
             rings=rings,
             pressure=p,
             shear=q,
-            gap=rings.undeformed + u_z - told.approach,
-            slip=rings.slip(told),
+            gap=rings.undeformed + u_z - increment.approach,
+            slip=rings.slip(increment),
             passed=None
             if motion is None
-            else along + rings.stretched(told) - motion * rings.driven,
+            else along + rings.stretched(increment) - motion * rings.driven,
             force=force,
             stored=0.5 * float(np.sum(rings.weights * (p * u_z + np.sum(q * along, axis=0)))),
         )
@@ -115,27 +115,27 @@ class _Surface:
     @property
     def sheared(self) -> bool:
         """True if the increment can have shear."""
-        return self.told.dissipated_energy is not None or bool(np.any(self.shear))
+        return self.increment.dissipated_energy is not None or bool(np.any(self.shear))
 
     @property
     def energetic(self) -> EnergeticState:
         """State for the energy balance."""
         return EnergeticState(
-            self.told, self.rings.weights, self.stored, self.rings.undeformed, self.pressure,
+            self.increment, self.rings.weights, self.stored, self.rings.undeformed, self.pressure,
             self.gap, self.shear, self.rings.model.friction.limit(self.pressure), self.passed,
             self.slip,
         )  # fmt: skip
 
 
 def _of_pressure(now: _Surface) -> Iterator[float]:
-    p, gap, told, weights = now.pressure, now.gap, now.told, now.rings.weights
-    depth = abs(told.approach)  # bodies left sheared can lift the indenter above first touch
+    p, gap, increment, weights = now.pressure, now.gap, now.increment, now.rings.weights
+    depth = abs(increment.approach)  # bodies left sheared can lift the indenter above first touch
     yield float(np.max(-p) / np.max(p))
     yield float(np.max(-gap) / depth)
     yield float(np.sum(weights * p * np.abs(gap)) / (np.sum(weights * p) * depth))
-    yield abs(now.rings.integral(p) / told.normal_force - 1)
+    yield abs(now.rings.integral(p) / increment.normal_force - 1)
     apart = np.where(p > 0, 0.0, gap)
-    yield float(np.max(np.abs(apart - now.rings.on_grid(told.gap))) / depth)
+    yield float(np.max(np.abs(apart - now.rings.on_grid(increment.gap))) / depth)
 
 
 def _of_shear(before: _Surface | None, now: _Surface) -> Iterator[float]:
@@ -150,19 +150,19 @@ def _of_shear(before: _Surface | None, now: _Surface) -> Iterator[float]:
     most = float(np.sum(weights * limit * np.hypot(*driven)))
     yield abs(carried - now.force) / (most or float(np.sum(weights * limit)))
     # In an increment that was halved slip may have turned on the way.
-    if now.told.halvings > 0 or now.passed is None:
+    if now.increment.halvings > 0 or now.passed is None:
         return
     passed, slip, touched = now.passed, now.slip, np.zeros_like(limit, dtype=bool)
     if before is not None and before.passed is not None:
         passed, slip, touched = passed - before.passed, slip - before.slip, before.pressure > 0
-    if now.told.angles is None and now.rings.path is not Path.SHEARING:
+    if now.increment.angles is None and now.rings.path is not Path.SHEARING:
         weights[0] = 0.0  # on the axis there is neither shear nor slip
     other = np.where(weights * limit > 0, other_than_motion(slip, passed, touched), 0.0)
-    yield float(np.max(other) / abs(now.told.approach))
+    yield float(np.max(other) / abs(now.increment.approach))
     work = weights * limit * np.hypot(*passed)
-    least = least_slip(friction.largest, now.told.approach) * float(np.sum(weights * limit))
+    least = least_slip(friction.largest, now.increment.approach) * float(np.sum(weights * limit))
     against = weights * np.sum(now.shear * passed, axis=0)
     scale = max(float(np.sum(work)), least)
     if scale > 0:  # not so where the axis alone touches
         yield float(np.sum(work + against)) / scale
-    yield from energy_won(None if before is None else before.told, now.told)
+    yield from energy_won(None if before is None else before.increment, now.increment)

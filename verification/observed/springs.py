@@ -39,7 +39,7 @@ class EnergeticState:
     yields      true if springs carry the remaining overlap and motion
     """
 
-    told: Increment
+    increment: Increment
     weights: Field
     stored: float
     undeformed: Field
@@ -60,16 +60,16 @@ def energy_missing(states: Sequence[EnergeticState]) -> Iterator[Imbalance]:
     before, worked, lost = None, 0.0, 0.0
     largest = 0.0
     for number, state in enumerate(states, start=1):
-        work, told = state.told.trapezoidal_work, state.told.dissipated_energy
-        dissipated = told or 0.0
-        if work is None or state.passed is None or (np.any(state.shear) and told is None):
+        work, stated = state.increment.trapezoidal_work, state.increment.dissipated_energy
+        dissipated = stated or 0.0
+        if work is None or state.passed is None or (np.any(state.shear) and stated is None):
             return  # the motion is undefined, and with it all that follows
         largest = max(largest, *(abs(e) for e in (state.stored, work, dissipated)))
-        alone = state.told.elastic_energy
-        if alone is not None and state.told.overlap is None:
+        alone = state.increment.elastic_energy
+        if alone is not None and state.increment.overlap is None:
             difference = alone - state.stored
             yield Imbalance(number, largest, difference, stored=state.stored, stated=alone)
-        if state.told.halvings == 0:  # else there are states in between
+        if state.increment.halvings == 0:  # else there are states in between
             spent = work - worked, dissipated - lost
             for difference, terms in _missing(before, state, *spent):
                 yield Imbalance(number, largest, difference, **terms)
@@ -110,8 +110,8 @@ def _at_rest(state: EnergeticState) -> EnergeticState:
     """Return the state before first touch, at the points of a state."""
     nothing, still = np.zeros_like(state.pressure), np.zeros_like(state.shear)
     return EnergeticState(
-        state.told, state.weights, 0.0, state.undeformed, nothing, state.undeformed, still, nothing,
-        still, still,
+        state.increment, state.weights, 0.0, state.undeformed, nothing, state.undeformed, still,
+        nothing, still, still,
     )  # fmt: skip
 
 
@@ -186,19 +186,19 @@ class SpringSurface:
         by_shear = 0.0 if q is None else self.by_force.get(component + "t", nothing) @ q
         return np.asarray(self.by_force.get(component + "z", nothing) @ p + by_shear)
 
-    def motion(self, told: Increment) -> float | None:
+    def motion(self, increment: Increment) -> float | None:
         """Return the shift of the indenter along the load [length], or its twist; None if
         undefined."""
         if self.twists:
-            return told.twist
-        shift = told.tangential_shift
+            return increment.twist
+        shift = increment.tangential_shift
         return None if shift is None else float(np.dot(shift, self.along))
 
-    def force(self, told: Increment) -> float:
+    def force(self, increment: Increment) -> float:
         """Return the force along the load [force], or the torque [force length]."""
         if self.twists:
-            return told.torque or 0.0
-        return float(np.dot(told.tangential_force or (0.0, 0.0), self.along))
+            return increment.torque or 0.0
+        return float(np.dot(increment.tangential_force or (0.0, 0.0), self.along))
 
 
 @dataclass(frozen=True)
@@ -210,7 +210,7 @@ class SpringState:
              without shear, or if the motion of the indenter is undefined
     """
 
-    told: Increment
+    increment: Increment
     p: Field
     q: Field | None
     slip: Field | None
@@ -218,22 +218,22 @@ class SpringState:
     passed: Field | None
 
     @classmethod
-    def of(cls, told: Increment, surface: SpringSurface) -> SpringState:
-        p = told.pressure
+    def of(cls, increment: Increment, surface: SpringSurface) -> SpringState:
+        p = increment.pressure
         sheared = (
-            (told.shear_radial, told.slip_radial),
-            (told.shear_along_load, told.slip_along_load),
-            (told.shear_circumferential, told.slip_circumferential),
+            (increment.shear_radial, increment.slip_radial),
+            (increment.shear_along_load, increment.slip_along_load),
+            (increment.shear_circumferential, increment.slip_circumferential),
         )
         q, slip = next((pair for pair in sheared if pair[0] is not None), (None, None))
-        overlap = told.approach - surface.gap - surface.displaced("z", p, q)
-        motion = surface.motion(told)
+        overlap = increment.approach - surface.gap - surface.displaced("z", p, q)
+        motion = surface.motion(increment)
         passed = None
         if q is not None and motion is not None:
             passed = surface.moves * motion - surface.displaced("t", p, q)
-            if told.bulk_strain is not None:
-                passed = passed - told.bulk_strain[0] * told.radii
-        return cls(told, p, q, slip, overlap, passed)
+            if increment.bulk_strain is not None:
+                passed = passed - increment.bulk_strain[0] * increment.radii
+        return cls(increment, p, q, slip, overlap, passed)
 
     def energetic(self, surface: SpringSurface) -> EnergeticState:
         """Create the state for the energy balance."""
@@ -245,7 +245,7 @@ class SpringState:
             passed = np.zeros_like(p)
         slip = np.zeros_like(p) if slip is None else slip
         return EnergeticState(
-            self.told, surface.weights, stored, surface.gap, p, -self.overlap, q[None],
+            self.increment, surface.weights, stored, surface.gap, p, -self.overlap, q[None],
             surface.friction.limit(p), None if passed is None else -passed[None],
             slip[None], yields=True,
         )  # fmt: skip
@@ -267,7 +267,7 @@ def observed_springs(result: Result) -> tuple[list[float], list[EnergeticState]]
     """Return the violations in all increments at Gauss points, and the states for the energy
     balance."""
     surface = SpringSurface.of(result)
-    states = [SpringState.of(told, surface) for told in result.increments]
+    states = [SpringState.of(increment, surface) for increment in result.increments]
     violations: list[float] = []
     befores: list[SpringState | None] = [None, *states]
     for before, now in zip(befores, states, strict=False):
@@ -300,22 +300,22 @@ def other_than_motion(slip: Field, passed: Field, touched: Mask) -> Field:
 
 
 def _of_pressure(now: SpringState, surface: SpringSurface) -> Iterator[float]:
-    told, p, v = now.told, now.p, now.overlap
+    increment, p, v = now.increment, now.p, now.overlap
     carried = float(np.sum(surface.weights * p))
     yield float(np.max(-p) / np.max(p))
-    yield abs(carried / told.normal_force - 1)
-    yield float(np.max(v - p / surface.stiffness) / abs(told.approach))
+    yield abs(carried / increment.normal_force - 1)
+    yield float(np.max(v - p / surface.stiffness) / abs(increment.approach))
     apart = np.where(p > 0, 0.0, -v)
-    yield float(np.max(np.abs(apart - told.gap)) / abs(told.approach))
+    yield float(np.max(np.abs(apart - increment.gap)) / abs(increment.approach))
     largest = float(np.max(np.abs(v), where=p > 0, initial=0.0))
-    assert told.overlap is not None
-    yield abs(largest - told.overlap) / abs(told.approach)
+    assert increment.overlap is not None
+    yield abs(largest - increment.overlap) / abs(increment.approach)
 
 
 def _of_shear(
     before: SpringState | None, now: SpringState, surface: SpringSurface
 ) -> Iterator[float]:
-    told, p, q = now.told, now.p, now.q
+    increment, p, q = now.increment, now.p, now.q
     assert q is not None
     limit = surface.friction.limit(p)
     if not np.any(limit):
@@ -325,10 +325,10 @@ def _of_shear(
     carried = float(np.sum(surface.weights * surface.moves * q))
     most = float(np.sum(surface.weights * surface.moves * limit))
     least = float(np.sum(surface.weights * limit))
-    yield abs(carried - surface.force(told)) / (most or least)
-    if told.halvings == 0 and now.passed is not None:
+    yield abs(carried - surface.force(increment)) / (most or least)
+    if increment.halvings == 0 and now.passed is not None:
         yield from _of_slip(before, now, surface)
-        yield from energy_won(None if before is None else before.told, told)
+        yield from energy_won(None if before is None else before.increment, increment)
 
 
 def _of_slip(
@@ -344,7 +344,7 @@ def _of_slip(
     if before is not None and before.passed is not None:
         assert before.slip is not None
         slip, passed, touched = slip - before.slip, passed - before.passed, before.p > 0
-    limit, approach = surface.friction.limit(p), abs(now.told.approach)
+    limit, approach = surface.friction.limit(p), abs(now.increment.approach)
     work = surface.weights * limit * np.abs(slip)
     least = least_slip(surface.friction.largest, approach) * float(np.sum(surface.weights * limit))
     against = surface.weights * now.q * slip
