@@ -29,7 +29,7 @@ from contact_scene.stepping.increment_error import with_error
 
 # Coarse solves: description, fraction of the cells along a side, and further cells. Each has the
 # edges of zones at other positions within the cells.
-SHARES = ("half the {} and two", 1 / 2, 2), ("two fifths of the {}", 2 / 5, 0)
+SHARES = ("half the {} plus 2", 1 / 2, 2), ("2/5 of the {}", 2 / 5, 0)
 # A step with fewer increments is compared with finer histories, because halves of few increments do
 # not converge regularly.
 FEW, MANY = 4, (32, 8)

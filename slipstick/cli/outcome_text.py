@@ -23,8 +23,9 @@ def solved_in(result: Result, seconds: float) -> Iterator[tuple[str, str]]:
 
 def how_stated(stated: StatedErrors, seconds: float | None) -> Iterator[tuple[str, str]]:
     """Yield the coarse solves of the error estimate, with their time if it was measured."""
-    made = " and ".join(dict.fromkeys(solve.differs for solve in stated.coarse_solves))
-    yield "errors", f"from {made}" + ("" if seconds is None else f", in {seconds:.2f} s")
+    made = "; ".join(dict.fromkeys(solve.differs for solve in stated.coarse_solves))
+    taken = "" if seconds is None else f", in {seconds:.2f} s"
+    yield "errors", f"by coarse solves ({made}){taken}"
     for solve in stated.coarse_solves:
         if solve.refused:
             yield "", f"coarse solve with {solve.differs} failed: {solve.refused}"
