@@ -116,7 +116,7 @@ def coated_paraboloid(
     required  numbers of cells of the accuracy targets, for all coatings
     """
     most = {Level.QUICK: 256, Level.STANDARD: 512, Level.FULL: 1024}[level]
-    # On coarser grids no figure is asked: for errors by fineness.
+    # Coarser grids have no accuracy target; they show the errors by refinement.
     coarser = () if cells else (32, 46, 64, 90)
     shifted = () if cells else refinement(32, most // 2)
     cells = cells or refinement(32, most)
@@ -531,7 +531,7 @@ def fem_coated(
         rows = ROWS
         if level is Level.QUICK:
             rows = [row for row in ROWS if row["h_over_aH"] == 1 and row["E1_over_E2"] in (0.5, 2)]
-    # At the full level every second mesh: all of them for every coating would say no more.
+    # The full level takes every second mesh, which is sufficient for each coating.
     elements = elements or levels(level)[:: 2 if level is Level.FULL else 1]
     names = [NAMES[ROWS.index(row)] for row in rows]
     ladders = [

@@ -57,16 +57,14 @@ JUDGED_WITHIN = 0.9  # contact radii; nearer the edge everything is steep
 # In cells or elements, whichever is larger.
 AXIS = 2.0  # nearer, the outward shear turns round within a cell
 KINK = 2.0
-FRONT = 1.5  # on a line through the contact, where fronts are known to half a place
+FRONT = 1.5  # on a line through the contact, where fronts are known to half a spacing
 EVEN = 1e-9
-# Contacts grow uniformly in radius. While they are a few elements wide the shear is locked as
-# coarsely as these are: an error that goes with the number of elements to the axis, is the same on
-# every mesh, and at a given radius falls.
+# Contacts grow uniformly in radius. While a contact is a few elements wide, the shear locked in has
+# an error that depends on the number of elements to the axis alone; at a given radius it falls.
 FEW = 8  # elements of the coarser mesh
 DIRECTIONS = 16
-# By µ; the same for all solvers, uniform in contact radius. The more of the contact sticks, the
-# longer the shear remembers the edge of every increment: that ripple falls with the increments, and
-# finer cells or elements only show it more sharply.
+# By µ; equal for all solvers, uniform in contact radius. Each increment leaves a ripple of the
+# shear in the stick zone. The ripple falls with the increments, not with finer cells or elements.
 INCREMENTS = {0.0: 1, 0.1: 20, 0.3: 80}
 OWN, OTHER = ReferenceKind.OWN_REFINEMENT, ReferenceKind.OTHER_SOLVER
 ASKED = "accuracy target of two solvers that share only the scene"

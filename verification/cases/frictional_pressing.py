@@ -130,7 +130,7 @@ def _weights(to: int, of: int) -> Field:
 
 
 RINGS, HIGHEST, STATES = 5, 4, 8
-SPRINGS = 0.3  # of the penalty law, beside the exact law
+SPRINGS = 0.3  # of the penalty law; zero is exact contact
 STEP = 1e-5  # of values of order one
 LEAST_PRESSURE = 0.1  # shears in slip bend with the radius of the friction limit
 SEED = 7
@@ -461,9 +461,9 @@ def indentation_refinement(level: Level = Level.QUICK) -> Case:
     The quick level has two runs; other levels have series of runs and judge the orders.
     """
     few, many = _half_on_cells(64, 8), _half_on_cells(64, 16)
-    # Changes are taken over two levels: by the root of two, and between some increments and twice
-    # as many. Grids cut the contact differently, so that many of them tell more. More increments
-    # move the stick edge by less than a cell each, and say nothing of smaller ones.
+    # Changes are taken over two levels: a factor of 2 in cells or increments. Grids divide the
+    # contact in different ways, so that the order needs many grids. With more increments the stick
+    # edge moves by less than a cell in each, and the increment error is not resolved.
     cells = (32, 38, 46, 54, 64, 76, 90, 108, 128, 152, 182, 214, 256)
     increments = (2, 3, 4, 6, 8, 12, 16, 24, 32)
     edges = (
@@ -1043,7 +1043,7 @@ def fem_penalty_indentation(level: Level = Level.QUICK) -> Case:
     )
 
 
-INNERMOST, BESIDE = 0.05, 0.05  # radii where shear is not compared: at the axis, beside the front
+INNERMOST, BESIDE = 0.05, 0.05  # radii where shear is not compared: at the axis, near the front
 
 
 def _mean_shear(result: Any, _: int, problem: Problem) -> float:

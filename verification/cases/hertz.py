@@ -89,7 +89,7 @@ ROWS = (
         ),
     ),
 )  # fmt: skip
-# How circles cut the cells scatters it too much on one grid of each size.
+# One grid of each size scatters too much, because circles divide the cells in different ways.
 MEAN = (
     Falls(
         APPROACH, 2.0,

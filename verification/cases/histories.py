@@ -921,7 +921,7 @@ def fem_far_field(level: Level = Level.QUICK) -> Case:
         for way, scene in (("pushed", pushed), ("twisted", STUCK.scene))
         for box in (near, far)
     }
-    # Power of radius over box that is left once the resultant is known at the edge of the box.
+    # Power of radius over box of the error, if the edge of the box moves by the exact resultant.
     numbers: dict[str, tuple[str, int, Callable[[Any], float]]] = {
         "approach": ("pushed", 3, lambda end: float(end.approach)),
         "shift": ("pushed", 3, shift_along_x),

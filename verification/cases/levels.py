@@ -21,15 +21,15 @@ IDENTITY = "an identity, in which nothing converges"
 DERIVED = "tolerances are derived from the orders of hertz_point on equal grids"
 JUDGED_BY = "on one discretisation: the orders of the method are judged in {}"
 
-# Several meshes below the finest, for the order of convergence; no two are alike at the edge.
+# Several meshes below the finest, for the order of convergence; each has another edge position.
 _LEVELS = {
     Level.QUICK: (12, 16, 22, 32),
     Level.STANDARD: (12, 16, 22, 32, 45, 64),
     Level.FULL: (16, 22, 32, 45, 64, 90, 128),
 }
 PER_OCTAVE, OCTAVES = 5, 2.4
-# Where in its element the edge of the contact lies on each mesh: all values depend on it, and only
-# their root mean square falls with a power of the element.
+# Positions of the contact edge in its element on each mesh: all values depend on the position, and
+# only their root mean square falls with a power of the element.
 PLACES = (0.1, 0.3, MIDDLE, 0.7, 0.9)
 
 

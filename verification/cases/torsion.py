@@ -197,7 +197,7 @@ def torsion(level: Level = Level.QUICK) -> Case:
 # Of the semi-closed solution: thick layers and equal layers give the closed form to this.
 SEMI_CLOSED_ERROR = 1e-10
 COATED_PARTS = {1: 0.5, 2: 0.9}  # of the torque at which all slips, by loading step
-# Two alike bodies of twice the moduli answer like one under a rigid ball: the paper's E1/E2 = 2.
+# Two equal bodies of twice the moduli have the compliance of one under a rigid ball (E1/E2 = 2).
 BASE = IsotropicMaterial(young_modulus=420e9, poisson_ratio=0.3)
 COATING = IsotropicMaterial(young_modulus=840e9, poisson_ratio=0.3)
 LAYERS = (Layer(thickness=HERTZ.contact_radius, material=COATING),)
@@ -364,7 +364,7 @@ def radial_torsion(level: Level = Level.QUICK) -> Case:
     )
 
 
-TURN = 3 * pi / 16 * FRICTION_LIMIT * HERTZ.contact_radius  # torque at which alike bodies slide
+TURN = 3 * pi / 16 * FRICTION_LIMIT * HERTZ.contact_radius  # torque of gross slip of equal bodies
 SCALARS = ("approach", "contact_radius", "stick_radius", "dissipated_energy", "elastic_energy")
 MOTIONS = ("tangential_shift", "twist")
 TURNING = ((0.6, 0.0), (0.0, 0.6))

@@ -18,7 +18,7 @@ from scipy.special import ellipkm1
 
 from verification.closed_forms.validity import require_positive
 
-# log(c/a) at the ends of what doubles can tell from 0 (by its square) and from 1.
+# Range of log(c/a) in which doubles differ from 0 (for the square) and from 1.
 SMALLEST, LARGEST = -340.0, -(2.0**-52)
 
 

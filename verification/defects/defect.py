@@ -13,9 +13,9 @@ PRODUCT = (
     *("contact_scene", "semi_analytical", "fem_reference", "radial"),
     *("contact_results", "verification", "slipstick"),
 )
-# What runs the studies remembers nothing that a defect could change.
+# The modules that run studies have no caches that depend on a defect.
 LEFT_ALONE = "verification.running"
-# Where functions remember what a defect could change.
+# Packages with caches that depend on a defect.
 REMEMBERING = (
     "semi_analytical",
     "fem_reference",

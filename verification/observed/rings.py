@@ -28,7 +28,7 @@ def model_of(result: Result, length: float) -> ContactModel:
     length  unit of length of its sections [length]
     """
     scales = Scales(length, outermost_modulus(result.scene))
-    bodies = result.scene.model_copy(update={"rig": None})  # increments tell its motions apart
+    bodies = result.scene.model_copy(update={"rig": None})  # motions of the contact
     return ContactModel(bodies, scales, result.sections)
 
 

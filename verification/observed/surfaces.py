@@ -180,7 +180,7 @@ def _unresolved(state: _State, after: _State) -> float:
     return 0.5 * (closing - opening - sheared)
 
 
-# Slip is judged relative to the approach where there is hardly any.
+# Fraction of the approach that is the smallest scale for violations of slip.
 LEAST_SLIP = 1e-3
 # Where the border of stick is not fitted, the shear follows the corrected pressure in the cells
 # along the edge, about a tenth of the contact, and carries the force to the change in these.

@@ -34,7 +34,7 @@ OVER_LARGEST_WAY = "the largest way"
 AMPLITUDE = 0.9  # of µW
 LOADED, UNLOADED, RELOADED = 2, 3, 4  # loading steps that end at T*, -T*, T*
 PRESSED = 1
-WINDOW_PER_RADIUS = 2.2  # the contact fills 1/1.1 of the window: cells beside it carry nothing
+WINDOW_PER_RADIUS = 2.2  # the contact takes 1/1.1 of the width of the window
 
 
 def loop_steps(quarter: int) -> tuple[LoadStep, ...]:

@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 
 from semi_analytical.grid import SurfaceGrid
 
-# Where the contact's axis is in a cell, in its sides; the symmetries of a square make others equal.
+# Positions of the contact's axis in a cell, in cell sides; others are equal by symmetry.
 OFFSETS = ((0.0, 0.0), (0.5, 0.5), (0.5, 0.0), (0.25, 0.25), (0.1, 0.35), (0.4, 0.15))
-# Two of them cut circles so unlike that their errors together scatter a third as much as those of
-# one grid of each size.
+# Two offsets with different divisions of circles: their joint errors scatter a third as much as
+# those of one grid of each size.
 UNLIKE = ((0.5, 0.0), (0.25, 0.25))
 
 

@@ -93,7 +93,7 @@ def stress_maxima(
 Array = NDArray[np.float64]
 
 BY_MOTION = 0.3  # of the scenes are controlled by motions
-ROOM = 1.5  # cells between a contact beside the centre and the edge of the window
+ROOM = 1.5  # cells between an eccentric contact and the edge of the window
 FAR = 50.0  # shift over the one at which gross slip begins
 TURNED = 1e-3  # relative error by slip across such a shift
 DOUBLED = 2  # rings, orders and points, and increments of the ring solver
