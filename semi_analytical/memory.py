@@ -10,9 +10,9 @@ DOUBLE = 8
 # Simultaneous arrays of the size of the window: coefficients, spectra, work space, solver vectors,
 # results of an increment. The second of two numbers counts arrays of the size of the reduced
 # domain. Measured in complete runs on fitted windows (contact 90 % of each side).
-PRESSURE_ARRAYS = 12, 20
+PRESSURE_ARRAYS = 9, 20
 HISTORY_ARRAYS = 4
-SHEAR_ARRAYS = 28, 54
+SHEAR_ARRAYS = 31, 54
 # Arms, unit motions and their products.
 TILT_ARRAYS = 10
 TORSION_ARRAYS = 6
@@ -41,12 +41,9 @@ PRESSURE_RESULT = 2
 SHEAR_RESULT = 7
 LIGHT = 500  # bytes of an increment whose attributes are in a file
 LIBRARIES = 75 << 20  # bytes of libraries for the solution
-# Output: libraries, arrays, and memory of the solver that is not returned to the system; the stress
-# figures take no more. Shear has more maps, coupled bodies retain more memory, and every load step
-# beyond two adds a panel, up to MAX_DRAWN steps.
-DRAWING, DRAWING_ARRAYS = 77 << 20, 20
-DRAWING_SHEAR, DRAWING_COUPLED = 11 << 20, 23 << 20
-DRAWING_STEP, DRAWING_SHEAR_STEP, MAX_DRAWN = 5 << 20, 4 << 20, 6
+# Output: libraries, arrays, and memory of the solver that is not returned to the system, more of
+# coupled bodies. Measured with the overview picture on 32 to 724 cells per side.
+DRAWING, DRAWING_ARRAYS, DRAWING_COUPLED = 75 << 20, 11, 9 << 20
 
 
 def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
@@ -59,7 +56,9 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
         solving = _coupled(grid, plan)
     else:
         solving = array * _arrays(grid, plan) + _edges(grid, plan)
-    return int(LIBRARIES + held + max(solving, _drawing(array, plan)))
+    coupled = plan.coupling is not Coupling.NONE
+    drawing = DRAWING + DRAWING_ARRAYS * array + DRAWING_COUPLED * coupled
+    return int(LIBRARIES + held + max(solving, drawing))
 
 
 def _share(grid: SurfaceGrid, plan: Plan) -> float:
@@ -106,14 +105,6 @@ def _edges(grid: SurfaceGrid, plan: Plan) -> float:
     arrays = EDGE_SHEAR_ARRAYS - SHEAR_ARRAYS[1] * share
     rim = EDGE_SHEAR_RIM + (EDGE_TURNED_RIM if steps > 1 else 0)
     return alone + EDGE_SHEAR + arrays * array + rim * side
-
-
-def _drawing(array: int, plan: Plan) -> int:
-    """Estimate the memory of files and figures [byte]."""
-    steps = max(min(len(plan.path), MAX_DRAWN) - 2, 0)
-    drawing = DRAWING + DRAWING_ARRAYS * array + DRAWING_STEP * steps
-    drawing += DRAWING_SHEAR + DRAWING_SHEAR_STEP * steps if plan.shear else 0
-    return drawing + (DRAWING_COUPLED if plan.coupling is not Coupling.NONE else 0)
 
 
 def refuse_if_too_large(grid: SurfaceGrid, plan: Plan) -> None:
