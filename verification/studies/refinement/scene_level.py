@@ -20,10 +20,7 @@ from contact_errors.on_cells import CellSolver
 from contact_errors.on_elements import ElementSolver
 from contact_errors.values import Values, scale, values_of
 from contact_scene import Scene, SceneFile, read_scene_file
-from contact_scene.quantities.increment import (
-    SCALARS,
-    components,
-)
+from contact_scene.quantities.increment import SCALARS
 from contact_scene.quantities.summary import OF_CYCLES
 from contact_scene.solver_errors import SolverError
 from fem_reference import Method
@@ -33,7 +30,7 @@ from verification.running.study import RESIDUAL, CaseRecord, Row, Value
 # Solvers by their names on the command line, and the law of contact of the finite elements.
 CELLS = "semi-analytical"
 METHODS = {"fem": Method.PENALTY, "fem-complementarity": Method.COMPLEMENTARITY}
-KEYS = frozenset((*(name for name, mark in SCALARS.items() if mark.key), *OF_CYCLES))
+KEYS = {name: mark for name, mark in SCALARS.items() if mark.key} | OF_CYCLES
 SMALL = {
     "contact": "the contact", "wave": "the mean wavelength of the height map",
     "layer": "the thinnest layer", "stick": "the stick zone",
@@ -155,7 +152,7 @@ class SceneLevel:
                 **{name: value for name, _, value in ends},
                 RESIDUAL: largest_residual(result),
             },
-            units={name: unit_of(stem) for name, stem, _ in ends},
+            units={name: KEYS[stem].unit for name, stem, _ in ends},
             counters={
                 "increments": sum(self.increments),
                 work: sum(getattr(increment, work) for increment in result.increments),
@@ -178,17 +175,11 @@ class SceneLevel:
         )
 
 
-def unit_of(name: str) -> str:
-    """Unit of a number at the end of a load step or of a cycle."""
-    units = {"energy_per_cycle": "J", "slip_amplitude": "m", "ruiz_f1": "J/m^2", "ruiz_f2": ""}
-    return units[name] if name in units else SCALARS[name].unit
-
-
 def _scalars(values: Values) -> Iterator[tuple[str, str, float]]:
     """Yield the key numbers: name, with _x or _y for a component; name of the vector; value."""
     for stem, numbers in values.items():
         if stem in KEYS:
-            names = components(stem) if numbers.size > 1 else (stem,)
+            names = (f"{stem}_x", f"{stem}_y") if numbers.size > 1 else (stem,)
             for name, value in zip(names, numbers.tolist(), strict=True):
                 yield name, stem, value
 
