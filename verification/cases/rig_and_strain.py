@@ -187,13 +187,9 @@ def series_spring(level: Level = Level.QUICK) -> Case:
     "µW"
     rows: tuple[Row, ...] = (
         *(
-            Within(what.at(step, part, "of the largest actuator shift"), ON_ALL, why)
-            for what in (FORCE, SHIFT)
-            for step, part in AT_ENDS.items()
-        ),
-        *(
-            Within(ENERGY.at(step, AT_ENDS[step], "of the largest actuator shift"), 2e-2, why)
-            for step in (2, 3)
+            Within(what.at(step, AT_ENDS[step], "of the largest actuator shift"), most, why)
+            for what, most in ((FORCE, ON_ALL), (SHIFT, ON_ALL), (ENERGY, 2e-2))
+            for step in (2, 3)  # both depend on the first reversal
         ),
     )
     loops = tuple(
@@ -326,7 +322,11 @@ def _coated() -> Problem:
         layer: one.plane_strain_modulus * STRAIN for layer, one in enumerate((HARD, paper.STEEL))
     }
     return Problem(
-        scene.model_copy(update=changed), (HERTZ, end), HERTZ.contact_radius, "plane stress"
+        scene.model_copy(update=changed),
+        (HERTZ, end),
+        HERTZ.contact_radius,
+        "plane stress",
+        equations=(r"\Delta\sigma_{xx} = \frac{E}{1 - \nu^2} \epsilon",),
     )
 
 
@@ -360,12 +360,15 @@ def strained_ball(level: Level = Level.QUICK) -> Case:
         known["source"],
         ReferenceKind.OTHER_SOLVER,
         known["uncertainty"],
+        equations=(r"\bar u_r - \epsilon r = 0\ \text{where the surfaces stick}",),
     )
+
+    because = "required; radial on twice and four times its rings differs by 1.6e-4 and 3e-4"
 
     def rows(of_radius: float) -> tuple[Row, ...]:
         return (
-            Within(STICK_RADIUS, of_radius, "required"),
-            Within(ENERGY, 5e-3, "required"),
+            Within(STICK_RADIUS, of_radius, because),
+            Within(ENERGY, 5e-3, because),
         )
 
     cells = on_cells(problem, (128 if level is Level.QUICK else 256,), of="cells")
