@@ -126,7 +126,7 @@ class CellSolver(DiscretisedSolver):
                 stick=cells.stick,
                 annulus=0.0 if hides else cells.annulus,
                 fitted=report is not None and not (thin and (coupled or law is None)),
-                stick_fitted=report is not None and report.border and not coupled,
+                stick_fitted=report is not None and report.stick is not None and not coupled,
                 sharp=is_singular(indenter),
                 infinite=is_singular(indenter),
                 cusp=coupled or has_cusp(indenter),
@@ -159,7 +159,8 @@ def _changes(report: EdgeReport) -> Mapping[str, float]:
     """Return relative changes of numbers in the last iteration of the edge correction."""
     motions = dict.fromkeys(("approach", "normal_force", "tilt", "moment"), report.response)
     radii = {"contact_radius": report.radius, "contact_area": 2 * report.radius}
-    return {**motions, **radii, PEAK: report.peak}
+    stick = {"stick_radius": report.stick or 0.0, "stick_area": 2 * (report.stick or 0.0)}
+    return {**motions, **radii, **stick, PEAK: report.peak}
 
 
 def _to_edge(end: Increment) -> float:

@@ -93,7 +93,7 @@ def _edges_left(result: semi_analytical.Result) -> Iterator[str]:
         report = end.edge_report
         if report is not None and report.cause is not None:
             left.setdefault(NOT_CORRECTED.format(report.cause), []).append(str(end.step))
-        elif report is not None and not report.border:
+        elif report is not None and report.stick is None:
             left.setdefault(NO_BORDER, []).append(str(end.step))
     for text, steps in left.items():
         yield f"at the end of step {', '.join(steps)} {text}"

@@ -137,8 +137,10 @@ class _Solver:
         )
         if isinstance(edges, EdgeReport):
             return replace(after, edge_report=edges)
-        border = self.plan.couples or after.sheared is None or edges.sheared is not None
-        return replace(after, corrected=edges, edge_report=replace(edges.report, border=border))
+        stick: float | None = 0.0
+        if not self.plan.couples and after.sheared is not None:
+            stick = None if edges.sheared is None else edges.sheared.radius_change
+        return replace(after, corrected=edges, edge_report=replace(edges.report, stick=stick))
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Field:
         """Return the gap without tractions; see `contact_scene.stepping.load_stepping.Solver`."""

@@ -19,6 +19,8 @@ class CorrectedShear:
     stick         (nx, ny) cells whose centre sticks
     stick_cells   area of the stick zone in cells
     change        relative change of the shear in the last iteration, Σ|Δq|/Σµp
+    radius_change
+                  relative change of the stick radius in the last iteration
     """
 
     shear: Field
@@ -28,7 +30,8 @@ class CorrectedShear:
     shift: Field | None
     stick: Mask
     stick_cells: float
-    change: float
+    change: float = 0.0
+    radius_change: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -39,16 +42,17 @@ class EdgeReport:
     response  change of the approach, or of the normal force at a prescribed approach
     peak      change of the largest pressure
     radius    change of the contact radius
+    stick     change of the stick radius; None if the stick border of uncoupled bodies remains
+              uncorrected
     ridge     True if the peak lies on a ridge, False on a cap
-    border    False if the stick border of uncoupled bodies remains uncorrected
     """
 
     cause: str | None = None
     response: float = 0.0
     peak: float = 0.0
     radius: float = 0.0
+    stick: float | None = 0.0
     ridge: bool = False
-    border: bool = True
 
 
 @dataclass(frozen=True)

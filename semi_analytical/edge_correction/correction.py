@@ -95,7 +95,6 @@ class EdgeCorrection:
                 shift=solved.shift,
                 stick=corrected.pressure > 0,
                 stick_cells=corrected.contact_cells,
-                change=0.0,
             )
         parts = model.friction.limit(edge.parts)
         domain = edge.domain

@@ -112,7 +112,7 @@ def relaxation_factor(factor: float, last: Field, change: Field) -> float:
 
 
 def radius_change(before: SubcellTractions, after: SubcellTractions) -> float:
-    """Compute the relative change of the contact radius between two iterates."""
+    """Compute the relative change of the radius of a region between two iterates."""
     return abs((after.area / before.area) ** 0.5 - 1)
 
 

@@ -88,7 +88,6 @@ def sliding_shear(
         shift=solved.shift,
         stick=nowhere,
         stick_cells=0.0,
-        change=0.0,
     )
 
 
@@ -256,4 +255,5 @@ def edge_shear(
         stick=deficit.edge.region,
         stick_cells=deficit.edge.area,
         change=changes[-1],
+        radius_change=of_radius,
     )

@@ -252,7 +252,7 @@ def _violations(before: Increment | None, now: Increment, place: _Place) -> Iter
     assert now.tangential_force is not None
     carried = np.sum(q, axis=(1, 2)) * place.cell_area
     missing = np.hypot(*(carried - now.tangential_force)) / (np.sum(limit) * place.cell_area)
-    fitted = now.edge_report is None or now.edge_report.border
+    fitted = now.edge_report is None or now.edge_report.stick is not None
     yield float(missing) * place.eased(now, INNER if fitted else BORDER)
     if now.slip is not None and now.dissipated_energy is not None:
         yield from _traces(before, now, place)
