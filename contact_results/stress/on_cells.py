@@ -38,7 +38,7 @@ NEIGHBOURS = 4  # adjacent cells of a point that the interpolation uses
 LEVEL = ("depth", "layer")
 # Numbers per point of the volume: displacement and stress by level and joined, cells; coordinates,
 # tensors and invariants in the file.
-NUMBERS = (9 + 9 + 8) + (3 + 3 + 9 + 4)
+COMPUTED, WRITTEN = 9 + 9 + 8, 3 + 3 + 9 + 4
 
 
 def estimated_bytes(grid: SurfaceGrid) -> int:
@@ -137,7 +137,7 @@ def _below(
         radius = float(np.sqrt(np.count_nonzero(pressure) * grid.cell_area / np.pi))
     levels = _levels(body, depths, radius)
     if volume:
-        refuse_beyond_memory(grid.cells, len(levels), NUMBERS)
+        refuse_beyond_memory(grid.cells, len(levels), COMPUTED + WRITTEN)
     if indenter and shear is not None:
         shear = -shear
     edge, why = None, "not looked for"
