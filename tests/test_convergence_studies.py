@@ -261,7 +261,7 @@ def test_a_refused_level_is_shown_with_its_reason(tmp_path: Path) -> None:
     [
         (["mesh", "SCENE", "--cells", "16"], "more --cells or fewer levels"),
         (["mesh", "SCENE", "--step", "2"], "step 2 was asked for, and the scene has 1"),
-        (["domain", "SCENE", "--solver", "semi-analytical"], "study domain is of"),
+        (["domain", "SCENE", "--solver", "semi-analytical"], "for study domain"),
         (["domain", "SCENE", "--set", "fem_reference.box=6"], "larger fem_reference.box"),
         (["mesh"], "needs a scene file"),
     ],
