@@ -110,8 +110,9 @@ def _between(f: Field, b: Field, c: Field, low: Field, high: Field) -> Field:
     away = np.where(from_zero, high, low)
     last = f * _arc(f, 1 / away - 1 / high, at_low / away + at_high / high)
     centre = np.sqrt(np.maximum(f, 0.0))
-    below = np.where(centre > 0, 2 * centre * at_high + b * high + 2 * f, 1.0)
-    ratio = np.where(centre > 0, 4 * f * high / below, 1.0)
+    regular = from_zero & (centre > 0)
+    below = np.where(regular, 2 * centre * at_high + b * high + 2 * f, 1.0)
+    ratio = np.where(regular, 4 * f * high / below, 1.0)
     return np.asarray(whole + np.where(from_zero, centre * np.log(ratio), last))
 
 
