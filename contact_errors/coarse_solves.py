@@ -163,7 +163,7 @@ class DiscretisedSolver(ABC):
         """Return the resolution at the end of each step."""
 
     def residuals(self, result: Any) -> Sequence[float]:
-        """Return limits of the residuals of each step."""
+        """Return the tolerance of the residuals, for each load step."""
         return [result.tolerance] * len(result.steps)
 
     def neglected(self, result: Any) -> Mapping[str, float]:

@@ -67,7 +67,7 @@ def prescribed(ramp: LoadRamp, rig: Rig | None) -> frozenset[str]:
 
 
 def scale(name: str, values: Values) -> float:
-    """Return the natural size of a scalar, in its unit; 0 for a scalar that has none."""
+    """Return the characteristic magnitude of a scalar in the history; 0 if it has none."""
     sizes = {key: float(np.max(np.abs(value))) for key, value in values.items()}
     length, force = sizes["approach"], sizes["normal_force"]
     radius = sizes["contact_radius"]

@@ -47,7 +47,7 @@ def stress_by(strain: Sequence[float], body: Body, layer: int) -> Vector:
 
 
 def with_strain(increment: Reported, strain: Strain | None) -> Reported:
-    """Add the bulk strain at the end of an increment, if there is one."""
+    """Return the increment's results with the bulk strain at its end; unchanged without one."""
     if strain is None:
         return increment
     changes = {"bulk_strain": strain[:2], "bulk_shear": strain[2]}

@@ -26,10 +26,10 @@ MARGIN = 1.15  # half length of the line, relative to the extent of the contact
 
 @dataclass(frozen=True, eq=False)
 class Component:
-    """Pressure, or a component of shear, on the line at the end of some load steps.
+    """Curves of one traction component along y = 0, one curve per load step.
 
     name   label of the axis
-    lines  values (n,) by the number of the step
+    lines  values (n,) by load step
     unit   of the axis
     """
 

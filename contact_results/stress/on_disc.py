@@ -92,7 +92,10 @@ def stress_at_radii(
 
 
 def _both_sides(right: StressPoints) -> StressPoints:
-    """Extend points of x >= 0 to x < 0, where r = -x and θ = -y change the signs of components."""
+    """Mirror the points of x >= 0 to x < 0.
+
+    There r points along -x and θ along -y, so the signs of some components change.
+    """
     behind = replace(
         right,
         x=-right.x,

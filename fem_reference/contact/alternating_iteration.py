@@ -146,7 +146,7 @@ def _change(areas: Vector, p: Vector, answer: Vector) -> float:
 
 
 def sides_of(pressure: Vector) -> Sides:
-    """Free where there is pressure: a guess for `press`."""
+    """Guess the active set of the normal problem: points with pressure are free."""
     return np.where(pressure > 0, 0, -1).astype(np.int8)
 
 

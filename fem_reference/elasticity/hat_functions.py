@@ -51,14 +51,14 @@ class TractionBasis(ABC):
 
     @abstractmethod
     def of(self, function: Callable[[Field], Field]) -> Field:
-        """Integrate f φ r dr for a function f of the radius."""
+        """Integrate f(r) φ(r) r dr over the radius, for each basis function φ."""
 
 
 class Hats(TractionBasis):
     """Hat functions of the corner nodes."""
 
     def of(self, function: Callable[[Field], Field]) -> Field:
-        """Integrate f φ r dr for a function f of the radius."""
+        """Integrate f(r) φ(r) r dr over the radius, for each basis function φ."""
         return _integrals(_hat_basis(self.radii), function)
 
 

@@ -150,7 +150,9 @@ class SurfaceTractions:
         return self._harmonics(np.swapaxes(found, 1, 2))
 
     def _rooted(self, radii: Field, rays: Field) -> Field:
-        """Return harmonics (4, radii, harmonics) of tractions that end in a root.
+        """Interpolate tractions that fall to zero like a square root at the contact edge.
+
+        Returns the amplitudes of their harmonics, shape (4, radii, harmonics).
 
         Shear over pressure and the smooth factor of the pressure are interpolated between rays
         first, because the radius of the root differs from ray to ray.

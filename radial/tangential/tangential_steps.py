@@ -89,9 +89,9 @@ class TangentialSteps(StepsOnRings):
         plan: Plan,
         angle_factor: float = 1.0,
     ) -> TangentialSteps:
-        """Return the solver of a scene, with its points laid out.
+        """Create the solver of a scene with its grid of rings and angles.
 
-        angle_factor  multiple of the number of angles
+        angle_factor  multiplies the planned number of angles
         """
         assert scene.friction is not None
         assert plan.circle is not None
@@ -160,7 +160,7 @@ class TangentialSteps(StepsOnRings):
         before: TangentialState | None,
         fraction: float,
     ) -> TangentialState:
-        """Return the contact at a fraction of the ramp.
+        """Solve the contact at a fraction of a load ramp, from the state before it.
 
         Raises NotConverged, GrossSliding and ContactAtZoneEdge.
         """

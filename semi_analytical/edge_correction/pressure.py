@@ -210,7 +210,11 @@ class _Problem:
         return _Solved(pressure, load.motion(inner, u + gap), by_edge)
 
     def by_edge(self, p: Field, edge: SubcellTractions) -> Field:
-        """Compute u_z by the pressure variation within cells and by the shear of coupled bodies."""
+        """Compute the normal displacement that the cells' uniform pressure leaves out.
+
+        It has two parts: the variation of the pressure within cells and, for coupled bodies, the
+        shear.
+        """
         by_p = Within.of(p, edge.i, edge.j, edge.parts, edge.domain)
         if not self.coupled or self.shear is None:
             return np.asarray(self.operators.by_pressure(by_p)[0])

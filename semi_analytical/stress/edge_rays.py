@@ -85,7 +85,7 @@ def _directions(phi: Quadratic, box: Field) -> tuple[Field, Field]:
 
 
 def _along_ray(f: Field, b: Field, c: Field, reach: Field) -> Field:
-    """Compute the finite part of the integral of √Q+/r over 0 < r < reach, Q = f + b r + c r²."""
+    """Integrate √max(Q, 0)/r over 0 < r < reach, with Q = f + b r + c r² (Hadamard finite part)."""
     root = np.sqrt(np.maximum(b * b - 4 * f * c, 0.0))
     q = -(b + np.where(b < 0, -root, root)) / 2
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -51,7 +51,10 @@ class EdgedTractions:
         return _slip_at(self.shape, self.ratio, self.ratio_weight, x, y)
 
     def parts(self, count: int) -> Field:
-        """Compute tractions of the count² subcells minus those of `cells` (3, k, count, count)."""
+        """Compute the traction of each subcell minus the uniform traction of its cell.
+
+        Shape (3, k, count, count) for k cells along the edge. `cells` plus this is the traction.
+        """
         at = part_centres(count)
         about = self.here.reshaped((-1, 1, 1))
         small = about.about(about.x + at[:, None], about.y + at)

@@ -22,7 +22,7 @@ def solved_in(result: Result, seconds: float) -> Iterator[tuple[str, str]]:
 
 
 def how_stated(stated: StatedErrors, seconds: float | None) -> Iterator[tuple[str, str]]:
-    """Yield the coarse solves of the error estimate, with their time if it was measured."""
+    """Yield the lines that describe the error estimate: coarse solves, their time, failures."""
     made = "; ".join(dict.fromkeys(solve.differs for solve in stated.coarse_solves))
     taken = "" if seconds is None else f", in {seconds:.2f} s"
     yield "errors", f"by coarse solves ({made}){taken}"

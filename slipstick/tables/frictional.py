@@ -39,7 +39,10 @@ OF_RING = 2e-5  # smallest discretisation error of a traction, in p_H
 
 
 def scene(place: Sequence[float]) -> Scene:
-    """Return the scene for E1/E2, h/a_H, ν and µ."""
+    """Build the scene of a table row.
+
+    place  E1/E2, h/a_H, ν and µ
+    """
     moduli, thickness, ratio, friction = place
     young = MODULUS * (1 - ratio**2)
     film, base = (

@@ -565,14 +565,14 @@ class Line:
 
     @property
     def shears(self) -> tuple[Field, Field]:
-        """q_x / µp_H by elements and by cells."""
+        """Shear q_x / µp_H on the compared line: by finite elements, by cells."""
         q, _ = tractions_at(_end(self.step, self.fem), self.x, 0 * self.x)
         row, limit = self.sam.grid.cells[1] // 2, FRICTION * HERTZ.peak_pressure
         return q[0] / limit, _end(self.step, self.sam).shear[0][:, row] / limit
 
     @property
     def shear_apart(self) -> Field:
-        """|Δq_x| / µp_H on all of the line."""
+        """Difference of the two shears over µp_H, on the whole line."""
         one, other = self.shears
         return np.abs(one - other)
 

@@ -100,7 +100,7 @@ def order_is_kept(above: float, allowed: float, half_width: float, margin: float
 
 
 def triplets_agree(orders: Triplets) -> bool:
-    """Return True if both orders exist and agree."""
+    """Return True if the orders of two triplets of levels exist and agree."""
     last, before = orders
     return last is not None and before is not None and abs(last - before) <= TRIPLETS_AGREE
 

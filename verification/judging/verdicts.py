@@ -76,7 +76,7 @@ def judge_comparison(comparison: Comparison, results: Results) -> Verdict:
 
 
 def _scale(quantity: Quantity | Check) -> float:
-    """What an error is divided by."""
+    """Return the scale of an error: the stated one, else the size of the reference."""
     return abs(quantity.reference.value) if quantity.scale is None else quantity.scale
 
 

@@ -40,7 +40,7 @@ def refuse_if_unwritable(directory: Path) -> None:
 
 
 def record_in(directory: Path) -> Path:
-    """Return the path of a report's record, packed only where there is no other."""
+    """Return the path of a report's record: the packed file if the plain one is absent."""
     packed = directory / PACKED
     return packed if packed.is_file() and not (directory / RECORD).is_file() else directory / RECORD
 
