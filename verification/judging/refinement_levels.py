@@ -277,7 +277,7 @@ def mesh_label(elements: int, place: float = MIDDLE, of: str = "") -> str:
 
 
 def asked(figure: float, order: float) -> Callable[[RefinementLevel], float]:
-    """What a figure asked for at 64 elements per radius becomes on other meshes."""
+    """Scale a tolerance for 64 elements per radius to other meshes by the convergence order."""
     return lambda rung: figure * (ASKED_AT / rung.count) ** order
 
 

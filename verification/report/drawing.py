@@ -184,7 +184,10 @@ def _is_long(labelled: Sequence[Curve]) -> bool:
 
 
 def _legend_below(ax: Any, longest: int) -> None:
-    """In two columns if a text of so many letters leaves room for them."""
+    """Draw the legend below a chart, in two columns if the longest text fits.
+
+    longest  number of letters of the longest text
+    """
     columns = 1 if longest > LONGEST_OF_TWO else 2
     handles, labels = ax.get_legend_handles_labels()
     lines = -(-len(labels) // columns)

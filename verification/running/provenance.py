@@ -70,7 +70,7 @@ def provenance(
 
 
 def _git(*arguments: str) -> str | None:
-    """What git says about the source; None if it is no repository or there is no git."""
+    """Run git on the source and return its output; None without a repository or without git."""
     if not (SOURCE / ".git").exists():
         return None
     try:

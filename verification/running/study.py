@@ -149,9 +149,11 @@ Cells = Mapping[str, object]
 
 
 def row_files(records: Mapping[str, CaseRecord], findings: Sequence[Row] = ()) -> dict[str, str]:
-    """By file name: `rows.csv`, one line for every case; `parts.csv`, one for every part of one;
-    `findings.csv`, one for every row of a conclusion; `seconds.csv` with what the clock said.
-    Without those that would be empty."""
+    """Return the CSV files of a study by name, without empty ones.
+
+    `rows.csv` has one line per case, `parts.csv` one per part of a case, `findings.csv` one per row
+    of the conclusion, `seconds.csv` the measured times.
+    """
     clock = [(name, record.seconds, record.repeats) for name, record in records.items()]
     files: dict[str, Sequence[Cells]] = {
         ROWS: _named(records.items()),

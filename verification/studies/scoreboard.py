@@ -155,7 +155,7 @@ def _cell(record: CaseRecord | None) -> str:
 
 
 def _priced(found: dict[tuple[str, str], CaseRecord], codes: list[str]) -> Table:
-    """Of all levels together; of a code in a program of its own, what it says itself."""
+    """Build the table of CPU seconds of all levels, as measured or as reported by the code."""
     return Table(
         title="CPU seconds of all levels",
         columns=("challenge", *codes),

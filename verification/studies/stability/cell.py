@@ -254,7 +254,7 @@ class Asked:
     least: Level = Level.QUICK
 
     def view(self, level: Level, cells: int, solvers: Sequence[Solver]) -> View:
-        """With so many cells of a surface grid along each side."""
+        """Return the view of a level; `cells` is the number of surface cells per side."""
         quick = level is Level.QUICK
         axes = {"solver": solvers, **(self.quick if quick or self.more is None else self.more)}
         found = (
