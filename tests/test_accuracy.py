@@ -413,8 +413,8 @@ def test_a_run_meets_the_table_of_its_scene_and_says_so(
     assert accuracy.met
     assert accuracy.settings.cells == summary(out).cells
     shown = capsys.readouterr()
-    assert "approach asked 2 %, reached" in shown.out
-    assert "round 1: contact_radius asked 2 %, reached" in shown.err
+    assert "approach requested 2 %, reached" in shown.out
+    assert "round 1: contact_radius requested 2 %, reached" in shown.err
     by_option = tmp_path / "by option"
     plain = written(tmp_path)
     assert slipstick("run", plain, "-o", by_option, "--figures", "none", "--accuracy", "2%") == 0

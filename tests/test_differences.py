@@ -14,7 +14,7 @@ from contact_results.key_numbers import outcome_columns
 from contact_scene.checks.strain_check import beyond_linear_theory
 from contact_scene.quantities.increment import SCALARS
 from semi_analytical import Result, solve
-from slipstick.cli.outcome_text import solved_in
+from slipstick.cli.progress import solved_in
 from verification.cases import hertz, histories, indenters
 from verification.cases.cross_check import everywhere
 

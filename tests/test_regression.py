@@ -40,7 +40,6 @@ from verification.judging.refinement_levels import (
 )
 from verification.problems.classical import BALL
 from verification.regression import baseline as baseline_files
-from verification.regression import tolerances
 from verification.regression.baseline import (
     BASELINES,
     COUNTERS,
@@ -675,7 +674,7 @@ def test_verify_judges_by_the_accepted_tolerances(
              for v in measured.verdicts if v.error and v.error > LEAST}  # fmt: skip
     accepted = Acceptance(because="why", commit=None, kernels=(), tolerances={measured.name: tight})
     known = Tolerances(level="quick", accepted=(accepted,))
-    monkeypatch.setattr(tolerances, "read_tolerances", lambda level: known)
+    monkeypatch.setattr("slipstick.cli.commands.verify.read_tolerances", lambda level: known)
     assert slipstick(*verify) == 1
     failed = capsys.readouterr().out.count("\nFAIL dissimilar_bodies/")
     assert failed >= len(tight) - 1 > 1

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contact_results.directory.file_names import FIELDS
+from contact_results.directory.refusal import Refused
 from contact_results.files.stored_run import StoredRun, load
 from contact_results.files.stored_values import MISREAD, FieldsAtEndsOnly, ends_of_steps
 from contact_results.stress.points import StressPoints
@@ -39,7 +40,7 @@ OF_HEIGHTS = "the indenter is not a smooth shape"
 OF_MAP = "the coefficient of friction varies"
 
 
-class NoSuchState(Exception):
+class NoSuchState(Refused):
     """The directory has no readable run, or the run has no such load step in contact."""
 
 

@@ -115,7 +115,7 @@ def refined_to(
     from contact_results.directory.checkpoint import checkpointed
     from contact_results.directory.code_digest import SOLVERS, code_digest, solve_identity
     from contact_results.directory.resume_file import kept_value
-    from slipstick.cli.progress import solve_progress, tell_round
+    from slipstick.cli.progress import print_level, solve_progress
     from slipstick.cli.terminal import tell
 
     tried = 0  # solves at this refinement; a solve restarts if the contact outgrows its grid
@@ -150,4 +150,4 @@ def refined_to(
         if begun is not None:
             tell(f"going on after round {begun.rounds} of an interrupted run ({kept.path})")
         most = inf if most_seconds is None else most_seconds
-        yield refine(levels, request, most, tell_round, begun, between)
+        yield refine(levels, request, most, print_level, begun, between)

@@ -1,9 +1,13 @@
-"""Progress of a solve: a bar on a terminal, lines in a log."""
+"""Progress and outcome of solves and of the cases of a verification, study or sweep."""
+
+from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
+from typing import TYPE_CHECKING
 
+import numpy as np
 from rich.console import Console
 from rich.progress import (
     BarColumn,
@@ -14,21 +18,28 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 
+from contact_results.directory.stop_signals import cleaned_up_when_stopped
 from contact_scene.quantities.increment import ReportedIncrement
+from contact_scene.quantities.stated_error import AccuracyReached, StatedErrors
 from slipstick.solvers.solver import Progress as Observer
+
+if TYPE_CHECKING:
+    from contact_results.surface import Result
+    from verification.running.case_pool import CaseEnd, CaseStore, Workers
+    from verification.running.study import StudyCase
 
 SECONDS_BETWEEN_LINES = 10.0
 
 
 @contextmanager
 def solve_progress(increments: Sequence[int]) -> Iterator[Observer]:
-    """Yield a function to call after every increment.
+    """Yield a function to call after every increment: a bar on a terminal, lines in a log.
 
     increments  number of increments of every load step
     """
-    console = Console(stderr=True, highlight=False, soft_wrap=True)
+    console, steps = _stderr(), len(increments)
     if not console.is_terminal:
-        yield _Log(console, len(increments))
+        yield _log(console, steps)
         return
     columns = (
         TextColumn("{task.description}, increment"),
@@ -40,7 +51,6 @@ def solve_progress(increments: Sequence[int]) -> Iterator[Observer]:
         TimeRemainingColumn(),
     )
     with Progress(*columns, console=console, transient=True) as bar:
-        steps = len(increments)
         task = bar.add_task(f"step 1/{steps}", total=sum(increments), residual="–")
 
         def observe(increment: ReportedIncrement) -> None:
@@ -51,45 +61,132 @@ def solve_progress(increments: Sequence[int]) -> Iterator[Observer]:
         yield observe
 
 
-def coarse_solves_shown() -> AbstractContextManager[object]:
-    """Show a status line during the coarse solves of the error estimate."""
-    console = Console(stderr=True, highlight=False, soft_wrap=True)
-    return console.status("coarse solves for the error estimates")
+def _stderr() -> Console:
+    return Console(stderr=True, highlight=False, soft_wrap=True)
 
 
-def tell_round(
-    number: int, asked: Mapping[str, float], reached: Mapping[str, float | None]
-) -> None:
-    """Print, after a refinement, the quantity with the largest ratio of error to request."""
-    from slipstick.cli.outcome_text import against
+def _log(console: Console, steps: int) -> Observer:
+    """Return a function that prints one line at the end of every load step, and every 10 s."""
+    started = last_line = time.monotonic()
 
-    console = Console(stderr=True, highlight=False, soft_wrap=True)
-
-    def shortfall(name: str) -> float:
-        size = reached[name]
-        return float("inf") if size is None else size / asked[name]
-
-    if asked:
-        worst = max(asked, key=shortfall)
-        console.print(f"round {number}: {worst} {against(asked[worst], reached[worst])}")
-
-
-class _Log:
-    """Log with one line at the end of every load step, and every 10 s."""
-
-    def __init__(self, console: Console, steps: int) -> None:
-        self.console = console
-        self.steps = steps
-        self.started = self.last_line = time.monotonic()
-
-    def __call__(self, increment: ReportedIncrement) -> None:
+    def observe(increment: ReportedIncrement) -> None:
+        nonlocal last_line
         now = time.monotonic()
         step_ends = increment.index == increment.increments_in_step
-        if not step_ends and now - self.last_line < SECONDS_BETWEEN_LINES:
-            return
-        self.last_line = now
-        self.console.print(
-            f"step {increment.step}/{self.steps}, "
-            f"increment {increment.index}/{increment.increments_in_step}, "
-            f"residual {increment.worst_residual:.1e}, {now - self.started:.1f} s"
+        if step_ends or now - last_line >= SECONDS_BETWEEN_LINES:
+            last_line = now
+            console.print(
+                f"step {increment.step}/{steps}, "
+                f"increment {increment.index}/{increment.increments_in_step}, "
+                f"residual {increment.worst_residual:.1e}, {now - started:.1f} s"
+            )
+
+    return observe
+
+
+def coarse_solves_shown() -> AbstractContextManager[object]:
+    """Show a status line during the coarse solves of the error estimate."""
+    return _stderr().status("coarse solves for the error estimates")
+
+
+def print_level(
+    number: int, requested: Mapping[str, float], reached: Mapping[str, float | None]
+) -> None:
+    """Print, after a refinement, the quantity with the largest ratio of error to request."""
+
+    def ratio(name: str) -> float:
+        size = reached[name]
+        return float("inf") if size is None else size / requested[name]
+
+    if requested:
+        worst = max(requested, key=ratio)
+        text = _request_text(requested[worst], reached[worst])
+        _stderr().print(f"round {number}: {worst} {text}")
+
+
+def solved_in(result: Result, seconds: float) -> Iterator[tuple[str, str]]:
+    """Yield the tolerance with the largest residual, and the increments with the time."""
+    worst = np.max([increment.worst_residual for increment in result.increments])
+    yield "tolerance", f"{result.tolerance:.3g} (largest residual {worst:.1e})"
+    yield "increments", f"{len(result.increments)} in {seconds:.2f} s"
+
+
+def how_stated(stated: StatedErrors, seconds: float | None) -> Iterator[tuple[str, str]]:
+    """Yield the lines that describe the error estimate: coarse solves, their time, failures."""
+    made = "; ".join(dict.fromkeys(solve.differs for solve in stated.coarse_solves))
+    taken = "" if seconds is None else f", in {seconds:.2f} s"
+    yield "errors", f"by coarse solves ({made}){taken}"
+    for solve in stated.coarse_solves:
+        if solve.refused:
+            yield "", f"coarse solve with {solve.differs} failed: {solve.refused}"
+
+
+def how_accurate(accuracy: AccuracyReached) -> Iterator[tuple[str, str]]:
+    """Yield the requested and reached accuracy by quantity."""
+    for name, share in accuracy.asked.items():
+        outcome = _request_text(share, accuracy.reached[name])
+        yield ("accuracy" if name == next(iter(accuracy.asked)) else ""), f"{name} {outcome}"
+    for why in dict.fromkeys(accuracy.left_out.values()):
+        names = ", ".join(name for name, reason in accuracy.left_out.items() if reason == why)
+        yield "", f"{names} not bound: {why}"
+    rounds = f"{accuracy.rounds} round{'s' if accuracy.rounds != 1 else ''}"
+    yield "", f"met in {rounds}" if accuracy.met else f"not met in {rounds}: {accuracy.stopped}"
+
+
+def _request_text(requested: float, reached: float | None) -> str:
+    found = "not converged" if reached is None else f"reached {100 * reached:.2g} %"
+    return f"requested {100 * requested:.3g} %, {found}"
+
+
+def run_shown(
+    cases: Sequence[StudyCase],
+    store: CaseStore,
+    workers: int | Workers,
+    text: Callable[[CaseEnd], str],
+    work: Mapping[str, int] | None = None,
+    *,
+    fresh: bool = False,
+) -> Sequence[CaseEnd]:
+    """Compute cases and print a line at the end of each; on a stop signal, print how to resume.
+
+    text   function that describes the end of a case
+    work   work of every case by name, for example its number of solves; the remaining time is
+           estimated in proportion to it. Default: 1 each
+    fresh  True to ignore stored cases of earlier runs
+    """
+    from verification.running.case_pool import run_cases
+
+    console, started = _stderr(), time.monotonic()
+    left = dict(work or {case.name: 1 for case in cases})
+    computed = 0  # work of this process, without cases of an earlier run
+
+    def observe(end: CaseEnd) -> None:
+        nonlocal computed
+        done = left.pop(end.case.name)
+        computed += 0 if end.stored else done
+        for warning in end.warnings:
+            console.print(warning, markup=False)
+        rest = ""
+        if computed and left:
+            seconds = (time.monotonic() - started) * sum(left.values()) / computed
+            rest = f", about {seconds:.0f} s left"
+        count = f"{len(cases) - len(left)} of {len(cases)}{rest}"
+        console.print(f"{text(end)} ({count})", markup=False)
+
+    def how_to_resume() -> str:
+        stored = sum(store.path(case).exists() for case in cases)
+        again = "the same command without --fresh" if fresh else "the same command"
+        return (
+            f"{stored} of {len(cases)} cases are kept in {store.directory}; "
+            f"{again} computes the others"
         )
+
+    with cleaned_up_when_stopped(kept=how_to_resume):
+        return run_cases(cases, store, workers, observe, fresh=fresh)
+
+
+def how_it_ended(end: CaseEnd) -> str:
+    """Return the text of a case that is done, lost or already stored."""
+    if end.lost is not None:
+        return f"LOST           {end.case.name:24} {end.lost.reason}"
+    return f"{'already there' if end.stored else 'done'}: {end.case.name}"

@@ -9,6 +9,10 @@ import typer
 
 from slipstick.cli.commands.report import read_report
 from slipstick.cli.options import optional
+from slipstick.cli.terminal import print_table
+from verification.judging.outcome import commit_text
+from verification.regression.baseline import BASELINES, read_baselines
+from verification.regression.baseline import accept as accept_numbers
 
 
 def baseline(
@@ -57,33 +61,21 @@ def baseline(
     Only the level of the report is replaced. Removed keys, and cases missing in a report of all
     cases, are listed in REMOVED.md with the reason.
     """
-    from verification.regression.baseline import BASELINES
-
     folder = BASELINES if directory is None else directory
-    if not accept:
-        if because:
-            raise typer.BadParameter("--because needs --accept; add --accept or omit --because")
-        _list(folder, names or [])
+    if accept:
+        report = read_report(source)
+        files = accept_numbers(
+            report,
+            because,
+            folder,
+            names or (),
+            with_failures=with_failures,
+            with_changes=with_changes,
+        )
+        typer.echo(f"{len(files)} baselines of level {report.level} in {folder}")
         return
-    from verification.regression.baseline import accept as record
-
-    report = read_report(source)
-    files = record(
-        report,
-        because,
-        folder,
-        names or (),
-        with_failures=with_failures,
-        with_changes=with_changes,
-    )
-    typer.echo(f"{len(files)} baselines of level {report.level} in {folder}")
-
-
-def _list(folder: Path, names: list[str]) -> None:
-    from slipstick.cli.terminal import print_table
-    from verification.judging.outcome import commit_text
-    from verification.regression.baseline import read_baselines
-
+    if because:
+        raise typer.BadParameter("--because needs --accept; add --accept or omit --because")
     rows = [
         (case, level, commit_text(of.by.commit, changed=of.by.changed), of.by.date[:10],
          str(len(of.quantities)), of.by.reason)
@@ -91,7 +83,7 @@ def _list(folder: Path, names: list[str]) -> None:
         for level, of in recorded.levels.items()
         if not names or case in names
     ]  # fmt: skip
-    if not rows:
+    if rows:
+        print_table(("case", "level", "commit", "date", "quantities", "reason"), rows)
+    else:
         typer.echo(f"no baseline yet in {folder}")
-        return
-    print_table(("case", "level", "commit", "date", "quantities", "reason"), rows)

@@ -8,7 +8,10 @@ from typing import Annotated
 
 import typer
 
-from slipstick.cli.options import directory
+from slipstick.cli.options import directory, unknown_names
+from slipstick.cli.terminal import print_table
+from verification.challenge.cases import challenges
+from verification.challenge.export import export
 
 
 class Action(StrEnum):
@@ -36,14 +39,8 @@ def challenge(
     Fill in answers.csv, levels.csv and solver.toml, then run 'slipstick judge DIR'. The answer does
     not need slipstick.
     """
-    from slipstick.cli.options import unknown_names
-    from verification.challenge.cases import challenges
-    from verification.challenge.export import export
-
     known = challenges()
     if action is Action.LIST:
-        from slipstick.cli.terminal import print_table
-
         rows = [
             (one.name, str(len(one.numbers)), str(len(one.fields)), one.title)
             for one in known.values()

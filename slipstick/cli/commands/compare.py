@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from slipstick.cli.commands.report import read_report
 from slipstick.cli.errors import ExitCode
 from slipstick.cli.options import optional
-
-if TYPE_CHECKING:
-    from verification.regression.baseline import Baseline
-    from verification.running.report_record import Report
+from slipstick.cli.terminal import print_table
+from verification.judging.outcome import ChangeKind, failure_line
+from verification.regression.baseline import Baseline, baselines_of, read_baselines
+from verification.regression.comparison import compared, refuse_if_not_whole
+from verification.report.changes import change_rows, changes_text, origins, without_baseline
+from verification.report.files import record_in
+from verification.running.report_record import Report
+from verification.running.sources import age_text
 
 
 def compare(
@@ -55,10 +59,6 @@ def compare(
     the tolerance if the error grew by less than 50 %. The baselines are those of the report's
     level.
     """
-    from verification.regression.comparison import compared, refuse_if_not_whole
-    from verification.report.changes import without_baseline
-    from verification.running.sources import age_text
-
     measured, recorded = read_report(report), _baselines(baseline)
     if not chosen:
         refuse_if_not_whole(measured, recorded)
@@ -79,9 +79,6 @@ def compare(
 
 def exit_code_of(report: Report) -> ExitCode:
     """Return the exit code of a compared report."""
-    from verification.judging.outcome import ChangeKind
-    from verification.report.changes import change_rows, without_baseline
-
     kinds = {row.kind for row in change_rows(report)}
     if ChangeKind.OUTSIDE in kinds:
         return ExitCode.ACCURACY
@@ -92,19 +89,12 @@ def exit_code_of(report: Report) -> ExitCode:
 
 
 def _baselines(place: Path | None) -> dict[str, Baseline]:
-    from verification.regression.baseline import baselines_of, read_baselines
-    from verification.report.files import record_in
-
     if place is None or (place.is_dir() and not record_in(place).is_file()):
         return read_baselines(place)
     return baselines_of(read_report(place), f"the report {place}")
 
 
 def _print_changes(report: Report) -> None:
-    from slipstick.cli.terminal import print_table
-    from verification.judging.outcome import ChangeKind, failure_line
-    from verification.report.changes import change_rows, changes_text, origins
-
     for case in report.cases:
         for verdict in case.verdicts:
             change = verdict.regression

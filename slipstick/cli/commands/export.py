@@ -7,6 +7,10 @@ from typing import Annotated
 
 import typer
 
+from contact_results.directory.file_names import STRESS, SUMMARY
+from contact_results.directory.refusal import Refused
+from contact_results.export.paraview import COLLECTION, write_paraview
+from contact_results.files.stored_run import load
 from slipstick.cli.options import OutputOption
 
 
@@ -21,11 +25,6 @@ def export(
 
     The output of 'slipstick stress' has VTU files already. In Python, 'slipstick.load' reads a run.
     """
-    from contact_results.directory.file_names import STRESS, SUMMARY
-    from contact_results.directory.refusal import Refused
-    from contact_results.export.paraview import COLLECTION, write_paraview
-    from contact_results.files.stored_run import load
-
     if not (source / SUMMARY).is_file():
         if (source / STRESS).is_file():
             raise typer.BadParameter("a stress is VTU already: open its stress_section.vtu")

@@ -5,14 +5,23 @@ from __future__ import annotations
 import traceback
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from slipstick.cli.options import optional
-
-if TYPE_CHECKING:
-    from verification.challenge.judgement import Judgement
+from contact_results.directory.atomic_file import atomic_file
+from contact_results.directory.refusal import Refused
+from slipstick.cli.errors import ExitCode
+from slipstick.cli.options import optional, unknown_names
+from slipstick.cli.terminal import print_table
+from verification.challenge.answer import Solver
+from verification.challenge.answer_reader import read_answers
+from verification.challenge.cases import challenges
+from verification.challenge.judgement import Judgement, judged
+from verification.challenge.python_api import CannotDo, named_solver, names_a_solver
+from verification.challenge.python_api import judge as judge_solver
+from verification.challenge.requested_quantities import Grade
+from verification.report.judgement_sheet import COLUMNS, render_sheet, row_texts
 
 
 class GradeName(StrEnum):
@@ -79,14 +88,6 @@ def judge(
 
     FILE.py is executed: judge only code that you trust.
     """
-    from contact_results.directory.atomic_file import atomic_file
-    from slipstick.cli.terminal import print_table
-    from verification.challenge.answer_reader import read_answers
-    from verification.challenge.judgement import judged
-    from verification.challenge.python_api import names_a_solver
-    from verification.challenge.requested_quantities import Grade
-    from verification.report.judgement_sheet import COLUMNS, render_sheet, row_texts
-
     if names_a_solver(answers):
         found = _solved(answers, case, levels, grade, strict)
     elif case is not None:
@@ -111,14 +112,6 @@ def _solved(
     name: str, case: str | None, levels: int, grade: GradeName | None, strict: bool
 ) -> Judgement:
     """Judge a function; exit if it cannot solve the challenge or raises an exception."""
-    from contact_results.directory.refusal import Refused
-    from slipstick.cli.errors import ExitCode
-    from slipstick.cli.options import unknown_names
-    from verification.challenge.answer import Solver
-    from verification.challenge.cases import challenges
-    from verification.challenge.python_api import CannotDo, named_solver
-    from verification.challenge.python_api import judge as judge_solver
-
     if case is None:
         raise typer.BadParameter(
             "a function needs --case; 'slipstick challenge list' lists the challenges"

@@ -11,6 +11,10 @@ from typing import Annotated
 import typer
 
 from slipstick.cli.errors import ExitCode
+from slipstick.cli.terminal import print_table
+from verification.judging.outcome import commit_text
+from verification.running.records import stored_records
+from verification.running.sources import age_text
 
 
 def records(
@@ -30,11 +34,6 @@ def records(
     changed. --regenerate makes these records again, the cheapest first, and prints the times. Exit
     code 7 with --check if a record is older than the code; 1 if a record cannot be made.
     """
-    from slipstick.cli.terminal import print_table
-    from verification.judging.outcome import commit_text
-    from verification.running.records import stored_records
-    from verification.running.sources import age_text
-
     found = stored_records(directory)
     stale = [record for record in found if age_text(record.provenance)]
     print_table(

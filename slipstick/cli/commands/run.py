@@ -100,7 +100,7 @@ def run(
         refuse_without_error(error)
     with stopwatch.phase("import"):
         chosen = solver.solver
-        from slipstick.cli.progress import solve_progress
+        from slipstick.cli.progress import coarse_solves_shown, solve_progress
     fineness = chosen.fineness(contents)
     identity = solve_identity(contents.scene, fineness, solver)
     with (
@@ -114,13 +114,7 @@ def run(
         with stopwatch.phase("solve"):
             if request is not None:
                 refined = until_written.enter_context(
-                    refined_to(
-                        request,
-                        chosen,
-                        contents,
-                        output,
-                        most_seconds,
-                    )
+                    refined_to(request, chosen, contents, output, most_seconds)
                 )
                 result, stated = refined.level.result, refined.level.stated
                 reached = refined.accuracy
@@ -128,8 +122,8 @@ def run(
                 with solve_progress(decided.increments) as observe:
                     result = chosen.solve(contents.scene, fineness, decided, observe, store)
         if error and stated is None:
-            with stopwatch.phase("error"):
-                stated = _stated_errors(chosen, result)
+            with stopwatch.phase("error"), coarse_solves_shown():
+                stated = chosen.errors(result)
         with stopwatch.phase("write"):
             from contact_results.result_files import write_result
 
@@ -156,13 +150,6 @@ def run(
     leave_unless_met(reached)
 
 
-def _stated_errors(solver: "Solver", result: "Result") -> "StatedErrors":
-    from slipstick.cli.progress import coarse_solves_shown
-
-    with coarse_solves_shown():
-        return solver.errors(result)
-
-
 def _print_outcome(
     solver: "Solver",
     result: "Result",
@@ -172,7 +159,7 @@ def _print_outcome(
     cycles: dict[str, list[str]],
 ) -> None:
     from contact_results.key_numbers import outcome_columns
-    from slipstick.cli.outcome_text import how_accurate, how_stated, solved_in
+    from slipstick.cli.progress import how_accurate, how_stated, solved_in
     from slipstick.cli.terminal import print_pairs, print_table
 
     stated_in = () if stated is None else how_stated(stated, seconds.get("error"))

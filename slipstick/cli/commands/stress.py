@@ -7,8 +7,40 @@ from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
+import numpy as np
 import typer
+from pydantic import TypeAdapter, ValidationError
 
+from contact_errors.stress_errors import stress_at, stress_errors
+from contact_results.directory.run_directory import refuse_files_above
+from contact_results.number_text import number_text, uncertainty
+from contact_results.stress.loaded_bodies import (
+    LoadedBodies,
+    state_of_result,
+    state_of_run,
+    states_of_result,
+    states_of_run,
+)
+from contact_results.stress.on_cells import stress_on_cells
+from contact_results.stress.on_disc import stress_on_disc
+from contact_results.stress.on_section import stress_on_section
+from contact_results.stress.points import StressField
+from contact_results.stress.radial_body import is_sheared, refuse_infinite, refuse_turned
+from contact_results.stress.stress_maxima import Extreme, extremes
+from contact_results.stress_files import write_stress
+from contact_results.stress_history import StressIncrement, write_history
+from contact_scene import Body, SceneFile, read_scene_file
+from contact_scene.accuracy import AccuracyRequest
+from contact_scene.quantities.field_metadata import CONVENTION, OF_THE_INDENTER
+from contact_scene.quantities.stated_error import StatedError, StatedErrors
+from contact_scene.reading.engineering_units import engineering_unit
+from contact_scene.reading.quantity import Length
+from contact_scene.solver_errors import ContactNotResolved, SolverError, UnsupportedScene
+from radial.angular_grid import Circle
+from radial.largest_contact import expected_radius
+from semi_analytical.frf.stack import stack_of
+from semi_analytical.stress import interfaces
+from semi_analytical.stress.depths import levels_of
 from slipstick.cli.accuracy_option import (
     AccuracyOption,
     MostSecondsOption,
@@ -25,20 +57,12 @@ from slipstick.cli.options import (
     refuse_with_run,
     warn_of_odd_numbers,
 )
+from slipstick.cli.progress import coarse_solves_shown, how_accurate, solve_progress
+from slipstick.cli.terminal import print_pairs, print_table, tell
 from slipstick.solvers.names import SolverName
 
 if TYPE_CHECKING:
-    from contact_results.stress.loaded_bodies import LoadedBodies
-    from contact_results.stress.points import StressField
-    from contact_results.stress.stress_maxima import Extreme
     from contact_results.surface import Result
-    from contact_scene import Body, SceneFile
-    from contact_scene.accuracy import AccuracyRequest
-    from contact_scene.quantities.stated_error import (
-        AccuracyReached,
-        StatedError,
-        StatedErrors,
-    )
 
 
 class Figures(StrEnum):
@@ -123,60 +147,54 @@ def stress(
 
     With --at, DIR receives stress_history.csv and .png instead.
     """
-    from contact_results.directory.run_directory import refuse_files_above
-    from contact_scene import read_scene_file
-
     refuse_files_above(output)
-    asked = None if depths is None else [_length(text) for text in depths.split(",")]
+    chosen_depths = None if depths is None else [_length(text) for text in depths.split(",")]
     chosen = solver or SolverName.SEMI_ANALYTICAL
+    contents = request = reached = None
     if source.is_dir():
         given: dict[str, object] = {"--set": overrides, "--solver": solver}
         refuse_with_run(given | {"--accuracy": accuracy, "--most-seconds": most_seconds})
     else:
-        _refuse_beside_section(chosen, asked, volume)
+        _refuse_beside_section(chosen, chosen_depths, volume)
     if history and step is not None:
         raise typer.BadParameter("--history is of all load steps; leave --step out")
     if at or history:
         _refuse_with_points(at, {"--depths": depths, "--volume": volume, "--accuracy": accuracy})
-        read = None if source.is_dir() else read_scene_file(source, overrides or ())
-        _write_points(source, read, at or [], step, chosen, output, history, indenter)
+    if not source.is_dir():
+        contents = read_scene_file(source, overrides or ())
+    if at or history:
+        _write_points(source, contents, at or [], step, chosen, output, history, indenter)
         return
-    from contact_results.stress.stress_maxima import extremes
-    from contact_results.stress_files import write_stress
-
-    reached = None
     with ExitStack() as until_written:
-        if source.is_dir():
-            state = _state_of_run_directory(source, step)
+        if contents is None:
+            state = state_of_run(source, step)
         else:
-            contents = read_scene_file(source, overrides or ())
             warn_of_odd_numbers(contents)
             request = requested_accuracy(contents, accuracy, most_seconds)
-            if indenter and request is not None and request.binds_stress:
+            _refuse_in_part(request, indenter, chosen_depths)
+            if step is not None and step > len(contents.scene.loading):
                 raise typer.BadParameter(
-                    "an accuracy of max_principal applies to the body; omit --indenter"
+                    f"there is no step {step}; the scene has steps 1 to "
+                    f"{len(contents.scene.loading)}"
                 )
-            if asked is not None and request is not None and request.binds_stress:
-                raise typer.BadParameter(
-                    "an accuracy of max_principal needs all depths: omit --depths, or request "
-                    "other quantities"
+            stated: StatedErrors | None
+            if request is None:
+                result, stated = _solved(contents, chosen, error)
+            else:
+                refuse_without_error(error)
+                output.parent.mkdir(parents=True, exist_ok=True)
+                refined = until_written.enter_context(
+                    refined_to(request, chosen.solver, contents, output, most_seconds, step=step)
                 )
-            state, reached = _state_of_scene(
-                contents,
-                step,
-                chosen,
-                error=error,
-                request=request,
-                most_seconds=most_seconds,
-                output=output,
-                until_written=until_written,
-            )
+                result, stated = refined.level.result, refined.level.stated
+                reached = refined.accuracy
+            state = state_of_result(result, step, stated)
         which, body = ("indenter", state.indenter) if indenter else ("body", state.body)
         if not body.deforms:
             raise typer.BadParameter(f"the {which} is rigid and has no stress")
-        field = _below(state, asked, indenter=indenter, volume=volume)
+        field = _below(state, chosen_depths, indenter=indenter, volume=volume)
         found = extremes(field, body)
-        errors = _errors(state, field, found, indenter) if error else None
+        errors = stress_errors(state, field, found, indenter=indenter) if error else None
         write_stress(
             state,
             which,
@@ -187,13 +205,37 @@ def stress(
             errors=errors,
             accuracy=reached,
         )
-    from contact_results.stress.radial_body import is_sheared
-
+    if reached is not None:
+        print_pairs(how_accurate(reached))
+    _print_maxima(found, errors)
+    edge: Any = field.how.get("edge")
+    if edge is not None and not edge["fitted"]:
+        typer.echo(f"  no correction of the stress near the contact edge: {edge['because']}")
     # Without shear, the radial solver has no increment error.
     on_disc = state.pressed is not None and not is_sheared(state)
-    by_increments = 0.0 if on_disc else state.by_increments
-    _print(found, errors, by_increments, reached, field.how.get("edge"), output)
+    if errors is None:
+        typer.echo("  no errors, because of --no-error")
+    elif not on_disc and state.by_increments is None:
+        typer.echo("  errors without that of increments, which the run does not state")
+    typer.echo(f"results in {output}")
     leave_unless_met(reached)
+
+
+def _refuse_in_part(
+    request: AccuracyRequest | None, indenter: bool, depths: list[float] | None
+) -> None:
+    """Refuse an accuracy of the largest stress of the body where only a part is computed."""
+    if request is None or not request.binds_stress:
+        return
+    if indenter:
+        raise typer.BadParameter(
+            "an accuracy of max_principal applies to the body; omit --indenter"
+        )
+    if depths is not None:
+        raise typer.BadParameter(
+            "an accuracy of max_principal needs all depths: omit --depths, or request other "
+            "quantities"
+        )
 
 
 def _refuse_with_points(at: list[str] | None, given: dict[str, object]) -> None:
@@ -215,41 +257,25 @@ def _write_points(
     indenter: bool,
 ) -> None:
     """Write the stress at points, at the end of a load step or over all increments."""
-    from contact_errors.stress_errors import stress_at
-    from contact_results.stress.loaded_bodies import (
-        NoSuchState,
-        state_of_result,
-        state_of_run,
-        states_of_result,
-        states_of_run,
-    )
-    from contact_results.stress_history import StressIncrement, write_history
-    from contact_scene.quantities.field_metadata import CONVENTION, OF_THE_INDENTER
-    from contact_scene.solver_errors import ContactNotResolved, SolverError, UnsupportedScene
-    from slipstick.cli.terminal import tell
-
     made = []
     left_out: SolverError = ContactNotResolved("the bodies are separated and have no stress")
-    try:
-        if contents is None:
-            states: Any = states_of_run(source) if history else [state_of_run(source, step)]
-        else:
-            result, _ = _solved(contents, chosen, error=False)
-            states = states_of_result(result) if history else [state_of_result(result, step)]
-        for state in states:
-            number, index, state = state if history else (state.step, None, state)
-            if state is None:
-                continue
-            title, body = state.title, (state.indenter if indenter else state.body)
-            x, y, levels = _points_of(at, body)
-            try:
-                found = stress_at(state, x, y, levels, indenter=indenter)
-                made.append(StressIncrement(number, index, *found))
-            except UnsupportedScene as error:  # a contact too small for rings
-                left_out = error
-                tell(f"step {number}, increment {index} is left out: {error}")
-    except NoSuchState as error:
-        raise typer.BadParameter(str(error)) from None
+    if contents is None:
+        states: Any = states_of_run(source) if history else [state_of_run(source, step)]
+    else:
+        result, _ = _solved(contents, chosen, error=False)
+        states = states_of_result(result) if history else [state_of_result(result, step)]
+    for state in states:
+        number, index, state = state if history else (state.step, None, state)
+        if state is None:
+            continue
+        title, body = state.title, (state.indenter if indenter else state.body)
+        x, y, levels = _points_of(at, body)
+        try:
+            found = stress_at(state, x, y, levels, indenter=indenter)
+            made.append(StressIncrement(number, index, *found))
+        except UnsupportedScene as error:  # a contact too small for rings
+            left_out = error
+            tell(f"step {number}, increment {index} is left out: {error}")
     if not made:
         raise left_out
     title = f"{title or 'Stress'}: {'indenter' if indenter else 'body'}"
@@ -259,12 +285,6 @@ def _write_points(
 
 def _points_of(at: list[str], body: Body) -> tuple[Any, Any, list[Any]]:
     """Return the coordinates x and y of the points (n,), and their levels."""
-    import numpy as np
-
-    from semi_analytical.frf.stack import stack_of
-    from semi_analytical.stress import interfaces
-    from semi_analytical.stress.depths import levels_of
-
     if not body.deforms:
         raise typer.BadParameter("the body is rigid and has no stress")
     sides = {f"interface {k}": pair for k, pair in enumerate(interfaces(body), 1)}
@@ -284,66 +304,13 @@ def _points_of(at: list[str], body: Body) -> tuple[Any, Any, list[Any]]:
     return np.array([p[0] for p in found]), np.array([p[1] for p in found]), [p[2] for p in found]
 
 
-def _state_of_run_directory(directory: Path, step: int | None) -> LoadedBodies:
-    """Return the state at the end of a load step of a run; None for the last step."""
-    from contact_results.stress.loaded_bodies import NoSuchState, state_of_run
-
-    try:
-        return state_of_run(directory, step)
-    except NoSuchState as error:
-        raise typer.BadParameter(str(error)) from None
-
-
-def _state_of_scene(
-    contents: SceneFile,
-    step: int | None,
-    solver: SolverName,
-    *,
-    error: bool,
-    request: AccuracyRequest | None,
-    most_seconds: float | None,
-    output: Path,
-    until_written: ExitStack,
-) -> tuple[LoadedBodies, AccuracyReached | None]:
-    """Solve a scene and return the state at the end of a load step, and the reached accuracy.
-
-    request        requested accuracy; None solves with the discretisation of the scene
-    until_written  stack that removes the stored refinement after the results are written
-    """
-    from contact_results.stress.loaded_bodies import state_of_result
-
-    if step is not None and step > len(contents.scene.loading):
-        raise typer.BadParameter(
-            f"there is no step {step}; the scene has steps 1 to {len(contents.scene.loading)}"
-        )
-    stated: StatedErrors | None
-    if request is None:
-        result, stated = _solved(contents, solver, error)
-        reached = None
-    else:
-        refuse_without_error(error)
-        output.parent.mkdir(parents=True, exist_ok=True)
-        refined = until_written.enter_context(
-            refined_to(request, solver.solver, contents, output, most_seconds, step=step)
-        )
-        result, stated = refined.level.result, refined.level.stated
-        reached = refined.accuracy
-    return state_of_result(result, step, stated), reached
-
-
 def _solved(
     contents: SceneFile, name: SolverName, error: bool
 ) -> tuple[Result, StatedErrors | None]:
-    from slipstick.cli.progress import coarse_solves_shown, solve_progress
-
     chosen = name.solver
     fineness = chosen.fineness(contents)
     decided: Any = chosen.plan(contents.scene, fineness)
     if name is SolverName.RADIAL:
-        from contact_results.stress.radial_body import refuse_infinite, refuse_turned
-        from radial.angular_grid import Circle
-        from radial.largest_contact import expected_radius
-
         if decided.sheared:
             refuse_infinite(contents.scene.indenter, expected_radius(contents.scene))
         if decided.circle is Circle.WHOLE:
@@ -371,10 +338,6 @@ def _refuse_beside_section(solver: SolverName, depths: list[float] | None, volum
 def _below(
     state: LoadedBodies, depths: list[float] | None, *, indenter: bool, volume: bool
 ) -> StressField:
-    from contact_results.stress.on_cells import stress_on_cells
-    from contact_results.stress.on_disc import stress_on_disc
-    from contact_results.stress.on_section import stress_on_section
-
     if state.pressed is not None:
         _refuse_beside_section(SolverName.RADIAL, depths, volume)
     elif state.on_rings:
@@ -390,20 +353,8 @@ def _below(
         raise typer.BadParameter(f"--depths: {error}") from None
 
 
-def _errors(
-    state: LoadedBodies, field: StressField, found: tuple[Extreme, ...], indenter: bool
-) -> tuple[StatedError, ...]:
-    from contact_errors.stress_errors import stress_errors
-
-    return stress_errors(state, field, found, indenter=indenter)
-
-
 def _length(text: str, option: str = "--depths") -> float:
     """Convert a number in metres, or a number with a unit, to metres."""
-    from pydantic import TypeAdapter, ValidationError
-
-    from contact_scene.reading.quantity import Length
-
     try:
         return float(text)
     except ValueError:
@@ -415,21 +366,7 @@ def _length(text: str, option: str = "--depths") -> float:
         raise typer.BadParameter(f"{option}: {reason}") from None
 
 
-def _print(
-    found: tuple[Extreme, ...],
-    errors: tuple[StatedError, ...] | None,
-    by_increments: float | None,
-    reached: AccuracyReached | None,
-    edge: Any,
-    output: Path,
-) -> None:
-    from contact_results.number_text import number_text, uncertainty
-    from contact_scene.reading.engineering_units import engineering_unit
-    from slipstick.cli.outcome_text import how_accurate
-    from slipstick.cli.terminal import print_pairs, print_table
-
-    if reached is not None:
-        print_pairs(how_accurate(reached))
+def _print_maxima(found: tuple[Extreme, ...], errors: tuple[StatedError, ...] | None) -> None:
     unit = engineering_unit(max(abs(e.value) for e in found), "Pa")
     length = engineering_unit(max(abs(x) for e in found for x in (e.x, e.y, e.depth)), "m")
     columns = ["region", "measure", f"largest\n{unit.name}"]
@@ -440,10 +377,3 @@ def _print(
         value = number_text(e.value, uncertainty(error), unit.size)
         rows.setdefault((e.measure, value, *(f"{x:.4g}" for x in places)), []).append(e.region)
     print_table(columns, [(", ".join(names), *row) for row, names in rows.items()], numbers=True)
-    if edge is not None and not edge["fitted"]:
-        typer.echo(f"  no correction of the stress near the contact edge: {edge['because']}")
-    if errors is None:
-        typer.echo("  no errors, because of --no-error")
-    elif by_increments is None:
-        typer.echo("  errors without that of increments, which the run does not state")
-    typer.echo(f"results in {output}")

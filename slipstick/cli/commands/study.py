@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import shlex
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
+from contact_results.directory.run_lock import in_sole_use
 from slipstick.cli.errors import ExitCode
 from slipstick.cli.options import (
     LevelName,
@@ -15,13 +17,20 @@ from slipstick.cli.options import (
     SetOption,
     directory,
     optional,
+    unknown_names,
     workers_at,
 )
+from slipstick.cli.progress import how_it_ended, run_shown
+from slipstick.cli.terminal import print_table
 from slipstick.solvers.names import SolverName
-
-if TYPE_CHECKING:
-    from verification.running.case_pool import Workers
-    from verification.running.study import Settings, Study, StudyRecord
+from verification.judging.case import Level
+from verification.judging.outcome import SYMBOLS, WORDS
+from verification.report.files import CASES, PAGE, refuse_if_unwritable, set_aside, write_study
+from verification.running.case_pool import CaseStore, Workers
+from verification.running.provenance import provenance
+from verification.running.study import CaseRecord, Settings, Study, StudyRecord, row_files
+from verification.studies.catalogue import SCENE_STUDIES, STUDIES
+from verification.studies.refinement.scene_level import CELLS, CannotRefine
 
 LEAST_CELLS = 16
 LEAST_LEVELS, MAX_LEVELS = 4, 10
@@ -97,14 +106,7 @@ def study(
     study, earlier versions of index.html and study.json are in DIR/earlier. Exit code 1 if a
     statement failed or a case was lost.
     """
-    from slipstick.cli.options import unknown_names
-    from verification.judging.case import Level
-    from verification.running.study import Settings
-    from verification.studies.catalogue import SCENE_STUDIES, STUDIES
-
     if list_studies:
-        from slipstick.cli.terminal import print_table
-
         rows = [(known.name, known.title) for known in STUDIES.values()]
         rows += [(f"{known} SCENE", study.title) for known, study in SCENE_STUDIES.items()]
         print_table(("study", "title"), rows)
@@ -118,19 +120,34 @@ def study(
         problem = "needs a scene file" if scene is None else "takes no scene file"
         raise typer.BadParameter(f"study {name} {problem}")
     settings = Settings(Level[level.name], cells, levels)
+    of_scene = {"--step": step, "--levels": levels, "--solver": solver, "--set": overrides}
     if scene is None:
-        _refuse_without_scene(name, step=step, levels=levels, solver=solver, set=overrides)
+        for option, value in of_scene.items():
+            if value is not None:
+                raise typer.BadParameter(
+                    f"{option} needs a scene, and study {name} takes none; omit the option"
+                )
         _refuse_odd(cells)
         chosen, where = STUDIES[name], f"study-{name}-{level}"
     else:
         chosen = _scene_study(name, scene, overrides or [], step, solver, settings)
         by = "" if solver is None else f"-{solver}"
         where = f"study-{name}-{scene.stem}{by}-{level}"
+    words = ["slipstick", "maintain", "study", name, *([] if scene is None else [str(scene)])]
+    options: dict[str, Sequence[object]] = {"--level": [level], "--set": overrides or ()}
+    options |= {"--solver": [solver], "--cells": [cells], "--step": [step], "--levels": [levels]}
+    for option, values in options.items():
+        words += [word for v in values if v is not None for word in (option, str(v))]
     directory = output or Path("out") / where
-    command = _command(name, level, cells, scene, overrides or [], step, levels, solver)
     pool = workers_at(scheduler, workers)
-    record = _studied(chosen, settings, command, directory, pool)
-    _print_outcome(record, directory)
+    record = _studied(chosen, settings, shlex.join(words), directory, pool)
+    for lost in record.lost:
+        typer.echo(f"LOST {lost.name}: {lost.reason}")
+    for statement in record.conclusion.statements:
+        outcome = statement.outcome
+        judged = "· finding" if outcome is None else f"{SYMBOLS[outcome]} {WORDS[outcome]}"
+        typer.echo(f"{judged}: {statement.claim}: {statement.measured}")
+    typer.echo(f"study: {directory / PAGE}")
     if record.status == "fail":
         raise typer.Exit(ExitCode.ACCURACY)
 
@@ -138,23 +155,12 @@ def study(
 def _studied(
     study: Study, settings: Settings, command: str, directory: Path, workers: int | Workers
 ) -> StudyRecord:
-    from contact_results.directory.run_lock import in_sole_use
-    from slipstick.cli.case_progress import case_progress, how_it_ended, resume_hint
-    from verification.report.files import CASES, refuse_if_unwritable, set_aside, write_study
-    from verification.running.case_pool import CaseStore, run_cases
-    from verification.running.provenance import provenance
-    from verification.running.study import CaseRecord, StudyRecord, row_files
-
     refuse_if_unwritable(directory)
     with in_sole_use(directory):
         cases = study.cases(settings)
         set_aside(directory)
         store = CaseStore(directory / CASES)
-        with (
-            case_progress({case.name: 1 for case in cases}, how_it_ended) as observe,
-            resume_hint(tuple(cases), store),
-        ):
-            ends = run_cases(cases, store, workers, observe)
+        ends = run_shown(cases, store, workers, how_it_ended)
         records = {end.case.name: end.record for end in ends if isinstance(end.record, CaseRecord)}
         seconds = {name: record.seconds for name, record in records.items()}
         record = StudyRecord(
@@ -165,11 +171,7 @@ def _studied(
             conclusion=study.conclude(settings, records),
             lost=tuple(end.lost for end in ends if end.lost is not None),
             own_cells=settings.cells is not None,
-            provenance=provenance(
-                command,
-                seconds,
-                modules=(study.cases.__module__,),
-            ),
+            provenance=provenance(command, seconds, modules=(study.cases.__module__,)),
         )
         write_study(record, row_files(records, record.conclusion.rows), directory)
     return record
@@ -182,15 +184,6 @@ def _refuse_odd(cells: int | None) -> None:
         )
 
 
-def _refuse_without_scene(name: str, **options: object) -> None:
-    """Refuse options that apply to a scene for a study without a scene."""
-    for option, value in options.items():
-        if value is not None:
-            raise typer.BadParameter(
-                f"--{option} needs a scene, and study {name} takes none; omit the option"
-            )
-
-
 def _scene_study(
     name: str,
     scene: Path,
@@ -200,9 +193,6 @@ def _scene_study(
     settings: Settings,
 ) -> Study:
     """Return the study of a scene; raise BadParameter if the options do not fit."""
-    from verification.studies.catalogue import SCENE_STUDIES
-    from verification.studies.refinement.scene_level import CELLS, CannotRefine
-
     known = SCENE_STUDIES[name]
     chosen = known.solvers[0] if solver is None else solver.value
     if chosen not in known.solvers:
@@ -216,35 +206,3 @@ def _scene_study(
     except CannotRefine as error:
         raise typer.BadParameter(str(error)) from None
     return study
-
-
-def _command(
-    name: str,
-    level: LevelName,
-    cells: int | None,
-    scene: Path | None,
-    overrides: list[str],
-    step: int | None,
-    levels: int | None,
-    solver: SolverName | None,
-) -> str:
-    """Return the command that repeats the study."""
-    words = ["slipstick", "maintain", "study", name, *([] if scene is None else [str(scene)])]
-    words += ["--level", level.value, *(w for change in overrides for w in ("--set", change))]
-    words += [] if solver is None else ["--solver", solver.value]
-    for option, value in (("--cells", cells), ("--step", step), ("--levels", levels)):
-        words += [] if value is None else [option, str(value)]
-    return shlex.join(words)
-
-
-def _print_outcome(record: StudyRecord, directory: Path) -> None:
-    from verification.judging.outcome import SYMBOLS, WORDS
-    from verification.report.files import PAGE
-
-    for lost in record.lost:
-        typer.echo(f"LOST {lost.name}: {lost.reason}")
-    for statement in record.conclusion.statements:
-        outcome = statement.outcome
-        judged = "· finding" if outcome is None else f"{SYMBOLS[outcome]} {WORDS[outcome]}"
-        typer.echo(f"{judged}: {statement.claim}: {statement.measured}")
-    typer.echo(f"study: {directory / PAGE}")

@@ -15,7 +15,6 @@ from contact_results.directory.atomic_file import atomic_file
 from contact_results.directory.run_lock import in_sole_use
 from contact_results.number_text import Uncertainty, number_text
 from contact_scene import read_scene_file
-from slipstick.cli.case_progress import case_progress, how_it_ended, resume_hint
 from slipstick.cli.commands.plan import by_radii
 from slipstick.cli.errors import ExitCode
 from slipstick.cli.options import (
@@ -27,6 +26,7 @@ from slipstick.cli.options import (
     unknown_names,
     workers_at,
 )
+from slipstick.cli.progress import how_it_ended, run_shown
 from slipstick.cli.terminal import print_pairs, print_table, tell
 from slipstick.solvers.names import SolverName
 from slipstick.sweep import SweepError, Variation, points, quantities
@@ -36,7 +36,7 @@ from slipstick.sweep_chart import (
     SweptQuantity,
     write_sweep_chart,
 )
-from verification.running.case_pool import CaseStore, run_cases
+from verification.running.case_pool import CaseStore
 from verification.running.study import ROWS, CaseRecord, row_files
 
 TABLE, CHART, CASES = "sweep.csv", "sweep.png", "points"
@@ -99,12 +99,8 @@ def sweep(
     output.mkdir(parents=True, exist_ok=True)
     with in_sole_use(output):
         store, cases = CaseStore(output / CASES), {point.name: point for point in made}
-        distinct = tuple(cases.values())
-        with (
-            case_progress(dict.fromkeys(cases, 1), how_it_ended) as observe,
-            resume_hint(distinct, store),
-        ):
-            ends = run_cases(distinct, store, workers_at(scheduler, workers), observe)
+        pool = workers_at(scheduler, workers)
+        ends = run_shown(tuple(cases.values()), store, pool, how_it_ended)
         found = {end.case.name: end.record for end in ends if isinstance(end.record, CaseRecord)}
         lost = {
             end.lost.name: cases[end.lost.name].record(end.lost.reason) for end in ends if end.lost

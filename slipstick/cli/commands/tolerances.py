@@ -9,6 +9,8 @@ import typer
 
 from slipstick.cli.commands.report import read_report
 from slipstick.cli.options import optional
+from slipstick.cli.terminal import print_table
+from verification.regression.tolerances import accept_tolerances, proposed, read_tolerances
 
 
 def tolerances(
@@ -36,13 +38,6 @@ def tolerances(
     cases remain upper limits.
     Exit code 2 without a reason.
     """
-    from slipstick.cli.terminal import print_table
-    from verification.regression.tolerances import (
-        accept_tolerances,
-        proposed,
-        read_tolerances,
-    )
-
     read = [read_report(path) for path in reports]
     if accept:
         count = accept_tolerances(read, because)

@@ -3,20 +3,38 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
+from contact_results.blas_threads import is_one_thread
+from contact_results.directory.run_lock import in_sole_use
 from slipstick.cli.errors import ExitCode
-from slipstick.cli.options import LevelName, SchedulerOption, directory, optional, workers_at
-
-if TYPE_CHECKING:
-    from verification.exhibits.chart import Picture
-    from verification.judging.case import Case
-    from verification.judging.outcome import CaseOutcome
-    from verification.running.case_pool import CaseEnd, Workers
-    from verification.running.report_record import Report
-
+from slipstick.cli.options import (
+    LevelName,
+    SchedulerOption,
+    directory,
+    optional,
+    unknown_names,
+    workers_at,
+)
+from slipstick.cli.progress import how_it_ended, run_shown
+from slipstick.cli.terminal import print_table
+from verification.cases.catalogue import CASES as KNOWN
+from verification.cases.catalogue import CaseToJudge, JudgedCase, choose, lost
+from verification.exhibits.chart import Picture
+from verification.judging.case import Case, Level
+from verification.judging.outcome import SYMBOLS, WORDS, CaseOutcome, ChangeKind, Status
+from verification.regression.baseline import read_baselines
+from verification.regression.comparison import compared
+from verification.regression.tolerances import held_to, read_tolerances
+from verification.report.changes import change_rows, changes_text
+from verification.report.files import PAGE, refuse_if_unwritable, set_aside_report, write_report
+from verification.report.sections import OMISSIONS, PLACES, stored_records
+from verification.report.summary_text import counts_text, failure_lines, uncovered_lines
+from verification.running.case_pool import CaseEnd, CaseStore, ThisProcess, Workers, cores
+from verification.running.provenance import provenance
+from verification.running.report_record import Report, count
 
 MAX_WARNINGS = 20
 MODULES = ("verification.cases", "verification.judging.judgement")
@@ -74,21 +92,14 @@ def verify(
     computes the missing cases, and those of other sources or libraries. An earlier report is in
     DIR/earlier until the new one is complete. A case whose worker dies has failed.
     """
-    from contact_results.blas_threads import is_one_thread
-    from slipstick.cli.options import unknown_names
-    from verification.cases.catalogue import CASES as KNOWN
-    from verification.cases.catalogue import choose
-    from verification.judging.case import Level
-    from verification.judging.outcome import Status
-    from verification.running.case_pool import ThisProcess, cores
-
     chosen = Level[level.name]
     listing = f"slipstick verify --list --level {level}"
     if problem := unknown_names("case", names or (), KNOWN, listing):
         raise typer.BadParameter(problem)
     cases = choose(chosen, names or ())
     if list_cases:
-        _print_list(cases)
+        rows = ((case.name, str(len(case.runs)), case.title) for case in cases)
+        print_table(("case", "solves", "title"), rows)
         return
     directory = output or Path("reports") / (f"{level}-selection" if names else level)
     places = None if studies is None else (studies,)
@@ -111,27 +122,24 @@ def _verified(
     *,
     fresh: bool,
 ) -> Report:
-    from contact_results.directory.run_lock import in_sole_use
-    from verification.regression.baseline import read_baselines
-    from verification.regression.comparison import compared
-    from verification.report.files import refuse_if_unwritable, set_aside_report, write_report
-    from verification.report.sections import OMISSIONS, PLACES, stored_records
-    from verification.running.provenance import provenance
-    from verification.running.report_record import Report, count
-
     refuse_if_unwritable(directory)
     with in_sole_use(directory):
         baselines = read_baselines()  # refuse a damaged baseline before the work
-        places_of_studies = () if names else PLACES  # a report of chosen cases has no studies
+        optional_places = () if names else PLACES  # a report of chosen cases has no studies
         try:
             studies = stored_records(
-                *((places_of_studies, _left_out) if places is None else (places,))
+                *((optional_places, _left_out) if places is None else (places,))
             )
         except ValueError as error:
             typer.echo(f"error: {error}", err=True)
             raise typer.Exit(ExitCode.INVALID) from None
         set_aside_report(directory)
         outcomes, seconds = judged(cases, level.name, directory, workers, fresh=fresh)
+        pictures: tuple[Picture, ...] = ()
+        if not names:
+            from verification.showcase import showcase  # imports matplotlib
+
+            pictures = showcase()
         command = " ".join(["slipstick verify", *names, f"--level {level}"])
         measured = Report(
             level=level,
@@ -141,7 +149,7 @@ def _verified(
             provenance=provenance(command, seconds, modules=MODULES),
             studies=studies,
             chosen=bool(names),
-            pictures=() if names else _pictures(),
+            pictures=pictures,
         )
         report = compared(measured, baselines)
         write_report(report, directory)
@@ -160,21 +168,12 @@ def judged(
 
     Raises OutputRefused, before any work, if the directory cannot be written.
     """
-    from slipstick.cli.case_progress import case_progress, resume_hint
-    from verification.cases.catalogue import CaseToJudge, JudgedCase, lost
-    from verification.regression.tolerances import held_to, read_tolerances
-    from verification.report.files import refuse_if_unwritable
-    from verification.running.case_pool import CaseStore, run_cases
-
     tolerances = read_tolerances(level.lower())
-    asked = [CaseToJudge(case.name, level) for case in cases]
+    requested = [CaseToJudge(case.name, level) for case in cases]
     refuse_if_unwritable(directory / CASES)
     store = CaseStore(directory / CASES, JudgedCase)
-    with (
-        case_progress({case.name: max(1, len(case.runs)) for case in cases}, _verdict) as observe,
-        resume_hint(tuple(asked), store, fresh=fresh),
-    ):
-        ends = run_cases(asked, store, workers, observe, fresh=fresh)
+    solves = {case.name: max(1, len(case.runs)) for case in cases}
+    ends = run_shown(requested, store, workers, _verdict, solves, fresh=fresh)
     outcomes: list[CaseOutcome] = []
     seconds: dict[str, float] = {}
     for case, end in zip(cases, ends, strict=True):
@@ -188,10 +187,6 @@ def judged(
 
 def _verdict(end: CaseEnd) -> str:
     """Return the text of the verdict of a case, with counts and seconds."""
-    from slipstick.cli.case_progress import how_it_ended
-    from verification.cases.catalogue import JudgedCase
-    from verification.judging.outcome import SYMBOLS, WORDS
-
     if not isinstance(end.record, JudgedCase):
         return how_it_ended(end)
     outcome, seconds = end.record.outcome, f"{end.record.seconds:6.1f} s"
@@ -202,29 +197,11 @@ def _verdict(end: CaseEnd) -> str:
     )
 
 
-def _pictures() -> tuple[Picture, ...]:
-    from verification.showcase import showcase
-
-    return showcase()
-
-
-def _print_list(cases: tuple[Case, ...]) -> None:
-    from slipstick.cli.terminal import print_table
-
-    rows = ((case.name, str(len(case.runs)), case.title) for case in cases)
-    print_table(("case", "solves", "title"), rows)
-
-
 def _left_out(problem: str) -> None:
     typer.echo(f"WARN {problem}: left out; use --studies for another folder", err=True)
 
 
 def _print_outcome(report: Report, directory: Path) -> None:
-    from verification.judging.outcome import SYMBOLS, WORDS, ChangeKind
-    from verification.report.changes import change_rows, changes_text
-    from verification.report.files import PAGE
-    from verification.report.summary_text import counts_text, failure_lines, uncovered_lines
-
     for line in failure_lines(report):
         typer.echo(line)
     if not report.errors_too_small:
