@@ -27,7 +27,7 @@ from contact_errors.error_formula import BELIEVED, ORDERS, UNKNOWN, SolvedRun, l
 from contact_errors.stress_errors import largest_stresses
 from contact_errors.values import Values, scale
 from contact_scene.accuracy import LARGEST_TENSION, AccuracyRequest
-from contact_scene.machine.free_memory import available_bytes
+from contact_scene.machine import available_bytes
 from contact_scene.quantities.stated_error import (
     AccuracyReached,
     AccuracySettings,

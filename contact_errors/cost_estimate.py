@@ -19,7 +19,7 @@ from collections.abc import Callable, Sequence
 from math import ceil
 from typing import NamedTuple, TypeVar
 
-from contact_scene.machine.disk_cache import without_cache
+from contact_scene.disk_cache import without_cache
 
 T = TypeVar("T")
 

@@ -10,8 +10,8 @@ import numpy as np
 from contact_scene import HeightMap
 from contact_scene.array_types import Field
 from contact_scene.body_pair import contact_modulus
+from contact_scene.checks.expected_contact import beyond_linear_theory
 from contact_scene.checks.plausibility import unlikely
-from contact_scene.checks.strain_check import beyond_linear_theory
 from contact_scene.height_map import interpolate
 from contact_scene.quantities.cycles import load_cycles
 from contact_scene.stepping.increment_error import (

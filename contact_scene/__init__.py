@@ -15,10 +15,6 @@ from contact_scene.geometry import Cone, Ellipsoid, FlatPunch, HeightMap, Parabo
 from contact_scene.loading import LoadStep
 from contact_scene.material import RIGID, IsotropicMaterial, Rigid
 from contact_scene.reading.array_file import ArrayFile
-from contact_scene.reading.document import (
-    SceneFile,
-    scene_schema,
-)
 from contact_scene.reading.scene_error import (
     Problem,
     SceneError,
@@ -28,7 +24,11 @@ from contact_scene.reading.scene_file import (
     read_scene_file,
 )
 from contact_scene.rig import Rig
-from contact_scene.scene import Scene
+from contact_scene.scene import (
+    Scene,
+    SceneFile,
+    scene_schema,
+)
 from contact_scene.stepping.load_path import (
     ControlKind,
     LoadRamp,

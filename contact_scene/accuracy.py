@@ -17,8 +17,6 @@ from contact_scene.reading.quantity import Share
 from contact_scene.reading.scene_error import (
     Problem,
     SceneError,
-)
-from contact_scene.reading.validator_error import (
     refusal,
     shown,
 )

@@ -18,7 +18,7 @@ from contact_scene.reading.quantity import (
     FrictionCoefficient,
     Length,
 )
-from contact_scene.reading.validator_error import refusal
+from contact_scene.reading.scene_error import refusal
 
 Pair = tuple[float, float]
 Where = tuple[slice, slice] | EllipsisType

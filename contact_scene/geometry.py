@@ -25,7 +25,7 @@ from contact_scene.reading.quantity import (
     PositiveLength,
     SlopeAngle,
 )
-from contact_scene.reading.validator_error import refusal
+from contact_scene.reading.scene_error import refusal
 
 Gap = NDArray[np.float64]
 Pair = tuple[float, float]

@@ -16,7 +16,7 @@ from contact_scene.reading.quantity import (
     Stress,
     WholeNumber,
 )
-from contact_scene.reading.validator_error import refusal
+from contact_scene.reading.scene_error import refusal
 
 MAX_STEPS = 20_000
 Increments = Annotated[int, WholeNumber(1, 100_000)]

@@ -14,7 +14,7 @@ from pydantic import model_validator
 
 from contact_scene.reading.description import Description
 from contact_scene.reading.quantity import PositiveStiffness
-from contact_scene.reading.validator_error import refusal
+from contact_scene.reading.scene_error import refusal
 
 Reported = TypeVar("Reported")
 Pair = tuple[float, float]

@@ -1,18 +1,25 @@
-"""Scene: two bodies, the friction between them, and their load history."""
+"""Scene: two bodies, the friction between them, and their load history; and the scene file."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from pydantic import Field, model_validator
 
+from contact_scene.accuracy import AccuracyRequest
 from contact_scene.body import Body
 from contact_scene.checks.consistency import inconsistencies
+from contact_scene.discretisation import (
+    FiniteElementDiscretisation,
+    RadialDiscretisation,
+    SurfaceDiscretisation,
+)
 from contact_scene.friction import CoulombFriction
-from contact_scene.geometry import Indenter
+from contact_scene.geometry import SHAPES, Indenter
 from contact_scene.loading import MAX_STEPS, LoadStep
 from contact_scene.reading.array_file import ArrayFile
 from contact_scene.reading.description import (
     MAX_TITLE,
+    DescribedSchema,
     Description,
 )
 from contact_scene.reading.scene_error import SceneError
@@ -93,3 +100,37 @@ class Scene(Description):
     def load_path(self) -> tuple[LoadRamp, ...]:
         """Resolve the load steps: return one ramp per step, with all controls explicit."""
         return load_path(self.loading, self.body.material)
+
+
+class SceneFile(Scene):
+    """Contents of a scene file: the scene, the discretisation of each solver, and an accuracy."""
+
+    semi_analytical: SurfaceDiscretisation = SurfaceDiscretisation()
+    """Discretisation of the semi-analytical solver; absent: default values."""
+
+    fem_reference: FiniteElementDiscretisation = FiniteElementDiscretisation()
+    """Discretisation of the finite-element reference; absent: default values."""
+
+    radial: RadialDiscretisation = RadialDiscretisation()
+    """Output points and tolerance of the radial solver; absent: default values."""
+
+    accuracy: AccuracyRequest | None = None
+    """Requested accuracy, which then determines the discretisation; absent: the discretisation is
+    that of the solver's table."""
+
+    @property
+    def scene(self) -> Scene:
+        """Scene without discretisations and accuracy."""
+        return Scene.model_construct(**{name: getattr(self, name) for name in Scene.model_fields})
+
+
+def scene_schema() -> dict[str, Any]:
+    """Create the JSON Schema of a scene file (TOML read as JSON).
+
+    The consistency of the tables with each other is not part of the schema.
+    """
+    schema = SceneFile.model_json_schema(mode="validation", schema_generator=DescribedSchema)
+    schema["title"] = "slipstick scene"
+    for shape in SHAPES.values():  # optional in Python, where the class defines the shape
+        schema["$defs"][shape.__name__]["required"].insert(0, "shape")
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from contact_scene.machine.free_memory import available_bytes
+from contact_scene.machine import available_bytes
 from contact_scene.solver_errors import ResourceRefused
 
 # Entries of both factors per component, unknown and bisection of the mesh; with unknown pressures.

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from contact_scene import FiniteElementDiscretisation, Scene
-from contact_scene.machine.blas_threads import one_thread
+from contact_scene.machine import one_thread
 from contact_scene.normal_form import normal_form
 from contact_scene.quantities.stored_fields import FieldStore
 from contact_scene.solver_errors import ContactAtZoneEdge

@@ -10,7 +10,7 @@ import numpy as np
 
 from contact_scene import LoadRamp, RadialDiscretisation, Scene
 from contact_scene.array_types import Array
-from contact_scene.machine.blas_threads import one_thread
+from contact_scene.machine import one_thread
 from contact_scene.normal_form import normal_form
 from contact_scene.quantities.residuals import Residuals
 from contact_scene.rig import of_contact

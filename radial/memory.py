@@ -7,7 +7,7 @@ outermost layer.
 from __future__ import annotations
 
 from contact_scene import Scene
-from contact_scene.machine.free_memory import available_bytes
+from contact_scene.machine import available_bytes
 from contact_scene.solver_errors import ResourceRefused
 from radial.angular_grid import Circle
 from radial.plan import Plan

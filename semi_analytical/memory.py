@@ -1,6 +1,6 @@
 """Memory estimate of a run."""
 
-from contact_scene.machine.free_memory import available_bytes
+from contact_scene.machine import available_bytes
 from contact_scene.quantities.stored_fields import MAX_HELD
 from contact_scene.solver_errors import ResourceRefused
 from semi_analytical.grid import SurfaceGrid

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 
 from contact_scene import Scene, SurfaceDiscretisation
-from contact_scene.machine.blas_threads import one_thread
+from contact_scene.machine import one_thread
 from contact_scene.normal_form import normal_form
 from contact_scene.quantities.stored_fields import FieldStore
 from contact_scene.solver_errors import ContactAtWindowEdge

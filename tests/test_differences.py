@@ -11,7 +11,7 @@ import pytest
 from contact_scenes import PRESS, grid, push, scene
 
 from contact_results.key_numbers import outcome_columns
-from contact_scene.checks.strain_check import beyond_linear_theory
+from contact_scene.checks.expected_contact import beyond_linear_theory
 from contact_scene.quantities.increment import SCALARS
 from semi_analytical import Result, solve
 from slipstick.cli.progress import solved_in

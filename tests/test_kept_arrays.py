@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from contact_scene.machine import disk_cache
-from contact_scene.machine.disk_cache import (
+from contact_scene import disk_cache
+from contact_scene.disk_cache import (
     SUFFIX,
     remembered,
 )

@@ -28,12 +28,12 @@ from contact_scene import (
     read_scene_file,
     scene_schema,
 )
-from contact_scene.reading.key_lines import (
+from contact_scene.reading.scene_error import Path as KeyPath
+from contact_scene.reading.toml_file import (
     MAX_DEPTH,
     NestedTooDeep,
     locate,
 )
-from contact_scene.reading.scene_error import Path as KeyPath
 
 SCENES = Path(__file__).resolve().parents[1] / "scenes"
 VALIDATOR = Draft202012Validator(scene_schema())

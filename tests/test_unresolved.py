@@ -31,11 +31,11 @@ from contact_scene import (
     SurfaceDiscretisation,
     read_scene_file,
 )
-from contact_scene.checks.plausibility import implausible
-from contact_scene.checks.strain_check import (
+from contact_scene.checks.expected_contact import (
     SMALL_STRAIN,
     beyond_linear_theory,
 )
+from contact_scene.checks.plausibility import implausible
 from semi_analytical import ContactNotResolved, Result, SurfaceGrid, solve, solve_discretised
 from semi_analytical.resolution import resolution
 from verification.problems import paper_scene as paper

@@ -19,8 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import FiniteElementDiscretisation
-from contact_scene.machine.free_memory import available_bytes
-from contact_scene.machine.trusted_file import open_own
+from contact_scene.machine import available_bytes, open_own
 from contact_scene.quantities.stored_fields import StoredArray
 
 FORMAT = b"slipstick checkpoint 2"

@@ -19,7 +19,7 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene.machine.free_memory import available_bytes
+from contact_scene.machine import available_bytes
 from contact_scene.solver_errors import ResourceRefused
 
 # Largest ratio of declared bytes to bytes of the file. Deflate compresses at most 1032:1; the

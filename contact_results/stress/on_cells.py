@@ -16,7 +16,7 @@ from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import FittedEdge, StressField, StressPoints
 from contact_results.stress.stress_maxima import extremes
 from contact_scene.array_types import Field, Indices
-from contact_scene.machine.blas_threads import one_thread
+from contact_scene.machine import one_thread
 from contact_scene.solver_errors import ResourceRefused
 
 if TYPE_CHECKING:

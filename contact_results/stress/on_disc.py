@@ -13,7 +13,7 @@ from contact_results.stress.points import StressField, StressPoints
 from contact_results.stress.radial_body import RadialBody
 from contact_results.stress.stress_maxima import extremes
 from contact_scene.array_types import Field
-from contact_scene.machine.blas_threads import one_thread
+from contact_scene.machine import one_thread
 
 if TYPE_CHECKING:
     from semi_analytical.frf.depth import Level

@@ -9,7 +9,7 @@ import numpy as np
 
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import StressField, StressPoints
-from contact_scene.machine.blas_threads import one_thread
+from contact_scene.machine import one_thread
 
 if TYPE_CHECKING:
     from fem_reference.stress import SectionField

@@ -13,10 +13,10 @@ import numpy as np
 from pydantic import BaseModel
 
 from contact_scene.checks.expected_contact import (
+    SMALL_STRAIN,
     ExpectedContact,
     expected_contacts,
 )
-from contact_scene.checks.strain_check import SMALL_STRAIN
 from contact_scene.geometry import HeightMap
 from contact_scene.material import IsotropicMaterial
 from contact_scene.reading.array_file import ArrayFile

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pydantic import PlainSerializer, PlainValidator, ValidationInfo, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
-from contact_scene.reading.validator_error import (
+from contact_scene.reading.scene_error import (
     refusal,
     shown,
 )

@@ -9,7 +9,7 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, model_validator
 from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue
 
-from contact_scene.reading.validator_error import refusal
+from contact_scene.reading.scene_error import refusal
 
 MAX_TITLE = 500  # characters
 

@@ -7,13 +7,13 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from contact_scene.reading.key_lines import locate
 from contact_scene.reading.scene_error import (
     Path,
     Problem,
     SceneError,
+    shown,
 )
-from contact_scene.reading.validator_error import shown
+from contact_scene.reading.toml_file import locate
 
 _MAX_PARTS = 20  # far more than any key of a scene has
 _PART = re.compile(r"([A-Za-z0-9_-]+)((?:\[[0-9]{1,6}\])*)")

@@ -13,6 +13,10 @@ import numpy as np
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
+from contact_scene.reading.scene_error import (
+    refusal,
+    shown,
+)
 from contact_scene.reading.units import (
     ANGLE,
     FORCE,
@@ -25,10 +29,6 @@ from contact_scene.reading.units import (
     STIFFNESS,
     Kind,
     UnknownUnit,
-)
-from contact_scene.reading.validator_error import (
-    refusal,
-    shown,
 )
 
 # "number unit"; the unit is a product of at most five simple factors.

@@ -1,17 +1,17 @@
-"""Problems of a scene, and the exception that contains them."""
+"""Problems of a scene, the exception that contains them, and errors of pydantic validators."""
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
+from datetime import date, datetime, time
+from typing import Any
 
-from contact_scene.reading.validator_error import (
-    is_bare_key,
-    printable,
-    shortened,
-)
+from pydantic_core import PydanticCustomError
 
 Path = tuple[str | int, ...]
 
 _MAX_LISTED = 100
+_MAX_SHOWN = 60  # characters
 
 
 @dataclass(frozen=True)
@@ -69,3 +69,50 @@ def dotted(path: Path) -> str:
             bare, key = is_bare_key(part), shortened(part)
             text += ("." if text else "") + (key if bare else f'"{printable(key)}"')
     return text
+
+
+def refusal(message: str, expected: str = "", hint: str = "") -> PydanticCustomError:
+    """Create an exception for pydantic validators, with separate message, expectation and hint."""
+    sentence = "{message}"
+    sentence += ", expected {expected}" if expected else ""
+    sentence += "; {hint}" if hint else ""
+    context = {"message": message, "expected": expected, "hint": hint}
+    return PydanticCustomError("refused", sentence, context)
+
+
+def shown(value: Any) -> str:
+    """Convert a value to printable text of limited length, in the notation of TOML."""
+    if isinstance(value, str):
+        return '"' + printable(shortened(value)) + '"'
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int) and abs(value) >= 10**20:
+        return "a whole number of more than 20 digits"
+    if isinstance(value, int | float | datetime | date | time):
+        return str(value)
+    if isinstance(value, dict):
+        return "a table"
+    if isinstance(value, list | tuple):
+        return _shown_array(value)
+    return f"a {type(value).__name__}"
+
+
+def printable(text: str) -> str:
+    """Escape control characters and quotes of a text, for a terminal or a log."""
+    return "".join(c if c.isprintable() and c != '"' else ascii(c)[1:-1] for c in text)
+
+
+def _shown_array(items: list[Any] | tuple[Any, ...]) -> str:
+    if len(items) > 4 or any(isinstance(item, list | tuple | dict) for item in items):
+        return f"an array of {len(items)}"
+    return shortened("[" + ", ".join(shown(item) for item in items) + "]", 160)
+
+
+def shortened(text: str, longest: int = _MAX_SHOWN) -> str:
+    """Cut a text to a largest length."""
+    return text if len(text) <= longest else text[: longest - 1] + "…"
+
+
+def is_bare_key(part: str) -> bool:
+    """Determine if TOML allows a key without quotes."""
+    return re.fullmatch(r"[A-Za-z0-9_-]+", part) is not None

@@ -11,7 +11,6 @@ from pydantic import TypeAdapter, ValidationError
 from contact_scene.accuracy import AccuracyRequest, accuracy_texts
 from contact_scene.checks.consistency import inconsistencies
 from contact_scene.reading.description import Description
-from contact_scene.reading.document import SceneFile
 from contact_scene.reading.override import (
     assign,
     origin,
@@ -24,7 +23,7 @@ from contact_scene.reading.scene_error import (
 )
 from contact_scene.reading.toml_file import read_toml
 from contact_scene.reading.validation_errors import problems_of
-from contact_scene.scene import Scene
+from contact_scene.scene import Scene, SceneFile
 
 D = TypeVar("D", bound=Description)
 

@@ -12,13 +12,13 @@ from contact_scene.friction import FrictionMap
 from contact_scene.geometry import SHAPES
 from contact_scene.material import IsotropicMaterial
 from contact_scene.reading.description import field_descriptions
-from contact_scene.reading.document import SceneFile
 from contact_scene.reading.quantity import Quantity
 from contact_scene.reading.scene_error import (
     Path,
     Problem,
+    shown,
 )
-from contact_scene.reading.validator_error import shown
+from contact_scene.scene import SceneFile
 
 _MISSING = "the key is missing"
 _NO_TABLE = ("model_type", "model_attributes_type", "dict_type", "dict_attributes_type", "enum")

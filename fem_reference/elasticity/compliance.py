@@ -10,7 +10,7 @@ import scipy
 import skfem
 from numpy.typing import NDArray
 
-from contact_scene.machine.disk_cache import remembered
+from contact_scene.disk_cache import remembered
 from fem_reference.elasticity.factored_section import FactoredSection
 from fem_reference.elasticity.motion import Motion
 from fem_reference.mesh.section_mesh import SectionMesh

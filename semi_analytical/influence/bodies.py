@@ -1,7 +1,7 @@
 """Influence coefficients of the two bodies of a scene."""
 
 from contact_scene import Body, IsotropicMaterial
-from contact_scene.machine.disk_cache import remembered
+from contact_scene.disk_cache import remembered
 from contact_scene.rig import Rig, compliances
 from semi_analytical.frf.stack import stack_of
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients, RectangleIntegrals

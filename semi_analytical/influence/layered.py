@@ -19,7 +19,7 @@ import numpy as np
 import scipy
 
 from contact_scene.array_types import Field
-from contact_scene.machine.free_memory import available_bytes
+from contact_scene.machine import available_bytes
 from contact_scene.solver_errors import ResourceRefused
 from semi_analytical.frf.stack import Stack
 from semi_analytical.influence.layered_cells import cell_integrals

@@ -9,7 +9,7 @@ import numpy as np
 
 from contact_scene import Body, Scene
 from contact_scene.array_types import Field, Indices
-from contact_scene.machine.free_memory import available_bytes
+from contact_scene.machine import available_bytes
 from contact_scene.solver_errors import ResourceRefused
 from semi_analytical.frf.depth import Level, material_at
 from semi_analytical.frf.stack import Stack, stack_of

@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene.machine.trusted_file import open_own
+from contact_scene.machine import open_own
 
 FIRST_LINE = b"slipstick array, format 1\n"
 SUFFIX = ".array"

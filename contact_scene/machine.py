@@ -1,0 +1,64 @@
+"""Memory, threads and trusted files of the machine."""
+
+import os
+import stat
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import lru_cache
+from io import BufferedReader
+from pathlib import Path
+
+from threadpoolctl import ThreadpoolController
+
+MEMORY = Path("/proc/meminfo")
+# Flags of some systems: do not wait for a named pipe, and read bytes instead of text.
+NEITHER_WAITING_NOR_TEXT = getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
+
+
+def available_bytes() -> int:
+    """Determine the memory that is available without swapping [byte]."""
+    try:
+        with MEMORY.open("rb") as lines:
+            for line in lines:
+                if line.startswith(b"MemAvailable:"):
+                    return int(line.split()[1]) << 10
+    except OSError:
+        pass
+    if not hasattr(os, "sysconf"):  # unknown on Windows
+        return sys.maxsize
+    return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+
+
+@contextmanager
+def one_thread() -> Iterator[None]:
+    """Limit BLAS to one thread in the block.
+
+    Several threads sum in another order, which changes bits, and are slower for small systems.
+    """
+    with _libraries(len(sys.modules)).limit(limits=1, user_api="blas"):
+        yield
+
+
+@lru_cache(maxsize=1)
+def _libraries(imported: int) -> ThreadpoolController:
+    """Find the loaded libraries. The search is slow, and only an import can load another."""
+    return ThreadpoolController()
+
+
+def open_own(path: Path) -> BufferedReader:
+    """Open a file of this user or of the administrator for reading.
+
+    Raises OSError, also for pipes and devices, which may not end, and for files of other users.
+    """
+    descriptor = os.open(path, os.O_RDONLY | NEITHER_WAITING_NOR_TEXT)
+    try:
+        status = os.fstat(descriptor)
+        if not stat.S_ISREG(status.st_mode):
+            raise OSError(0, "it is no plain file", str(path))
+        if hasattr(os, "geteuid") and status.st_uid not in (os.geteuid(), 0):
+            raise OSError(0, "it belongs to another user", str(path))
+        return os.fdopen(descriptor, "rb")
+    except BaseException:
+        os.close(descriptor)
+        raise

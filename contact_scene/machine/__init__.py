@@ -1,1 +1,0 @@
-"""Memory, threads and files of the machine."""
