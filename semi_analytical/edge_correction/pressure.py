@@ -206,7 +206,7 @@ class _Problem:
         residual = u + gap - load.closure(load.motion(inner, u + gap))
         solver = operator.normal, operator.precondition, load.projection(contact.astype(np.float64))
         inner, u, _ = close_gap(*solver, inner, u, residual, INNER_REDUCTION)
-        pressure = self.box.embed(np.maximum(inner, 0.0) + outer, p.shape)
+        pressure = self.box.embed(load.admissible(inner) + outer, p.shape)
         return _Solved(pressure, load.motion(inner, u + gap), by_edge)
 
     def by_edge(self, p: Field, edge: SubcellTractions) -> Field:

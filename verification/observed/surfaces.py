@@ -192,9 +192,9 @@ def surface_violation(result: Result) -> float:
     """Return the largest violation of a law in any increment [1]; infinite if a number is not
     finite.
 
-    With the edge correction, complementarity and forces hold to the last change of the correction:
-    the violations are relative to that change over the tolerance. The slip is that before the
-    correction and is not compared.
+    With the edge correction, complementarity and the tangential force hold to the last change of
+    the correction: these violations are relative to that change over the tolerance. The slip is
+    that before the correction and is not compared.
     """
     place = _Place.of(result)
     befores: list[Increment | None] = [None, *result.increments]
@@ -239,7 +239,7 @@ def _violations(before: Increment | None, now: Increment, place: _Place) -> Iter
     yield float(np.max(-open_gap) / scale)
     yield place.eased(now) * float(np.sum(p * np.abs(open_gap)) / (np.sum(p) * scale))
     missing = abs(np.sum(p) * place.cell_area / now.normal_force - 1)
-    yield float(missing) * place.eased(now, INNER)
+    yield float(missing)
     yield from _moments(now, place)
     limit = place.friction.limit(p)
     if now.shear is None:
