@@ -1,7 +1,6 @@
 """What is installed is what is in the tree, under the names and versions that it states."""
 
 import importlib.metadata
-import json
 import os
 import re
 import shlex
@@ -9,7 +8,6 @@ import shutil
 import subprocess
 import sys
 import tomllib
-import venv
 import zipfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -70,36 +68,6 @@ def test_wheel_holds_every_file_of_the_packages(source: Path, built: Path) -> No
         packed = {name for name in wheel.namelist() if ".dist-info/" not in name}
     assert sorted(expected - packed) == [], "left out: no __init__.py, or not in package-data"
     assert sorted(packed - expected) == []
-
-
-@pytest.mark.slow
-def test_the_wheel_runs_a_scene_away_from_the_source(built: Path, tmp_path: Path) -> None:
-    """In an environment of its own; what it depends on is lent by this one, without network."""
-    venv.create(tmp_path / "bare")
-    (packages,) = (tmp_path / "bare" / "lib").glob("python*/site-packages")
-    with zipfile.ZipFile(built) as wheel:
-        wheel.extractall(packages)
-    lent = [path for path in sys.path if path.endswith("-packages")]
-    (packages / "lent.pth").write_text("\n".join(lent), encoding="utf-8")
-
-    def python(*arguments: str) -> str:
-        command = [tmp_path / "bare" / "bin" / "python", "-P", *arguments]
-        bare = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
-        done = subprocess.run(
-            command, cwd=tmp_path, env=bare, check=True, capture_output=True, text=True
-        )
-        return done.stdout.strip()
-
-    where = "import slipstick, semi_analytical as s; print(slipstick.__file__, s.__file__)"
-    for file in python("-c", where).split():
-        assert Path(file).is_relative_to(packages)
-    scene = python("-m", "slipstick", "example", "coated_ball")
-    (tmp_path / "coated_ball.toml").write_text(scene, encoding="utf-8")
-    python("-m", "slipstick", "run", "coated_ball.toml", "--output", "out")
-    python("-m", "slipstick", "verify", "hertz_point", "--output", "report")
-    summary = json.loads((tmp_path / "out" / "summary.json").read_text(encoding="utf-8"))
-    assert summary["steps"][-1]["peak_pressure"] == pytest.approx(4.67475e9, rel=1e-3)
-    assert (tmp_path / "report" / "index.html").is_file()
 
 
 def test_citation_and_changelog_are_of_the_version_that_is_installed() -> None:
