@@ -1,9 +1,8 @@
 """Coarse solves of a result, and their comparison with it: one procedure for all solvers.
 
 A solver is described by its discretisation parameters, which are coarsened for error estimates and
-refined for a requested accuracy. The first coarse solves change the cells (elements, rings) alone.
-One of them is the base of the comparisons in which the other parameters of a mesh and the
-increments are changed.
+refined for a requested accuracy. A difference between levels needs no tolerance below a fraction of
+it, and no more increments than the fewest whose effect is known.
 """
 
 from __future__ import annotations
@@ -14,8 +13,8 @@ from dataclasses import dataclass, field, replace
 from math import ceil, log
 from typing import Any, ClassVar, Self, TypeAlias
 
-from contact_errors.cost_estimate import Work, estimated_seconds
-from contact_errors.error_formula import Comparison, Features, SolvedRun
+from contact_errors.cost_estimate import Work
+from contact_errors.error_formula import PER_TOLERANCE, Comparison, Features, SolvedRun
 from contact_errors.values import Values, values_of
 from contact_scene import Scene
 from contact_scene.quantities.stated_error import (
@@ -29,15 +28,20 @@ from contact_scene.stepping.increment_error import with_error
 
 # Coarse solves: description, fraction of the cells along a side, and further cells. Each has the
 # edges of zones at other positions within the cells.
-SHARES = ("half the {} plus 2", 1 / 2, 2), ("2/5 of the {}", 2 / 5, 0)
+SHARES = ("2/5 of the {}", 2 / 5, 0), ("half the {} plus 2", 1 / 2, 2)
 # A step with fewer increments is compared with finer histories, because halves of few increments do
 # not converge regularly.
 FEW, MANY = 4, (32, 8)
 LEAST_TOLERANCE = 1e-13
 
 
-# Numbers of two solves that differ in their increments; empty without such solves.
-Effect: TypeAlias = tuple[Sequence[Values], ...]
+# Largest part of the difference between two levels that the tolerance of coarse solves may cause.
+NEGLIGIBLE = 1e-2
+
+# A result with its numbers.
+Solved: TypeAlias = tuple[Any, Sequence[Values]]
+# Numbers of two solves that differ in one parameter: of the finer and of the coarser one.
+Effect: TypeAlias = tuple[Sequence[Values], Sequence[Values]]
 
 
 @dataclass(frozen=True)
@@ -61,27 +65,30 @@ class Fineness:
     space       grid of cells, mesh of elements, or multiple of the rings
     increments  of every load step
     tolerance   bound of every residual
+    edges       false for cells without edge correction
     """
 
     space: Any
     increments: tuple[int, ...]
     tolerance: float
+    edges: bool = True
 
 
 @dataclass(frozen=True)
 class CoarseSolve:
-    """A coarse solve to be made.
+    """A coarse solve in a parameter of a mesh.
 
-    part     discretisation parameter that is coarsened
-    differs  description
-    space    see `Fineness`
-    ratio    coarsening factor; None where it is that of the sides of the cells
+    part        part of the error
+    differs     description
+    key, value  parameter, and its coarser value
+    ratio       coarsening factor
     """
 
     part: Part
     differs: str
-    space: Any
-    ratio: float | None = None
+    key: str
+    value: Any
+    ratio: float
 
 
 @dataclass(frozen=True)
@@ -146,9 +153,9 @@ class DiscretisedSolver(ABC):
         solve."""
         return ()
 
-    def few(self, base: Any, result: Any) -> Any:
-        """Return the grid, mesh or rings of the solves that compare increments."""
-        return base
+    def few(self, coarse: Fineness, result: Any) -> Fineness:
+        """Return the discretisation of the solves that compare increments."""
+        return coarse
 
     @abstractmethod
     def sides(self, result: Any) -> tuple[float, ...]:
@@ -209,101 +216,101 @@ def solved_run(
 ) -> tuple[SolvedRun, tuple[CoarseSolveRecord, ...]]:
     """Make the coarse solves of a result, each once.
 
-    The first coarse solve has the increments of the run. The increments are then changed on its
-    cells, or on a coarser grid if this takes less time. All further coarse solves have the fewest
-    increments, and the effect of the increments on the numbers is added.
+    The increments are compared on few cells, and the other parameters of a mesh on its coarsest
+    level. All further coarse solves have the coarsest value of these parameters. Their effects on
+    the numbers are added where a coarse solve is compared with the run.
     """
-    run, made = solver.fineness_of(result), list[CoarseSolveRecord]()
-    known: dict[Fineness, Any] = {run: result}
+    values, matters, features = values_of(result), with_error(result.scene), solver.features(result)
+    run = solver.fineness_of(result)
+    run = replace(run, tolerance=max(run.tolerance, coarse_tolerance(features)))
+    known: dict[Fineness, Solved | None] = {}
+    made: list[CoarseSolveRecord] = []
 
-    def solved(differs: str, coarse: Fineness) -> Any:
-        """Return the result of a coarse solve; None for a refused one."""
+    def solved(differs: str, coarse: Fineness) -> Solved | None:
+        """Return a coarse solve with its numbers; None for a refused one."""
         if coarse not in known:
             shown, increments = solver.shown(coarse.space), coarse.increments
             record = CoarseSolveRecord(differs=differs, increments=increments, **shown)
             try:
-                known[coarse] = solver.solve(coarse)
-                made.append(record.model_copy(update=_spent(known[coarse])))
+                found = solver.solve(coarse)
+                known[coarse] = found, values_of(found)
+                made.append(record.model_copy(update=_spent(found)))
             except SolverError as error:
                 known[coarse] = None
                 made.append(record.model_copy(update={"refused": str(error)}))
         return known[coarse]
 
-    def compare(base: Any, coarse: CoarseSolve, fineness: Fineness, effect: Effect = ()) -> Any:
-        """Compare a coarse solve with its base, and return it; None for a refused one."""
-        required[coarse.part] = [True] * len(values)
-        found = solved(coarse.differs, fineness)
-        if found is not None:
-            sides = zip(solver.sides(found), solver.sides(base), strict=True)
-            ratio = coarse.ratio or min(there / here for there, here in sides)
-            both = values_of(base), added(values_of(found), effect)
-            comparisons.append(Comparison(coarse.part, *both, [ratio] * len(values)))
-        return found
+    def compare(part: Part, base: Sequence[Values], coarse: Sequence[Values], ratio: float) -> None:
+        comparisons.append(Comparison(part, base, coarse, [ratio] * len(values)))
 
-    values, matters = values_of(result), with_error(result.scene)
+    spaces = [solver.coarser(result, share, more) for _, share, more in solver.shares]
+    required: dict[Part, Sequence[bool]] = {solver.part: [True] * len(values)}
+    required["increments"] = matters
     comparisons: list[Comparison] = []
-    required: dict[Part, Sequence[bool]] = {}
-    of_cells = [
-        CoarseSolve(solver.part, text.format(solver.cells), solver.coarser(result, share, more))
-        for text, share, more in solver.shares
-    ]
-    base = space = None
-    while base is None and of_cells:
-        coarse = of_cells.pop(0)
-        space = coarse.space
-        base = compare(result, coarse, replace(run, space=space))
-    if base is not None:
-        others = [*dict.fromkeys(recounted(run.increments, matters))] if any(matters) else []
-        few, fewest = replace(run, space=_for_increments(solver, run, space, result, others)), run
-        first, effect = solved("few increments", few), Effect()
-        for counts in others if first else ():
-            found = solved("other increments", replace(few, increments=counts))
-            if found is not None:
-                both = values_of(first), values_of(found)
-                factors = ratios(run.increments, counts, matters)
-                comparisons.append(Comparison("increments", *both, factors))
-                if sum(counts) < sum(fewest.increments):
-                    fewest, effect = replace(run, increments=counts), both
-        for coarse in of_cells:
-            compare(result, coarse, replace(fewest, space=coarse.space), effect)
-        for coarse in solver.of_mesh(space, result):
-            compare(base, coarse, replace(fewest, space=coarse.space), effect)
+
+    effects: list[Effect] = []
+    recuts = dict.fromkeys(recounted(run.increments, matters)) if any(matters) else ()
+    for few in (solver.few(replace(run, space=space), result) for space in spaces if recuts):
+        if first := solved(f"few {solver.cells}", few):
+            for counts in recuts:
+                differs = f"few {solver.cells}, other increments"
+                other = solved(differs, replace(few, increments=counts))
+                if other:
+                    factors = ratios(few.increments, counts, matters)
+                    comparisons.append(Comparison("increments", first[1], other[1], factors))
+                    if sum(counts) < sum(run.increments):
+                        run, effects = replace(run, increments=counts), [(first[1], other[1])]
+            break
+
+    changes: dict[str, Any] | None = None
+    for (text, *_), space in zip(solver.shares, spaces, strict=True):
+        found = solved(text.format(solver.cells), replace(run, space=changed(space, changes)))
+        if not found:
+            continue
+        sides = zip(solver.sides(found[0]), solver.sides(result), strict=True)
+        compare(solver.part, values, added(found[1], effects), min(b / a for b, a in sides))
+        for coarse in solver.of_mesh(space, result) if changes is None else ():
+            required[coarse.part] = [True] * len(values)
+            further = {**(changes or {}), coarse.key: coarse.value}
+            if other := solved(coarse.differs, replace(run, space=changed(space, further))):
+                compare(coarse.part, found[1], other[1], coarse.ratio)
+                effects.append((found[1], other[1]))
+                found, changes = other, further
+        changes = changes or {}
     return SolvedRun(
         scene=result.scene,
         values=values,
         tolerance=solver.residuals(result),
-        features=solver.features(result),
+        features=features,
         comparisons=comparisons,
-        required={**required, "increments": matters},
+        required=required,
         neglected=solver.neglected(result),
     ), tuple(made)
 
 
-def added(found: Sequence[Values], effect: Effect) -> Sequence[Values]:
-    """Add the effect of increments: the difference of the numbers with many and with few of
-    them."""
-    return (
-        found
-        if not effect
-        else [
-            {name: here[name] + many[name] - few[name] for name in here if name in {*many} & {*few}}
-            for here, many, few in zip(found, *effect, strict=True)
+def coarse_tolerance(features: Sequence[Features]) -> float:
+    """Return the tolerance of coarse solves.
+
+    The difference between two levels of m cells per contact radius is at least about 1/m² of a
+    number. The error by the tolerance is `NEGLIGIBLE` of it on half of the cells of the run.
+    """
+    most = max(step.contact for step in features)
+    return NEGLIGIBLE / PER_TOLERANCE * (2 / most) ** 2
+
+
+def changed(space: Any, changes: Mapping[str, Any] | None) -> Any:
+    """Return a mesh with other parameters."""
+    return space.model_copy(update=changes) if changes else space
+
+
+def added(found: Sequence[Values], effects: Sequence[Effect]) -> Sequence[Values]:
+    """Add effects to the numbers of a coarse solve."""
+    for effect in effects:
+        found = [
+            {n: x + fine[n] - coarse[n] for n, x in here.items() if n in fine and n in coarse}
+            for here, fine, coarse in zip(found, *effect, strict=True)
         ]
-    )
-
-
-def _for_increments(
-    solver: DiscretisedSolver, run: Fineness, space: Any, result: Any, others: Sequence[Any]
-) -> Any:
-    """Return the cells of the first coarse solve, or fewer if all solves then take less time."""
-    few = solver.few(space, result)
-    unit = solver.work(run)
-
-    def seconds(cells: Any, solves: Sequence[Any]) -> float:
-        works = (solver.work(Fineness(cells, counts, run.tolerance)) for counts in solves)
-        return sum(estimated_seconds(1.0, unit, work) for work in works)
-
-    return few if seconds(few, [run.increments, *others]) < seconds(space, others) else space
+    return found
 
 
 def at_ends(result: Any, resolved: Callable[[Any], Features]) -> Sequence[Features]:

@@ -210,7 +210,8 @@ class SolvedRun:
             return UNKNOWN
         floor = parts["tolerance"]
         if not np.any(value) and not np.any(sum(parts.values()) - floor):
-            return EXACT  # zero at every fineness: its cause is absent
+            # Zero at every fineness: its cause is absent, or too small for a cell.
+            return UNKNOWN if name in AT_EDGES else EXACT
         last = before.get(name, {})
         parts = {part: np.maximum(size, last.get(part, 0.0)) for part, size in parts.items()}
         before[name] = parts

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil
 from typing import Any, ClassVar, Self
 
@@ -79,8 +79,8 @@ class CellSolver(DiscretisedSolver):
     def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Result:
         """Solve on a larger window with equal cells if a fitted window is too small."""
         grids, plan = [fineness.space], self.plan.cut_into(fineness.increments)
-        fixed = self.discretisation.window is not None or self.scene.indenter.extent is not None
-        for _ in range(0 if fixed else MAX_ENLARGEMENTS):
+        plan = plan if fineness.edges else replace(plan, edge="off")
+        for _ in range(MAX_ENLARGEMENTS if self._can_grow else 0):
             cells, (hx, hy) = scaled(grids[-1].cells, ROOM), grids[-1].spacing
             grids.append(SurfaceGrid(cells, (cells[0] * hx, cells[1] * hy)))
         return solve_within(self.scene, grids, fineness.tolerance, progress, plan, store)
@@ -89,12 +89,29 @@ class CellSolver(DiscretisedSolver):
         return result.grid
 
     def coarser(self, result: Result, share: float, more: int) -> SurfaceGrid:
-        return SurfaceGrid(_part(result.grid.cells, share, more), result.grid.window)
+        """Return a grid with more cells around it if the contact, by the result, lies less than a
+        cell inside its border."""
+        grid, touched = result.grid, np.any([end.in_contact for end in result.steps], axis=0)
+        counts, sides = list(_part(grid.cells, share, more)), list(grid.window)
+        for axis in (0, 1) if self._can_grow else ():
+            n, (rows, *_) = grid.cells[axis], np.nonzero(touched.any(axis=1 - axis))
+            h = sides[axis] / counts[axis]
+            reach = max(n / 2 - rows[0], rows[-1] + 1 - n / 2) * counts[axis] / n
+            counts[axis] = max(counts[axis], 2 * ceil(reach + 1))
+            sides[axis] = counts[axis] * h
+        return SurfaceGrid((counts[0], counts[1]), (sides[0], sides[1]))
 
-    def few(self, base: SurfaceGrid, result: Result) -> SurfaceGrid:
-        cells, most = result.grid.cells, max(step.contact for step in resolution(result))
-        few = _part(cells, min(PER_RADIUS / max(most, 1.0), 1 / 2))
-        return SurfaceGrid(min(few, cells), result.grid.window)
+    @property
+    def _can_grow(self) -> bool:
+        """Whether the window is neither prescribed nor that of a height map."""
+        return self.discretisation.window is None and self.scene.indenter.extent is None
+
+    def few(self, coarse: Fineness, result: Result) -> Fineness:
+        """Return at most 11 cells per radius without edge correction, which has no effect on the
+        shear of later increments."""
+        most = max(step.contact for step in resolution(result))
+        few = self.coarser(result, min(PER_RADIUS / max(most, 1.0), 1 / 2), 0)
+        return replace(coarse, space=few, edges=False)
 
     def sides(self, result: Result) -> tuple[float, ...]:
         return result.grid.spacing

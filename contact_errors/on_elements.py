@@ -84,24 +84,24 @@ class ElementSolver(DiscretisedSolver):
     def coarser(self, result: Result, share: float, more: int) -> FiniteElementDiscretisation:
         mesh, radius = result.discretisation, result.radius
         count = max(FEWEST_ELEMENTS, ceil(share * mesh.elements_per_radius)) + more
-        if (share, more) == SHARES[0][1:]:
+        if (share, more) == SHARES[1][1:]:
             # The edge of the contact lies in the middle of an element.
             largest = max(increment.contact_radius for increment in result.increments)
             radius = largest * count / (count + 0.5)
         return _with(mesh, elements_per_radius=count, contact_radius=radius)
 
     def of_mesh(self, base: FiniteElementDiscretisation, result: Result) -> Iterator[CoarseSolve]:
-        box = max(section.outline.box for section in result.sections if section is not None)
-        if box / 2 >= SMALLEST_BOX:
-            yield CoarseSolve("section", "half of the section", _with(base, box=box / 2), 2.0)
         if self.method is Method.PENALTY:
             overlap = min(LARGEST_OVERLAP, 10 * base.overlap)
-            looser, ratio = _with(base, overlap=overlap), overlap / base.overlap
-            yield CoarseSolve("penalty", "ten times the overlap", looser, ratio)
+            ratio = overlap / base.overlap
+            yield CoarseSolve("penalty", "ten times the overlap", "overlap", overlap, ratio)
         if result.plan.path is Path.HARMONICS:
             few = max(FEWEST_HARMONICS, 2 * base.harmonics // 3)
-            fewer, ratio = _with(base, harmonics=few), base.harmonics / few
-            yield CoarseSolve("harmonics", "two thirds of the harmonics", fewer, ratio)
+            ratio = base.harmonics / few
+            yield CoarseSolve("harmonics", "two thirds of the harmonics", "harmonics", few, ratio)
+        box = max(section.outline.box for section in result.sections if section is not None)
+        if (small := max(SMALLEST_BOX, box / 4)) <= box / 2:
+            yield CoarseSolve("section", "smaller section", "box", small, box / small)
 
     def sides(self, result: Result) -> tuple[float, ...]:
         return (result.radius / result.discretisation.elements_per_radius,)

@@ -28,6 +28,7 @@ from scene_texts import COARSE, STEEL_BALL_PRESSED
 
 import contact_errors
 import slipstick as package
+from contact_errors import coarse_solves
 from contact_errors.coarse_solves import Fineness, ratios, recounted
 from contact_errors.error_formula import Comparison, Features, SolvedRun, largest_so_far
 from contact_errors.on_cells import CellSolver
@@ -165,7 +166,7 @@ CONSTANTS = {
     *("BELIEVED", "SMOOTH", "EDGE", "ROOT", "PER_TOLERANCE", "PER_ITERATION", "LARGEST_SHARE"),
     *("ORDERS", "LIMITS", "ROUND_OFF", "PRECISION", "HIGHEST"),
     # of the coarse solves
-    *("SHARES", "FEW", "MANY", "PER_RADIUS", "ROOM", "MAX_ENLARGEMENTS"),
+    *("SHARES", "FEW", "MANY", "PER_RADIUS", "NEGLIGIBLE", "ROOM", "MAX_ENLARGEMENTS"),
     *("FEWEST_ELEMENTS", "SMALLEST_BOX", "FEWEST_HARMONICS", "LARGEST_OVERLAP", "LINEAR"),
     *("NEAR", "COARSE"),
     # of the refinement
@@ -529,7 +530,7 @@ def test_a_coarse_solve_without_result_leaves_its_part_to_the_other(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """And no number with an error where none has a result."""
-    result, refused = solve(scene(PRESS), grid(16), 1e-8), {10}
+    result, refused = solve(scene(PRESS), grid(16), 1e-8), {8}
     solved = CellSolver.solve
 
     def refusing(self: CellSolver, fineness: Fineness, *more: Any) -> Any:
@@ -541,8 +542,22 @@ def test_a_coarse_solve_without_result_leaves_its_part_to_the_other(
     stated = stated_errors(result)
     assert "did not converge" in (stated.coarse_solves[0].refused or "")
     assert stated.steps[0]["approach"].error is not None
-    refused |= {8}
+    refused |= {10}
     assert stated_errors(result).steps[0]["approach"].error is None
+
+
+def test_coarse_solves_are_cheap_and_their_tolerance_has_no_effect(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    posed = rubbed(push(0.6), body=Body(material=steel()), like=False)
+    result = package.solve(posed, "semi-analytical", cells(48))
+    stated = stated_errors(result)
+    work = [(solve.convolutions or 0) * np.prod(solve.cells) for solve in stated.coarse_solves]
+    assert sum(work) < sum(step.convolutions for step in result.increments) * 48**2
+    monkeypatch.setattr(coarse_solves, "NEGLIGIBLE", 0.0)
+    for errors, of_tight in zip(stated.steps, stated_errors(result).steps, strict=True):
+        for name in ("approach", "peak_pressure", "elastic_energy", "dissipated_energy"):
+            assert size(errors[name]) == pytest.approx(size(of_tight[name]), rel=0.02)
 
 
 @pytest.mark.parametrize("shift", [0, 1])
