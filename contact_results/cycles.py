@@ -131,7 +131,7 @@ def fretting_cycles(result: Result) -> tuple[FrettingCycle, ...]:
             stress = tension.within(path) if tension else None
             found = _fretting_cycle(surface, cycle, path, stress)
             loop = loop_numbers(path, found.dissipated_energy, result.scene.friction, surface)
-            cycles.append(fields.kept(replace(found, loop={"from_virgin": False, **loop})))
+            cycles.append(fields.stored(replace(found, loop={"from_virgin": False, **loop})))
     if cycles:
         cycles[0] = replace(cycles[0], loop={**cycles[0].loop, "from_virgin": True})
     return tuple(cycles)

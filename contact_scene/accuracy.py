@@ -32,13 +32,13 @@ LARGEST_TENSION = "max_principal"
 TENSION = Reported("Pa", "Largest principal stress anywhere in the body, tension positive.")
 
 BOUND = {
-    name: mark
-    for name, mark in {
+    name: annotation
+    for name, annotation in {
         **reported(State),
         **reported(Closed),
         LARGEST_TENSION: TENSION,
     }.items()
-    if mark.physical and mark.unit
+    if annotation.physical and annotation.unit
 }
 
 if TYPE_CHECKING:
@@ -50,9 +50,9 @@ else:
         **{
             name: (
                 Share | None,
-                Field(None, description=f"Largest error, relative: {mark.meaning}"),
+                Field(None, description=f"Largest error, relative: {annotation.meaning}"),
             )
-            for name, mark in BOUND.items()
+            for name, annotation in BOUND.items()
         },
     )
 

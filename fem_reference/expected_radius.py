@@ -43,10 +43,10 @@ def sections_of(scene: Scene, discretisation: FiniteElementDiscretisation) -> li
     return list({id(section): section for section in sections if section is not None}.values())
 
 
-def meshed_radius(scene: Scene, asked: float | None) -> float:
+def meshed_radius(scene: Scene, prescribed: float | None) -> float:
     """Return the radius for the mesh: that of a rim, or the requested or expected radius
     [length]."""
-    return scene.indenter.rim or asked or expected_radius(scene)
+    return scene.indenter.rim or prescribed or expected_radius(scene)
 
 
 def expected_radius(scene: Scene) -> float:

@@ -132,11 +132,11 @@ def _counted_increments(
         increments.append(increment)
         yield increment
     counted = 0
-    for increment, mark in history:
+    for increment, point in history:
         spent, counted = model.factorizations - counted, model.factorizations
-        increments.append(fields.kept(replace(increment, factorizations=spent)))
+        increments.append(fields.stored(replace(increment, factorizations=spent)))
         if store is not None:
-            store.keep(Checkpoint(tuple(increments), mark, radius, tuple(sorted(model.settled))))
+            store.keep(Checkpoint(tuple(increments), point, radius, tuple(sorted(model.settled))))
         if progress is not None:
             progress(increments[-1])
         yield increments[-1]

@@ -105,10 +105,10 @@ def _solved_increments(
     last = store.last() if store else None
     increments = [*last.increments] if last else []
     yield from increments
-    for increment, mark in resumable_increments(scene, plan.increments, solver, last):
+    for increment, point in resumable_increments(scene, plan.increments, solver, last):
         increments.append(increment)
         if store is not None:
-            store.keep(Checkpoint(tuple(increments), mark, None))
+            store.keep(Checkpoint(tuple(increments), point, None))
         yield increment
 
 

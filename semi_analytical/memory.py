@@ -1,7 +1,7 @@
 """Memory estimate of a run."""
 
 from contact_scene.machine import available_bytes
-from contact_scene.quantities.stored_fields import MAX_HELD
+from contact_scene.quantities.stored_fields import MAX_IN_MEMORY
 from contact_scene.solver_errors import ResourceRefused
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.plan import Coupling, Plan
@@ -51,7 +51,7 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
     array = grid.cells[0] * grid.cells[1] * DOUBLE
     increments = sum(plan.increments)
     kept = PRESSURE_RESULT + (SHEAR_RESULT if plan.shear else 0)
-    held = min(array * kept * increments, MAX_HELD) + LIGHT * increments
+    held = min(array * kept * increments, MAX_IN_MEMORY) + LIGHT * increments
     if plan.coupling is Coupling.FULL:
         solving = _coupled(grid, plan)
     else:

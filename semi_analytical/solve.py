@@ -79,10 +79,10 @@ def solve(
     if progress is not None:
         for increment in increments:
             progress(increment)
-    for increment, mark in marked(model, decided, tolerance, since):
-        increments.append(fields.kept(increment))
+    for increment, point in marked(model, decided, tolerance, since):
+        increments.append(fields.stored(increment))
         if store is not None:
-            store.keep(Checkpoint(tuple(increments), mark, grid))
+            store.keep(Checkpoint(tuple(increments), point, grid))
         if progress is not None:
             progress(increment)
     return Result(scene, grid, tolerance, decided, tuple(increments))

@@ -63,7 +63,7 @@ def plan(
 
     Parameters are those of `solve`. Raises UnsupportedScene.
     """
-    chosen, solved, fineness = _asked(scene, solver, discretisation)
+    chosen, solved, fineness = _resolved(scene, solver, discretisation)
     return chosen.plan(solved, fineness)
 
 
@@ -133,7 +133,7 @@ def solve(
         UnsupportedScene, NotConverged, GrossSliding, ResourceRefused and others of
         `contact_scene.solver_errors`; AccuracyOutOfReach if the requested accuracy is not met.
     """
-    chosen, solved, fineness = _asked(scene, solver, discretisation)
+    chosen, solved, fineness = _resolved(scene, solver, discretisation)
     if not (progress is None or callable(progress)):
         kind = type(progress).__name__
         raise TypeError(f"progress is a {kind}, expected a function of an increment, or None")
@@ -220,7 +220,7 @@ def _solved_to(
     return made.level.result
 
 
-def _asked(
+def _resolved(
     scene: Scene | SceneFile, solver: str, discretisation: Discretisation | None
 ) -> tuple[Solver, Scene, Discretisation]:
     if not isinstance(scene, Scene | SceneFile):

@@ -53,9 +53,9 @@ MAX_POINTS = 99_999
 SEED = 1  # of the order of a sample: equal commands give equal points
 DIGITS = 12  # of a spaced value: 0.3 and not 0.30000000000000004
 SCALARS = {
-    f"{name}_{axis}" if axis else name: (name, axis, mark.unit)
-    for name, mark in reported(StepSummary).items()
-    for axis in ("xy" if mark.kind is Kind.VECTOR else ("",))
+    f"{name}_{axis}" if axis else name: (name, axis, annotation.unit)
+    for name, annotation in reported(StepSummary).items()
+    for axis in ("xy" if annotation.kind is Kind.VECTOR else ("",))
 }
 
 

@@ -242,7 +242,7 @@ def test_part_that_cannot_be_used_is_named_and_computed_again(
     path.write_bytes(damage(path.read_bytes()))
     store = checkpoint(tmp_path, said)
     last = store.last()
-    assert (last.mark.done if last else 0) == number
+    assert (last.point.done if last else 0) == number
     assert str(path) in said[0]
     assert problem in said[0]
     assert [*differences(whole.increments, solve(store).increments)] == []
@@ -295,7 +295,7 @@ def test_checkpoint_stays_only_where_it_is_of_use(
 @pytest.fixture
 def stored(monkeypatch: pytest.MonkeyPatch) -> None:
     """Whatever can be is in a file."""
-    monkeypatch.setattr(stored_fields, "MAX_HELD", 0)
+    monkeypatch.setattr(stored_fields, "MAX_IN_MEMORY", 0)
     monkeypatch.setattr(stored_fields, "LEAST_STORED", 1)
 
 

@@ -114,7 +114,7 @@ ORDERS = {
     ),
     "fem_reference.mesh": ("section_outline", "section_mesh", "gmsh_mesh"),
     "fem_reference.elasticity": (
-        *("far_field", "motion", "section_basis", "weak_form", "numbering"),
+        *("motion", "section_basis", "weak_form", "numbering"),
         *("factored_section", "compliance", "hat_functions"),
     ),
     "fem_reference.contact": (

@@ -57,7 +57,7 @@ many = pytest.param(10_000, marks=[pytest.mark.slow, pytest.mark.timeout(3600)])
 def test_memory_is_flat_and_the_end_that_of_a_few(
     solver: str, count: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(stored_fields, "MAX_HELD", 1 << 20)
+    monkeypatch.setattr(stored_fields, "MAX_IN_MEMORY", 1 << 20)
     seen: list[int] = []
     memory: list[int] = []
 

@@ -26,9 +26,8 @@ from contact_scene import (
 from contact_scene.solver_errors import ContactAtZoneEdge, GrossSliding
 from radial.angular_grid import Circle
 from radial.frictional.coupling import Coupling
-from radial.tangential.limit_load import limit_load_factor
 from radial.tangential.ring_compliance import ring_compliance
-from radial.tangential.ring_friction import solved_state
+from radial.tangential.ring_friction import limit_load_factor, solved_state
 from radial.tangential.ring_laws import Laws
 from radial.tangential.ring_layout import lay_out
 from radial.tangential.ring_newton import newton_iterate

@@ -161,7 +161,7 @@ class CheckpointDirectory:
             except Unusable as error:
                 self._say(f"{error}; computed again")
                 break
-            increments.extend(map(fields.kept, part.increments))
+            increments.extend(map(fields.stored, part.increments))
             number += 1
             if part.standing is not None:
                 standing = replace(part.standing, increments=tuple(increments))

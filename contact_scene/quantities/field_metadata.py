@@ -63,8 +63,8 @@ def reported(record: type) -> Mapping[str, Reported]:
                 of_getter = get_type_hints(member.fget, include_extras=True)
                 hints.setdefault(name, of_getter.get("return"))
     return {
-        name: mark
+        name: annotation
         for name, hint in hints.items()
-        for mark in getattr(hint, "__metadata__", ())
-        if isinstance(mark, Reported)
+        for annotation in getattr(hint, "__metadata__", ())
+        if isinstance(annotation, Reported)
     }

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 # Largest size of the arrays of a history in memory [byte]. Further arrays are in a file, in the
 # system's folder for temporary files (TMPDIR).
-MAX_HELD = 4 << 20
+MAX_IN_MEMORY = 4 << 20
 LEAST_STORED = 512  # smallest array in the file [byte]; the record of its place has this size
 
 Value = TypeVar("Value", bound="WithFields")
@@ -115,29 +115,29 @@ def stored_bytes(value: WithFields) -> int:
 class FieldStore:
     """Storage of the values of one history, in their order.
 
-    Arrays beyond `MAX_HELD` bytes, and all values from then on, are in a file. An array that a
+    Arrays beyond `MAX_IN_MEMORY` bytes, and all values from then on, are in a file. An array that a
     value shares with the preceding value, or has twice, is stored once.
     """
 
     def __init__(self) -> None:
-        self._held = 0
+        self._in_memory = 0
         self._file: IO[bytes] | None = None
         self._known: dict[int, tuple[NDArray[Any], NDArray[Any] | StoredArray]] = {}
 
-    def kept(self, value: Value) -> Value:
+    def stored(self, value: Value) -> Value:
         """Store a value; return its equivalent. Raises OSError if the file cannot grow."""
-        kept = copy.copy(value)
+        copied = copy.copy(value)
         known: dict[int, tuple[NDArray[Any], NDArray[Any] | StoredArray]] = {}
         for name, array in vars(value).items():
             if isinstance(array, np.ndarray) and array.nbytes >= LEAST_STORED:
                 place = id(array)  # unique, since `_known` refers to the array
                 found = known.get(place) or self._known.get(place) or (array, self._put(array))
                 known[place] = found
-                vars(kept)[name] = found[1]
+                vars(copied)[name] = found[1]
         self._known = known
-        return kept if self._file is None else self._stored(kept, self._file)
+        return copied if self._file is None else self._in_file(copied, self._file)
 
-    def _stored(self, value: Value, file: IO[bytes]) -> Value:
+    def _in_file(self, value: Value, file: IO[bytes]) -> Value:
         """Write the attributes of a value to the file, except arrays that are there already."""
         state = dict(vars(value))
         arrays = {
@@ -145,17 +145,17 @@ class FieldStore:
             for name, array in state.items()
             if isinstance(array, StoredArray)
         }
-        light = {name: held for name, held in state.items() if name not in arrays}
+        light = {name: attribute for name, attribute in state.items() if name not in arrays}
         content = pickle.dumps((light, arrays))
         place = self._write(content)
-        kept = object.__new__(type(value))
-        vars(kept).update({name: light[name] for name in _AT_HAND if name in light})
-        vars(kept)[_STATE] = _StoredState(file, place, len(content))
-        return kept
+        place_only = object.__new__(type(value))
+        vars(place_only).update({name: light[name] for name in _AT_HAND if name in light})
+        vars(place_only)[_STATE] = _StoredState(file, place, len(content))
+        return place_only
 
     def _put(self, array: NDArray[Any]) -> NDArray[Any] | StoredArray:
-        if self._held + array.nbytes <= MAX_HELD:
-            self._held += array.nbytes
+        if self._in_memory + array.nbytes <= MAX_IN_MEMORY:
+            self._in_memory += array.nbytes
             return array
         place = self._write(np.ascontiguousarray(array).data)
         assert self._file is not None

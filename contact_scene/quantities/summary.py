@@ -155,8 +155,8 @@ class Closed:
 
 # The numbers of a cycle, which have errors.
 OF_CYCLES = {
-    name: mark
-    for name, mark in reported(Closed).items()
+    name: annotation
+    for name, annotation in reported(Closed).items()
     if name not in ("cycle_start", "regime", "from_virgin")
 }
 

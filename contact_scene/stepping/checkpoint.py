@@ -38,13 +38,13 @@ class Checkpoint:
     """State of a solve after an increment.
 
     increments  reported increments so far
-    mark        resume point
+    point       resume point
     extent      size of the grid or mesh
     settled     names of computations for all increments that are in the counters already
     """
 
     increments: tuple[Any, ...]
-    mark: ResumePoint[Any]
+    point: ResumePoint[Any]
     extent: Any
     settled: tuple[str, ...] = ()
 

@@ -116,7 +116,7 @@ def resumable_increments(
         gap = solver.undeformed_gap(last, position(last, ramp, end)["tilt"])
         return with_strain(separated(last, ramp, end, gap, vars(place), approach), ramp.strain(end))
 
-    point: ResumePoint[S] | None = since.mark if since else None
+    point: ResumePoint[S] | None = since.point if since else None
     earlier: Sequence[Any] = since.increments if since else ()
     last: Report | None = earlier[-1] if earlier else None
     apart = next((i for i in reversed(earlier) if i.status is ContactStatus.SEPARATED), None)

@@ -197,7 +197,7 @@ def _shear(problem: CoupledProblem, p: Vector, start: Field, tolerance: float) -
         areas=w[inside],
         along=compliance.along[:, inside],
         bound=bound[inside],
-        led=target,
+        control=target,
     )
     solved = solve_shear(part, start[:, inside], tolerance)
     q, in_slip = np.zeros_like(start), np.zeros(points, dtype=bool)

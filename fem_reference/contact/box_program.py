@@ -95,16 +95,16 @@ def _on_free(program: BoxProgram, sides: Sides) -> tuple[Field, float]:
     x[free] = 0.0
     if not np.any(free):
         return x, 0.0
-    held = ~free
+    fixed = ~free
     factor = cho_factor(A[np.ix_(free, free)], lower=True, check_finite=False)
-    rest = c[free] - A[np.ix_(free, held)] @ x[held]
+    rest = c[free] - A[np.ix_(free, fixed)] @ x[fixed]
     y = cho_solve(factor, rest, check_finite=False)
     if total is None:
         x[free] = y
         return x, 0.0
     v = total.weights
     per_multiplier = cho_solve(factor, v[free], check_finite=False)
-    missing = total.value - np.sum(v[held] * x[held]) - np.sum(v[free] * y)
+    missing = total.value - np.sum(v[fixed] * x[fixed]) - np.sum(v[free] * y)
     multiplier = float(missing / np.sum(v[free] * per_multiplier))
     x[free] = y + multiplier * per_multiplier
     return x, multiplier

@@ -51,8 +51,8 @@ class ContactMethod:
         """
         contact = self._on_rings
         if self.plan.path is Path.HARMONICS:
-            led = bool(loads.tangential.load or loads.tangential.motion)
-            if led or (before is not None and not before.axisymmetric):
+            loaded = bool(loads.tangential.load or loads.tangential.motion)
+            if loaded or (before is not None and not before.axisymmetric):
                 contact = self._on_points
                 if before is not None and before.axisymmetric:
                     before = contact.lifted(before)

@@ -70,7 +70,7 @@ class Equations:
         in_slip = length > bound
         safe = np.where(length > 0, length, 1.0)
         normal = np.where(in_slip, z_t / safe, 0.0)
-        kept = np.where(in_slip, bound / safe, 1.0)
+        factor = np.where(in_slip, bound / safe, 1.0)
         # Outside of contact p and q are zero: their rows of the derivative are those of the
         # identity.
         on = np.flatnonzero(z_z > 0)
@@ -89,12 +89,12 @@ class Equations:
             by_t[c, :, -1] = -z_t[c, on] * w / d_t
         slope = self.problem.friction.slope(z_z[on])
         carrying = np.where(self.problem.compliance.carries_shear[on], slope, 0.0)
-        normal, kept = normal[:, on], kept[on]
+        normal, factor = normal[:, on], factor[on]
         turned = normal[0, :, None] * by_t[0] + normal[1, :, None] * by_t[1]
-        turned = carrying[:, None] * by_z - kept[:, None] * turned
+        turned = carrying[:, None] * by_z - factor[:, None] * turned
         jacobian = np.zeros((3 * n + 2, count))
         for c in range(2):
-            jacobian[c * n + on] = -kept[:, None] * by_t[c] - normal[c, :, None] * turned
+            jacobian[c * n + on] = -factor[:, None] * by_t[c] - normal[c, :, None] * turned
         jacobian[2 * n + on] = -by_z
         jacobian[np.arange(3 * n), np.arange(3 * n)] += 1
         if self.force is None:

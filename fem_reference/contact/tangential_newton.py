@@ -38,7 +38,7 @@ class ShearProblem:
     areas: Vector
     along: Field
     bound: Vector
-    led: TangentialTarget
+    control: TangentialTarget
 
     def stiffness(self) -> Vector:
         """Compute d (points,), the metric in which discs remain discs."""
@@ -47,7 +47,7 @@ class ShearProblem:
 
     def forced(self) -> Field:
         """c with the shift in it, where that is prescribed."""
-        motion = self.led.motion
+        motion = self.control.motion
         return self.target if motion is None else self.target + motion * self.along
 
 
@@ -72,7 +72,7 @@ def solve_shear(problem: ShearProblem, start: Field, tolerance: float) -> Tangen
     raises     NotConverged
     """
     K, c, d = problem.compliance, problem.forced(), problem.stiffness()
-    along, bound, total = problem.along, problem.bound, problem.led.load
+    along, bound, total = problem.along, problem.bound, problem.control.load
     least = LEAST_SHEAR * np.sum(problem.areas * bound)
     q, _ = project(start, bound, d, along, total)
     residual, solves = np.inf, 0
@@ -86,7 +86,7 @@ def solve_shear(problem: ShearProblem, start: Field, tolerance: float) -> Tangen
         residual = _sum(problem.areas, moved) / scale
         in_slip = length > bound
         if residual <= tolerance:
-            shift = omega if problem.led.motion is None else problem.led.motion
+            shift = omega if problem.control.motion is None else problem.control.motion
             return TangentialState(q, shift, in_slip, residual, solves)
         aimed = _newton_point(problem, c, z, length, in_slip, d)
         aimed, _ = project(aimed, bound, d, along, total)
@@ -150,9 +150,9 @@ def _newton_point(
     sources = np.stack([c.ravel() - K @ fixed.ravel(), problem.along.ravel()], axis=1)
     sources = on_unknowns(sources)
     x, by_shift = cho_solve(factor, sources, check_finite=False).T
-    if problem.led.load is not None:
+    if problem.control.load is not None:
         carried = np.sum(problem.along * fixed) + np.sum(sources[:, 1] * x)
-        x = x + (problem.led.load - carried) / np.sum(sources[:, 1] * by_shift) * by_shift
+        x = x + (problem.control.load - carried) / np.sum(sources[:, 1] * by_shift) * by_shift
     q = fixed
     q[:, stick] = x[: len(sticking)].reshape(2, -1)
     q[:, slip] += np.stack([-n[1], n[0]]) * x[len(sticking) :]

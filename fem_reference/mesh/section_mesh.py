@@ -103,12 +103,12 @@ class SectionMesh:
         room = np.min(np.abs(lines[:, None] - apart), axis=1, initial=size)
         free = (room == 0.0) | (room > 0.5 * finest)
         lines, room = lines[free], room[free]
-        kept = [0]
+        chosen = [0]
         for line in range(1, len(lines)):
-            if lines[line] - lines[kept[-1]] >= CLOSEST * min(room[line], room[kept[-1]]):
-                kept.append(line)
+            if lines[line] - lines[chosen[-1]] >= CLOSEST * min(room[line], room[chosen[-1]]):
+                chosen.append(line)
         below = z[1] * SHRINK ** np.arange(int(np.log(finest / z[1]) / np.log(SHRINK)), 0, -1)
-        mesh = MeshQuad.init_tensor(lines[kept], np.concatenate([z[:1], below, z[1:]]))
+        mesh = MeshQuad.init_tensor(lines[chosen], np.concatenate([z[:1], below, z[1:]]))
         return SectionMesh(np.asarray(mesh.p), np.asarray(mesh.t), self.outline)
 
 

@@ -62,10 +62,10 @@ def profile(indenter: ShapedBody, radius: float, fineness: int = 1) -> Profile:
     count = FEWEST
     while True:
         gap = _coefficients(indenter, radius, count)
-        kept = np.flatnonzero(np.abs(gap) > ROUND_OFF * count * np.max(np.abs(gap)))
-        if not len(kept):
+        significant = np.flatnonzero(np.abs(gap) > ROUND_OFF * count * np.max(np.abs(gap)))
+        if not len(significant):
             return Profile(np.zeros(2), False)
-        if kept[-1] < 3 * count // 4:
+        if significant[-1] < 3 * count // 4:
             break
         count *= 2
         if count > MOST:
@@ -76,7 +76,7 @@ def profile(indenter: ShapedBody, radius: float, fineness: int = 1) -> Profile:
             )
     if fineness > 1:
         gap = _coefficients(indenter, radius, count * fineness)
-    slope = 2 * chebyshev.chebder(gap[: kept[-1] + 1])
+    slope = 2 * chebyshev.chebder(gap[: significant[-1] + 1])
     at_axis = float(chebyshev.chebval(-1.0, slope))
     return Profile(
         slope @ _abel(len(slope), fineness), abs(at_axis) > 1e-6 * float(np.sum(np.abs(slope)))

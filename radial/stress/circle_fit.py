@@ -155,8 +155,8 @@ def _zeros(squared: Callable[[Array, Array], Array], angles: Array) -> tuple[flo
 def _continued(ratio: Array, known: Mask) -> Array:
     """Replace unknown values of every ray by its last known value."""
     last = len(known) - 1 - np.argmax(known[::-1], axis=0)
-    kept = np.minimum(np.arange(len(known))[:, None], last)
-    return np.asarray(np.take_along_axis(ratio, kept, axis=0))
+    position = np.minimum(np.arange(len(known))[:, None], last)
+    return np.asarray(np.take_along_axis(ratio, position, axis=0))
 
 
 def _all_around(

@@ -15,11 +15,13 @@ from collections.abc import Iterator
 from contextlib import suppress
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import null_space
+from scipy.optimize import minimize
 
 from contact_scene import CoulombFriction
 from contact_scene.array_types import Array
 from contact_scene.solver_errors import ContactAtZoneEdge, GrossSliding, NotConverged
-from radial.tangential.limit_load import limit_load_factor
 from radial.tangential.ring_laws import (
     At,
     Laws,
@@ -34,6 +36,7 @@ from radial.tangential.ring_state import (
 )
 
 MAX_STEPS = 60
+DIGITS = 1e-9  # of the limit load
 SHORTEST = 2.0**-6  # least fraction of a step of Newton's method
 # largest change of rigid motion in a step, over the largest slip plus µ times the approach
 FURTHEST = 4.0
@@ -191,3 +194,33 @@ def _end_state(laws: Laws, at: At, before: PointState | None, steps: int) -> Poi
         t, at.u[: 2 * size], laws.slip_increment(at.u, motion), motion, changed, share,
         0.5 * float(t @ at.u), at.worst, steps,
     )  # fmt: skip
+
+
+def limit_load_factor(points: Points, limit: Array, given: Array, free: NDArray[np.bool_]) -> float:
+    """Return the factor of the given loads at gross slip.
+
+    It is the least dissipation of a rigid slip on which the given loads do unit work (upper bound
+    theorem; Goyal, Ruina and Papadopoulos 1991).
+
+    limit  µp at the points (N,)
+    given  T along and across, and M, not all zero (3,)
+    free   true for motions that are not prescribed (3,)
+    """
+    free = free & np.any(points.rigid_motions, axis=1)
+    # Scale the twist by its displacement at the last ring, so that all motions have equal units.
+    units = np.array([1.0, 1.0, 1 / points.radii[-1]])[free]
+    loads, motions = units * given[free], units[:, None] * points.rigid_motions[free]
+    loads_size = np.linalg.norm(loads)
+    across = null_space(loads[None])
+
+    def dissipated(part: Array) -> float:
+        motion = loads / loads_size**2 + across @ part / loads_size
+        return float(limit @ np.hypot(*(motion @ motions).reshape(2, -1)))
+
+    start = np.zeros(across.shape[1])
+    if not len(start):
+        return dissipated(start)
+    found = minimize(
+        dissipated, start, method="Nelder-Mead", options={"xatol": DIGITS, "fatol": DIGITS}
+    )
+    return float(found.fun)

@@ -42,8 +42,10 @@ def places(count: int, reach: float, edges: Sequence[float]) -> tuple[float, ...
     # Within the first ring the distances are relative to the radius of the edge itself.
     about = [edge + off * min(1.0, edge * count) for edge in dense for off in (*-near, 0.0, *near)]
     even = [*np.arange(1, count) / count, *(1 + np.array(outside))]
-    kept = [x for x in even if all(abs(x - edge) > LEAST / count for edge in dense)]
-    found = sorted([*about, *(x for x in kept if min(abs(x - y) for y in about) > near[-1])])
+    outside_dense = [x for x in even if all(abs(x - edge) > LEAST / count for edge in dense)]
+    found = sorted(
+        [*about, *(x for x in outside_dense if min(abs(x - y) for y in about) > near[-1])]
+    )
     return (0.0, *(float(x) for x in found if x > near[-1] * min(1.0, min(dense) * count)))
 
 

@@ -123,8 +123,8 @@ class Points:
         The inverse (3 rings count,) * 2 maps displacements times areas to tractions, if no other
         ring carries any. It is scaled by √`softness` on both sides [1].
         """
-        kept = max(INVERSES, ROOM // self.compliance.nbytes)
-        return lru_cache(maxsize=kept)(self._tractions)
+        count = max(INVERSES, ROOM // self.compliance.nbytes)
+        return lru_cache(maxsize=count)(self._tractions)
 
     def _tractions(self, rings: int) -> Array:
         """Invert the compliance harmonic by harmonic. Harmonics are not coupled."""
@@ -135,12 +135,12 @@ class Points:
         energies = self._harmonic_energies[..., :rings, :rings]
         inverses = np.zeros_like(energies)
         for parts, energy, inverse in zip(has.T, energies, inverses, strict=True):
-            kept, n = np.flatnonzero(parts), int(np.sum(parts)) * rings
-            known = energy[np.ix_(kept, kept)].swapaxes(1, 2).reshape(n, n)
+            present, n = np.flatnonzero(parts), int(np.sum(parts)) * rings
+            known = energy[np.ix_(present, present)].swapaxes(1, 2).reshape(n, n)
             units = 1 / np.sqrt(np.diag(known))
             found = units * np.linalg.inv(units[:, None] * known * units) * units[:, None]
-            found = found.reshape(len(kept), rings, len(kept), rings).swapaxes(1, 2)
-            inverse[np.ix_(kept, kept)] = found
+            found = found.reshape(len(present), rings, len(present), rings).swapaxes(1, 2)
+            inverse[np.ix_(present, present)] = found
         found = self._over_harmonics(back, inverses)
         units = np.sqrt(self.of_rings(self.softness, rings))
         found *= units

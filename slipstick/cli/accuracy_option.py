@@ -136,18 +136,18 @@ def refined_to(
     stress_at = (step or len(contents.scene.loading)) if request.binds_stress else None
     refined = solver.refined(contents.scene, fineness, stress=request.binds_stress)
     levels = Levels(refined, stress_at, watching, keeping)
-    asked = (contents.scene, fineness, vars(solver), request, step)
-    identity = solve_identity(*asked, code_digest((*SOLVERS, "contact_results", "contact_errors")))
-    with kept_value(output, identity, tell, ROUNDS) as kept, ExitStack() as of_round:
+    inputs = (contents.scene, fineness, vars(solver), request, step)
+    identity = solve_identity(*inputs, code_digest((*SOLVERS, "contact_results", "contact_errors")))
+    with kept_value(output, identity, tell, ROUNDS) as stored, ExitStack() as of_round:
 
         def between(refinement: Any) -> None:
             nonlocal tried
             tried = 0
-            kept.keep(refinement)
+            stored.keep(refinement)
             of_round.close()
 
-        begun = kept.last()
+        begun = stored.last()
         if begun is not None:
-            tell(f"going on after round {begun.rounds} of an interrupted run ({kept.path})")
+            tell(f"going on after round {begun.rounds} of an interrupted run ({stored.path})")
         most = inf if most_seconds is None else most_seconds
         yield refine(levels, request, most, print_level, begun, between)

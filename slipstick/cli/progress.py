@@ -177,7 +177,7 @@ def run_shown(
         stored = sum(store.path(case).exists() for case in cases)
         again = "the same command without --fresh" if fresh else "the same command"
         return (
-            f"{stored} of {len(cases)} cases are kept in {store.directory}; "
+            f"{stored} of {len(cases)} cases are stored in {store.directory}; "
             f"{again} computes the others"
         )
 

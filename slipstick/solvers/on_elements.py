@@ -102,25 +102,25 @@ class OnElements(Solver):
         yield "mesh", _mesh_text(sections.values(), result.discretisation)
 
 
-def _method_text(method: Method, asked: FiniteElementDiscretisation) -> str:
+def _method_text(method: Method, fineness: FiniteElementDiscretisation) -> str:
     if method is Method.COMPLEMENTARITY:
         return "finite elements, complementarity: no penalty"
     return (
-        f"finite elements, penalty of {asked.penalty:g} contact moduli per element, "
-        f"augmented until {asked.overlap:g} of the approach is left as overlap"
+        f"finite elements, penalty of {fineness.penalty:g} contact moduli per element, "
+        f"augmented until {fineness.overlap:g} of the approach is left as overlap"
     )
 
 
-def _mesh_text(sections: Iterable[SectionMesh], asked: FiniteElementDiscretisation) -> str:
+def _mesh_text(sections: Iterable[SectionMesh], fineness: FiniteElementDiscretisation) -> str:
     parts = []
     for section in sections:
         outline = section.outline
         parts.append(f"{section.quads.shape[1]} elements to {outline.box:.4g} contact radii")
-    return f"{asked.elements_per_radius} elements per contact radius; " + ", ".join(parts)
+    return f"{fineness.elements_per_radius} elements per contact radius; " + ", ".join(parts)
 
 
-def _motions(plan: Plan, asked: FiniteElementDiscretisation) -> int:
+def _motions(plan: Plan, fineness: FiniteElementDiscretisation) -> int:
     """Return the number of angular harmonics with a factored stiffness."""
     if plan.path is Path.HARMONICS:
-        return asked.harmonics + 1
+        return fineness.harmonics + 1
     return 2 if plan.path in (Path.TWISTING, Path.SHEARING) else 1

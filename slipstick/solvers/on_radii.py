@@ -71,8 +71,8 @@ class OnRadii(Solver):
         yield "rings", _rings_text(result.fineness, result.plan)
 
 
-def _rings_text(asked: RadialDiscretisation, plan: Plan) -> str:
+def _rings_text(fineness: RadialDiscretisation, plan: Plan) -> str:
     if plan.circle:
         angles = "" if plan.circle is Circle.ONE else f", times {plan.angles} angles"
         return f"{plan.rings} over the contact, denser at its edge{angles}"
-    return f"{asked.rings} over the largest contact, for output only"
+    return f"{fineness.rings} over the largest contact, for output only"

@@ -60,11 +60,11 @@ def scene(place: Sequence[float]) -> Scene:
 @lru_cache(maxsize=CACHED)
 def pressed(place: tuple[float, ...], increments: int, fineness: int) -> FrictionalState:
     """Solve a contact; `fineness` multiplies the number of rings."""
-    asked = scene(place)
-    solver = FrictionalSteps.of(asked, RadialDiscretisation(), fineness)
-    *_, (_, mark) = resumable_increments(asked, (increments,), solver, None)
-    assert mark.state is not None  # in contact
-    return mark.state
+    contact = scene(place)
+    solver = FrictionalSteps.of(contact, RadialDiscretisation(), fineness)
+    *_, (_, point) = resumable_increments(contact, (increments,), solver, None)
+    assert point.state is not None  # in contact
+    return point.state
 
 
 def scalars(place: Sequence[float], fineness: int) -> Found:

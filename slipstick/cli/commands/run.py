@@ -95,7 +95,7 @@ def run(
     with stopwatch.phase("read"):
         contents = read_scene_file(scene, overrides or ())
         request = requested_accuracy(contents, accuracy, most_seconds)
-        told = warn_of_odd_numbers(contents)
+        printed = warn_of_odd_numbers(contents)
     if request is not None:
         refuse_without_error(error)
     with stopwatch.phase("import"):
@@ -142,7 +142,7 @@ def run(
         forget_rounds(output)
     _print_outcome(chosen, result, stated, reached, stopwatch.wall_seconds, cycles)
     for warning in warnings_of(result):
-        if warning not in told:
+        if warning not in printed:
             tell(f"warning: {warning}")
     if not error:
         typer.echo("  no errors, because of --no-error")
