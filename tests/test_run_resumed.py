@@ -194,7 +194,7 @@ def test_interrupted_verification_counts_what_it_keeps(tmp_path: Path) -> None:
     )  # fmt: skip
     again = "the same command without --fresh"
     last = interrupted(process, by_itself=True)[-1]
-    assert last == f"interrupted; 1 of 2 cases are kept in out/cases; {again} computes the others"
+    assert last == f"interrupted; 1 of 2 cases are stored in out/cases; {again} computes the others"
     assert os.listdir(tmp_path / "out") == ["cases"]
 
 
