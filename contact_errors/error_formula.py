@@ -47,9 +47,8 @@ SMOOTH, EDGE, ROOT = 2.0, 1.0, 0.5
 ORDERS: Mapping[str, float] = MappingProxyType(
     {"increments": 1.0, "section": 2.0, "penalty": 1.0, "harmonics": 2.0, "tolerance": 1.0}
 )
-# An error is about ten times the residuals that cause it. The error after the last iteration of the
-# edge correction is at most its last change, as each iteration at least halves the error.
-PER_TOLERANCE, PER_ITERATION = 10.0, 1.0
+# An error is about ten times the residuals that cause it.
+PER_TOLERANCE = 10.0
 # Largest sum of parts over the number for an error estimate.
 LARGEST_SHARE = 0.5
 
@@ -89,7 +88,7 @@ class Features:
               power between 1 and 2
     ridge     true if the largest pressure is nearer to the edge of the contact than to its middle
     slides    true if all of the contact certainly slips
-    changes   relative changes of numbers in the last iteration of the edge correction
+    left      relative errors of numbers that the iteration of the edge correction leaves
     """
 
     contact: float
@@ -104,7 +103,7 @@ class Features:
     cusp: bool = False
     ridge: bool = False
     slides: bool = False
-    changes: Mapping[str, float] = field(default_factory=dict)
+    left: Mapping[str, float] = field(default_factory=dict)
 
     def order(self, name: str) -> float:
         """Return the convergence order of a number in the size of a cell."""
@@ -245,8 +244,8 @@ class SolvedRun:
             return None
         size = np.maximum(largest, scale(name, self.values[step]))
         parts["tolerance"] = PER_TOLERANCE * self.tolerance[step] * size
-        if change := features.changes.get(name):
-            parts["tolerance"] = parts["tolerance"] + PER_ITERATION * change * largest
+        if left := features.left.get(name):
+            parts["tolerance"] = parts["tolerance"] + left * largest
         if share := self.neglected.get(name):
             parts["neglected"] = share * largest
         return parts

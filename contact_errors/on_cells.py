@@ -149,7 +149,7 @@ class CellSolver(DiscretisedSolver):
                 cusp=coupled or has_cusp(indenter),
                 ridge=ridge or _to_edge(end) < cells.contact / 2,
                 slides=sliding and not hides,
-                changes={} if report is None else _changes(report),
+                left={} if report is None else _left(report),
             )
 
         return at_ends(result, at)
@@ -172,8 +172,8 @@ class CellSolver(DiscretisedSolver):
         return max(run, memory.LIBRARIES + stress)
 
 
-def _changes(report: EdgeReport) -> Mapping[str, float]:
-    """Return relative changes of numbers in the last iteration of the edge correction."""
+def _left(report: EdgeReport) -> Mapping[str, float]:
+    """Return relative errors of numbers that the iteration of the edge correction leaves."""
     motions = dict.fromkeys(("approach", "normal_force", "tilt", "moment"), report.response)
     radii = {"contact_radius": report.radius, "contact_area": 2 * report.radius}
     stick = {"stick_radius": report.stick or 0.0, "stick_area": 2 * (report.stick or 0.0)}

@@ -8,7 +8,7 @@ import pytest
 from command import outcome
 
 import radial
-from contact_errors.error_formula import PER_ITERATION, PER_TOLERANCE
+from contact_errors.error_formula import PER_TOLERANCE
 from contact_scene import read_scene_file
 from semi_analytical.edge_correction.pressure import SETTLED
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
@@ -217,7 +217,7 @@ def test_limit_and_remaining_error_cover_the_known_value(name: str, tmp_path: Pa
         assert abs(finest - exact) <= abs(finest - limit) + uncertainty + unrefined, quantity
     first = found[judged[0]]
     floor = floors[judged[0]]
-    assert floor <= PER_ITERATION * SETTLED + PER_TOLERANCE * 1e-7
+    assert floor <= SETTLED + PER_TOLERANCE * 1e-7
     assert first["uncertainty"] <= (scene.most + floor) * abs(first["limit"])
     # Without a request all are findings; a level that is not asymptotic says why.
     assert {one.outcome for one in study.statements} == {None}

@@ -64,6 +64,7 @@ from contact_scene.stepping.increment_error import (
     with_error,
 )
 from semi_analytical import SurfaceGrid, solve
+from semi_analytical.edge_correction.pressure import left_over
 from slipstick import stated_errors
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.coated_indentation import paraboloid as pressed_coating
@@ -163,7 +164,7 @@ def numbers_in(node: ast.AST) -> set[float]:
 
 CONSTANTS = {
     # of the formula
-    *("BELIEVED", "SMOOTH", "EDGE", "ROOT", "PER_TOLERANCE", "PER_ITERATION", "LARGEST_SHARE"),
+    *("BELIEVED", "SMOOTH", "EDGE", "ROOT", "PER_TOLERANCE", "LARGEST_SHARE"),
     *("ORDERS", "LIMITS", "ROUND_OFF", "PRECISION", "HIGHEST"),
     # of the coarse solves
     *("SHARES", "FEW", "MANY", "PER_RADIUS", "NEGLIGIBLE", "ROOM", "MAX_ENLARGEMENTS"),
@@ -558,6 +559,15 @@ def test_coarse_solves_are_cheap_and_their_tolerance_has_no_effect(
     for errors, of_tight in zip(stated.steps, stated_errors(result).steps, strict=True):
         for name in ("approach", "peak_pressure", "elastic_energy", "dissipated_energy"):
             assert size(errors[name]) == pytest.approx(size(of_tight[name]), rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("changes", "left"),
+    [((1e-2,), 1.0), ((1e-2, 1e-3), 1.0), ((1e-2, 8e-4, 2e-4), 1 / 3), ((1e-2, 1e-4, 2e-4), 1.0)],
+)
+def test_an_iteration_leaves_its_last_change_times_the_contraction(changes, left) -> None:
+    """A geometric series of the ratio κ sums to κ/(1-κ); κ = 1/2 where it is unknown or larger."""
+    assert left_over(changes) == pytest.approx(left)
 
 
 @pytest.mark.parametrize("shift", [0, 1])

@@ -19,8 +19,7 @@ class CorrectedShear:
     stick         (nx, ny) cells whose centre sticks
     stick_cells   area of the stick zone in cells
     change        relative change of the shear in the last iteration, Σ|Δq|/Σµp
-    radius_change
-                  relative change of the stick radius in the last iteration
+    radius_left   relative error of the stick radius that the iteration leaves
     """
 
     shear: Field
@@ -31,18 +30,18 @@ class CorrectedShear:
     stick: Mask
     stick_cells: float
     change: float = 0.0
-    radius_change: float = 0.0
+    radius_left: float = 0.0
 
 
 @dataclass(frozen=True)
 class EdgeReport:
-    """Outcome of the edge correction of a state: relative changes in its last iteration.
+    """Outcome of the edge correction of a state: relative errors that its iteration leaves.
 
     cause     reason why the state is not corrected; None for a corrected state
-    response  change of the approach, or of the normal force at a prescribed approach
-    peak      change of the largest pressure
-    radius    change of the contact radius
-    stick     change of the stick radius; None if the stick border of uncoupled bodies remains
+    response  error of the approach, or of the normal force at a prescribed approach
+    peak      error of the largest pressure
+    radius    error of the contact radius
+    stick     error of the stick radius; None if the stick border of uncoupled bodies remains
               uncorrected
     ridge     True if the peak lies on a ridge, False on a cap
     """
@@ -67,7 +66,7 @@ class Corrected:
     contact_cells  area of the contact in cells
     change         relative change of the pressure in the last iteration, Σ|Δp|/Σp
     edge           pressure in the cells along the contact edge
-    report         changes in the last iteration
+    report         errors that the iteration leaves
     tilt           tilt of the indenter (x, y); None for an indenter that does not tilt
     shear          (2, nx, ny) shear at the corrected pressure [force/length^2]; None without
                    friction

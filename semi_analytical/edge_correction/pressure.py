@@ -90,7 +90,7 @@ def edge_pressure(
             f"the correction does not converge: its last change is {change:.1e}, allowed are "
             f"{LEAST_SETTLED:.0e}"
         )
-    return problem.corrected(_Last(p, edge, response), before, solved, change)
+    return problem.corrected(_Last(p, edge, response), before, solved, changes)
 
 
 def next_change(changes: Sequence[float]) -> float:
@@ -100,6 +100,16 @@ def next_change(changes: Sequence[float]) -> float:
     """
     *before, last = changes
     return last * min(1.0, last / before[-1]) if len(before) > 1 else last
+
+
+def left_over(changes: Sequence[float]) -> float:
+    """Return the error after the last iteration over its change: κ/(1-κ) with the contraction κ.
+
+    The contraction is the ratio of the last two changes, except of the first one, and at most 1/2
+    as each iteration at least halves the error.
+    """
+    contraction = min(0.5, next_change(changes) / changes[-1]) if changes[-1] else 0.0
+    return contraction / (1 - contraction)
 
 
 def relaxation_factor(factor: float, last: Field, change: Field) -> float:
@@ -224,7 +234,9 @@ class _Problem:
         u = self.operators.apart(*within, by_p)[0]
         return np.asarray(u + self.model.operator(p.shape).normal_by_shear(q))
 
-    def corrected(self, last: _Last, before: _Last, solved: _Solved, change: float) -> Corrected:
+    def corrected(
+        self, last: _Last, before: _Last, solved: _Solved, changes: Sequence[float]
+    ) -> Corrected:
         """Assemble the corrected state on the window from the last iterate."""
         edge = last.edge
         target, extend = self.state.target, self.model.domain.extend
@@ -235,11 +247,12 @@ class _Problem:
         gap[edge.region] = 0.0
         p = extend(last.pressure)
         peak, before_peak = peak_of(p), peak_of(extend(before.pressure))
+        left = left_over(changes)
         report = EdgeReport(
-            response=abs(last.response / before.response - 1),
-            peak=abs(peak.value / before_peak.value - 1),
+            response=left * abs(last.response / before.response - 1),
+            peak=left * abs(peak.value / before_peak.value - 1),
             ridge=peak.ridge,
-            radius=radius_change(before.edge, edge),
+            radius=left * radius_change(before.edge, edge),
         )
         return Corrected(
             pressure=p,
@@ -247,7 +260,7 @@ class _Problem:
             gap=extend(gap),
             approach=approach,
             contact_cells=edge.area,
-            change=change,
+            change=changes[-1],
             edge=edge,
             report=report,
             tilt=tilt,

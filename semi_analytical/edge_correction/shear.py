@@ -27,6 +27,7 @@ from semi_analytical.edge_correction.pressure import (
     MAX_ITERATIONS,
     MAX_UNSAFE,
     SETTLED,
+    left_over,
     next_change,
     radius_change,
     relaxation_factor,
@@ -255,5 +256,5 @@ def edge_shear(
         stick=deficit.edge.region,
         stick_cells=deficit.edge.area,
         change=changes[-1],
-        radius_change=of_radius,
+        radius_left=of_radius * left_over(changes),
     )

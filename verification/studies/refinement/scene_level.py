@@ -15,7 +15,7 @@ import fem_reference
 import semi_analytical
 from contact_errors.adaptive_refinement import Levels, refine
 from contact_errors.coarse_solves import DiscretisedSolver
-from contact_errors.error_formula import LIMITS, PEAK, PER_ITERATION, PER_TOLERANCE, Features
+from contact_errors.error_formula import LIMITS, PEAK, PER_TOLERANCE, Features
 from contact_errors.on_cells import CellSolver
 from contact_errors.on_elements import ElementSolver
 from contact_errors.values import Values, scale, values_of
@@ -165,8 +165,7 @@ class SceneLevel:
                         LARGEST: max(np.max(np.abs(step[stem])) for step in steps if stem in step),
                         NATURAL: scale(stem, steps[-1]),
                         ORDER: features.order(stem),
-                        FLOOR: PER_TOLERANCE * result.tolerance
-                        + PER_ITERATION * features.changes.get(stem, 0.0),
+                        FLOOR: PER_TOLERANCE * result.tolerance + features.left.get(stem, 0.0),
                     },
                     words={"small": unresolved(features, stem)},
                 )
