@@ -2,6 +2,7 @@
 
 import math
 from abc import abstractmethod
+from difflib import get_close_matches
 from functools import lru_cache
 from typing import Annotated, Any, Literal
 
@@ -365,9 +366,18 @@ SHAPES: dict[str, type[ShapedBody]] = {
 }
 
 
-def _shape(value: Any) -> str:
+def nearest_shape(written: Any) -> str:
+    """Return the shape with this name or the most similar one; empty without a similar one."""
+    if not isinstance(written, str):
+        return ""
+    name = written[:100].lower().replace(" ", "_").replace("-", "_")
+    return next(iter(get_close_matches(name, SHAPES, n=1)), "")
+
+
+def _branch(value: Any) -> str:
+    """Return the branch of the union; a misspelt shape is checked as the most similar one."""
     shape = value.get("shape") if isinstance(value, dict) else getattr(value, "shape", None)
-    return f"<{shape}>" if isinstance(shape, str) else ""
+    return f"<{nearest_shape(shape)}>"
 
 
 Indenter = Annotated[
@@ -377,5 +387,5 @@ Indenter = Annotated[
     | Annotated[Cone, Tag("<cone>")]
     | Annotated[FlatPunch, Tag("<flat_punch>")]
     | Annotated[HeightMap, Tag("<height_map>")],
-    Discriminator(_shape),
+    Discriminator(_branch),
 ]

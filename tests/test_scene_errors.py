@@ -264,7 +264,7 @@ def save_boast(path: Path) -> None:
     [
         (None, "there is no file"),
         (save_garbage, "cannot read"),
-        (save_pickle, "values of type object"),
+        (save_pickle, "no .npy file of numbers"),
         (save_truncated, "cut short"),
         (save_boast, "cut short"),
         (lambda path: np.save(path, np.zeros(16)), "has shape (16,), expected two dimensions"),

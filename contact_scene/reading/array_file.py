@@ -3,7 +3,7 @@
 import hashlib
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
-from typing import Annotated, Any, BinaryIO
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,6 @@ from contact_scene.reading.scene_error import (
 
 _MIN_SIDE, _MAX_SIDE = 4, 16384
 _MAX_VALUES = 4096 * 4096  # 134 MB, more than the largest grid
-_BLOCK = 1 << 20
 _MAX_TEXT = 1 << 28  # bytes
 # Fields of a text file for points without a measurement, in lower case.
 _MISSING = {"", "nan", "bad", "na", "n/a", "null", "***", "---"}
@@ -59,9 +58,11 @@ def array_file(value: Any, info: ValidationInfo) -> ArrayFile:
     if isinstance(value, str) and info.field_name in context.get("arrays", ()):
         value, name = context["arrays"][info.field_name], value
     if isinstance(value, np.ndarray):
-        _check_plain(value)
-        _check_shape(value.shape, name)
-        return _checked(np.array(value, dtype=np.float64, order="C"), name)
+        if type(value) not in (np.ndarray, np.memmap):  # units or masks would be lost
+            hint = "pass its numbers in SI, without gaps, as a plain array"
+            expected = "a plain numpy array or the name of a .npy file"
+            raise refusal(f"got {shown(value)}", expected, hint)
+        return _checked(value, name)
     folder = context.get("folder")
     if isinstance(value, Path) and folder is None:
         value = str(value)
@@ -103,8 +104,8 @@ def _inside(folder: Path, name: str) -> Path:
     )
 
 
-def _read(path: Path, name: str) -> NDArray[np.float64]:
-    """Read an array; a `.npy` file in blocks, to need memory for one array only."""
+def _read(path: Path, name: str) -> NDArray[Any]:
+    """Read a text file, or map a `.npy` file into memory, which allocates no memory for it."""
     expected = (
         "a .npy file with a two-dimensional array of numbers (numpy.save writes it), or a .csv or "
         ".txt file with equally many numbers in every line"
@@ -113,27 +114,19 @@ def _read(path: Path, name: str) -> NDArray[np.float64]:
         if not path.is_file():
             raise refusal(f"there is no file {shown(name)}", expected)
         if path.suffix.lower() in (".csv", ".txt"):
-            values = _text(path, name)
-            _check_shape(values.shape, name)
-            return values
-        with path.open("rb") as stream:
-            shape, by_columns, dtype = _header(stream, path.stat().st_size, name)
-            values = np.empty(shape)
-            lines = values.T if by_columns else values
-            count = _BLOCK // lines.shape[1]
-            for begin in range(0, len(lines), count):
-                block = lines[begin : begin + count]
-                read = np.frombuffer(stream.read(block.size * dtype.itemsize), dtype)
-                block[:] = read.reshape(block.shape)
-            return values
+            return _text(path, name)
+        values = np.lib.format.open_memmap(path, mode="r")
+        if path.stat().st_size > values.offset + values.nbytes:
+            raise refusal(f"the file {shown(name)} is too long", "a complete .npy file")
+        return values
     except PydanticCustomError:
         raise
     except (OSError, ValueError, EOFError, SyntaxError, TypeError, MemoryError) as error:
-        reason = getattr(error, "strerror", None) or "not a .npy file"
+        reason = getattr(error, "strerror", None) or "it is no .npy file of numbers, or cut short"
         raise refusal(f"cannot read {shown(name)}: {reason}", expected) from None
 
 
-def _text(path: Path, name: str) -> NDArray[np.float64]:
+def _text(path: Path, name: str) -> NDArray[Any]:
     """Read a text file in the orientation of a top view: x to the right, y upwards.
 
     Fields are separated by semicolons, tabs, commas or spaces; lines before the first numbers are
@@ -163,54 +156,24 @@ def _text(path: Path, name: str) -> NDArray[np.float64]:
     return np.ascontiguousarray(values)
 
 
-def _header(stream: BinaryIO, size: int, name: str) -> tuple[tuple[int, ...], bool, np.dtype[Any]]:
-    """Read and check the header of a `.npy` file before memory is allocated.
-
-    returns  shape, True for column-major order, type
-    """
-    version = np.lib.format.read_magic(stream)
-    read_header = {
-        (1, 0): np.lib.format.read_array_header_1_0,
-        (2, 0): np.lib.format.read_array_header_2_0,
-    }.get(version)
-    if read_header is None:
-        raise ValueError(f"version {version} of the format")
-    shape, by_columns, dtype = read_header(stream)
-    _check_shape(shape, name)
-    _check_type(dtype, name)
-    if size - stream.tell() != shape[0] * shape[1] * dtype.itemsize:
-        raise refusal(f"the file {shown(name)} is cut short or too long", "a complete .npy file")
-    return shape, by_columns, dtype
-
-
 def _named(name: str) -> str:
     return shown(name) if name else "in memory"
 
 
-def _check_plain(value: NDArray[Any]) -> None:
-    """Raise an error for arrays with units or masks, which would be lost."""
-    if type(value) not in (np.ndarray, np.memmap):
-        hint = "pass its numbers in SI, without gaps, as a plain array"
-        raise refusal(f"got {shown(value)}", "a plain numpy array or the name of a .npy file", hint)
-    _check_type(value.dtype, "")
-
-
-def _check_type(dtype: np.dtype[Any], name: str) -> None:
-    if dtype.kind not in "fiu":
-        raise refusal(f"the array {_named(name)} holds values of type {dtype}", "real numbers")
-
-
-def _check_shape(shape: tuple[int, ...], name: str) -> None:
-    if len(shape) != 2 or not _MIN_SIDE <= min(shape) <= max(shape) <= _MAX_SIDE:
+def _checked(values: NDArray[Any], name: str) -> ArrayFile:
+    """Check shape and type, before memory is allocated, and copy the values."""
+    nx, ny = shape = values.shape if values.ndim == 2 else (0, 0)
+    expected = ""
+    if not _MIN_SIDE <= min(shape) <= max(shape) <= _MAX_SIDE:
         expected = f"two dimensions (x, y) of {_MIN_SIDE} to {_MAX_SIDE} values each"
-    elif shape[0] * shape[1] > _MAX_VALUES:
+    elif nx * ny > _MAX_VALUES:
         expected = f"at most {_MAX_VALUES} values in all (4096 x 4096)"
-    else:
-        return
-    raise refusal(f"the array {_named(name)} has shape {tuple(shape)}", expected)
-
-
-def _checked(values: NDArray[np.float64], name: str) -> ArrayFile:
+    if expected:
+        raise refusal(f"the array {_named(name)} has shape {values.shape}", expected)
+    if values.dtype.kind not in "fiu":
+        got = f"the array {_named(name)} holds values of type {values.dtype}"
+        raise refusal(got, "real numbers")
+    values = np.array(values, dtype=np.float64, order="C", subok=False)
     _refuse(np.isinf(values), values, name)
     values.flags.writeable = False
     digest = hashlib.sha256(repr(values.shape).encode())

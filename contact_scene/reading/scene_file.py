@@ -132,7 +132,7 @@ def _valid(kind: type[D], document: dict[str, Any], context: dict[str, Any]) -> 
     try:
         return kind.model_validate(document, context=context)
     except ValidationError as error:
-        found = problems_of(document, error, context)
+        found = problems_of(document, error)
         if issubclass(kind, Scene):
             found += inconsistencies(_valid_tables(document, error, context))
         raise SceneError(found) from None

@@ -7,9 +7,8 @@ from typing import Any, get_args
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
-from contact_scene.body import Body
 from contact_scene.friction import FrictionMap
-from contact_scene.geometry import SHAPES
+from contact_scene.geometry import SHAPES, nearest_shape
 from contact_scene.material import IsotropicMaterial
 from contact_scene.reading.description import field_descriptions
 from contact_scene.reading.quantity import Quantity
@@ -25,25 +24,21 @@ _NO_TABLE = ("model_type", "model_attributes_type", "dict_type", "dict_attribute
 _NO_ARRAY = ("tuple_type", "list_type")
 
 
-def problems_of(
-    document: Mapping[str, Any], error: ValidationError, context: Mapping[str, Any]
-) -> list[Problem]:
+def problems_of(document: Mapping[str, Any], error: ValidationError) -> list[Problem]:
     """Convert the validation error of a document to problems without duplicates.
 
-    context  validation context of the document
+    An array of invalid entries is not too short as well, and a key that is present under a misspelt
+    name is not missing as well.
     """
-    problems: list[Problem] = []
-    for detail in _details(error):
-        problems.append(_problem(document, detail))
-        if detail["type"].startswith("union_tag") and isinstance(detail["input"], dict):
-            problems += _problems_of_unknown_shape(document, detail["input"], context)
-    return _without_duplicates(problems)
-
-
-def _details(error: ValidationError) -> list[ErrorDetails]:
-    """Return pydantic's errors, without "too short" for a list of invalid entries."""
-    found = error.errors(include_url=False)
-    return [d for d in found if not (d["type"] == "too_short" and d["input"])]
+    details = error.errors(include_url=False)
+    found = [_problem(document, d) for d in details if d["type"] != "too_short" or not d["input"]]
+    meant = {(problem.path[:-1], problem.hint) for problem in found}
+    return [
+        problem
+        for problem in dict.fromkeys(found)
+        if problem.message != _MISSING
+        or (problem.path[:-1], _did_you_mean(str(problem.path[-1]))) not in meant
+    ]
 
 
 def _problem(document: Mapping[str, Any], detail: ErrorDetails) -> Problem:
@@ -64,7 +59,11 @@ def _problem(document: Mapping[str, Any], detail: ErrorDetails) -> Problem:
         near = get_close_matches(str(path[-1])[:100].lower(), known, n=1, cutoff=0.65)
         hint = _did_you_mean(near[0]) if near else f"the keys here are {', '.join(known)}"
         return Problem(path, "unknown key", hint=hint)
-    if kind.startswith("union_tag"):
+    if kind.startswith("union_tag") and not isinstance(detail["input"], dict):
+        hint = _brackets(path, detail["input"])
+        return Problem(path, got, "a table with shape and material", hint)
+    if kind.startswith("union_tag") or (kind == "literal_error" and path[-1] == "shape"):
+        path = path if path[-1] == "shape" else (*path, "shape")
         return _unknown_shape(path, detail["input"])
     if kind in _NO_TABLE:
         return Problem(path, got, _expected_table(location), _brackets(path, detail["input"]))
@@ -107,45 +106,14 @@ def _did_you_mean(key: str) -> str:
 
 
 def _unknown_shape(path: Path, given: Any) -> Problem:
+    """Return the problem of a shape; `given` is its name, or the table of an indenter."""
     expected = "one of " + ", ".join(f'"{shape}"' for shape in SHAPES)
-    if not isinstance(given, dict):
-        return Problem(
-            path, f"got {shown(given)}", "a table with shape and material", _brackets(path, given)
-        )
-    if "shape" not in given:
-        return Problem((*path, "shape"), _MISSING, expected)
-    near = _nearest_shape(given)
+    if isinstance(given, dict) and "shape" not in given:
+        return Problem(path, _MISSING, expected)
+    name = given["shape"] if isinstance(given, dict) else given
+    near = nearest_shape(name)
     hint = f'did you mean "{near}"?' if near else ""
-    return Problem((*path, "shape"), f"got {shown(given['shape'])}", expected, hint)
-
-
-def _nearest_shape(given: Mapping[str, Any]) -> str | None:
-    written = given.get("shape")
-    if not isinstance(written, str):
-        return None
-    written = written[:100].lower().replace(" ", "_").replace("-", "_")
-    return next(iter(get_close_matches(written, SHAPES, n=1)), None)
-
-
-def _problems_of_unknown_shape(
-    document: Mapping[str, Any], given: Mapping[str, Any], context: Mapping[str, Any]
-) -> list[Problem]:
-    """Find the other problems of an indenter of unknown shape.
-
-    The keys are checked for the shape with the nearest name, or else for those that all shapes
-    have.
-    """
-    near = _nearest_shape(given)
-    model: type[Body] = SHAPES[near] if near else Body
-    branch = f"<{near or next(iter(SHAPES))}>"
-    keys = {k: v for k, v in given.items() if k != "shape" and (near or k in Body.model_fields)}
-    try:
-        model.model_validate(keys, context=dict(context))
-    except ValidationError as error:
-        for detail in (found := _details(error)):
-            detail["loc"] = ("indenter", branch, *detail["loc"])
-        return [_problem(document, detail) for detail in found]
-    return []
+    return Problem(path, f"got {shown(name)}", expected, hint)
 
 
 def _brackets(path: Path, given: Any) -> str:
@@ -156,17 +124,6 @@ def _brackets(path: Path, given: Any) -> str:
     if isinstance(given, dict):
         return f"write [[{header}]], with double brackets"
     return f"write [{header}], with single brackets" if isinstance(given, list) else ""
-
-
-def _without_duplicates(problems: list[Problem]) -> list[Problem]:
-    """Remove duplicates, and missing keys that are present under a misspelt name."""
-    meant = {(problem.path[:-1], problem.hint) for problem in problems}
-    return [
-        problem
-        for problem in dict.fromkeys(problems)
-        if problem.message != _MISSING
-        or (problem.path[:-1], _did_you_mean(str(problem.path[-1]))) not in meant
-    ]
 
 
 # In locations, pydantic names the branch of a union in angle brackets.
