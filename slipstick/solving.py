@@ -210,11 +210,11 @@ def _solved_to(
     fineness: Discretisation,
     progress: Progress | None,
 ) -> Any:
-    from contact_errors.adaptive_refinement import Levels, refine
+    from contact_errors.adaptive_refinement import refine
 
-    refined = chosen.refined(scene, fineness, stress=request.binds_stress)
-    stress_at = len(scene.loading) if request.binds_stress else None
-    made = refine(Levels(refined, stress_at, lambda _: nullcontext(progress)), request)
+    stress = request.binds_stress
+    levels = chosen.levels(scene, fineness, stress, lambda _: nullcontext(progress))
+    made = refine(levels, request)
     if not made.accuracy.met:
         raise AccuracyOutOfReach(f"the accuracy was not reached: {made.accuracy.stopped}")
     return made.level.result

@@ -1,5 +1,7 @@
 """Requested accuracy of the command line or the scene, and the refinement to it."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from math import inf
@@ -8,16 +10,21 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import typer
 
+from contact_results.directory.checkpoint import CheckpointDirectory, checkpointed
+from contact_results.directory.code_digest import SOLVERS, code_digest, solve_identity
+from contact_results.directory.resume_file import kept_value
+from contact_scene import SceneFile
+from contact_scene.accuracy import AccuracyRequest
+from contact_scene.quantities.stated_error import AccuracyReached
+from contact_scene.reading.scene_file import read_accuracy
 from slipstick.cli.errors import ExitCode
 from slipstick.cli.options import optional
+from slipstick.cli.progress import print_level, solve_progress
+from slipstick.cli.terminal import tell
+from slipstick.solvers.solver import Progress, Solver
 
 if TYPE_CHECKING:
     from contact_errors.adaptive_refinement import Refined
-    from contact_results.directory.checkpoint import CheckpointDirectory
-    from contact_scene import SceneFile
-    from contact_scene.accuracy import AccuracyRequest
-    from contact_scene.quantities.stated_error import AccuracyReached
-    from slipstick.solvers.solver import Progress, Solver
 
 AccuracyOption: TypeAlias = Annotated[
     str | None,
@@ -45,34 +52,27 @@ ROUNDS, OF_ROUND = "rounds", "checkpoint-"
 
 
 def requested_accuracy(
-    contents: "SceneFile", option: str | None, most_seconds: float | None
-) -> "AccuracyRequest | None":
-    """Return the request of the option or else of the scene; raise BadParameter for a time limit
-    without a request."""
-    if option is not None:
-        from contact_scene.reading.scene_file import read_accuracy
+    contents: SceneFile, option: str | None, most_seconds: float | None, *, error: bool
+) -> AccuracyRequest | None:
+    """Return the request of the option or else of the scene.
 
-        return read_accuracy(option, "--accuracy")
-    if most_seconds is not None and contents.accuracy is None:
+    Raises BadParameter for a time limit without a request, and for a request without errors.
+    """
+    request = contents.accuracy if option is None else read_accuracy(option, "--accuracy")
+    if most_seconds is not None and request is None:
         raise typer.BadParameter(
             "--most-seconds needs an accuracy; add --accuracy or omit --most-seconds"
         )
-    return contents.accuracy
-
-
-def refuse_without_error(error: bool) -> None:
-    """Refuse --no-error together with an accuracy, which needs the errors."""
-    if not error:
+    if request is not None and not error:
         raise typer.BadParameter(
             "--no-error excludes an accuracy; omit --no-error, or omit --accuracy and the table "
             "[accuracy]"
         )
+    return request
 
 
-def leave_unless_met(accuracy: "AccuracyReached | None") -> None:
+def leave_unless_met(accuracy: AccuracyReached | None) -> None:
     """Exit with code 4 if the requested accuracy was not reached."""
-    from slipstick.cli.terminal import tell
-
     if accuracy is not None and not accuracy.met:
         tell(f"error: the accuracy was not reached: {accuracy.stopped}; the best result is stored")
         raise typer.Exit(ExitCode.RESOURCES_REFUSED)
@@ -80,10 +80,6 @@ def leave_unless_met(accuracy: "AccuracyReached | None") -> None:
 
 def forget_rounds(output: Path) -> None:
     """Remove the files that a killed run with an accuracy left for these results."""
-    from contact_results.directory.checkpoint import checkpointed
-    from contact_results.directory.resume_file import kept_value
-    from slipstick.cli.terminal import tell
-
     target = output.resolve()
     of_rounds = f".{target.name}.{OF_ROUND}"
     left = [path for place in (target, target.parent) for path in place.glob(f"{of_rounds}*")]
@@ -96,14 +92,14 @@ def forget_rounds(output: Path) -> None:
 
 @contextmanager
 def refined_to(
-    request: "AccuracyRequest",
-    solver: "Solver",
-    contents: "SceneFile",
+    request: AccuracyRequest,
+    solver: Solver,
+    contents: SceneFile,
     output: Path,
     most_seconds: float | None,
     *,
     step: int | None = None,
-) -> "Iterator[Refined]":
+) -> Iterator[Refined]:
     """Yield the scene solved with the requested accuracy, by refinement.
 
     Checkpoints of the current solve, and the state after each refinement, are stored next to the
@@ -111,31 +107,25 @@ def refined_to(
 
     step  load step at whose end the stress is required; None for the last
     """
-    from contact_errors.adaptive_refinement import Levels, refine
-    from contact_results.directory.checkpoint import checkpointed
-    from contact_results.directory.code_digest import SOLVERS, code_digest, solve_identity
-    from contact_results.directory.resume_file import kept_value
-    from slipstick.cli.progress import print_level, solve_progress
-    from slipstick.cli.terminal import tell
+    from contact_errors.adaptive_refinement import refine
 
     tried = 0  # solves at this refinement; a solve restarts if the contact outgrows its grid
 
     @contextmanager
-    def keeping(fineness: Any) -> "Iterator[CheckpointDirectory]":
+    def keeping(fineness: Any) -> Iterator[CheckpointDirectory]:
         nonlocal tried
         tried += 1
         identity = solve_identity(contents.scene, fineness, vars(solver))
         yield of_round.enter_context(checkpointed(output, identity, tell, f"{OF_ROUND}{tried}"))
 
     @contextmanager
-    def watching(fineness: Any) -> "Iterator[Progress]":
+    def watching(fineness: Any) -> Iterator[Progress]:
         with solve_progress(fineness.increments) as observe:
             yield observe
 
     fineness = solver.fineness(contents)
-    stress_at = (step or len(contents.scene.loading)) if request.binds_stress else None
-    refined = solver.refined(contents.scene, fineness, stress=request.binds_stress)
-    levels = Levels(refined, stress_at, watching, keeping)
+    stress = request.binds_stress
+    levels = solver.levels(contents.scene, fineness, stress, watching, keeping, step=step)
     inputs = (contents.scene, fineness, vars(solver), request, step)
     identity = solve_identity(*inputs, code_digest((*SOLVERS, "contact_results", "contact_errors")))
     with kept_value(output, identity, tell, ROUNDS) as stored, ExitStack() as of_round:

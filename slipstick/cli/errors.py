@@ -28,31 +28,21 @@ DISK_FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 def exit_code(error: Exception) -> ExitCode:
     """Return the exit code of an exception."""
     from contact_results.directory.refusal import Refused
-    from contact_scene import SceneError
+    from contact_scene import SceneError, solver_errors
 
-    if isinstance(error, SceneError | Refused):
-        return ExitCode.INVALID
-    if isinstance(error, MemoryError):
-        return ExitCode.RESOURCES_REFUSED
-    if isinstance(error, OSError):
-        return ExitCode.RESOURCES_REFUSED if error.errno in DISK_FULL else ExitCode.INVALID
-    return _solver_exit_code(error)
-
-
-def _solver_exit_code(error: Exception) -> ExitCode:
-    from contact_scene.solver_errors import (
-        ContactNotResolved,
-        NotConverged,
-        ResourceRefused,
-        SolverError,
-        SurfacesOverlap,
+    unsolved = (
+        solver_errors.NotConverged,
+        solver_errors.ContactNotResolved,
+        solver_errors.SurfacesOverlap,
     )
-
-    if isinstance(error, NotConverged | ContactNotResolved | SurfacesOverlap):
+    if isinstance(error, unsolved):
         return ExitCode.NOT_CONVERGED
-    if isinstance(error, ResourceRefused):
+    full = isinstance(error, OSError) and error.errno in DISK_FULL
+    if full or isinstance(error, MemoryError | solver_errors.ResourceRefused):
         return ExitCode.RESOURCES_REFUSED
-    return ExitCode.INVALID if isinstance(error, SolverError) else ExitCode.INTERNAL
+    if isinstance(error, SceneError | Refused | OSError | solver_errors.SolverError):
+        return ExitCode.INVALID
+    return ExitCode.INTERNAL
 
 
 def message(error: Exception) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import Any
 
 import semi_analytical
 from contact_errors.cost_estimate import (
@@ -13,6 +13,7 @@ from contact_errors.cost_estimate import (
     coarse_increments,
     work_on_cells,
 )
+from contact_errors.on_cells import CellSolver
 from contact_scene import Scene, SurfaceDiscretisation
 from contact_scene.reading.engineering_units import engineering_unit
 from contact_scene.solver_errors import ContactNotResolved, SolverError
@@ -28,9 +29,6 @@ from slipstick.solvers.solver import (
     time_of_run,
 )
 
-if TYPE_CHECKING:
-    from contact_errors.on_cells import CellSolver
-
 # Load steps, with one increment each, of the solves that measure the saving of the plan.
 FORCED_INCREMENTS = 4
 LEAST_SAVING = 1.1  # smallest ratio of convolutions that is reported
@@ -42,6 +40,7 @@ class OnCells(Solver):
 
     table = "semi_analytical"
     discretisation = SurfaceDiscretisation
+    refinable = CellSolver
 
     def plan(self, scene: Scene, fineness: SurfaceDiscretisation) -> Plan:
         return semi_analytical.plan(scene, fineness.path_accuracy, fineness.edge)
@@ -56,16 +55,8 @@ class OnCells(Solver):
     ) -> Result:
         return semi_analytical.solve_discretised(scene, fineness, progress, plan, store)
 
-    @property
-    def refinable(self) -> type[CellSolver]:
-        from contact_errors.on_cells import CellSolver
-
-        return CellSolver
-
-    def refined(
-        self, scene: Scene, fineness: SurfaceDiscretisation, *, stress: bool = False
-    ) -> CellSolver:
-        return self.refinable(scene, fineness, stress=stress)
+    def refined(self, scene: Scene, fineness: Any, stress: bool = False) -> CellSolver:
+        return CellSolver(scene, fineness, stress=stress)
 
     def work(self, scene: Scene, fineness: SurfaceDiscretisation, plan: Plan) -> Pairs:
         """Yield grid, tolerance, increments, time and memory; chosen values are marked."""

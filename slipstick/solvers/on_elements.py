@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Any
 
 import fem_reference
 from contact_errors.cost_estimate import (
@@ -13,6 +13,7 @@ from contact_errors.cost_estimate import (
     coarse_increments,
     work_on_elements,
 )
+from contact_errors.on_elements import ElementSolver
 from contact_scene import FiniteElementDiscretisation, Scene
 from contact_scene.reading.engineering_units import quantity
 from contact_scene.stepping.checkpoint import CheckpointStore
@@ -21,9 +22,6 @@ from fem_reference.expected_radius import meshed_radius, sections_of
 from fem_reference.memory import largest_bytes, run_bytes
 from fem_reference.mesh.section_mesh import SectionMesh
 from slipstick.solvers.solver import Pairs, Progress, Solver, increments_text, time_of_run
-
-if TYPE_CHECKING:
-    from contact_errors.on_elements import ElementSolver
 
 
 @dataclass(frozen=True)
@@ -37,6 +35,7 @@ class OnElements(Solver):
 
     table = "fem_reference"
     discretisation = FiniteElementDiscretisation
+    refinable = ElementSolver
 
     def plan(self, scene: Scene, fineness: FiniteElementDiscretisation) -> Plan:
         return fem_reference.plan(scene)
@@ -51,16 +50,8 @@ class OnElements(Solver):
     ) -> Result:
         return fem_reference.solve(scene, fineness, self.method, progress, store)
 
-    @property
-    def refinable(self) -> type[ElementSolver]:
-        from contact_errors.on_elements import ElementSolver
-
-        return ElementSolver
-
-    def refined(
-        self, scene: Scene, fineness: FiniteElementDiscretisation, *, stress: bool = False
-    ) -> ElementSolver:
-        return self.refinable(scene, fineness, method=self.method)
+    def refined(self, scene: Scene, fineness: Any, stress: bool = False) -> ElementSolver:
+        return ElementSolver(scene, fineness, method=self.method)
 
     def work(self, scene: Scene, fineness: FiniteElementDiscretisation, plan: Plan) -> Pairs:
         """Yield method, mesh, tolerance, increments, factorisations, time and memory."""

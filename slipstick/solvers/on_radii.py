@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import Any
 
 import radial
 from contact_errors.cost_estimate import MAX_STEPS, coarse_increments, work_on_rings
+from contact_errors.on_radii import RingSolver
 from contact_scene import RadialDiscretisation, Scene
 from contact_scene.stepping.checkpoint import CheckpointStore
 from radial import Plan, Result
 from radial.angular_grid import Circle
 from slipstick.solvers.solver import Pairs, Progress, Solver, increments_text, time_of_run
-
-if TYPE_CHECKING:
-    from contact_errors.on_radii import RingSolver
 
 
 class OnRadii(Solver):
@@ -22,6 +20,7 @@ class OnRadii(Solver):
 
     table = "radial"
     discretisation = RadialDiscretisation
+    refinable = RingSolver
 
     def plan(self, scene: Scene, fineness: RadialDiscretisation) -> Plan:
         return radial.plan(scene)
@@ -36,16 +35,8 @@ class OnRadii(Solver):
     ) -> Result:
         return radial.solve(scene, fineness, progress, plan, store)
 
-    @property
-    def refinable(self) -> type[RingSolver]:
-        from contact_errors.on_radii import RingSolver
-
-        return RingSolver
-
-    def refined(
-        self, scene: Scene, fineness: RadialDiscretisation, *, stress: bool = False
-    ) -> RingSolver:
-        return self.refinable(scene, fineness)
+    def refined(self, scene: Scene, fineness: Any, stress: bool = False) -> RingSolver:
+        return RingSolver(scene, fineness)
 
     def work(self, scene: Scene, fineness: RadialDiscretisation, plan: Plan) -> Pairs:
         """Yield rings, tolerance, increments, time and memory."""

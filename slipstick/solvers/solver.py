@@ -10,6 +10,7 @@ from contact_errors.cost_estimate import T, Work, cpu_seconds, estimated_run_sec
 from contact_scene.solver_errors import ContactNotResolved, SolverError
 
 if TYPE_CHECKING:
+    from contact_errors.adaptive_refinement import Levels
     from contact_errors.coarse_solves import DiscretisedSolver
     from contact_results.surface import Result
     from contact_scene import (
@@ -38,10 +39,12 @@ class Solver(ABC):
 
     table           name of its table in a scene file
     discretisation  class of this table
+    refinable       class of the solver with a refinable discretisation, for error estimates
     """
 
     table: str
     discretisation: type[Discretisation]
+    refinable: type[DiscretisedSolver]
 
     def fineness(self, contents: SceneFile) -> Any:
         """Return the discretisation that a scene file contains for this solver."""
@@ -62,21 +65,29 @@ class Solver(ABC):
     ) -> Result:
         """Return the result of a plan; raise a SolverError."""
 
-    @property
-    @abstractmethod
-    def refinable(self) -> type[DiscretisedSolver]:
-        """Class of the solver with a refinable discretisation, for error estimates."""
-
     def errors(self, result: Any) -> StatedErrors:
         """Estimate the errors of a result by coarse solves."""
         return self.refinable.stated_errors(result)
 
     @abstractmethod
-    def refined(self, scene: Scene, fineness: Any, *, stress: bool = False) -> DiscretisedSolver:
+    def refined(self, scene: Scene, fineness: Any, stress: bool = False) -> DiscretisedSolver:
         """Return the solver of a scene with a refinable discretisation.
 
-        stress  whether a stress in the body is required
+        stress  true if a stress in the body is required
         """
+
+    def levels(
+        self, scene: Scene, fineness: Any, stress: bool, *hooks: Any, step: int | None = None
+    ) -> Levels:
+        """Return the refinement levels of a scene.
+
+        stress  true if the stress at the end of a load step is required, of the last by default
+        hooks   arguments of `Levels`: progress and checkpoints of its solves
+        """
+        from contact_errors.adaptive_refinement import Levels
+
+        stress_at = (step or len(scene.loading)) if stress else None
+        return Levels(self.refined(scene, fineness, stress), stress_at, *hooks)
 
     @abstractmethod
     def work(self, scene: Scene, fineness: Any, plan: Any) -> Pairs:

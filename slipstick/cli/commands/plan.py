@@ -1,8 +1,10 @@
 """`slipstick plan`: effects, grid, time and memory of a solve."""
 
-import re
 from typing import TYPE_CHECKING, Annotated
 
+from contact_scene import Scene, SceneFile, read_scene_file
+from contact_scene.reading.scene_file import read_accuracy
+from contact_scene.solver_errors import AccuracyOutOfReach, UnsupportedScene
 from slipstick.cli.options import (
     SceneArgument,
     SetOption,
@@ -10,16 +12,14 @@ from slipstick.cli.options import (
     optional,
     warn_of_odd_numbers,
 )
+from slipstick.cli.terminal import print_pairs, print_table
 from slipstick.solvers.names import SolverName
-from slipstick.solvers.solver import increments_text, time_text
+from slipstick.solvers.solver import Solver, increments_text, time_text
 
 if TYPE_CHECKING:
     from contact_errors.adaptive_refinement import Price
-    from contact_scene import Scene, SceneFile
-    from slipstick.solvers.solver import Solver
 
 HEADINGS = ("accuracy", "cells, elements, rings", "increments", "time", "memory")
-NAMED = re.compile(r"\s*([A-Za-z]\w*)")
 
 
 def plan(
@@ -27,13 +27,12 @@ def plan(
     overrides: SetOption = None,
     solver: SolverOption = SolverName.SEMI_ANALYTICAL,
     accuracy: Annotated[
-        str | None,
+        list[str] | None,
         optional(
             "--accuracy",
             metavar="SHARES",
-            help='Print the cost of each accuracy of a list, such as "1%,0.1%,0.01%", or of a '
-            'request such as "approach 0.1%, contact_radius 0.1%"; separate several requests by '
-            "semicolons. Default: no list.",
+            help="Print the cost of an accuracy, written as for 'run'. The option may be repeated. "
+            "Default: no cost.",
         ),
     ] = None,
 ) -> None:
@@ -44,9 +43,6 @@ def plan(
     solver does not support is refused as by 'run'. With --accuracy, the cost of each accuracy is
     estimated by a coarse solve as well.
     """
-    from contact_scene import read_scene_file
-    from slipstick.cli.terminal import print_pairs, print_table
-
     contents = read_scene_file(scene, overrides or ())
     warn_of_odd_numbers(contents)
     chosen = solver.solver
@@ -59,13 +55,12 @@ def plan(
         print_table(("step", "increments", "why"), reasons)
     if solver is not SolverName.RADIAL and (how := by_radii(contents.scene)):
         print_pairs([("radial", f"--solver radial can solve this: {how}")])
-    if accuracy is not None:
+    if accuracy:
         _print_prices(accuracy, chosen, contents)
 
 
-def by_radii(scene: "Scene") -> str | None:
+def by_radii(scene: Scene) -> str | None:
     """Return the kind of solution by the radial solver; None for an unsupported scene."""
-    from contact_scene.solver_errors import UnsupportedScene
     from radial.angular_grid import Circle
     from radial.plan import plan
 
@@ -82,19 +77,13 @@ def by_radii(scene: "Scene") -> str | None:
     return how[decided.circle]
 
 
-def _print_prices(option: str, solver: "Solver", contents: "SceneFile") -> None:
+def _print_prices(items: list[str], solver: Solver, contents: SceneFile) -> None:
     """Print the cost of each accuracy, or the reason why no grid can meet it."""
-    from contact_errors.adaptive_refinement import Levels, price
-    from contact_scene.reading.scene_file import read_accuracy
-    from contact_scene.solver_errors import AccuracyOutOfReach
-    from slipstick.cli.terminal import print_pairs, print_table
+    from contact_errors.adaptive_refinement import price
 
-    items = requests_of(option)
     requests = [read_accuracy(item, "--accuracy") for item in items]
-    last = len(contents.scene.loading)
     stress = any(request.binds_stress for request in requests)
-    refined = solver.refined(contents.scene, solver.fineness(contents), stress=stress)
-    levels = Levels(refined, last if stress else None)
+    levels = solver.levels(contents.scene, solver.fineness(contents), stress)
     first = levels.first()
     rows, refused = [], []
     for item, request in zip(items, requests, strict=True):
@@ -106,26 +95,6 @@ def _print_prices(option: str, solver: "Solver", contents: "SceneFile") -> None:
         print_table(HEADINGS, rows)
     if refused:
         print_pairs(refused)
-
-
-def requests_of(option: str) -> list[str]:
-    """Divide the option into requests of `run --accuracy`.
-
-    Semicolons separate requests. Without semicolons, each share without a name is a request, and
-    consecutive names form a request up to the first repeated name.
-    """
-    if ";" in option:
-        return [part.strip() for part in option.split(";") if part.strip()] or [option]
-    requests: list[list[str]] = []
-    names: set[str] = set()
-    for item in option.split(","):
-        name = match[1] if (match := NAMED.match(item)) else None
-        if name is None or not names or name in names:
-            requests.append([])
-            names.clear()
-        requests[-1].append(item.strip())
-        names |= {name} if name else set()
-    return [", ".join(items) for items in requests]
 
 
 def _price_texts(found: "Price") -> tuple[str, ...]:

@@ -12,7 +12,6 @@ from slipstick.cli.accuracy_option import (
     forget_rounds,
     leave_unless_met,
     refined_to,
-    refuse_without_error,
     requested_accuracy,
 )
 from slipstick.cli.options import (
@@ -94,10 +93,8 @@ def run(
     stopwatch = Stopwatch()
     with stopwatch.phase("read"):
         contents = read_scene_file(scene, overrides or ())
-        request = requested_accuracy(contents, accuracy, most_seconds)
+        request = requested_accuracy(contents, accuracy, most_seconds, error=error)
         printed = warn_of_odd_numbers(contents)
-    if request is not None:
-        refuse_without_error(error)
     with stopwatch.phase("import"):
         chosen = solver.solver
         from slipstick.cli.progress import coarse_solves_shown, solve_progress

@@ -46,7 +46,6 @@ from slipstick.cli.accuracy_option import (
     MostSecondsOption,
     leave_unless_met,
     refined_to,
-    refuse_without_error,
     requested_accuracy,
 )
 from slipstick.cli.options import (
@@ -170,7 +169,7 @@ def stress(
             state = state_of_run(source, step)
         else:
             warn_of_odd_numbers(contents)
-            request = requested_accuracy(contents, accuracy, most_seconds)
+            request = requested_accuracy(contents, accuracy, most_seconds, error=error)
             _refuse_in_part(request, indenter, chosen_depths)
             if step is not None and step > len(contents.scene.loading):
                 raise typer.BadParameter(
@@ -181,7 +180,6 @@ def stress(
             if request is None:
                 result, stated = _solved(contents, chosen, error)
             else:
-                refuse_without_error(error)
                 output.parent.mkdir(parents=True, exist_ok=True)
                 refined = until_written.enter_context(
                     refined_to(request, chosen.solver, contents, output, most_seconds, step=step)
