@@ -28,8 +28,7 @@ from contact_scene.reading.description import field_descriptions
 from contact_scene.reading.quantity import Quantity
 from contact_scene.rig import Rig
 from semi_analytical.fields import Increment
-from slipstick.cli.application import application
-from slipstick.cli.lazy_commands import ALL_COMMANDS
+from slipstick.cli.application import ALL_COMMANDS, application
 
 TABLES: dict[str, type[BaseModel]] = {
     "the file itself": Scene,

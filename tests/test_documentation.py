@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from slipstick.cli.lazy_commands import ALL_COMMANDS, MAINTAIN
+from slipstick.cli.application import ALL_COMMANDS, MAINTAIN
 from verification.cases.catalogue import CASES
 from verification.studies.catalogue import SCENE_STUDIES, STUDIES
 

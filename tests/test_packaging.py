@@ -16,7 +16,7 @@ import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
-from slipstick.cli.lazy_commands import ALL_COMMANDS, MAINTAIN
+from slipstick.cli.application import ALL_COMMANDS, MAINTAIN
 from verification.report.sections import TITLES
 from verification.studies.catalogue import SCENE_STUDIES, STUDIES
 

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from command import outcome
 
-from slipstick.tables import deposit
+from slipstick.cli.commands import deposit
 from slipstick.tables.catalogue import TABLES
 from verification.references import load_reference
 
@@ -117,7 +117,7 @@ def test_parameters_of_no_contact_are_refused(name: str, axis: str, value: str) 
 
 
 def test_the_deposit_describes_every_table_and_has_the_same_bytes_again(tmp_path: Path) -> None:
-    found = [deposit._onset(), deposit._paths(), TABLES["punch"].dataset({"a_over_h": [1.0]})]
+    found = [*deposit.recorded(), TABLES["punch"].dataset({"a_over_h": [1.0]})]
     for folder in (tmp_path / "one", tmp_path / "two"):
         deposit.write(folder, found, date(2026, 1, 2))
     files = sorted((tmp_path / "one").iterdir())

@@ -1,15 +1,145 @@
-"""Entry point of the command line: commands, version, and handling of exceptions."""
+"""Entry point of the command line: commands, imported when called, and handling of exceptions."""
 
 import sys
 from collections.abc import Sequence
-from typing import Annotated
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Annotated, Any
 
 import typer
+from typer.core import TyperCommand, TyperGroup
 
 from contact_results.blas_threads import one_thread
 from contact_results.directory.stop_signals import cleaned_up_when_stopped
 from slipstick.cli.errors import ExitCode, explain
-from slipstick.cli.lazy_commands import MAINTAIN, LazyCommands, MaintenanceCommands
+
+LONGEST = 600  # characters of a message
+
+
+class WordedCommand(TyperCommand):
+    """Command that replaces messages of validators by messages of slipstick."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Parse the command line; raises BadParameter."""
+        try:
+            return super().parse_args(ctx, args)
+        except typer.BadParameter as error:
+            error.message = _in_short(_in_our_words(error))
+            raise
+
+    def invoke(self, ctx: Any) -> Any:
+        """Call the function; raises BadParameter."""
+        try:
+            return super().invoke(ctx)
+        except typer.BadParameter as error:
+            error.message = _in_short(error.message)
+            raise
+
+
+def _in_short(message: str) -> str:
+    """Shorten a long message to its start and its end."""
+    left_out = len(message) - LONGEST
+    if left_out <= 0:
+        return message
+    half = LONGEST // 2
+    return f"{message[:half]} ... {left_out} characters ... {message[-half:]}"
+
+
+def _in_our_words(error: typer.BadParameter) -> str:
+    """Return the message of a validator error in plain words; other messages are unchanged."""
+    find: Any = getattr(error.__cause__, "errors", None)
+    if find is None:
+        return error.message
+    (found, *_) = find(include_url=False)
+    kind, given, context = found["type"], found["input"], found.get("ctx", {})
+    if kind == "greater_than_equal":
+        return f"got {given}, expected at least {context['ge']}"
+    if kind == "less_than_equal":
+        return f"got {given}, expected at most {context['le']}"
+    if kind.startswith("int_"):
+        return f"got '{given}', expected a whole number"
+    if kind == "value_error":
+        return str(context["error"])
+    return error.message
+
+
+@dataclass(frozen=True)
+class LazyCommand:
+    """Module and function of a command, and its line in `--help`."""
+
+    module: str
+    function: str
+    summary: str
+
+    def load(self, name: str) -> Any:
+        """Import the module and build the command from its function."""
+        single = typer.Typer(add_completion=False, rich_markup_mode="markdown")
+        single.command(name, cls=WordedCommand)(getattr(import_module(self.module), self.function))
+        return typer.main.get_command(single)
+
+
+def _commands(summaries: dict[str, str]) -> dict[str, LazyCommand]:
+    return {
+        name: LazyCommand(f"slipstick.cli.commands.{name}", name, summary)
+        for name, summary in summaries.items()
+    }
+
+
+COMMANDS = _commands(
+    {
+        "example": "Print a scene file that comes with the program.",
+        "check": "Validate a scene file and describe it.",
+        "plan": "Print the effects, the grid, the time and the memory of a run.",
+        "run": "Solve a scene and write its results, tables and pictures.",
+        "stress": "Compute displacement and stress below the surface.",
+        "sweep": "Solve a scene for values of its keys; write a table and a chart.",
+        "against": "Compare a run with a measured loop or profile.",
+        "export": "Write the surface of a run for ParaView.",
+        "table": "Print a table of reference numbers with their uncertainty.",
+        "verify": "Measure the accuracy against closed forms and write the report.",
+        "challenge": "List or export problems for other codes to solve.",
+        "judge": "Judge another code's answers to a challenge.",
+    }
+)
+MAINTAIN = "maintain"
+MAINTENANCE = _commands(
+    {
+        "study": "Compute a study on a pool of processes and write its page.",
+        "compare": "List changes since the accepted numbers, or since a report.",
+        "baseline": "List the accepted numbers, or accept those of a report.",
+        "tolerances": "Propose or accept tolerances that follow the errors.",
+        "records": "List stored records, their age and cost, or regenerate them.",
+        "deposit": "Write all reference tables as an RO-Crate.",
+        "report": "Render the report again from recorded results.",
+        "schema": "Print the JSON Schema of a scene file, a summary or a report.",
+    }
+)
+
+
+# All commands by their words on the command line.
+ALL_COMMANDS = COMMANDS | {f"{MAINTAIN} {name}": each for name, each in MAINTENANCE.items()}
+
+
+class LazyCommands(TyperGroup):
+    """Group of commands from a table; it imports only the called command."""
+
+    table = COMMANDS
+
+    def __init__(self, **settings: Any) -> None:
+        super().__init__(**settings)
+        for name, command in self.table.items():
+            self.add_command(TyperCommand(name, help=command.summary))
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        name, listed, rest = super().resolve_command(ctx, args)
+        return name, self.table[name].load(name) if name in self.table else listed, rest
+
+
+class MaintenanceCommands(LazyCommands):
+    """Commands for the maintenance of the program."""
+
+    table = MAINTENANCE
+
 
 application = typer.Typer(
     cls=LazyCommands,
