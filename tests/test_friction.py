@@ -29,8 +29,7 @@ from contact_scene import (
 )
 from contact_scene.friction import FRICTIONLESS, sliding_friction
 from contact_scene.solver_errors import GrossSliding
-from verification.observed.sections import section_laws
-from verification.observed.surfaces import surface_violation
+from verification.observed.laws import observed
 
 CELLS = (6, 5)
 PRESSURES = arrays(np.float64, CELLS, elements=st.floats(0.0, 1e9))
@@ -234,12 +233,12 @@ def test_any_law_of_friction_holds_in_every_solver_which_agree(law, history) -> 
     assert asked.friction.carried(LOAD) is None
     cells, rings = on_cells(asked), on_rings(asked)
     elements = {name: solve(asked) for name, solve in ELEMENTS.items()}
-    assert surface_violation(cells) < TOLERANCE
+    assert observed(cells).violation < TOLERANCE
     if coupled:
         assert max(one.convolutions for one in cells.increments) < MAX_CONVOLUTIONS
     assert ring_violation(rings) < bound
     for name, result in elements.items():
-        assert section_laws(result)[0] < TOLERANCE, name
+        assert observed(result).violation < TOLERANCE, name
     for name, most in AGREE.items():
         expected = number(getattr(rings.steps[-1], name))
         for result in (cells, *elements.values()):

@@ -10,7 +10,7 @@ import pytest
 
 from contact_scene import FiniteElementDiscretisation
 from fem_reference import Increment, Method, Result, solve
-from verification.observed.sections import section_laws
+from verification.observed.laws import observed
 from verification.studies.stability.cell import (
     LoadingPath,
     Refusal,
@@ -134,7 +134,7 @@ OF_SPRINGS: dict[str, Change] = {
 def spoilt(result: Result, change: Change) -> float:
     *others, last = result.increments
     wrong = replace(last, **change(last))
-    return section_laws(replace(result, increments=(*others, wrong)))[0]
+    return observed(replace(result, increments=(*others, wrong))).violation
 
 
 @pytest.mark.parametrize("method", Method)
@@ -147,7 +147,7 @@ def spoilt(result: Result, change: Change) -> float:
 )
 def test_a_wrong_field_is_seen_without_the_solver(name: str, method: Method, defect: str) -> None:
     result = solved(name, method)
-    assert section_laws(result)[0] <= TOLERANCE
+    assert observed(result).violation <= TOLERANCE
     assert spoilt(result, (DEFECTS | OF_A_LOAD)[defect]) > 100 * TOLERANCE
 
 

@@ -13,7 +13,7 @@ from semi_analytical import NotConverged, Result, solve
 from verification.exhibits.chart import Look, curve
 from verification.judging.case import Level
 from verification.judging.outcome import Status
-from verification.observed.surfaces import surface_violation
+from verification.observed.laws import observed
 from verification.report.drawing import look_of
 from verification.running.case_pool import CaseStore
 from verification.running.study import CaseRecord, Settings, row_files
@@ -170,8 +170,8 @@ def test_a_wrong_field_is_seen_in_the_fields_alone(defect: str) -> None:
     result = solved_cell()
     *others, last = result.increments
     wrong = replace(last, **DEFECTS[defect](last))
-    assert surface_violation(result) <= 1e-8
-    assert surface_violation(replace(result, increments=(*others, wrong))) > 2e-7
+    assert observed(result).violation <= 1e-8
+    assert observed(replace(result, increments=(*others, wrong))).violation > 2e-7
 
 
 def test_an_answer_above_the_tolerance_is_silent_failure(monkeypatch: pytest.MonkeyPatch) -> None:

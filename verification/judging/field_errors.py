@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from verification import norms
 from verification.norms import cell_means
 from verification.observed import ring_errors
+from verification.observed.end_state import is_corrected
 from verification.observed.ring_errors import judged_within
-from verification.observed.unseen import is_corrected
 from verification.problems.cattaneo_mindlin import OVER_LIMIT
 from verification.problems.paper_scene import FRICTION
 from verification.problems.problem import OVER_PEAK, Problem

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
@@ -40,9 +41,8 @@ from verification.judging.verdicts import (
     judge_worst,
     unsolved,
 )
-from verification.observed.laws import observed
+from verification.observed.laws import Observed, observed
 from verification.observed.prescribed import Imbalance
-from verification.observed.unseen import Unseen, unseen
 from verification.quantities import largest_residual
 
 WITHIN = (
@@ -56,25 +56,26 @@ def judge_laws(case: Case, results: Mapping[str, Any]) -> tuple[Verdict, ...]:
     """The largest violation and the largest imbalance of all runs that were solved, each against
     the tolerance of its run."""
     found = {run.label: observed(results[run.label]) for run in case.runs if run.label in results}
-    violated = {label: violation for label, (violation, _) in found.items()}
-    missing = {label: energy for label, (_, energy) in found.items() if energy is not None}
-    gaps = {label: unseen(results[label]) for label in found}
-    but_slip = sum(gaps.values(), Unseen()).of_slip
+    violated = {label: laws.violation for label, laws in found.items()}
+    missing = {
+        label: energy for label, laws in found.items() if (energy := laws.imbalance) is not None
+    }
     verdicts = [
         judge_worst(
             case, violated, VIOLATION, "largest violation of a law of contact and friction in any "
-            f"increment of the {{runs}} run(s); it is in this one{but_slip}",
+            "increment of the {runs} run(s); it is in this one"
+            + _excluded("slip", found, results),
             "gap, overlap, friction, slip against shear, forces, moments and energy lost, found "
             "again in the fields",
             WITHIN, lambda run: run.laws,
         )
     ]  # fmt: skip
     if missing:
-        but_energy = sum((gaps[label] for label in missing), Unseen()).of_energy
         verdicts.append(
             judge_worst(
                 case, missing, IMBALANCE, "largest part of the energy that any increment cannot "
-                f"account for of the {{runs}} run(s); it is in this one{{where}}{but_energy}",
+                "account for of the {runs} run(s); it is in this one{where}"
+                + _excluded("energy", {label: found[label] for label in missing}, results),
                 "first law: work put in is stored, dissipated or left open by the increment",
                 f"residuals within the tolerance move the energy by a few times as much; {WITHIN}",
                 lambda run: run.energy,
@@ -82,6 +83,16 @@ def judge_laws(case: Case, results: Mapping[str, Any]) -> tuple[Verdict, ...]:
             )
         )  # fmt: skip
     return tuple(verdicts)
+
+
+def _excluded(what: str, found: Mapping[str, Observed], results: Mapping[str, Any]) -> str:
+    """Count the increments for which slip or energy is not compared, by reason."""
+    total = sum(len(results[label].increments) for label in found)
+    counts = sum((getattr(laws, f"of_{what}") for laws in found.values()), Counter[str]())
+    return "".join(
+        f"; {what} is not fully compared in {count} of {total} increments, as {reason}"
+        for reason, count in counts.items()
+    )
 
 
 Results = Mapping[str, Any]

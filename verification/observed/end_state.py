@@ -6,8 +6,6 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from verification.observed.unseen import is_corrected
-
 if TYPE_CHECKING:
     import fem_reference
     import semi_analytical
@@ -63,3 +61,9 @@ def stick_radius(result: Result, step: int = -1) -> float:
     """
     radius = result.steps[step].stick_radius
     return float("nan") if radius is None else float(radius)
+
+
+def is_corrected(increment: Any) -> bool:
+    """Return true if the increment has the edge correction."""
+    report = getattr(increment, "edge_report", None)
+    return report is not None and report.cause is None

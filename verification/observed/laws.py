@@ -2,24 +2,54 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections import Counter
+from typing import Any, NamedTuple
 
-import semi_analytical
-from verification.observed.surfaces import surface_imbalance, surface_violation
+from verification.observed.contact_state import ContactState, imbalances, violations
+from verification.observed.prescribed import largest_of, missed
 
 
-def observed(result: Any) -> tuple[float, float | None]:
-    """Return the largest violation of a law and the largest energy imbalance of any increment.
+class Observed(NamedTuple):
+    """What the laws give for a result.
 
-    Both are dimensionless, and infinite if a number is not finite. The imbalance is None if the
-    bodies are coupled one way, because they then have no energy.
+    violation  the largest of any law in any increment; infinite if a number is not finite [1]
+    imbalance  the largest of the energy, over the largest energy so far; None if the bodies are
+               coupled one way, because they then have no energy
+    of_slip    increments for which a law of slip is not evaluated, by reason
+    of_energy  increments for which the energies are not compared, by reason
     """
-    if isinstance(result, semi_analytical.Result):
-        return surface_violation(result), surface_imbalance(result)
+
+    violation: float
+    imbalance: float | None
+    of_slip: Counter[str]
+    of_energy: Counter[str]
+
+
+def observed(result: Any) -> Observed:
+    """Evaluate the laws of contact and friction and the first law for all increments."""
+    states = _states(result)
+    energy = None if _has_no_energy(result) else largest_of(imbalances(states))
+    return Observed(
+        largest_of([*violations(states), *missed(result.scene, result.steps)]),
+        energy,
+        Counter(state.unseen for state in states if state.unseen),
+        Counter(reason for state in states if (reason := state.not_compared)),
+    )
+
+
+def _states(result: Any) -> list[ContactState]:
+    if result.solver == "semi_analytical":
+        from verification.observed.cells import states_on_cells
+
+        return states_on_cells(result)
     if result.solver == "radial":
-        from verification.observed.radii import ring_laws
+        from verification.observed.radii import states_on_radii
 
-        return ring_laws(result)
-    from verification.observed.sections import section_laws
+        return states_on_radii(result)
+    from verification.observed.elements import states_on_elements
 
-    return section_laws(result)
+    return states_on_elements(result)
+
+
+def _has_no_energy(result: Any) -> bool:
+    return getattr(getattr(result.plan, "coupling", None), "name", "") == "ONE_WAY"

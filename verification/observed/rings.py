@@ -1,7 +1,7 @@
 """Forces and motions of the surfaces of finite elements, computed again from the tractions.
 
-Displacements are computed with the compliances of the sections and averaged over the hat functions
-of the rings, as gap and slip are.
+Displacements are computed with the compliances of the sections and averaged over the functions that
+carry the tractions: hat functions of the rings, or Gauss points of a penalty.
 """
 
 from __future__ import annotations
@@ -13,6 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fem_reference import Increment, Path, Result
+from fem_reference.compliance.gauss_points import gauss_points
+from fem_reference.elasticity.hat_functions import TractionBasis
 from fem_reference.model import ContactModel, outermost_modulus
 from fem_reference.scales import Scales
 
@@ -37,32 +39,35 @@ def section_radii(result: Result) -> Field:
     return next(np.asarray(s.radii) for s in result.sections if s is not None)
 
 
-def along_load(model: ContactModel) -> Field:
-    """Compute the mean displacement along the load around the axis, per nodal force along the
-    load."""
-    C = model.compliance(1).matrix
-    return np.asarray(0.5 * (C[0, :, 0] - C[0, :, 1] - C[1, :, 0] + C[1, :, 1]))
-
-
 @dataclass(frozen=True)
 class Rings:
     """Points on rings and angles; fields are (rings, angles), vectors (2, rings, angles) in r, θ.
 
     path    of the result
+    basis   functions of the tractions
     angles  of the half circle, ends included; one angle for axisymmetric fields
     """
 
     model: ContactModel
     path: Path
+    basis: TractionBasis
     angles: Field
 
     @classmethod
-    def of(cls, result: Result) -> Rings:
-        """Create the rings of the increments of a result."""
-        last = result.increments[-1]
-        corners = section_radii(result)[::2]
-        model = model_of(result, float(last.radii[-1] / corners[len(last.radii) - 1]))
-        return cls(model, result.plan.path, np.zeros(1) if last.angles is None else last.angles)
+    def of(cls, result: Result, *, on_points: bool) -> Rings:
+        """Create the rings of the increments of a result.
+
+        on_points  tractions are those of a penalty at Gauss points
+        """
+        last, nodes = result.increments[-1], section_radii(result)
+        if on_points:
+            model = model_of(result, float(last.radii[0] + last.radii[2]) / 2 / float(nodes[1]))
+            basis: TractionBasis = gauss_points(model.radii, model.rim)
+        else:
+            model = model_of(result, float(last.radii[-1] / nodes[::2][len(last.radii) - 1]))
+            basis = model.hats
+        angles = np.zeros(1) if last.angles is None else last.angles
+        return cls(model, result.plan.path, basis, angles)
 
     @cached_property
     def driven(self) -> Field:
@@ -71,22 +76,25 @@ class Rings:
         Zero without a tangential load. The motion by a twist is the mean over a ring [length].
         """
         if self.path is Path.TWISTING:
-            hats = self.model.hats
-            return np.stack([self.on_grid(None), self.on_grid(hats.arms / hats.weights)])
+            return np.stack([self.on_grid(None), self.on_grid(self.arms)])
         vector = np.stack([np.cos(self.angles), -np.sin(self.angles)])[:, None]
         tangential = self.path is Path.SHEARING or len(self.angles) > 1
         return np.broadcast_to(vector if tangential else 0.0, (2, *self._shape))
 
+    @property
+    def arms(self) -> Field:
+        """Mean distance from the axis [length]."""
+        return np.asarray(self.basis.arms / self.basis.weights)
+
     @cached_property
     def weights(self) -> Field:
         """Area of the points [length^2]."""
-        return np.outer(self.model.hats.weights, self._around)
+        return np.outer(self.basis.weights, self._around)
 
     @cached_property
     def undeformed(self) -> Field:
         """Gap before any load [length]."""
-        hats = self.model.hats
-        return self.on_grid(hats.of(self.model.gap) / hats.weights)
+        return self.on_grid(self.basis.of(self.model.gap) / self.basis.weights)
 
     def on_grid(self, values: Field | None) -> Field:
         """Extend values of the rings to all angles; None is zero."""
@@ -98,18 +106,10 @@ class Rings:
         """Compute the displacement by the strain of the lower body, averaged over a ring
         [length]."""
         strain = 0.0 if increment.bulk_strain is None else increment.bulk_strain[0]
-        hats = self.model.hats
-        return np.stack([self.on_grid(strain * hats.arms / hats.weights), self.on_grid(None)])
+        return np.stack([self.on_grid(strain * self.arms), self.on_grid(None)])
 
-    def shear(self, increment: Increment) -> Field:
-        """Return q of an increment."""
-        return self._vector(increment, "shear")
-
-    def slip(self, increment: Increment) -> Field:
-        """Return s of an increment."""
-        return self._vector(increment, "slip")
-
-    def _vector(self, increment: Increment, name: str) -> Field:
+    def vector(self, increment: Increment, name: str) -> Field:
+        """Return the shear or the slip of an increment."""
         along = getattr(increment, f"{name}_along_load")
         if along is not None:
             return np.stack([self.on_grid(along), self.on_grid(None)])
@@ -117,8 +117,10 @@ class Rings:
         return np.stack([self.on_grid(component) for component in around])
 
     def integral(self, values: Field) -> float:
-        """Integrate values that are linear between rings over the surface."""
-        radii, on_ring = self.model.hats.radii, values @ self._around
+        """Integrate values over the surface, linear between rings."""
+        if self.basis is not self.model.hats:
+            return float(np.sum(self.weights * values))
+        radii, on_ring = self.basis.radii, values @ self._around
         share, width = 0.5 * (1 + PLACES), np.diff(radii)[:, None]
         r = radii[:-1, None] + width * share
         at_points = on_ring[:-1, None] * (1 - share) + on_ring[1:, None] * share
@@ -127,10 +129,15 @@ class Rings:
     def displacement(self, p: Field, q: Field) -> tuple[Field, Field]:
         """Compute u along the surface and u_z of the lower body relative to the indenter
         [length]."""
-        if self.path is Path.SHEARING:
-            return np.stack([self._along_load(q[0]), self.on_grid(None)]), self._pressed(p)
-        if self.path is Path.TWISTING:
-            return np.stack([self.on_grid(None), self._around_axis(q[1])]), self._pressed(p)
+        if self.path in (Path.SHEARING, Path.TWISTING):
+            u, component = np.zeros((2, *self._shape)), int(self.path is Path.TWISTING)
+            if component:
+                nodal = self.model.torsion().matrix[0, :, 0]
+            else:  # the mean around the axis along the load, per nodal force along the load
+                C, sign = self.model.compliance(1).matrix[:2, :, :2], np.array([1.0, -1.0])
+                nodal = 0.5 * np.einsum("i,j,iajb->ab", sign, sign, C)
+            u[component, :, 0] = self._means(nodal, q[component, :, 0])
+            return u, self._means(self.model.compliance(0).matrix[1, :, 1], p[:, 0])[:, None]
         tractions, u = np.stack([*q, p]), np.zeros((3, *self._shape))
         for n in range(len(self.angles)):
             wave, loads = self._waves(n), self._amplitudes(n, tractions)
@@ -146,7 +153,7 @@ class Rings:
 
     @property
     def _shape(self) -> tuple[int, int]:
-        return len(self.model.hats.radii), len(self.angles)
+        return len(self.basis.radii), len(self.angles)
 
     @cached_property
     def _around(self) -> Field:
@@ -173,20 +180,8 @@ class Rings:
         return found / np.where(norms > 0, norms, 1.0)[:, None]
 
     def _means(self, nodal: Field, amplitude: Field) -> Field:
-        hats = self.model.hats
-        displaced = nodal @ (hats.products @ amplitude)
-        return np.asarray(hats.products.T @ displaced) / hats.weights
-
-    def _pressed(self, p: Field) -> Field:
-        return self._means(self.model.compliance(0).matrix[1, :, 1], p[:, 0])[:, None]
-
-    def _along_load(self, q: Field) -> Field:
-        """Compute the displacement along the load by shear along the load, averaged over a ring."""
-        return self._means(along_load(self.model), q[:, 0])[:, None]
-
-    def _around_axis(self, q: Field) -> Field:
-        """Compute the circumferential displacement by circumferential shear."""
-        return self._means(self.model.torsion().matrix[0, :, 0], q[:, 0])[:, None]
+        displaced = nodal @ (self.basis.products @ amplitude)
+        return np.asarray(self.basis.products.T @ displaced) / self.basis.weights
 
     def _join_on_axis(self, u: Field) -> None:
         """Replace the motions of the points on the axis by their common mean."""

@@ -28,8 +28,7 @@ from semi_analytical import (
     solve,
 )
 from verification.judging.run import OTHER_NORMS
-from verification.observed.sections import section_laws
-from verification.observed.surfaces import surface_violation
+from verification.observed.laws import observed
 from verification.running.study import CaseRecord
 from verification.studies.stability.cell import CellRecord, Refusal, Solver, StabilityCell, Verdict
 from verification.studies.stability.pose import TOLERANCE, Posed, pose
@@ -80,7 +79,7 @@ def by_superposition(posed: Posed) -> Solved:
     increments = result.increments
     return Solved(
         increments=increments,
-        observed=surface_violation(result),
+        observed=observed(result).violation,
         way=_way(result.plan),
         rounds=max(i.rounds for i in increments),
         convolutions=sum(i.convolutions for i in increments),
@@ -103,7 +102,7 @@ def by_elements(posed: Posed, method: Method) -> Solved:
     ways = sorted({i.path for i in increments if i.path is not None})
     return Solved(
         increments=increments,
-        observed=section_laws(result)[0],
+        observed=observed(result).violation,
         way="; ".join([result.plan.path.value, *ways]),
         rounds=max(i.sweeps for i in increments),
     )

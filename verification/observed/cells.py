@@ -1,0 +1,133 @@
+"""States of the semi-analytical method for the laws of contact and friction."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_scene.friction import FRICTIONLESS
+from semi_analytical import Increment, Result
+from verification.observed.contact_state import (
+    BISECTED,
+    CORRECTED,
+    TINY,
+    UNDEFINED,
+    Balance,
+    ContactState,
+)
+from verification.observed.end_state import is_corrected
+
+Field = NDArray[np.float64]
+
+EDGES = 0.125  # of (h/a)²: the energy error of a point contact; ten times as much is allowed
+# Where the border of stick is not fitted, the shear follows the corrected pressure in the cells
+# along the edge, about a tenth of the contact, and carries the force to the change in these.
+BORDER = 10.0
+INNER = 0.1  # of the change, to which the solves of the correction end
+
+
+def states_on_cells(result: Result) -> list[ContactState]:
+    """Return the states of all increments.
+
+    With the edge correction, complementarity and the tangential force hold to the last change of
+    the correction, and slip and energies are those before the correction.
+    """
+    undeformed = result.scene.indenter.initial_gap(*result.grid.coordinates())
+    before_touch = _before_touch(result.increments[0], undeformed)
+    states, before, grown, defined = list[ContactState](), None, False, True
+    for now in result.increments:
+        state = _state(now, before, result, undeformed, before_touch)
+        if now.shear is not None:
+            defined &= now.dissipated_energy is not None
+            grown |= now.halvings > 0 if before is None else _grows(before, now)
+        skipped = BISECTED if now.halvings else CORRECTED if is_corrected(now) else ""
+        if not defined:
+            state = replace(state, passed=None)
+            skipped = UNDEFINED
+        edges = is_corrected(now) or (before is not None and is_corrected(before))
+        side = max(result.grid.spacing) / now.contact_radius if now.contact_radius else 1.0
+        states.append(
+            replace(
+                state,
+                coarse=max(1.0, EDGES * side**2 / result.tolerance) if edges else 1.0,
+                unseen=skipped if now.shear is not None else "",
+                open="" if skipped == CORRECTED else skipped,
+                told=grown,
+            )
+        )
+        before = now
+    return states
+
+
+def _state(
+    now: Increment, before: Increment | None, result: Result, undeformed: Field, before_touch: Field
+) -> ContactState:
+    (x, y), grid, p = result.grid.coordinates(), result.grid, now.pressure
+    friction = (result.scene.friction or FRICTIONLESS).on(grid.cells, grid.spacing)
+    nothing = np.zeros((2, *p.shape))
+    q = nothing if now.shear is None else now.shear
+    slip = nothing if now.slip is None else now.slip
+    shift = (0.0, 0.0) if now.tangential_shift is None else now.tangential_shift
+    tilt = (0.0, 0.0) if now.tilt is None else now.tilt
+    xx, yy = (0.0, 0.0) if now.bulk_strain is None else now.bulk_strain
+    area, limit = grid.cell_area, friction.limit(p)
+    # Conjugate to force, tangential forces, moments, torque and strains of the lower body.
+    arms = (p, q[0], q[1], p * y, p * x, q[1] * x - q[0] * y, q[0] * x, q[1] * y)
+    forces = area * np.array([*map(np.sum, arms), np.sum(q[0] * y + q[1] * x)])
+    motions = [now.approach, *shift, *tilt, now.twist or 0.0, -xx, -yy, -(now.bulk_shear or 0.0)]
+    # A tilted indenter may be in contact although its axis is higher than at first contact.
+    lowered = (now.approach + tilt[0] * y + tilt[1] * x)[p > 0]
+    change = now.edge_change or 0.0
+
+    def balance(carried: Field, due: object, most: Field, times: float) -> Balance:
+        eased = result.tolerance / max(result.tolerance, times * change)
+        return Balance(carried, due, float(np.sum(most)) * area, eased)
+
+    arm, balances = np.hypot(x, y), [balance(forces[0], now.normal_force, p, 0.0)]
+    if now.moment is not None:
+        balances.append(balance(forces[3:5], now.moment, p * arm, 0.0))
+    if now.shear is not None and np.any(limit):
+        fitted = now.edge_report is None or now.edge_report.stick is not None
+        force = now.tangential_force
+        balances.append(balance(forces[1:3], force, limit, INNER if fitted else BORDER))
+        if now.torque is not None:
+            balances.append(balance(forces[5], now.torque, limit * arm, 0.0))
+    return ContactState(
+        now, np.full_like(p, area), undeformed, p, now.gap, q, limit, slip, slip + before_touch,
+        forces, np.array(motions), float(np.max(np.abs(lowered), initial=abs(now.approach))),
+        tuple(balances), tuple(_traces(before, now, area)),
+        eased=result.tolerance / max(result.tolerance, change),
+    )  # fmt: skip
+
+
+def _traces(before: Increment | None, now: Increment, area: float) -> list[float]:
+    """Compare the sums of the fields of dissipation and slip with the stated numbers."""
+    lost, way, slip = now.dissipated_energy, now.slip_distance, now.slip
+    if lost is None or way is None or slip is None or now.dissipation is None:
+        return []
+    longest = max(float(np.max(way)), TINY)
+    if before is not None and before.slip_distance is not None and before.slip is not None:
+        way, slip = way - before.slip_distance, slip - before.slip
+    shorter = (np.hypot(*slip) - way) / longest  # no way is shorter than the change of the slip
+    off = abs(float(np.sum(now.dissipation)) * area - lost) / max(lost, TINY)
+    return [off, float(np.max(shorter if now.halvings else np.abs(shorter)))]
+
+
+def _before_touch(first: Increment, undeformed: Field) -> Field:
+    """Compute the relative motion of particles before first contact in the first increment (2, nx,
+    ny).
+
+    Where there is a gap, the slip is (p/p₀)² of the motion, as p² grows with the motion of the
+    edge.
+    """
+    if first.slip is None:
+        return np.zeros((2, *undeformed.shape))
+    p = first.pressure
+    touching = np.where((p > 0) & (undeformed > 0), (p / np.max(p)) ** 2, 1.0)
+    return np.asarray(first.slip * (1 / touching - 1))
+
+
+def _grows(before: Increment, now: Increment) -> bool:
+    return bool(np.any((now.pressure > 0) & (before.pressure == 0)))

@@ -1,0 +1,278 @@
+"""Laws of contact and friction and the first law, for increments of any solver.
+
+An increment is a set of points of the contact surface with weights. A function for each solver
+creates the states from a result; the laws are the same for all solvers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from verification.observed.prescribed import Imbalance
+
+Field = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+LEAST_SLIP = 1e-3  # part of the sliding distance µδ that is the smallest scale of slip
+# Of the approach: slip is the small difference of motions as large as the approach, which leaves a
+# hundred-millionth of that by rounding.
+SLIP_ROUNDING = 1e-8
+TINY = float(np.finfo(float).tiny)
+
+# Reasons for which a law is not evaluated.
+BISECTED, UNDEFINED = "the increment was bisected", "the motion of the indenter is undefined"
+CORRECTED = "slip and energies are those before the edge correction"
+GROWN = "the contact with friction has grown: stored energy and unresolved work are as stated"
+FEW_RINGS = "the contact has too few rings for integrals"
+
+
+@dataclass(frozen=True)
+class Balance:
+    """Force or moment of the tractions, its prescribed value, and its largest possible value.
+
+    eased  the tolerance of the solver over that of this balance
+    """
+
+    carried: Any
+    due: Any
+    most: float
+    eased: float = 1.0
+
+    @property
+    def missing(self) -> float:
+        """Difference over the largest possible value [1]."""
+        off = np.linalg.norm(np.subtract(self.carried, self.due))
+        return float(off / self.most) * self.eased
+
+
+@dataclass(frozen=True)
+class ContactState:
+    """An increment at points of the surface; vectors are (2, ...).
+
+    increment   as the solver states it
+    weights     area of the points [length^2]
+    undeformed  gap before any load; gap that of the deformed surfaces, less than 0 where springs of
+                a penalty are compressed [length]
+    limit       of friction [force/length^2]
+    slip        as stated; passed is the motion of the lower surface relative to the indenter since
+                the start [length], None if it is undefined
+    forces      forces and moments; motions are conjugate
+    depth       scale of gaps [length]
+    balances    of forces and moments
+    stated      differences of stated numbers from those of the fields, as parts of their size
+    give        length by which springs are compressed per pressure [length^3/force]
+    loose       largest slip of springs without motion of the points, or 0 [length]
+    eased       the tolerance of the solver over that of p g = 0
+    coarse      factor on the scale of energies, for the edge correction
+    least_work  smallest scale of the dissipated energy [force length]
+    unseen      reason for which the slip is not compared with the shear; empty if it is
+    open        reason for which the energies are not compared with those of the preceding state
+    told        true if stored energy and unresolved work cannot be computed from the fields
+    """
+
+    increment: Any
+    weights: Field
+    undeformed: Field
+    pressure: Field
+    gap: Field
+    shear: Field
+    limit: Field
+    slip: Field
+    passed: Field | None
+    forces: Field
+    motions: Field
+    depth: float
+    balances: tuple[Balance, ...]
+    stated: tuple[float, ...] = ()
+    give: float = 0.0
+    loose: Field | float = 0.0
+    eased: float = 1.0
+    coarse: float = 1.0
+    least_work: float = 0.0
+    unseen: str = ""
+    open: str = ""
+    told: bool = False
+
+    @property
+    def not_compared(self) -> str:
+        """Reason for which some energies are not compared; empty if all are."""
+        return self.open or (GROWN if self.told else CORRECTED if self.coarse > 1 else "")
+
+    def over(self, field: Field) -> float:
+        """Integrate a field over the surface."""
+        return float(np.sum(self.weights * field))
+
+    @property
+    def stored(self) -> float:
+        """Energy ½ ∫ (p u_z + q·u) dA of bodies and springs [force length]."""
+        assert self.passed is not None
+        closed = np.zeros_like(self.pressure)
+        np.subtract(self.gap, self.undeformed, out=closed, where=self.pressure > 0)
+        along = np.sum(self.shear * self.passed, axis=0)
+        by_motion = float(np.sum(self.forces * self.motions))
+        return 0.5 * (self.over(self.pressure * closed + along) + by_motion)
+
+    @property
+    def springs(self) -> bool:
+        """True for a penalty: the stated elastic energy is that of the bodies alone."""
+        return self.increment.overlap is not None
+
+    @property
+    def energy(self) -> float:
+        """Stored energy, as stated if the solver states it [force length]."""
+        alone = self.increment.elastic_energy
+        return self.stored if alone is None or self.springs else float(alone)
+
+    def at_rest(self) -> ContactState:
+        """Return the state before first contact at the same points."""
+        nothing, still = np.zeros_like(self.pressure), np.zeros_like(self.shear)
+        return ContactState(
+            None, self.weights, self.undeformed, nothing, self.undeformed, still, nothing, still,
+            still, 0 * self.forces, 0 * self.motions, self.depth, (),
+        )  # fmt: skip
+
+
+def violations(states: Sequence[ContactState]) -> Iterator[float]:
+    """Yield the violations of the laws of contact and friction in all increments [1]."""
+    for before, now in pairwise([None, *states]):
+        assert now is not None
+        yield from _of_pressure(now)
+        yield from (balance.missing for balance in now.balances)
+        yield from now.stated
+        size = np.hypot(*now.shear)
+        if not np.any(now.limit):
+            yield float(np.max(size) / np.max(now.pressure))
+        else:
+            yield float(np.max(size - now.limit) / np.max(now.limit))
+            if not now.unseen and now.passed is not None:
+                yield from _of_slip(before, now)
+
+
+def _of_pressure(now: ContactState) -> Iterator[float]:
+    p, gap = now.pressure, np.where(np.isposinf(now.gap), 0.0, now.gap) + now.give * now.pressure
+    yield float(np.max(-p) / np.max(p))
+    yield float(np.max(-gap) / now.depth)
+    if not now.give:
+        yield now.eased * now.over(p * np.abs(gap)) / (now.over(p) * now.depth)
+
+
+def _of_slip(before: ContactState | None, now: ContactState) -> Iterator[float]:
+    """Check that slip is the relative motion, opposes the shear at its limit, and dissipates."""
+    start = now.at_rest() if before is None or before.passed is None else before
+    assert start.passed is not None
+    assert now.passed is not None
+    slip, passed = now.slip - start.slip, now.passed - start.passed
+    approach = abs(now.increment.approach)
+    other = _other_than_motion(slip, passed, start.pressure > 0) - now.loose
+    yield float(np.max(np.where(now.weights * now.limit > 0, other, 0.0)) / approach)
+    work, friction = now.limit * np.hypot(*slip), np.max(now.limit) / np.max(now.pressure)
+    least = max(LEAST_SLIP * friction, SLIP_ROUNDING) * approach * now.over(now.limit)
+    scale = max(now.over(work), now.least_work, least)
+    if scale > 0:  # not so where the axis alone is in contact
+        yield now.over(work + np.sum(now.shear * slip, axis=0)) / scale
+    most, last = now.increment.dissipated_energy, getattr(start.increment, "dissipated_energy", 0.0)
+    if most is not None and last is not None:
+        yield (last - most) / max(most, TINY)
+        if scale > 0 and not now.open and now.coarse == 1:
+            yield abs(_dissipated(start, now) - (most - last)) / scale
+
+
+def _other_than_motion(slip: Field, passed: Field, touched: Mask) -> Field:
+    """Compute the difference of the slip from the relative motion in an increment [length].
+
+    Points that came into contact in the increment may have a fraction of the motion as slip.
+
+    touched  before the increment
+    """
+    squared, along = np.sum(passed**2, axis=0), np.sum(slip * passed, axis=0)
+    part = np.clip(np.divide(along, squared, out=np.ones_like(squared), where=squared > 0), 0, 1)
+    return np.asarray(np.hypot(*(slip - np.where(touched, 1.0, part) * passed)))
+
+
+def imbalances(states: Sequence[ContactState]) -> Iterator[Imbalance]:
+    """Yield the energy differences of all increments, over the largest energy so far.
+
+    The differences are those of the energy balance, and of the fields from the stated energies.
+    """
+    largest = 0.0
+    for number, (before, now) in enumerate(pairwise([None, *states]), start=1):
+        assert now is not None
+        end = now.increment
+        if now.passed is None:
+            return  # the motion is undefined, and with it all that follows
+        lost, work = end.dissipated_energy or 0.0, end.trapezoidal_work or 0.0
+        largest = max(largest, abs(now.energy), abs(work), abs(lost))
+        scale = largest * now.coarse
+        if end.elastic_energy is not None and not now.springs:
+            terms = {"stored": now.energy if now.told else now.stored, "stated": now.energy}
+            yield Imbalance(number, scale, terms["stored"] - terms["stated"], **terms)
+            if end.input_work is not None:
+                terms = {"work": end.input_work, "stored": now.energy, "dissipated": lost}
+                yield Imbalance(number, largest, end.input_work - now.energy - lost, **terms)
+        if end.energy_imbalance is not None:
+            yield Imbalance(number, 1.0, end.energy_imbalance, stated=end.energy_imbalance)
+        if not now.open:  # else there are states in between
+            for difference, terms in _missing(before or now.at_rest(), now):
+                yield Imbalance(number, scale, difference, **terms)
+
+
+def _missing(start: ContactState, now: ContactState) -> Iterator[tuple[float, dict[str, float]]]:
+    """Yield differences from the first law and from stated energies, each with its terms."""
+    last, end = start.increment, now.increment
+    work = 0.5 * float(np.sum((start.forces + now.forces) * (now.motions - start.motions)))
+    stored = now.energy - (0.0 if last is None else start.energy)
+    own = _dissipated(start, now)
+    told = {
+        name: (getattr(end, name) or 0.0) - (getattr(last, name, None) or 0.0)
+        for name in ("trapezoidal_work", "dissipated_energy", "unresolved_work")
+    }
+    shrunk = np.any(start.shear * (now.pressure == 0))
+    told_alone = now.told or (shrunk and not now.give and end.unresolved_work is not None)
+    unresolved = told["unresolved_work"] if told_alone else _unresolved(start, now) - own
+    terms = {"work": work, "stored": stored, "dissipated": own, "unresolved": unresolved}
+    yield work - stored - own - unresolved, terms
+    found = {"trapezoidal_work": work, "dissipated_energy": own, "unresolved_work": unresolved}
+    for name, energy in found.items():
+        if getattr(end, name) is not None and not (name == "unresolved_work" and now.springs):
+            yield energy - told[name], {name: energy, "stated": told[name]}
+
+
+def _dissipated(start: ContactState, now: ContactState) -> float:
+    """Compute the energy dissipated along the slip, by the mean of the friction limits.
+
+    Points that lose contact may have stuck until then: they take half their shear at the start.
+    """
+    limit = 0.5 * (start.limit + now.limit)
+    parted = (start.pressure > 0) & (now.pressure == 0)
+    friction = np.where(parted, 0.5 * np.hypot(*start.shear), limit)
+    return now.over(friction * np.hypot(*(now.slip - start.slip)))
+
+
+def _unresolved(start: ContactState, now: ContactState) -> float:
+    """Compute the work that a finite increment does not resolve, including dissipation.
+
+    Loads are linear in time where gaps close or open, and so is the shear (see
+    `semi_analytical.increments.energy`).
+    """
+    assert start.passed is not None
+    assert now.passed is not None
+    p, other = start.pressure, now.pressure
+    ends = other * _finite(start.gap), p * _finite(now.gap)
+    if now.give:  # springs: the gap of a lasting contact changes
+        ends = ends[0] + p * _finite(start.gap), ends[1] + other * _finite(now.gap)
+        changed = np.ones_like(p, dtype=bool)
+    else:
+        changed = (p > 0) != (other > 0)
+    closing = np.where(changed, ends[0] - ends[1], 0.0)
+    sheared = np.sum((start.shear + now.shear) * (now.passed - start.passed), axis=0)
+    return 0.5 * now.over(closing - sheared)
+
+
+def _finite(gap: Field) -> Field:
+    return np.where(np.isposinf(gap), 0.0, gap)
