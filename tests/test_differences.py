@@ -16,7 +16,6 @@ from contact_scene.quantities.increment import SCALARS
 from semi_analytical import Result, solve
 from slipstick.cli.progress import solved_in
 from verification.cases import hertz, histories, indenters
-from verification.cases.cross_check import everywhere
 
 READ: dict[Any, tuple[str, ...]] = {
     histories.as_it_is: ("pressure", "shear", "tangential_shift", "approach"),
@@ -57,17 +56,6 @@ class End:
         self.tangential_shift = (value, 1e-6)
 
 
-def of_places(values: list[float]) -> str:
-    x = np.array([0.0, 1.0])
-    lines: dict[float, Any] = {
-        float(part): SimpleNamespace(
-            x=x, shear_apart=np.array([value, 0.0]), left_out={"there": x < 1}
-        )
-        for part, value in enumerate(values)
-    }
-    return everywhere(lines).note
-
-
 def of_residuals(values: list[float]) -> str:
     increments = [SimpleNamespace(worst_residual=value) for value in values]
     return str(dict(solved_in(SimpleNamespace(tolerance=1e-8, increments=increments), 1.0)))
@@ -78,7 +66,6 @@ def of_steps(values: list[float]) -> str:
 
 
 TOLD: dict[str, Callable[[list[float]], str]] = {
-    "differences that are left out": of_places,
     "largest residual": of_residuals,
     "strains": lambda values: str(beyond_linear_theory(scene(PRESS), map(End, values))),
     "shifts of steps": of_steps,
