@@ -303,7 +303,7 @@ class MotionControlled:
         repeated = self._repeated(result)
         if repeated is None:
             return math.inf
-        violation, imbalance = observed(repeated)
+        violation, imbalance, *_ = observed(repeated)
         return worst(violation, imbalance or 0.0)
 
     def iterations(self, result: semi_analytical.Result) -> float:
