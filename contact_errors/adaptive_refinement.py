@@ -109,20 +109,26 @@ class RefinementLevel:
 
         believed  fraction of the convergence orders: 1 for the most likely refinement
         """
-        space: Part = next(iter(self.run.required))
         factors: dict[Part, float] = {}
         for name, share in shares.items():
             of_cells = self.run.order(name)
             for error in self.errors(name):
                 parts = {p: float(np.max(s)) / self.largest(name) for p, s in error.parts.items()}
                 allowed = share / SPARE / max(1, sum(size > 0 for size in parts.values()))
+                wanted: dict[Part, float] = {
+                    part: (size / allowed) ** (1 / (believed * ORDERS.get(part, of_cells)))
+                    for part, size in parts.items()
+                    if part != "neglected" and size > allowed
+                }
                 if error.status is ErrorStatus.NOT_CONVERGED:
-                    factors[space] = max(factors.get(space, 1.0), UNCONVERGED)
-                for part, size in parts.items():
-                    order = believed * ORDERS.get(part, of_cells)
-                    if part != "neglected" and size > allowed:
-                        factors[part] = max(factors.get(part, 1.0), (size / allowed) ** (1 / order))
-        return Refinement(factors.pop(space, 1.0), factors.pop("increments", 1.0), factors)
+                    wanted[self.part] = max(wanted.get(self.part, 1.0), UNCONVERGED)
+                factors |= {p: max(factor, factors.get(p, 1.0)) for p, factor in wanted.items()}
+        return factors
+
+    @property
+    def part(self) -> Part:
+        """Part of the error by the cells."""
+        return next(iter(self.run.required))
 
 
 @dataclass(frozen=True)
@@ -149,7 +155,7 @@ class Levels:
             try:
                 return self.solved(fineness)
             except ContactNotResolved:
-                fineness = self.solver.refined(fineness, Refinement(UNCONVERGED))
+                fineness = self.solver.refined(fineness, {self.solver.part: UNCONVERGED})
         return self.solved(fineness)
 
     def solved(self, fineness: Fineness) -> RefinementLevel:
@@ -175,6 +181,12 @@ class Levels:
             processor_seconds=time.process_time() - began_processor,
         )
 
+    def following(self, level: RefinementLevel, by: Refinement) -> tuple[Fineness, float]:
+        """Return a finer discretisation, and the expected CPU time of its solves [s]."""
+        finer = self.solver.refined(level.fineness, by)
+        works = self.solver.work(level.fineness), self.solver.work(finer)
+        return finer, estimated_seconds(level.processor_seconds, *works)
+
     def settings(self, fineness: Fineness) -> AccuracySettings:
         """Return the discretisation for the summary."""
         return AccuracySettings(
@@ -198,13 +210,13 @@ class Levels:
         )
 
 
-def bounded(by: Refinement, most: float = MAX_AT_ONCE) -> Refinement:
-    """Limit all refinement factors, and refine at least one parameter."""
-    cells, increments = min(by.cells, most), min(by.increments, most)
-    others = {part: min(factor, most**2) for part, factor in by.others.items()}
-    if max(cells, increments) < LEAST_AT_ONCE and not others:
-        cells = LEAST_AT_ONCE
-    return Refinement(cells, increments, others)
+def bounded(by: Refinement, cells: Part, most: float = MAX_AT_ONCE) -> Refinement:
+    """Limit all refinement factors, and refine at least the cells."""
+    first = {cells, "increments"}
+    found = {part: min(by[part], most if part in first else most**2) for part in by}
+    if found.keys() <= first and max(found.values(), default=1.0) < LEAST_AT_ONCE:
+        found[cells] = LEAST_AT_ONCE
+    return found
 
 
 @dataclass(frozen=True)
@@ -228,26 +240,6 @@ class Refined:
 
 
 @dataclass(frozen=True)
-class Progress:
-    """State of a refinement between two levels, sufficient to resume it.
-
-    targets  numbers that the request applies to
-    rounds   number of levels solved
-    spent    their time [s]
-    last     discretisation of the last level
-    next     discretisation of the next level
-    needed   expected time of the next level [s]
-    """
-
-    targets: Targets
-    rounds: int
-    spent: float
-    last: Fineness
-    next: Fineness
-    needed: float
-
-
-@dataclass(frozen=True)
 class Price:
     """Cost of one request.
 
@@ -268,8 +260,6 @@ def refine(
     request: AccuracyRequest,
     most_seconds: float = np.inf,
     estimated: Estimated | None = None,
-    begun: Progress | None = None,
-    between: Callable[[Progress], None] | None = None,
 ) -> Refined:
     """Solve finer and finer levels until a request is met.
 
@@ -279,74 +269,51 @@ def refine(
 
     most_seconds  limit of the total time; no level starts that is expected to exceed it
     estimated     called with the errors of each level
-    begun         state to resume from, as passed to `between`
-    between       called before each level except the first
     """
-    state, level, stopped = begun, None, None
-    if state is None:
-        level = levels.first()
-        state = _after(level, levels, targets_of(request, level, levels), 1, level.seconds)
+    level = levels.first()
+    targets, spent, rounds, stopped = targets_of(request, level, levels), 0.0, 0, None
+    while stopped is None:
+        spent, rounds = spent + level.seconds, rounds + 1
+        reached = {name: level.reached(name) for name in targets.shares}
         if estimated is not None:
-            estimated(1, *_compared(level, state.targets))
-    shares = state.targets.shares
-    while level is None or not level.meets(shares):
-        if stopped := _stopped(state, levels, most_seconds):
+            estimated(rounds, targets.shares, reached)
+        if level.meets(targets.shares):
             break
-        if between is not None:
-            between(state)
-        try:
-            level = levels.solved(state.next)
-        except SolverError as error:
-            stopped = f"the next round has no answer: {error}"
-            break
-        spent = state.spent + level.seconds
-        state = _after(level, levels, state.targets, state.rounds + 1, spent)
-        if estimated is not None:
-            estimated(state.rounds, *_compared(level, state.targets))
-    if level is None:  # solved before the resume point
-        level = levels.solved(state.last)
-    asked, reached = _compared(level, state.targets)
+        by = bounded(level.needed(targets.shares), level.part)
+        following, seconds = levels.following(level, by)
+        shared = max(1.0, level.seconds / max(level.processor_seconds, 1e-3))
+        stopped = levels.too_large(following)
+        if rounds == MAX_ROUNDS:
+            stopped = f"{rounds} rounds have not met it"
+        elif stopped is None and spent + shared * seconds > most_seconds:
+            stopped = (
+                f"after {spent:.3g} s the next round would take about {shared * seconds:.2g} s, "
+                f"beyond the {most_seconds:.3g} s of --most-seconds"
+            )
+        if stopped is None:
+            try:
+                level = levels.solved(following)
+            except SolverError as error:
+                stopped = f"the next round has no answer: {error}"
     accuracy = AccuracyReached(
-        asked=dict(asked),
-        reached=dict(reached),
+        asked=dict(targets.shares),
+        reached=reached,
         met=stopped is None,
         settings=levels.settings(level.fineness),
-        rounds=state.rounds,
-        left_out=dict(state.targets.left_out),
+        rounds=rounds,
+        left_out=dict(targets.left_out),
         stopped=stopped,
     )
     return Refined(level, accuracy)
 
 
-def _compared(
-    level: RefinementLevel, targets: Targets
-) -> tuple[Mapping[str, float], Mapping[str, float | None]]:
-    """Return the requested errors, and those of a level."""
-    return targets.shares, {name: level.reached(name) for name in targets.shares}
-
-
-def _after(
-    level: RefinementLevel, levels: Levels, targets: Targets, rounds: int, spent: float
-) -> Progress:
-    """Return the state after a level."""
-    finer = levels.solver.refined(level.fineness, bounded(level.needed(targets.shares)))
-    shared = max(1.0, level.seconds / max(level.processor_seconds, 1e-3))
-    works = levels.solver.work(level.fineness), levels.solver.work(finer)
-    needed = estimated_seconds(shared * level.processor_seconds, *works)
-    return Progress(targets, rounds, spent, level.fineness, finer, needed)
-
-
 def price(levels: Levels, first: RefinementLevel, request: AccuracyRequest) -> Price:
     """Estimate the cost of a request from the first level; raises AccuracyOutOfReach."""
     shares = targets_of(request, first, levels).shares
-    needed = bounded(first.needed(shares, believed=1.0), FURTHEST)
-    fineness = first.fineness
-    if not first.meets(shares):
-        fineness = levels.solver.refined(fineness, needed)
-    works = levels.solver.work(first.fineness), levels.solver.work(fineness)
-    seconds = first.processor_seconds + estimated_seconds(first.processor_seconds, *works)
+    by = bounded(first.needed(shares, believed=1.0), first.part, FURTHEST)
+    fineness, seconds = levels.following(first, {} if first.meets(shares) else by)
     fits, memory = levels.too_large(fineness) is None, levels.solver.memory(fineness)
-    return Price(levels.settings(fineness), seconds, memory, fits)
+    return Price(levels.settings(fineness), first.processor_seconds + seconds, memory, fits)
 
 
 def targets_of(request: AccuracyRequest, level: RefinementLevel, levels: Levels) -> Targets:
@@ -361,9 +328,9 @@ def targets_of(request: AccuracyRequest, level: RefinementLevel, levels: Levels)
             raise AccuracyOutOfReach(f"{name} can have no requested accuracy: {left_out[name]}")
     shares = {name: share for name, share in request.shares().items() if name not in left_out}
     doubted = {name: DOUBT * share for name, share in shares.items()}
-    needed = bounded(level.needed(doubted, believed=1.0), FURTHEST)
+    needed = bounded(level.needed(doubted, believed=1.0), level.part, FURTHEST)
     finest = levels.solver.refined(level.fineness, needed)
-    if needed.cells > UNCONVERGED and (too_large := levels.too_large(finest)):
+    if needed.get(level.part, 1.0) > UNCONVERGED and (too_large := levels.too_large(finest)):
         raise AccuracyOutOfReach(f"no grid can meet the request: {too_large}")
     return Targets(shares, left_out)
 
@@ -376,17 +343,3 @@ def _why_left_out(name: str, level: RefinementLevel) -> str:
         return "its exact value is infinite"
     natural = max(scale(name, step) for step in level.run.values)
     return "it is zero throughout" if level.largest(name) <= ROUND_OFF * natural else ""
-
-
-def _stopped(state: Progress, levels: Levels, most_seconds: float) -> str | None:
-    """Return the reason if the refinement stops before the next level, else None."""
-    if state.rounds == MAX_ROUNDS:
-        return f"{state.rounds} rounds have not met it"
-    if too_large := levels.too_large(state.next):
-        return too_large
-    if state.spent + state.needed <= most_seconds:
-        return None
-    return (
-        f"after {state.spent:.3g} s the next round would take about {state.needed:.2g} s, "
-        f"beyond the {most_seconds:.3g} s of --most-seconds"
-    )

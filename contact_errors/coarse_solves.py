@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from math import ceil, log
 from typing import Any, ClassVar, Self, TypeAlias
 
@@ -38,24 +38,12 @@ LEAST_TOLERANCE = 1e-13
 # Largest part of the difference between two levels that the tolerance of coarse solves may cause.
 NEGLIGIBLE = 1e-2
 
+# Refinement factors by the part of the error.
+Refinement: TypeAlias = Mapping[Part, float]
 # A result with its numbers.
 Solved: TypeAlias = tuple[Any, Sequence[Values]]
 # Numbers of two solves that differ in one parameter: of the finer and of the coarser one.
 Effect: TypeAlias = tuple[Sequence[Values], Sequence[Values]]
-
-
-@dataclass(frozen=True)
-class Refinement:
-    """Refinement factors.
-
-    cells       of the cells along a side, or of the elements or rings over the radius
-    increments  of the increments of all steps with an increment error
-    others      of the remaining parameters, by the part of the error
-    """
-
-    cells: float = 1.0
-    increments: float = 1.0
-    others: Mapping[Part, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -196,10 +184,10 @@ class DiscretisedSolver(ABC):
             fineness,
             space=self.finer(fineness.space, by),
             increments=tuple(
-                ceil(by.increments * count - 1e-9) if matters else count
+                ceil(by.get("increments", 1.0) * count - 1e-9) if matters else count
                 for count, matters in zip(fineness.increments, with_error(self.scene), strict=True)
             ),
-            tolerance=max(LEAST_TOLERANCE, fineness.tolerance / by.others.get("tolerance", 1.0)),
+            tolerance=max(LEAST_TOLERANCE, fineness.tolerance / by.get("tolerance", 1.0)),
         )
 
     @abstractmethod

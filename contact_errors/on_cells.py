@@ -45,6 +45,8 @@ FIRST_CELLS = 24
 # Increment error of the shear on the first level.
 FIRST_PATH_ACCURACY = 4e-2
 MAX_CELLS = 16384
+# Numbers with the error of the approach that the edge correction leaves.
+MOTIONS = "approach", "normal_force", "tilt", "moment", "elastic_energy", "input_work"
 # Enlargement of a fitted window with equal cells, if the contact reaches its edge.
 ROOM, MAX_ENLARGEMENTS = 1.25, 5
 
@@ -159,7 +161,7 @@ class CellSolver(DiscretisedSolver):
         return SurfaceGrid(scaled(grid.cells, FIRST_CELLS / min(grid.cells)), grid.window)
 
     def finer(self, space: SurfaceGrid, by: Refinement) -> SurfaceGrid:
-        return SurfaceGrid(scaled(space.cells, by.cells), space.window)
+        return SurfaceGrid(scaled(space.cells, by.get(self.part, 1.0)), space.window)
 
     def work(self, fineness: Fineness) -> Work:
         return work_on_cells(fineness.space.cells, fineness.increments, self.plan.shear)
@@ -174,7 +176,7 @@ class CellSolver(DiscretisedSolver):
 
 def _left(report: EdgeReport) -> Mapping[str, float]:
     """Return relative errors of numbers that the iteration of the edge correction leaves."""
-    motions = dict.fromkeys(("approach", "normal_force", "tilt", "moment"), report.response)
+    motions = dict.fromkeys(MOTIONS, report.response)
     radii = {"contact_radius": report.radius, "contact_area": 2 * report.radius}
     stick = {"stick_radius": report.stick or 0.0, "stick_area": 2 * (report.stick or 0.0)}
     return {**motions, **radii, **stick, PEAK: report.peak}

@@ -151,17 +151,16 @@ class ElementSolver(DiscretisedSolver):
     def finer(
         self, space: FiniteElementDiscretisation, by: Refinement
     ) -> FiniteElementDiscretisation:
-        others = by.others
         finer = _with(
             space,
-            elements_per_radius=ceil(by.cells * space.elements_per_radius - 1e-9),
-            harmonics=min(MAX_HARMONICS, ceil(others.get("harmonics", 1) * space.harmonics)),
-            overlap=max(LEAST_OVERLAP, space.overlap / others.get("penalty", 1.0)),
+            elements_per_radius=ceil(by.get(self.part, 1.0) * space.elements_per_radius - 1e-9),
+            harmonics=min(MAX_HARMONICS, ceil(by.get("harmonics", 1.0) * space.harmonics)),
+            overlap=max(LEAST_OVERLAP, space.overlap / by.get("penalty", 1.0)),
         )
-        if "section" not in others:
+        if "section" not in by:
             return finer
         box = max(section.outline.box for section in sections_of(self.scene, space))
-        return _with(finer, box=min(LARGEST_BOX, box * others["section"]))
+        return _with(finer, box=min(LARGEST_BOX, box * by["section"]))
 
     def work(self, fineness: Fineness) -> Work:
         harmonics = fineness.space.harmonics if self.plan.path is Path.HARMONICS else 1

@@ -112,7 +112,7 @@ class RingSolver(DiscretisedSolver):
         return FIRST_FINENESS if self.counted else 1.0
 
     def finer(self, space: float, by: Refinement) -> float:
-        rings = by.cells * space
+        rings = by.get(self.part, 1.0) * space
         return rings if self.counted else float(np.ceil(rings))
 
     def work(self, fineness: Fineness) -> Work:

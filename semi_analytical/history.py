@@ -19,7 +19,7 @@ from contact_scene.stepping.load_stepping import (
 )
 from semi_analytical.edge.corrected import Corrected, EdgeReport
 from semi_analytical.fields import Increment
-from semi_analytical.increments.energy import NOTHING_YET
+from semi_analytical.increments.energy import NOTHING_YET, pressed_work
 from semi_analytical.increments.energy_balance import balanced
 from semi_analytical.increments.increment import (
     State,
@@ -190,7 +190,7 @@ def _increment(
         edge_report=state.edge_report,
     )
     if state.corrected is not None:
-        pressed = _with_edges(pressed, state.corrected, model, state.target)
+        pressed = _with_edges(pressed, state, state.corrected, model)
     if sheared is None:
         return pressed
     stuck, sheared, pressed = _stick(model, p, sheared, state.corrected, pressed, spreads=spreads)
@@ -213,11 +213,27 @@ def _increment(
 
 
 def _with_edges(
-    increment: Increment, corrected: Corrected, model: ContactModel, target: NormalTarget
+    increment: Increment, state: State, corrected: Corrected, model: ContactModel
 ) -> Increment:
-    """Replace the contact of an increment by the edge-corrected one, but not its energies."""
-    p, tilt, cell = corrected.pressure, corrected.tilt, model.window.cell_area
+    """Replace the contact of an increment by the edge-corrected one, with its elastic energy.
+
+    The part of shear in the elastic energy and the dissipation are not corrected.
+    """
+    p, tilt, cell, target = corrected.pressure, corrected.tilt, model.window.cell_area, state.target
     moment = reached_moment(model, target, p)
+    closure = replace(state.pressing, approach=corrected.approach, tilt=tilt).closure(model)
+    displacement = np.where(np.isfinite(model.gap), closure - model.gap, 0.0)
+    gained = (
+        0.5
+        * cell
+        * (
+            pressed_work(p, model.domain.extend(displacement))
+            - float(
+                np.sum(model.domain.extend(state.pressing.pressure * state.pressing.displacement))
+            )
+        )
+    )
+    work, open_work = increment.input_work, increment.unresolved_work
     return replace(
         increment,
         pressure=p,
@@ -229,6 +245,9 @@ def _with_edges(
         contact_area=corrected.contact_cells * cell,
         peak_pressure=corrected.peak,
         edge_change=corrected.change,
+        elastic_energy=increment.elastic_energy + gained,
+        input_work=None if work is None else work + gained,
+        unresolved_work=None if open_work is None else open_work - gained,
     )
 
 

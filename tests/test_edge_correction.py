@@ -57,6 +57,7 @@ def test_the_pressure_of_hertz_is_right_to_a_ten_thousandth_wherever_the_cells_l
     assert end.contact_radius == pytest.approx(A, rel=5e-5)
     assert end.approach == pytest.approx(APPROACH, rel=1e-5)
     assert end.peak_pressure == pytest.approx(hertz().peak_pressure, rel=1e-5)
+    assert end.elastic_energy == pytest.approx(0.4 * LOAD * APPROACH, rel=3e-5)
 
 
 def bumps(cells: int, *places: tuple[float, float, float, float]) -> tuple[Scene, SurfaceGrid]:
@@ -94,10 +95,10 @@ def test_no_later_state_knows_of_the_correction():
     loading = tuple({**step, "increments": 2} for step in STEPS[:2])
     plain, corrected = (solved(frictionless(*loading), edge) for edge in ("off", "last"))
     for one, other in zip(plain.increments, corrected.increments, strict=True):
-        assert one.elastic_energy == other.elastic_energy
         assert one.residuals == other.residuals
         if one.index == 1:
             assert other.edge_change is None
+            assert one.elastic_energy == other.elastic_energy
             np.testing.assert_array_equal(one.pressure, other.pressure)
 
 

@@ -172,6 +172,22 @@ def elastic_energy(state: Configuration, cell_area: float) -> float:
     return 0.5 * (normal + tangential) * cell_area
 
 
+def pressed_work(pressure: Field, displacement: Field) -> float:
+    """Compute Σ ∫ p u_z over the contact, over the area of a cell [force/length].
+
+    u_z is smooth at the edge of the contact. With its values at the cell centres, and the mean
+    pressure of each cell, Σ p (u_z - Δ²u_z/24) has an error of third order: the cell integral of a
+    smooth p u_z adds Δ²u_z/24 p, and its gradients twice as much of the opposite sign.
+
+    pressure, displacement  (nx, ny), on the window
+    """
+    bend = np.zeros_like(displacement)
+    bend[1:-1] += np.diff(displacement, 2, axis=0)
+    bend[:, 1:-1] += np.diff(displacement, 2, axis=1)
+    pressed = pressure > 0
+    return float(np.sum(pressure[pressed] * (displacement - bend / 24)[pressed]))
+
+
 def unresolved_work(before: Configuration, after: Configuration, cell_area: float) -> float:
     """Compute ½ Σ (p₁ g₀ - p₀ g₁) Δ + Σ (κf - ½ (q₀ + q₁))·(s₁ - s₀) Δ [force length].
 

@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 import typer
 
 from contact_results.directory.checkpoint import CheckpointDirectory, checkpointed
-from contact_results.directory.code_digest import SOLVERS, code_digest, solve_identity
-from contact_results.directory.resume_file import kept_value
+from contact_results.directory.code_digest import solve_identity
 from contact_scene import SceneFile
 from contact_scene.accuracy import AccuracyRequest
 from contact_scene.quantities.stated_error import AccuracyReached
@@ -47,8 +46,8 @@ MostSecondsOption: TypeAlias = Annotated[
     ),
 ]
 
-# Files in the directory of the results: state of a refinement, and checkpoints of its solves.
-ROUNDS, OF_ROUND = "rounds", "checkpoint-"
+# Checkpoints of the solves of a refinement, next to the results.
+OF_LEVEL = "checkpoint-"
 
 
 def requested_accuracy(
@@ -78,16 +77,14 @@ def leave_unless_met(accuracy: AccuracyReached | None) -> None:
         raise typer.Exit(ExitCode.RESOURCES_REFUSED)
 
 
-def forget_rounds(output: Path) -> None:
+def forget_levels(output: Path) -> None:
     """Remove the files that a killed run with an accuracy left for these results."""
     target = output.resolve()
-    of_rounds = f".{target.name}.{OF_ROUND}"
-    left = [path for place in (target, target.parent) for path in place.glob(f"{of_rounds}*")]
+    of_levels = f".{target.name}.{OF_LEVEL}*"
+    left = [path for place in (target, target.parent) for path in place.glob(of_levels)]
     for path in left:
         with checkpointed(output, "", tell, path.name.removeprefix(f".{target.name}.")):
             pass
-    with kept_value(output, "", tell, ROUNDS):
-        pass
 
 
 @contextmanager
@@ -102,21 +99,23 @@ def refined_to(
 ) -> Iterator[Refined]:
     """Yield the scene solved with the requested accuracy, by refinement.
 
-    Checkpoints of the current solve, and the state after each refinement, are stored next to the
-    results. They are removed at the end of the block, which writes the results.
+    Checkpoints of the current solve are stored next to the results. They are removed at the end of
+    the block, which writes the results. A killed run solves the earlier levels, which take a
+    fraction of the time, again.
 
     step  load step at whose end the stress is required; None for the last
     """
     from contact_errors.adaptive_refinement import refine
 
-    tried = 0  # solves at this refinement; a solve restarts if the contact outgrows its grid
+    tried = 0
 
     @contextmanager
     def keeping(fineness: Any) -> Iterator[CheckpointDirectory]:
         nonlocal tried
         tried += 1
+        of_level.close()
         identity = solve_identity(contents.scene, fineness, vars(solver))
-        yield of_round.enter_context(checkpointed(output, identity, tell, f"{OF_ROUND}{tried}"))
+        yield of_level.enter_context(checkpointed(output, identity, tell, f"{OF_LEVEL}{tried}"))
 
     @contextmanager
     def watching(fineness: Any) -> Iterator[Progress]:
@@ -124,20 +123,9 @@ def refined_to(
             yield observe
 
     fineness = solver.fineness(contents)
-    stress = request.binds_stress
-    levels = solver.levels(contents.scene, fineness, stress, watching, keeping, step=step)
-    inputs = (contents.scene, fineness, vars(solver), request, step)
-    identity = solve_identity(*inputs, code_digest((*SOLVERS, "contact_results", "contact_errors")))
-    with kept_value(output, identity, tell, ROUNDS) as stored, ExitStack() as of_round:
-
-        def between(refinement: Any) -> None:
-            nonlocal tried
-            tried = 0
-            stored.keep(refinement)
-            of_round.close()
-
-        begun = stored.last()
-        if begun is not None:
-            tell(f"going on after round {begun.rounds} of an interrupted run ({stored.path})")
-        most = inf if most_seconds is None else most_seconds
-        yield refine(levels, request, most, print_level, begun, between)
+    most = inf if most_seconds is None else most_seconds
+    levels = solver.levels(
+        contents.scene, fineness, request.binds_stress, watching, keeping, step=step
+    )
+    with ExitStack() as of_level:
+        yield refine(levels, request, most, print_level)

@@ -9,7 +9,7 @@ import typer
 from slipstick.cli.accuracy_option import (
     AccuracyOption,
     MostSecondsOption,
-    forget_rounds,
+    forget_levels,
     leave_unless_met,
     refined_to,
     requested_accuracy,
@@ -136,7 +136,7 @@ def run(
     from contact_results.result_warnings import warnings_of
 
     if request is None:
-        forget_rounds(output)
+        forget_levels(output)
     _print_outcome(chosen, result, stated, reached, stopwatch.wall_seconds, cycles)
     for warning in warnings_of(result):
         if warning not in printed:

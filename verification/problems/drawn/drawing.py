@@ -116,7 +116,6 @@ Lower = Callable[[Rng, float], Body]
 Pair = Callable[[Rng, float], Bodies]
 
 FEWEST, MOST = 16, 128  # cells along a side
-COARSEST = 4.0  # cells over a contact radius
 WIDTHS = (2.3, 3.4)  # window over the contact radius
 ELEMENTS_PER_RADIUS = (8, 32)
 STRAINS = (3e-3, 3e-2)  # contact radius over radius of curvature
@@ -311,11 +310,13 @@ def closes(forces: Sequence[float]) -> bool:
     return len(forces) > 1 and forces[-1] == forces[0]
 
 
-def fineness(rng: Rng, reach: tuple[float, float], solver: str, finest: float) -> Fineness:
+def fineness(
+    rng: Rng, reach: tuple[float, float], solver: str, limits: tuple[float, float]
+) -> Fineness:
     """Draw a grid around a contact, odd or even along each side, or elements over its radius.
 
     reach   semi-axes of the contact [length]
-    finest  cells per contact radius, at most
+    limits  of the cells per contact radius
     """
     if solver == ELEMENTS:
         count = round(logarithmic(rng, *ELEMENTS_PER_RADIUS))
@@ -323,7 +324,7 @@ def fineness(rng: Rng, reach: tuple[float, float], solver: str, finest: float) -
             ELEMENTS, FiniteElementDiscretisation(elements_per_radius=count), float(count)
         )
     width = float(rng.uniform(*WIDTHS))
-    nx = int(np.clip(round(logarithmic(rng, COARSEST, finest) * width), FEWEST, MOST - 1))
+    nx = int(np.clip(round(logarithmic(rng, *limits) * width), FEWEST, MOST - 1))
     window = (width * reach[0], width * float(rng.uniform(0.97, 1.1)) * reach[1])
     grid = SurfaceDiscretisation(cells=(nx, nx + int(rng.integers(0, 2))), window=window)
     return Fineness(CELLS, grid, nx / width)

@@ -13,6 +13,7 @@ import numpy as np
 from contact_scene import RIGID, CoulombFriction, Ellipsoid, LoadStep, Paraboloid, Scene
 from contact_scene.body_pair import contact_modulus
 from contact_scene.geometry import ShapedBody
+from contact_scene.solver_errors import ContactAtWindowEdge
 from verification.closed_forms.elliptical_contact import EllipticalContact
 from verification.problems.drawn import drawing as of
 from verification.problems.drawn.drawing import (
@@ -37,7 +38,7 @@ from verification.problems.drawn.references import (
 
 # Seeds. No constant of the error estimate is fitted to scenes. The common factor 0.6 was chosen
 # with the first seeds, rules and families were tried with the second ones, the third judges.
-CHOOSING, TRIED, JUDGING = (11, 12, 34), (5001, 5002, 5003, 5004, 7013), 9029
+CHOOSING, TRIED, JUDGING = (11, 12, 34), (5001, 5002, 5003, 5004, 7013, 9029), 31607
 
 T = TypeVar("T")
 
@@ -53,7 +54,8 @@ class Family:
     forces         after the normal force, over the friction limit; None for none
     twists         whether these are torques
     friction       whether there is friction without them
-    finest         cells per contact radius, at most
+    coarsest       cells per contact radius, at least
+    finest         at most
     stressed       whether the largest stresses are judged
     """
 
@@ -64,6 +66,7 @@ class Family:
     forces: Callable[[Rng], tuple[float, ...]] | None = None
     twists: bool = False
     friction: bool = False
+    coarsest: float = 4.0
     finest: float = 40.0
     stressed: bool = False
     solver: str = CELLS
@@ -98,12 +101,17 @@ class Family:
             forces = tuple(part * mu * load for part in forces)
             steps = [LoadStep(tangential_force=(force, 0.0)) for force in forces]
         scene = scene.model_copy(update={"loading": (*scene.loading, *steps)})
-        fineness = of.fineness(rng, _reach(scene, load, a), self.solver, self.finest)
+        limits = self.coarsest, self.finest
+        fineness = of.fineness(rng, _reach(scene, load, a), self.solver, limits)
         return Posed(scene, fineness, forces, self.stressed)
 
     def known(self, rng: Rng) -> KnownScene:
-        """Draw a scene with its answer."""
-        return self.rule(rng, self.posed(rng))
+        """Draw a scene with its answer, again if its contact reaches the edge of the map."""
+        while True:
+            try:
+                return self.rule(rng, self.posed(rng))
+            except ContactAtWindowEdge:
+                continue
 
 
 def _one_of(rng: Rng, ways: Sequence[T]) -> T:
@@ -131,18 +139,18 @@ ALIKE, ALIKE_COATED, NO_POISSON = (
 PUSHED, COUPLED = 10.0, 7.0  # cells per radius that finer cells are affordable for
 
 FAMILIES = {
-    "balls": Family((of.ball, of.sphere), (RIGID_ON_BARE, UNLIKE), by_rings, 50, stressed=True),
+    "balls": Family((of.ball, of.sphere), (RIGID_ON_BARE, UNLIKE), by_rings, 46, stressed=True),
     "shapes": Family((of.cone, of.punch, of.power_law), (RIGID_ON_BARE, UNLIKE), by_rings, 32),
     "coated": Family(
-        (of.ball,), (RIGID_ON_COATED, UNLIKE_COATED), by_rings, 32, finest=24.0, stressed=True
+        (of.ball,), (RIGID_ON_COATED, UNLIKE_COATED), by_rings, 22, finest=24.0, stressed=True
     ),
     "films": Family(
-        (of.ball, of.sphere), (RIGID_ON_FILM,), by_rings, 30, finest=24.0, stressed=True
+        (of.ball, of.sphere), (RIGID_ON_FILM,), by_rings, 38, finest=24.0, stressed=True
     ),
     "tilted": Family((of.ball,), (RIGID_ON_BARE, UNLIKE_COATED), beside_the_centre, 100),
-    "pushed": Family((of.ball,), (NO_POISSON,), similar, 46, of.pushes, finest=20.0),
+    "pushed": Family((of.ball,), (NO_POISSON,), similar, 60, of.pushes, coarsest=8.0),
     "pushed-shapes": Family(
-        (of.cone, of.power_law, of.sphere, of.ellipsoid), (NO_POISSON,), similar, 10, of.pushes
+        (of.cone, of.power_law, of.sphere, of.ellipsoid), (NO_POISSON,), similar, 24, of.pushes
     ),
     "near-sliding": Family((of.ball,), (NO_POISSON,), similar, 16, of.near_gross_slip),
     "sliding": Family((of.ball,), (ALIKE,), slid, 26, of.near_gross_slip),
@@ -150,7 +158,7 @@ FAMILIES = {
         (of.ball, of.cone, of.power_law),
         (ALIKE, ALIKE_COATED),
         by_rings,
-        40,
+        60,
         of.pushes,
         twists=True,
     ),
@@ -163,22 +171,22 @@ FAMILIES = {
         finest=24.0,
     ),
     "similar": Family(
-        (of.ball, of.cone, of.ellipsoid), (ALIKE,), refined, 13, of.pushes, finest=PUSHED
+        (of.ball, of.cone, of.ellipsoid), (ALIKE,), refined, 18, of.pushes, finest=PUSHED
     ),
-    "coated-pushed": Family((of.ball,), (ALIKE_COATED,), refined, 11, of.pushes, finest=PUSHED),
+    "coated-pushed": Family((of.ball,), (ALIKE_COATED,), refined, 16, of.pushes, finest=PUSHED),
     "coupled": Family(
-        (of.ball,), (RIGID_ON_BARE, RIGID_ON_COATED), refined, 9, of.pushes, finest=COUPLED
+        (of.ball,), (RIGID_ON_BARE, RIGID_ON_COATED), refined, 11, of.pushes, finest=COUPLED
     ),
     "films-pushed": Family(
-        (of.ball,), (RIGID_ON_FILM,), refined, 9, of.pushes, finest=COUPLED, stressed=True
+        (of.ball,), (RIGID_ON_FILM,), refined, 18, of.pushes, finest=COUPLED, stressed=True
     ),
-    "ridges": Family((of.rounded_flat, of.ring), (ALIKE,), refined, 13, of.pushes, finest=PUSHED),
-    "smooth-maps": Family((of.smooth_map,), (ALIKE,), refined, 13, of.pushes, finest=PUSHED),
-    "rough-maps": Family((of.rough_map,), (ALIKE,), refined, 15, of.pushes, finest=PUSHED),
+    "ridges": Family((of.rounded_flat, of.ring), (ALIKE,), refined, 18, of.pushes, finest=PUSHED),
+    "smooth-maps": Family((of.smooth_map,), (ALIKE,), refined, 18, of.pushes, finest=PUSHED),
+    "rough-maps": Family((of.rough_map,), (ALIKE,), refined, 36, of.pushes, finest=PUSHED),
     "elements": Family(
         (of.ball, of.cone), (RIGID_ON_BARE, RIGID_ON_COATED), by_rings, 34, solver=ELEMENTS
     ),
-    "elements-pushed": Family((of.ball,), (NO_POISSON,), similar, 9, of.pushes, solver=ELEMENTS),
+    "elements-pushed": Family((of.ball,), (NO_POISSON,), similar, 12, of.pushes, solver=ELEMENTS),
     "elements-twisted": Family(
         (of.ball,), (ALIKE, ALIKE_COATED), by_rings, 24, of.pushes, twists=True, solver=ELEMENTS
     ),

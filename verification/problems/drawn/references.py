@@ -27,6 +27,7 @@ from contact_results.stress.on_section import stress_on_section
 from contact_results.stress.stress_maxima import extremes
 from contact_scene import Ellipsoid, LoadStep, Paraboloid, Scene, SurfaceDiscretisation
 from contact_scene.body_pair import contact_modulus
+from contact_scene.quantities.increment import SCALARS
 from contact_scene.quantities.stated_error import (
     StatedError,
     StatedErrors,
@@ -100,9 +101,10 @@ DOUBLED = 2  # rings, orders and points, and increments of the ring solver
 # Cells along a side over those that are judged. The finer solve errs by 2.5 times the difference
 # of the two at order 1, and by about the difference at order 2.
 FINER, ORDER_ONE = (3.5, 2.5), 2.5
-# Least increments of a step, the limit of which is extrapolated. The effect of increments on the
-# cells that are judged differs by this part from that on fine cells.
-MANY, OTHER_CELLS = (64, 32), 0.07
+# Least increments of a step; for more increments, in proportion. Their limit is extrapolated from
+# the first two, its error is the difference from that of the last two. The effect of increments on
+# the cells that are judged differs by `OTHER_CELLS` from that on fine cells.
+MANY, OTHER_CELLS = (32, 16, 8), 0.07
 SIMILAR_ERROR = 1e-9
 PER_CYCLE = (ENERGY, CYCLE, AMPLITUDE, F1, F2)  # that symmetry does not repeat along a loop
 LED = (SHIFT, TANGENTIAL, TWIST, TORQUE)  # zero before the first force or torque
@@ -122,18 +124,21 @@ class Posed:
     stressed: bool = False
 
     def known(self, truths: Iterable[Truth], scene: Scene | None = None) -> KnownScene:
-        """Keep each finite number that is neither prescribed nor equal to another one."""
-        scene, sizes, seen = scene or self.scene, [0.0, *map(abs, self.forces)], {"0"}
+        """Keep each finite number that is neither prescribed nor one of this unit, equal to two
+        digits, that shares its error."""
+        scene, sizes, seen = scene or self.scene, [0.0, *map(abs, self.forces)], set()
         infinite = scene.indenter.rim is not None or scene.indenter.gap_exponent == 1
         path, kept = scene.load_path(), []
         for truth in truths:
-            name, step, value = truth.quantity, truth.step, f"{abs(truth.reference.value):.6g}"
+            name, step = truth.quantity, truth.step
+            value = f"{abs(truth.reference.value):.2g}", getattr(SCALARS.get(name), "unit", name)
             repeated = step > 2 and sizes[step - 1] == sizes[1] and name not in PER_CYCLE
             shared = name == ENERGY and closes(self.forces)
             endless = name == PEAK and infinite
             still = name in LED and not any(sizes[:step])
             given = name in prescribed(path[step - 1], None)
-            if not (repeated or shared or endless or still or given or value in seen):
+            absent = truth.reference.value == 0
+            if not (absent or repeated or shared or endless or still or given or value in seen):
                 kept.append(truth)
                 seen.add(value)
         return KnownScene(scene, tuple(kept), self.fineness)
@@ -363,17 +368,17 @@ def refined(rng: Rng, posed: Posed) -> KnownScene:
     matters = with_error(posed.scene)
     counts = semi_analytical.plan(posed.scene).increments
     fine, less = (_Level.of(posed, times, counts) for times in FINER)
-    base = many = half = less
+    base, cut = less, [less] * len(MANY)
     if any(matters):
         base = _Level.of(posed, 1.0, counts)
-        many, half = (
+        cut = [
             _Level.of(posed, 1.0, tuple(
-                max(least, n * least // 8) if m else n
+                max(least, n * least // MANY[-1]) if m else n
                 for n, m in zip(counts, matters, strict=True)
             ))
             for least in MANY
-        )  # fmt: skip
-    return posed.known(_of_levels(fine, less, base, many, half))
+        ]  # fmt: skip
+    return posed.known(_of_levels(fine, less, base, *cut))
 
 
 class _Level(NamedTuple):
@@ -400,18 +405,16 @@ class _Level(NamedTuple):
         return cls(steps, max(result.grid.spacing) / result.steps[-1].contact_radius)
 
 
-def _of_levels(
-    fine: _Level, less: _Level, base: _Level, many: _Level, half: _Level
-) -> Iterator[Truth]:
+def _of_levels(fine: _Level, less: _Level, base: _Level, *cut: _Level) -> Iterator[Truth]:
     source = (
         f"the same solver on {FINER[0]:g} and {FINER[1]:g} times the cells, with the effect of at "
         f"least {MANY[0]} and {MANY[1]} increments a step"
     )
-    every = [level.steps for level in (fine, less, base, many, half)]
+    every = [level.steps for level in (fine, less, base, *cut)]
     for step, values in enumerate(zip(*every, strict=True), start=1):
         for name in (name for name in KIND_OF if all(name in level for level in values)):
-            best, other, at, much, some = (float(v[name][0]) for v in values)
-            effect, open_path = 2 * much - some - at, abs(much - some)
+            best, other, at, much, some, few = (float(v[name][0]) for v in values)
+            effect, open_path = 2 * much - some - at, abs(2 * much - 3 * some + few)
             value = best + effect
             apart = ORDER_ONE * abs(best - other) + open_path + OTHER_CELLS * abs(effect)
             if name in AT_EDGES:  # its cell is next to the edge, anywhere in a cell

@@ -151,7 +151,8 @@ REMARKS = (
     "95 %. Numbers of one scene are not independent, so that intervals are somewhat too narrow.",
     "References: ring solver (twice the rings and increments), closed forms, and the same solver "
     "on finer cells, with the effect of more increments added separately. Numbers that are 'not "
-    "converged' are counted apart. Equal numbers of a scene are counted once.",
+    "converged' are counted apart. Numbers of a scene and unit that agree to two digits share an "
+    "error and are counted once. A scene whose contact reaches the edge of its map is drawn again.",
 )
 
 
