@@ -6,8 +6,6 @@ Each part of an error may use an equal share of the request. If a number has not
 are doubled.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
@@ -23,9 +21,16 @@ from contact_errors.coarse_solves import (
     solved_run,
 )
 from contact_errors.cost_estimate import estimated_seconds
-from contact_errors.error_formula import BELIEVED, ORDERS, UNKNOWN, SolvedRun, largest_so_far
+from contact_errors.error_formula import (
+    BELIEVED,
+    ORDERS,
+    UNKNOWN,
+    SolvedRun,
+    Values,
+    largest_so_far,
+    scale,
+)
 from contact_errors.stress_errors import largest_stresses
-from contact_errors.values import Values, scale
 from contact_scene.accuracy import LARGEST_TENSION, AccuracyRequest
 from contact_scene.machine import available_bytes
 from contact_scene.quantities.stated_error import (
@@ -220,18 +225,6 @@ def bounded(by: Refinement, cells: Part, most: float = MAX_AT_ONCE) -> Refinemen
 
 
 @dataclass(frozen=True)
-class Targets:
-    """Numbers that a request applies to.
-
-    shares    largest error of each number, relative to its largest value in the history
-    left_out  other numbers, with the reason
-    """
-
-    shares: Mapping[str, float]
-    left_out: Mapping[str, str]
-
-
-@dataclass(frozen=True)
 class Refined:
     """The finest level, and its accuracy compared with the request."""
 
@@ -271,15 +264,15 @@ def refine(
     estimated     called with the errors of each level
     """
     level = levels.first()
-    targets, spent, rounds, stopped = targets_of(request, level, levels), 0.0, 0, None
+    (shares, left_out), spent, rounds, stopped = targets_of(request, level, levels), 0.0, 0, None
     while stopped is None:
         spent, rounds = spent + level.seconds, rounds + 1
-        reached = {name: level.reached(name) for name in targets.shares}
+        reached = {name: level.reached(name) for name in shares}
         if estimated is not None:
-            estimated(rounds, targets.shares, reached)
-        if level.meets(targets.shares):
+            estimated(rounds, shares, reached)
+        if level.meets(shares):
             break
-        by = bounded(level.needed(targets.shares), level.part)
+        by = bounded(level.needed(shares), level.part)
         following, seconds = levels.following(level, by)
         shared = max(1.0, level.seconds / max(level.processor_seconds, 1e-3))
         stopped = levels.too_large(following)
@@ -296,12 +289,12 @@ def refine(
             except SolverError as error:
                 stopped = f"the next round has no answer: {error}"
     accuracy = AccuracyReached(
-        asked=dict(targets.shares),
+        asked=shares,
         reached=reached,
         met=stopped is None,
         settings=levels.settings(level.fineness),
         rounds=rounds,
-        left_out=dict(targets.left_out),
+        left_out=left_out,
         stopped=stopped,
     )
     return Refined(level, accuracy)
@@ -309,15 +302,18 @@ def refine(
 
 def price(levels: Levels, first: RefinementLevel, request: AccuracyRequest) -> Price:
     """Estimate the cost of a request from the first level; raises AccuracyOutOfReach."""
-    shares = targets_of(request, first, levels).shares
+    shares, _ = targets_of(request, first, levels)
     by = bounded(first.needed(shares, believed=1.0), first.part, FURTHEST)
     fineness, seconds = levels.following(first, {} if first.meets(shares) else by)
     fits, memory = levels.too_large(fineness) is None, levels.solver.memory(fineness)
     return Price(levels.settings(fineness), first.processor_seconds + seconds, memory, fits)
 
 
-def targets_of(request: AccuracyRequest, level: RefinementLevel, levels: Levels) -> Targets:
-    """Determine the numbers that a request applies to, by a first result.
+def targets_of(
+    request: AccuracyRequest, level: RefinementLevel, levels: Levels
+) -> tuple[dict[str, float], dict[str, str]]:
+    """Determine the numbers that a request applies to with their largest errors relative to their
+    largest values, and the reasons why it does not apply to others, by a first result.
 
     Raises AccuracyOutOfReach for a named number that is absent or infinite, and for a number that
     the largest possible discretisation will not determine as requested.
@@ -332,7 +328,7 @@ def targets_of(request: AccuracyRequest, level: RefinementLevel, levels: Levels)
     finest = levels.solver.refined(level.fineness, needed)
     if needed.get(level.part, 1.0) > UNCONVERGED and (too_large := levels.too_large(finest)):
         raise AccuracyOutOfReach(f"no grid can meet the request: {too_large}")
-    return Targets(shares, left_out)
+    return shares, left_out
 
 
 def _why_left_out(name: str, level: RefinementLevel) -> str:

@@ -5,8 +5,6 @@ refined for a requested accuracy. A difference between levels needs no tolerance
 it, and no more increments than the fewest whose effect is known.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -14,8 +12,14 @@ from math import ceil, log
 from typing import Any, ClassVar, Self, TypeAlias
 
 from contact_errors.cost_estimate import Work
-from contact_errors.error_formula import PER_TOLERANCE, Comparison, Features, SolvedRun
-from contact_errors.values import Values, values_of
+from contact_errors.error_formula import (
+    PER_TOLERANCE,
+    Comparison,
+    Features,
+    SolvedRun,
+    Values,
+    values_of,
+)
 from contact_scene import Scene
 from contact_scene.quantities.stated_error import (
     CoarseSolveRecord,

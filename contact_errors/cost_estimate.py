@@ -12,8 +12,6 @@ increment error. The latter have equally few cells in the run and in the coarse 
 is proportional to the repetitions.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Sequence
 from math import ceil

@@ -1,7 +1,5 @@
 """The semi-analytical solver for error estimates and refinement: cells, increments, tolerance."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import ceil

@@ -3,8 +3,6 @@
 Parameters: elements, increments, section, overlap, harmonics.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import ceil

@@ -1,7 +1,5 @@
 """The radial solver for error estimates and refinement: rings or orders, increments, tolerance."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Self

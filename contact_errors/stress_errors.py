@@ -15,8 +15,6 @@ the largest stress, the stress has not converged. The von Mises stress is not la
 without shear, and is only compared there if it is found there.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from math import sqrt

@@ -10,7 +10,7 @@ import pytest
 
 import fem_reference
 import semi_analytical
-from contact_errors.values import values_of
+from contact_errors.error_formula import values_of
 from contact_scene.body_pair import contact_modulus
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.problems.drawn.drawing import CELLS, STRESSES, KnownScene

@@ -30,10 +30,16 @@ import contact_errors
 import slipstick as package
 from contact_errors import coarse_solves
 from contact_errors.coarse_solves import Fineness, ratios, recounted
-from contact_errors.error_formula import Comparison, Features, SolvedRun, largest_so_far
+from contact_errors.error_formula import (
+    PHYSICAL,
+    Comparison,
+    Features,
+    SolvedRun,
+    largest_so_far,
+    values_of,
+)
 from contact_errors.on_cells import CellSolver
 from contact_errors.stress_errors import largest_stresses, on_wide_cells, stress_errors
-from contact_errors.values import PHYSICAL, values_of
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
 from contact_results.stress.on_cells import stress_on_cells
 from contact_results.stress.stress_maxima import extremes

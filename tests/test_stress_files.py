@@ -1,6 +1,7 @@
 """The files of a stress: one set of columns and axes for all solvers, meshes that read back."""
 
 import csv
+import tracemalloc
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 from pathlib import Path
@@ -18,6 +19,7 @@ from test_surface import COATED, FRICTION, pressed_and_pushed
 import slipstick
 from contact_results.files.mesh_file import Mesh, read_mesh, write_mesh
 from contact_results.result_files import write_result
+from contact_results.stress import on_cells
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.on_cells import stress_on_cells
 from contact_results.stress.on_section import stress_on_section
@@ -29,6 +31,8 @@ from contact_scene.quantities.increment import (
     SCALARS,
     components,
 )
+from contact_scene.solver_errors import ResourceRefused
+from semi_analytical.stress import field as stress_field
 
 RADII = np.linspace(0, 1.2, 25)
 X = (np.arange(16) - 7.5) * 2.4 / 16
@@ -270,3 +274,26 @@ def test_what_cannot_be_exported_is_refused_with_what_to_do(place: Path) -> None
         ended = exported(place, source)
         assert ended.returncode == 2, ended.stdout
         assert complaint in " ".join(ended.stderr.replace("│", " ").split())
+
+
+def test_stress_is_refused_before_it_takes_more_memory_than_there_is(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Fields of the whole volume. The estimate adds the numbers of the file to their peak."""
+    x = (np.arange(64) - 31.5) * 2.4 / 64
+    state = pressed_and_pushed({"x": x, "y": x}, hertz(np.hypot(x[:, None], x)))
+    required: list[int] = []
+    monkeypatch.setattr(stress_field, "FIXED", 0)
+    monkeypatch.setattr(stress_field, "available_bytes", lambda: max(required, default=1 << 40))
+    tracemalloc.start()
+    volume = on_cells.stress_on_cells(state, volume=True, see_edge=False).volume
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    required.append(int(0.95 * peak))
+    with pytest.raises(ResourceRefused, match="Use fewer cells or depths"):
+        on_cells.stress_on_cells(state, volume=True, see_edge=False)
+    required.append(int((1 + on_cells.WRITTEN / on_cells.COMPUTED) * peak))
+    again = on_cells.stress_on_cells(state, volume=True, see_edge=False).volume
+    assert volume is not None
+    assert again is not None
+    assert again.stress.shape == volume.stress.shape

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
-from contact_errors.values import Values
+from contact_errors.error_formula import Values
 from contact_scene import (
     RIGID,
     Body,

@@ -17,9 +17,8 @@ from numpy.typing import NDArray
 
 import radial
 import semi_analytical
-from contact_errors.error_formula import AT_EDGES
+from contact_errors.error_formula import AT_EDGES, Values, prescribed, values_of
 from contact_errors.stress_errors import stress_errors
-from contact_errors.values import Values, prescribed, values_of
 from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.on_cells import stress_on_cells
 from contact_results.stress.on_disc import stress_on_disc

@@ -12,9 +12,9 @@ from scipy.special import betaincinv
 
 import fem_reference
 import semi_analytical
+from contact_errors.error_formula import values_of
 from contact_errors.on_cells import CellSolver
 from contact_errors.on_elements import ElementSolver
-from contact_errors.values import values_of
 from contact_scene.quantities.stated_error import (
     ErrorStatus,
     StatedError,

@@ -15,10 +15,17 @@ import fem_reference
 import semi_analytical
 from contact_errors.adaptive_refinement import Levels, refine
 from contact_errors.coarse_solves import DiscretisedSolver
-from contact_errors.error_formula import LIMITS, PEAK, PER_TOLERANCE, Features
+from contact_errors.error_formula import (
+    LIMITS,
+    PEAK,
+    PER_TOLERANCE,
+    Features,
+    Values,
+    scale,
+    values_of,
+)
 from contact_errors.on_cells import CellSolver
 from contact_errors.on_elements import ElementSolver
-from contact_errors.values import Values, scale, values_of
 from contact_scene import Scene, SceneFile, read_scene_file
 from contact_scene.quantities.increment import SCALARS
 from contact_scene.quantities.summary import OF_CYCLES
