@@ -1075,6 +1075,7 @@ def radial_indentation(level: Level = Level.QUICK) -> Case:
             Observable(
                 "stick_radius", "stick radius", "m", lambda result, *_: stick_radius(result),
                 lambda one: one.stick_part * one.contact_radius, OVER_HERTZ_RADIUS,
+                scalar=("stick_radius", 0),
             ),
             1e-3, why,
         ),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -181,6 +180,7 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
                 Observable(
                     f"tilt_{axis}", f"slope along {axis}", "rad",
                     partial(_component, "tilt", 1 - along), partial(_slope, along),
+                    scalar=("tilt", 1 - along),
                 ),
                 part_of_side(1.5),
                 "one and a half cells over the radius, because the tilt depends on its third "
@@ -266,10 +266,13 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
     )
 
     def rolled(
-        name: str, meaning: str, unit: str, run: str, measure: Callable[[Any], float], value: float
+        name: str, meaning: str, unit: str, run: str, scalar: tuple[str, int], value: float
     ) -> Quantity:
         reference = Reference(value, ReferenceKind.IDENTITY, source, ROUNDING * abs(value))
-        return Quantity(name, meaning, unit, run, measure, reference, Required(1e-6, ROLLED))
+        return Quantity(
+            name, meaning, unit, run, partial(_component, *scalar), reference,
+            Required(1e-6, ROLLED), scalar=(*scalar, -1),
+        )  # fmt: skip
 
     return case(
         "eccentric_ball",
@@ -283,13 +286,13 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
             *(
                 rolled(
                     f"tilt_{axis}", f"slope along {axis}", "rad", "beside",
-                    partial(_component, "tilt", 1 - along), roll[along],
+                    ("tilt", 1 - along), roll[along],
                 )
                 for along, axis in enumerate("xy")
             ),
             rolled(
                 "moment_of_given_tilt", "moment M_y at the prescribed tilt", "N m",
-                "given tilt", partial(_component, "moment", 1), NORMAL_FORCE * e[0],
+                "given tilt", ("moment", 1), NORMAL_FORCE * e[0],
             ),
         ),
         comparisons=(

@@ -288,7 +288,7 @@ def near_sliding(level: Level = Level.QUICK, cells: int = 0) -> Case:
             Observable(
                 "sliding_force", "tangential force while sliding", "N",
                 lambda result, step, _: force_along_x(result.steps[step]),
-                lambda limit: float(limit),
+                lambda limit: float(limit), scalar=("tangential_force", 0),
             ),
             1e-7, "ten times the solver's tolerance, for sums over all cells",
         ),

@@ -81,7 +81,7 @@ LOOP_TWISTS = tuple(
 ENERGY_PER_CYCLE = Observable(
     "energy_per_cycle", "energy dissipated from the first to the second torque of + 0.9", "J",
     lambda result, *_: energy_between(result, 2, 5),
-    lambda end: float(end.energy_per_cycle), source=MASING,
+    lambda end: float(end.energy_per_cycle), source=MASING, scalar=("energy_per_cycle", 0),
 )  # fmt: skip
 TORQUE = number("torque", "torque at the twist of 0.9 of the limit", exact="moment")
 
