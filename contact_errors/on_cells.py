@@ -103,7 +103,7 @@ class CellSolver(DiscretisedSolver):
 
     @property
     def _can_grow(self) -> bool:
-        """Whether the window is neither prescribed nor that of a height map."""
+        """True if the window is neither prescribed nor that of a height map."""
         return self.discretisation.window is None and self.scene.indenter.extent is None
 
     def few(self, coarse: Fineness, result: Result) -> Fineness:
