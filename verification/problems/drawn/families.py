@@ -148,7 +148,7 @@ FAMILIES = {
         (of.ball, of.sphere), (RIGID_ON_FILM,), by_rings, 38, finest=24.0, stressed=True
     ),
     "tilted": Family((of.ball,), (RIGID_ON_BARE, UNLIKE_COATED), beside_the_centre, 100),
-    "pushed": Family((of.ball,), (NO_POISSON,), similar, 60, of.pushes, coarsest=8.0),
+    "pushed": Family((of.ball,), (NO_POISSON,), similar, 60, of.pushes, coarsest=8.0, finest=24.0),
     "pushed-shapes": Family(
         (of.cone, of.power_law, of.sphere, of.ellipsoid), (NO_POISSON,), similar, 24, of.pushes
     ),
