@@ -16,6 +16,8 @@ from radial.normal.pressing import (
 from radial.normal.surface import pressure
 from radial.plan import MAX_CONTRAST
 from radial.response.bodies import Bodies
+from radial.torsion.torsion import Torsion
+from radial.torsion.twist_path import TwistPath
 from semi_analytical.frf.stack import Stack
 from slipstick.tables.frictional import (
     BALL,
@@ -81,6 +83,18 @@ def _ball(place: Sequence[float], fineness: int) -> Found:
     return Found((contact.radius, p0, contact.approach), abs(contact.load / FORCE - 1))
 
 
+def _torsion(place: Sequence[float], fineness: int) -> Found:
+    moduli, thickness, ratio, part = place
+    base = MODULUS * (1 - ratio)  # shear modulus; the E* of two equal bodies is G/(1-ν)
+    stacks = [Stack([(moduli * base, ratio, thickness)], (base, ratio))] * 2
+    bodies = Bodies(stacks, moduli * MODULUS)
+    contact = normal_contact(bodies, BALL, Target(FORCE, None), fineness).contact
+    torsion = Torsion(contact, stacks, moduli * base / 2, 1.0, fineness)
+    path = TwistPath(torsion).to_torque(part * torsion.largest)
+    values = (torsion.largest / FORCE, path.stick, path.twist * base / 2 / FORCE)
+    return Found(values, abs(contact.load / FORCE - 1))
+
+
 TABLES: Mapping[str, Table] = {
     table.name: table
     for table in (
@@ -128,6 +142,22 @@ TABLES: Mapping[str, Table] = {
             "half-space; Hertz's values are those of the same force on the bare half-space",
             LEBEDEV,
             _ball,
+        ),
+        Table(
+            "torsion",
+            {
+                **COATING,
+                "M_over_Ms": Axis("torque over the torque of gross slip", (0.5, 0.9), most=0.999),
+            },
+            {
+                "Ms_over_muWaH": "torque of gross slip over mu W a_H",
+                "c_over_a": "stick radius over the contact radius",
+                "twist": "G a_H^2/(mu W) times the twist; 1/G is the sum over both substrates",
+            },
+            f"Two equal paraboloids, both with a bonded layer of thickness h, pressed and then "
+            f"twisted; layers and substrates have the same ratio nu{HERTZ}",
+            "Lubkin 1951; for layers by Legendre polynomials on exact frequency responses",
+            _torsion,
         ),
         Table(
             "pressing",

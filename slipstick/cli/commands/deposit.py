@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from datetime import date as Date
 from datetime import datetime
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from contact_results.directory.machine import program_version
 from slipstick.tables.catalogue import TABLES
-from slipstick.tables.table import Dataset
+from slipstick.tables.table import Dataset, Table
 from verification.challenge.cases import challenges
 from verification.references import load_reference
 from verification.running.sources import source_digest
@@ -21,9 +21,14 @@ from verification.running.sources import source_digest
 LICENCE = "https://creativecommons.org/licenses/by/4.0/"
 TITLE = "Reference numbers for the frictional contact of coated bodies"
 CONTENT = (
-    "Reference numbers of punches and balls on coated bodies, with friction, and of paths of "
-    "changing loads. Each number has an uncertainty. Each table states method and command."
+    "Reference numbers of punches and balls on coated bodies, with friction and torsion, and of "
+    "paths of changing loads. Each row has uncertainties, method, command and digest."
 )
+TRACE = {
+    "method": "solver of the value",
+    "command": "command that prints the row",
+    "digest": "digest of the sources that computed the row",
+}
 
 
 def deposit(
@@ -47,16 +52,37 @@ def datasets() -> Iterator[Dataset]:
     """Compute or read all tables of the deposit."""
     digest = source_digest("radial")
     for table in TABLES.values():
-        made = table.dataset({})
-        about = {**made.about, "command": f"slipstick table {table.name}", "digest": digest}
-        yield replace(made, about=about)
+        yield _traced(table.dataset({}), "radial solver", _command(table), digest)
     yield from recorded()
+
+
+def _command(table: Table) -> Callable[[Mapping[str, Any]], str]:
+    """Return the function that writes the command of a row."""
+    return lambda row: " ".join(
+        [f"slipstick table {table.name}", *(f"--over {name}={row[name]!r}" for name in table.axes)]
+    )
+
+
+def _traced(
+    found: Dataset, method: str, command: Callable[[Mapping[str, Any]], str], digest: str
+) -> Dataset:
+    """Add method, command and digest of the sources to each row."""
+    rows = [
+        {**row, "method": method, "command": command(row), "digest": digest} for row in found.rows
+    ]
+    return replace(found, columns={**found.columns, **TRACE}, rows=rows)
 
 
 def recorded() -> Iterator[Dataset]:
     """Read the onset of gross slip and the paths of changing loads."""
-    found = load_reference("gross_slip_onset")
-    yield Dataset(found["about"], found["columns"], found["rows"])
+    onset = load_reference("gross_slip_onset")
+    about = onset["about"]
+    yield _traced(
+        Dataset(about, onset["columns"], onset["rows"]),
+        "limits of the semi-analytical and the radial solver",
+        lambda _: str(about["command"]),
+        about["digest"],
+    )
     rows = [
         {
             "case": name,
@@ -75,8 +101,6 @@ def recorded() -> Iterator[Dataset]:
         "problem": "A ball under changing normal and tangential loads and a torque, in five steps.",
         "made_by": f"slipstick {program_version()}, radial solver, limit of fine increments",
         "uncertainty": "the cells agree with the ring solver within it",
-        "command": "slipstick challenge export changing_loads/nu=0.3 --output path",
-        "digest": source_digest("verification.challenge.cases"),
     }
     columns = {
         "case": "challenge; its scene has loads and materials",
@@ -86,7 +110,12 @@ def recorded() -> Iterator[Dataset]:
         "value_uncertainty": "standard uncertainty of the value, absolute",
         "unit": "SI unit of value and uncertainty",
     }
-    yield Dataset(about, columns, rows)
+    yield _traced(
+        Dataset(about, columns, rows),
+        "radial solver in the limit of fine increments",
+        lambda row: f"slipstick challenge export {row['case']} --output path",
+        source_digest("verification.challenge.cases"),
+    )
 
 
 def write(folder: Path, found: Iterable[Dataset], published: Date) -> None:
@@ -102,7 +131,12 @@ def write(folder: Path, found: Iterable[Dataset], published: Date) -> None:
     crate.datePublished = published.isoformat()
     authors = {"@type": "Organization", "name": "slipstick contributors"}
     crate.add(ContextEntity(crate, "#authors", authors))
-    crate.add(ContextEntity(crate, LICENCE, {"@type": "CreativeWork", "name": "CC BY 4.0"}))
+    licence = {
+        "@type": "CreativeWork",
+        "name": "CC BY 4.0",
+        "description": "Share and adapt with attribution.",
+    }
+    crate.add(ContextEntity(crate, LICENCE, licence))
     crate.root_dataset["author"] = {"@id": "#authors"}
     crate.root_dataset["license"] = {"@id": LICENCE}
     folder.mkdir(parents=True)
@@ -116,7 +150,6 @@ def write(folder: Path, found: Iterable[Dataset], published: Date) -> None:
                     "name": f"{dataset.about['table']}, {kind}",
                     "description": dataset.about["problem"],
                     "encodingFormat": f"{'text' if kind == 'csv' else 'application'}/{kind}",
-                    "license": {"@id": LICENCE},
                     "contentSize": str(len(text.encode())),
                     "measurementTechnique": dataset.about["made_by"],
                 },
