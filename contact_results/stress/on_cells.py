@@ -128,7 +128,6 @@ def _below(
 ) -> StressField:
     """Compute the stress on a window of at least `margin` half extents of the contact."""
     from semi_analytical.stress import SubsurfaceField, refuse_beyond_memory
-    from semi_analytical.stress.depths import line_weights
 
     body = state.indenter if indenter else state.body
     grid, pressure, shear = _with_margin(state, margin)
@@ -143,7 +142,10 @@ def _below(
     edge, why = None, "not looked for"
     if see_edge:
         edge, why = _edge(state, body, grid, levels, pressure, shear)
-    rows = np.flatnonzero(line_weights(grid.y, 0.0)) if section_only else None
+    how = _how(edge, why)
+    rows = None if volume else _rows(grid, pressure, shear, section_only)
+    if edge is not None and rows is not None and not section_only:
+        edge = replace(edge, phi=edge.phi.chosen(edge.phi.y >= rows[0]))
     sections, largest, planes = [], [], []
     for field in _each_level(
         state, body, grid, levels, pressure, shear, None if why else edge, rows
@@ -172,10 +174,24 @@ def _below(
             "contact_radius": radius,
             "cells": list(grid.cells),
             "window": list(grid.window),
-            "edge": _how(edge, why),
+            "edge": how,
             "levels": [{"depth": float(s.depth), "layer": s.layer} for s in levels],
         },
     )
+
+
+def _rows(
+    grid: SurfaceGrid, pressure: Field, shear: Field | None, section_only: bool
+) -> Indices | None:
+    """Return the rows of cells for the section, and for y > 0 if y = 0 is a mirror plane."""
+    from semi_analytical.stress.convolution import mirror_planes
+    from semi_analytical.stress.depths import line_weights
+
+    at_section = np.flatnonzero(line_weights(grid.y, 0.0))
+    if section_only:
+        return at_section
+    tractions = pressure[None] if shear is None else np.stack([*shear, pressure])
+    return np.arange(at_section[0], grid.cells[1]) if mirror_planes(tractions)[1] else None
 
 
 def _edge(

@@ -1,45 +1,131 @@
 """Linear convolution of tractions with fields at one depth, on planes or on rows of cells.
 
-Zero padding to at least the sum of both lengths avoids periodic images.
+Zero padding to at least twice the largest offset avoids periodic images. About a mirror plane of
+the tractions, sines and cosines on half of the window replace the waves.
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
-from scipy.fft import fft, ifft, irfft, next_fast_len, rfft
+from scipy.fft import dct, dst, fft, idct, idst, ifft, irfft, next_fast_len, rfft
 
-from contact_scene.array_types import Field, Indices
-from semi_analytical.operator.spectra import even_transform, mixed_transform, odd_transform
-from semi_analytical.stress.components import FIELDS, each_response
+from contact_scene.array_types import Array, Field, Indices
+from semi_analytical.stress.components import FIELDS, acting, each_response
 
-# Coefficients (FIELDS, acting tractions, nx, ny) to fields.
+# Coefficients (FIELDS, acting tractions, offsets along x, along y) to fields.
 Convolution = Callable[[Field], Field]
 
+ROUND_OFF = 1e-14  # between mirror images, relative to the largest traction
 
-def plane_convolution(tractions: Field) -> Convolution:
-    """Return a convolution with tractions (acting tractions, nx, ny); fields (FIELDS, nx, ny)."""
-    _, nx, ny = tractions.shape
-    half_x, half_y = (_half_period(cells) for cells in (nx, ny))
-    along_y = rfft(np.swapaxes(tractions, 1, 2), 2 * half_y, axis=1)
-    spectra = fft(along_y, 2 * half_x, axis=2)
-    # For responses that are odd along one side, whose spectra are -i times real ones.
-    turned = -1j * spectra
-    padded = np.zeros((half_x + 1, half_y + 1))
+
+def offsets_between(tractions: Field, rows: Indices) -> tuple[int, int]:
+    """Return the number of offsets, from 0, between loaded cells and the cells of some rows."""
+    loaded = np.any(tractions, axis=0)
+    counts = []
+    for axis, last in enumerate((np.array([0, loaded.shape[0] - 1]), rows[[0, -1]])):
+        at = np.flatnonzero(np.any(loaded, axis=1 - axis))
+        farthest = np.max(np.abs(at[:, None] - last), initial=loaded.shape[axis] // 2)
+        counts.append(1 + int(farthest))
+    return counts[0], counts[1]
+
+
+def mirror_planes(tractions: Field) -> tuple[bool, bool]:
+    """Determine whether x = 0 and y = 0 are mirror planes of tractions (acting tractions, nx, ny).
+
+    A mirror preserves the vectors.
+    """
+    size = ROUND_OFF * float(np.max(np.abs(tractions), initial=0.0))
+    found = []
+    for axis in (0, 1):
+        image = np.flip(tractions, 1 + axis).copy()
+        if len(tractions) > 1:
+            image[axis] *= -1
+        found.append(np.allclose(image, tractions, rtol=0.0, atol=size))
+    return found[0], found[1]
+
+
+@dataclass(frozen=True)
+class _Side:
+    """Transforms along the last axis; amplitudes have wavenumbers 0 … half, or all of a period.
+
+    half      half the period in cells
+    mirrored  whether the middle of the window, between cells, is a mirror plane
+    odd       whether a field changes its sign at the mirror plane
+    """
+
+    cells: int
+    half: int
+    mirrored: bool
+
+    def forward(self, values: Array, odd: bool) -> Array:
+        """Transform values on the window (…, cells)."""
+        if not self.mirrored:
+            return (fft if np.iscomplexobj(values) else rfft)(values, 2 * self.half)
+        transformed = (dst if odd else dct)(values[..., self.cells // 2 :], type=2, n=self.half)
+        return np.pad(transformed, [(0, 0), (int(odd), int(not odd))])
+
+    def factor(self, odd_response: bool, odd_traction: bool) -> complex:
+        """Return the ratio of a response to its sums of sines or cosines."""
+        if self.mirrored:
+            return -1.0 if odd_response and odd_traction else 1.0
+        return -1j if odd_response else 1.0
+
+    def back(self, amplitudes: Array, odd: bool) -> Array:
+        """Transform amplitudes to values on the window."""
+        if not self.mirrored:
+            inverse = irfft if amplitudes.shape[-1] == self.half + 1 else ifft
+            return inverse(amplitudes, 2 * self.half)[..., : self.cells]
+        some = amplitudes[..., 1:] if odd else amplitudes[..., :-1]
+        upper = (idst if odd else idct)(some, type=2)[..., : self.cells // 2]
+        lower = upper[..., ::-1]
+        return np.concatenate([-lower if odd else lower, upper], axis=-1)
+
+
+def plane_convolution(tractions: Field, offsets: tuple[int, int]) -> Convolution:
+    """Return a convolution with tractions (acting tractions, nx, ny); fields (FIELDS, nx, ny).
+
+    offsets  number of offsets of the coefficients, at least those of `offsets_between`
+    """
+    x, y = (
+        _Side(cells, int(next_fast_len(count, real=True)), mirrored and cells % 2 == 0)
+        for cells, count, mirrored in zip(
+            tractions.shape[1:], offsets, mirror_planes(tractions), strict=True
+        )
+    )
+    names = acting(len(tractions) > 1)
+    # Wavenumbers along y first, along x last.
+    spectra = [
+        x.forward(y.forward(field, name == "y").T, name == "x")
+        for field, name in zip(tractions, names, strict=True)
+    ]
+    padded = np.zeros((y.half + 1, x.half + 1))
 
     def convolve(coefficients: Field) -> Field:
-        fields = np.empty((len(FIELDS), nx, ny))
+        fields = np.empty((len(FIELDS), x.cells, y.cells))
         responses = each_response(coefficients)
-        for field in fields:
-            total = np.zeros(spectra.shape[1:], dtype=np.complex128)
-            for traction in range(len(spectra)):
-                padded[:nx, :ny], parity = next(responses)
-                by = spectra if parity[0] == parity[1] else turned
-                total += _spectrum(padded, parity) * by[traction]
-            rows = ifft(total, axis=1, overwrite_x=True)[:, :nx]
-            field[:] = irfft(rows, 2 * half_y, axis=0)[:ny].T
+        for field, axes in zip(fields, FIELDS, strict=True):
+            total = np.zeros_like(spectra[0])
+            for spectrum, name in zip(spectra, names, strict=True):
+                response, (along_x, along_y) = next(responses)
+                padded[: offsets[1], : offsets[0]] = response.T
+                lines = _sums(_sums(padded, along_x).T, along_y).T
+                if spectrum.shape[-1] > lines.shape[-1]:
+                    lines = np.concatenate([lines, along_x * lines[:, -2:0:-1]], axis=1)
+                factor = x.factor(along_x < 0, name == "x") * y.factor(along_y < 0, name == "y")
+                total = total + (factor * spectrum) * lines
+            along = x.back(total, axes.count("x") % 2 == 1)
+            field[:] = y.back(along.T, axes.count("y") % 2 == 1)
         return fields
 
     return convolve
+
+
+def _sums(response: Field, parity: int) -> Field:
+    """Sum cosines, or sines if the response is odd, over the offsets of a period (…, half + 1)."""
+    if parity > 0:
+        return np.asarray(dct(response, type=1))
+    return np.pad(dst(response[:, 1:-1], type=1), [(0, 0), (1, 1)])
 
 
 def row_convolution(tractions: Field, rows: Indices) -> Convolution:
@@ -47,10 +133,11 @@ def row_convolution(tractions: Field, rows: Indices) -> Convolution:
 
     rows  indices along y
     """
-    _, nx, ny = tractions.shape
-    period = 2 * _half_period(nx)
-    spectra = rfft(tractions, period, axis=1)
-    offsets = rows[:, None] - np.arange(ny)
+    nx = tractions.shape[1]
+    columns = np.flatnonzero(tractions.any(axis=(0, 1)))
+    period = 2 * int(next_fast_len(offsets_between(tractions, rows)[0], real=True))
+    spectra = rfft(tractions[..., columns], period, axis=1)
+    offsets = rows[:, None] - columns
 
     def convolve(coefficients: Field) -> Field:
         fields = np.empty((len(FIELDS), nx, len(rows)))
@@ -70,19 +157,3 @@ def row_convolution(tractions: Field, rows: Indices) -> Convolution:
         return fields
 
     return convolve
-
-
-def _half_period(cells: int) -> int:
-    return int(next_fast_len(cells, real=True))
-
-
-def _spectrum(coefficients: Field, parity: tuple[int, int]) -> Field:
-    """Transform coefficients at the offsets 0 … m along each side, (my + 1, 2 mx).
-
-    The transform of a response that is odd along one side is divided by -i.
-    """
-    if parity == (1, 1):
-        return even_transform(coefficients)[:]
-    if parity == (-1, -1):
-        return odd_transform(coefficients)[:]
-    return mixed_transform(coefficients, odd_axis=0 if parity[0] < 0 else 1)[:]

@@ -15,8 +15,13 @@ from semi_analytical.frf.depth import Level, material_at
 from semi_analytical.frf.stack import Stack, stack_of
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.stress.components import DISPLACEMENT, FIELDS, STRESS, TRACTIONS
-from semi_analytical.stress.convolution import plane_convolution, row_convolution
+from semi_analytical.stress.convolution import (
+    offsets_between,
+    plane_convolution,
+    row_convolution,
+)
 from semi_analytical.stress.depths import (
+    NEIGHBOURS,
     levels_of,
     line_weights,
 )
@@ -144,17 +149,18 @@ def fields_by_level(
     tractions = _tractions(grid, pressure, shear)
     stack = _stack(body)
     levels = levels_of(stack, depths)
-    (nx, ny), y = grid.cells, grid.y if rows is None else grid.y[rows]
-    if rows is None:
-        convolve = plane_convolution(tractions)
-    else:
-        convolve = row_convolution(tractions, rows)
-        ny = int(max(rows[-1], ny - 1 - rows[0])) + 1  # the farthest offset that is read, and 0
-    refuse_beyond_memory((nx, ny), 0 if rows is not None else 1)
-    each = depth_coefficients(stack, levels, grid.spacing, (nx, ny), sheared=len(tractions) > 1)
+    rows = np.arange(grid.cells[1]) if rows is None else rows
+    offsets = offsets_between(tractions, rows)
+    few = len(rows) <= NEIGHBOURS
+    convolve = row_convolution(tractions, rows) if few else plane_convolution(tractions, offsets)
+    refuse_beyond_memory(grid.cells, 0 if few else 1)
+    each = depth_coefficients(stack, levels, grid.spacing, offsets, sheared=len(tractions) > 1)
     for level, coefficients in zip(levels, each, strict=True):
         fields = convolve(coefficients)[None]
-        yield SubsurfaceField(grid.x, y, (level,), fields[:, DISPLACEMENT], fields[:, STRESS])
+        fields = fields if few else fields[..., rows]
+        yield SubsurfaceField(
+            grid.x, grid.y[rows], (level,), fields[:, DISPLACEMENT], fields[:, STRESS]
+        )
 
 
 def depth_coefficients(

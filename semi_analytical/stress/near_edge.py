@@ -18,6 +18,8 @@ from semi_analytical.frf.depth import Level
 from semi_analytical.frf.stack import Stack
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.stress.at_edge import change_at_depth, stress_at_surface
+from semi_analytical.stress.components import FIELDS, STRESS
+from semi_analytical.stress.convolution import mirror_planes
 from semi_analytical.stress.edge_tractions import EdgedTractions, edged_tractions
 from semi_analytical.stress.field import SubsurfaceField, subsurface
 from semi_analytical.stress.patch import NODES
@@ -34,6 +36,10 @@ COMPARED, LARGE, TOO_FAR_APART = 32, 0.8, 0.02
 SLIPPING, SLIPPING_RINGS = 0.999, 2.5
 # Region of the correction in cells: distance from the edge, depth below it, and least depth > 0.
 BESIDE, BELOW, SHALLOWEST = 4.0, 4.0, 0.25
+# Signs of the components of stress at the mirror image about x = 0.
+SIGNS_ALONG_X = np.array([-1.0 if axes.count("x") == 1 else 1.0 for axes in FIELDS[STRESS]])[
+    :, None, None
+]
 # Largest shear that is round-off, relative to the largest pressure.
 NO_SHEAR = 1e-9
 
@@ -109,7 +115,10 @@ class NearEdge:
     def corrected(self, field: SubsurfaceField) -> SubsurfaceField:
         """Return a field, on all or some rows of cells, with the stress near the edge corrected."""
         rows = np.searchsorted(self.grid.y, field.y)
-        i, k = np.nonzero(self.beside[:, rows])
+        beside = self.beside[:, rows]
+        mirrored, half = mirror_planes(self.tractions.cells)[0], len(field.x) // 2
+        beside[:half] &= not mirrored
+        i, k = np.nonzero(beside)
         x, y = i.astype(float), rows[k].astype(float)
         stress = field.stress.copy()
         for index, level in enumerate(field.levels):
@@ -120,6 +129,8 @@ class NearEdge:
                 stress[index][:, i, k] += change_at_depth(
                     self.tractions, x, y, level.depth, self.stack.outer, self.grid.spacing
                 )
+        if mirrored:
+            stress[:, :, :half] = SIGNS_ALONG_X * stress[:, :, : -half - 1 : -1]
         return replace(field, stress=stress)
 
     def reaches(self, level: Level) -> bool:

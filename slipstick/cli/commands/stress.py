@@ -28,7 +28,6 @@ from contact_results.stress.points import StressField
 from contact_results.stress.radial_body import is_sheared, refuse_infinite, refuse_turned
 from contact_results.stress.stress_maxima import Extreme, extremes
 from contact_results.stress_files import write_stress
-from contact_results.stress_history import StressIncrement, write_history
 from contact_scene import Body, SceneFile, read_scene_file
 from contact_scene.accuracy import AccuracyRequest
 from contact_scene.quantities.field_metadata import CONVENTION, OF_THE_INDENTER
@@ -36,8 +35,6 @@ from contact_scene.quantities.stated_error import StatedError, StatedErrors
 from contact_scene.reading.engineering_units import engineering_unit
 from contact_scene.reading.quantity import Length
 from contact_scene.solver_errors import ContactNotResolved, SolverError, UnsupportedScene
-from radial.angular_grid import Circle
-from radial.largest_contact import expected_radius
 from semi_analytical.frf.stack import stack_of
 from semi_analytical.stress import interfaces
 from semi_analytical.stress.depths import levels_of
@@ -255,6 +252,8 @@ def _write_points(
     indenter: bool,
 ) -> None:
     """Write the stress at points, at the end of a load step or over all increments."""
+    from contact_results.stress_history import StressIncrement, write_history
+
     made = []
     left_out: SolverError = ContactNotResolved("the bodies are separated and have no stress")
     if contents is None:
@@ -309,6 +308,9 @@ def _solved(
     fineness = chosen.fineness(contents)
     decided: Any = chosen.plan(contents.scene, fineness)
     if name is SolverName.RADIAL:
+        from radial.angular_grid import Circle
+        from radial.largest_contact import expected_radius
+
         if decided.sheared:
             refuse_infinite(contents.scene.indenter, expected_radius(contents.scene))
         if decided.circle is Circle.WHOLE:
