@@ -17,6 +17,7 @@ from contact_scene.stepping.load_stepping import (
     Reached,
     resumable_increments,
 )
+from semi_analytical.edge.contact_area import covered_cells
 from semi_analytical.edge.corrected import Corrected, EdgeReport
 from semi_analytical.fields import Increment
 from semi_analytical.increments.energy import NOTHING_YET, pressed_work
@@ -176,7 +177,7 @@ def _increment(
         approach=pressing.approach,
         moment=None if state.moment is None else np.array(state.moment),
         tilt=None if tilt is None else np.array(tilt),
-        contact_area=pressing.covered_cells * model.grid.cell_area,
+        contact_area=_contact_cells(model, state) * cell,
         peak_pressure=float(np.max(p)),
         elastic_energy=state.energy.elastic,
         input_work=state.energy.transferred,
@@ -212,6 +213,14 @@ def _increment(
     return _traced(increment, last, sheared)
 
 
+def _contact_cells(model: ContactModel, state: State) -> float:
+    """Compute the contact area in cells of the window, with sub-cell accuracy."""
+    if state.corrected is not None:
+        return state.corrected.contact_cells
+    p, domain = state.pressing.pressure, model.domain
+    return domain.images * covered_cells(p, p > 0, domain)
+
+
 def _with_edges(
     increment: Increment, state: State, corrected: Corrected, model: ContactModel
 ) -> Increment:
@@ -242,7 +251,6 @@ def _with_edges(
         approach=corrected.approach,
         moment=None if moment is None else np.array(moment),
         tilt=None if tilt is None else np.array(tilt),
-        contact_area=corrected.contact_cells * cell,
         peak_pressure=corrected.peak,
         edge_change=corrected.change,
         elastic_energy=increment.elastic_energy + gained,

@@ -61,6 +61,7 @@ ORDERS = {
         "clipped_power_means",
         "quadratic",
         "fit",
+        "contact_area",
         "shape",
         "edge_geometry",
         "film",

@@ -113,7 +113,6 @@ FIRST = PreviousIncrement(
     displacement=NOTHING + 10,
     normal_force=1.0,
     approach=1.0,
-    covered_cells=1.0,
     force=np.array([0.1, 0.2]),
     shift=np.array([1.0, 2.0]),
 )

@@ -14,11 +14,11 @@ from radial.angular_grid import Circle
 from radial.tangential.ring_points import Points
 from radial.tangential.stick_border import stick_area as ring_stick_area
 from semi_analytical import plan, solve
-from semi_analytical.edge_correction.stick_area import stick_area
-from semi_analytical.normal.contact_area import (
+from semi_analytical.edge.contact_area import (
     covered_cells,
     stuck_cells,
 )
+from semi_analytical.edge_correction.stick_area import stick_area
 from semi_analytical.operator.domain import QUARTER
 
 CELLS, PARTS = 64, 12

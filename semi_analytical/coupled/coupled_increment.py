@@ -47,7 +47,6 @@ from semi_analytical.increments.tangential_state import (
     untouched,
 )
 from semi_analytical.model import ContactModel
-from semi_analytical.normal.contact_area import covered_cells
 from semi_analytical.operator.box import (
     Box,
     box_around,
@@ -201,7 +200,6 @@ class _Trial:
             approach=approach,
             complementarity=complementarity(p, g, overlap),
             penetration=penetration(g, overlap),
-            covered_cells=covered_cells(p, p > 0, model.domain),
             iterations=self.iterations,
             tilt=tilt,
         )

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from contact_scene.array_types import Field, VectorField
+from semi_analytical.edge.contact_area import covered_cells
 from semi_analytical.increments.increment import State
 from semi_analytical.increments.increment_history import (
     FURTHEST,
@@ -132,7 +133,8 @@ def _dilated(
         dilation = Dilation.about(pressure, np.exp(of_radius * change), domain)
         return dilation.grown(pressure, now.shear, np.exp(of_force * change))
     ratio = change / last_change
-    radius = 0.5 * np.log(now.covered_cells / behind.covered_cells)
+    areas = [covered_cells(p, p > 0, domain) for p in (pressure, behind.pressure)]
+    radius = 0.5 * np.log(areas[0] / areas[1])
     force = np.log(now.normal_force / behind.normal_force)
     dilation = Dilation.about(pressure, np.exp(ratio * radius), domain)
     p, q = dilation.grown(pressure, now.shear, np.exp(ratio * force))

@@ -69,9 +69,10 @@ def fit_about(
     """
     data, weight = (domain.framed(field, stencil.reach) for field in (data, weight))
     fade, basis = stencil_weights(stencil), monomials(stencil)[: 3 * degree]
+    products = _products(stencil, degree)
     if sensitivity is not None:
         factor, (x, y) = domain.framed(sensitivity[0], stencil.reach), sensitivity[1]
-        foot = np.stack([x**0, x, y, x**2 / 2, x * y, y**2 / 2])
+        foot = np.stack([x**0, x, y, x**2 / 2, x * y, y**2 / 2], axis=-1)
     found = np.zeros((6, len(i)))
     rms, mean, count = np.empty(len(i)), np.empty(len(i)), np.empty(len(i), dtype=int)
     for first in range(0, len(i), CHUNK):
@@ -79,21 +80,21 @@ def fit_about(
         at = i[some], j[some], stencil
         given, w = (in_windows(field, *at) for field in (data, weight))
         w *= fade
-        normal = normal_matrices(stencil, w, degree)
-        fit = basis @ (w * given).T
+        normal = (w @ products.T).reshape(len(w), *2 * basis.shape[:1])
+        fit = (w * given) @ basis.T
         if sensitivity is not None:
-            c, to = in_windows(factor, *at), foot[:, some]
-            mixed = basis @ (w * c).T
-            normal += mixed[:, None] * to + to[:, None] * mixed
-            normal += np.sum(w * c**2, axis=1) * to[:, None] * to
-            fit += to * np.sum(w * c * given, axis=1)
-        solve(factorise(normal), fit)
-        found[: len(basis), some] = fit
+            c, to = in_windows(factor, *at), foot[some]
+            mixed = (w * c) @ basis.T
+            normal += mixed[:, None] * to[:, :, None] + to[:, None] * mixed[:, :, None]
+            normal += np.sum(w * c**2, axis=1)[:, None, None] * to[:, None] * to[:, :, None]
+            fit += to * np.sum(w * c * given, axis=1)[:, None]
+        fit = solution(normal, fit)
+        found[: len(basis), some] = fit.T
         total = np.maximum(np.sum(w, axis=1), LEAST_TOTAL)
         mean[some] = np.sum(w * given, axis=1) / total
-        given -= fit.T @ basis
+        given -= fit @ basis
         if sensitivity is not None:
-            given -= c * np.sum(fit * to, axis=0)[:, None]
+            given -= c * np.sum(fit * to, axis=1)[:, None]
         rms[some] = np.sqrt(np.sum(w * given**2, axis=1) / total)
         count[some] = np.count_nonzero(w, axis=1)
     return Fits(Quadratic(i.astype(float), j.astype(float), *found), rms, mean, count)
@@ -123,11 +124,10 @@ def monomials(stencil: Stencil) -> Field:
 
 
 @cache
-def _products(stencil: Stencil, degree: int) -> tuple[Indices, Indices, Field]:
-    """Compute the products of two monomials (products, window), after their two indices."""
-    row, column = np.triu_indices(3 * degree)
-    basis = monomials(stencil)
-    return row, column, _read_only(basis[row] * basis[column])
+def _products(stencil: Stencil, degree: int) -> Field:
+    """Compute the products of all pairs of monomials (9 degree², window)."""
+    basis = monomials(stencil)[: 3 * degree]
+    return _read_only((basis[:, None] * basis).reshape(len(basis) ** 2, -1))
 
 
 @cache
@@ -142,37 +142,11 @@ def _read_only(values: Field) -> Field:
     return values
 
 
-def normal_matrices(stencil: Stencil, weights: Field, degree: int = 2) -> Field:
-    """Compute the matrices of the normal equations (m, m, n) for weights (n, window)."""
-    row, column, products = _products(stencil, degree)
-    normal = np.empty((3 * degree, 3 * degree, len(weights)))
-    normal[row, column] = normal[column, row] = products @ weights.T
-    return normal
-
-
-def factorise(normal: Field) -> Field:
-    """Factorise matrices (m, m, n) by Cholesky's method in their upper triangles, in place.
-
-    The operations run over all n small matrices at once.
-    """
-    a, diagonal = normal, np.arange(len(normal))
-    a[diagonal, diagonal] += RIDGE * (np.trace(a) + LEAST_TOTAL)
-    for k in range(len(a)):
-        a[k, k:] /= np.sqrt(a[k, k])
-        for i in range(k + 1, len(a)):
-            a[i, i:] -= a[k, i] * a[k, i:]
-    return a
-
-
-def solve(factors: Field, right: Field) -> None:
-    """Solve the factorised systems; coefficients (m, n) overwrite the right sides."""
-    a, x = factors, right
-    for k in range(len(x)):
-        x[k] /= a[k, k]
-        x[k + 1 :] -= a[k, k + 1 :] * x[k]
-    for k in reversed(range(len(x))):
-        x[k] /= a[k, k]
-        x[:k] -= a[:k, k] * x[k]
+def solution(normal: Field, right: Field) -> Field:
+    """Regularise normal equations (n, m, m) in place, and solve them for right sides (n, m)."""
+    diagonal = np.einsum("nkk->nk", normal)
+    diagonal += RIDGE * (np.sum(diagonal, axis=1, keepdims=True) + LEAST_TOTAL)
+    return np.asarray(np.linalg.solve(normal, right[..., None])[..., 0])
 
 
 # A cell and its neighbours. Their slopes require the next cells: ACROSS cells in each direction.

@@ -225,6 +225,4 @@ def depth_of(region: Mask, domain: ReducedDomain = WINDOW) -> Field:
 
     Cells beyond the window count as outside. The distance of cells outside is zero.
     """
-    frame = [(int(not mirrored), 1) for mirrored in domain.mirrors]
-    depth = distance_transform_edt(np.pad(region, frame))
-    return np.asarray(depth[frame[0][0] : -1, frame[1][0] : -1])
+    return np.asarray(distance_transform_edt(domain.framed(region, 1))[1:-1, 1:-1])

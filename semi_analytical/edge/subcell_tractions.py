@@ -4,7 +4,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.ndimage import binary_dilation
 
 from contact_scene.array_types import Field, Indices, Mask
 from semi_analytical.edge.clipped_power_means import (
@@ -12,6 +11,7 @@ from semi_analytical.edge.clipped_power_means import (
     mean_of_cut,
     mean_of_smooth,
 )
+from semi_analytical.edge.contact_area import near
 from semi_analytical.edge.edge_geometry import EdgeLine
 from semi_analytical.edge.film import FilmLaw
 from semi_analytical.edge.film_shape import FilmShape, film_shape
@@ -63,8 +63,7 @@ class EdgeCells:
     @cached_property
     def fitted(self) -> tuple[Indices, Indices]:
         """Cells with subcells from fits."""
-        framed = self.domain.framed(self.region, 1)
-        touched = binary_dilation(framed, np.ones((3, 3)))[1:-1, 1:-1]
+        touched = near(self.domain.framed(self.region, 1))
         i, j = np.nonzero(touched & (self.depth <= FITTED))
         return i, j
 

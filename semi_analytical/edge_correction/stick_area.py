@@ -13,10 +13,10 @@ import numpy as np
 from scipy.ndimage import distance_transform_edt
 
 from contact_scene.array_types import Field, Mask, VectorField
+from semi_analytical.edge.contact_area import stuck_cells
 from semi_analytical.edge.fit import NARROW, WIDE, Stencil
 from semi_analytical.edge.shape import LARGEST_RMS, AdjacentCells, depth_of, edge_shape
 from semi_analytical.edge_correction.shear_at_edge import LAYERS, direction_of_slip
-from semi_analytical.normal.contact_area import stuck_cells
 from semi_analytical.operator.box import box_around
 
 # Exponent of the distance, stencil of the fit, and factor of the residual in the comparison. The

@@ -73,7 +73,6 @@ class State:
             displacement=sheared.displacement,
             normal_force=self.normal_force,
             approach=pressing.approach,
-            covered_cells=pressing.covered_cells,
             force=sheared.force,
             shift=sheared.shift,
         )

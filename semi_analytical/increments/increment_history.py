@@ -26,7 +26,6 @@ class PreviousIncrement:
     displacement: VectorField
     normal_force: float
     approach: float
-    covered_cells: float
     force: Vector
     shift: Vector
 

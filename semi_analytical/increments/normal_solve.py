@@ -13,7 +13,6 @@ from contact_scene.solver_errors import (
     NothingTouches,
 )
 from semi_analytical.model import ContactModel, doubled
-from semi_analytical.normal.contact_area import covered_cells
 from semi_analytical.normal.initial_pressure import bearing_pressure
 from semi_analytical.normal.normal_load import (
     FixedApproach,
@@ -40,8 +39,7 @@ MAX_ATTEMPTS = 4
 class NormalState:
     """Solution of the normal problem on the domain, with its residuals and iterations.
 
-    covered_cells  contact area in cells, with sub-cell accuracy
-    tilt           of the indenter (x, y); None without tilt
+    tilt  of the indenter (x, y); None without tilt
     """
 
     pressure: Field
@@ -49,7 +47,6 @@ class NormalState:
     approach: float
     complementarity: float
     penetration: float
-    covered_cells: float
     iterations: int
     tilt: Pair | None = None
 
@@ -143,10 +140,9 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Normal
         measures = (complementarity(p, g, overlap), penetration(g, overlap))
         residual = worst(*measures)
         if residual <= tolerance:
-            covered = covered_cells(p, p > 0, model.domain)
             refuse_contact_at_edge(p, model)
             approach, tilt = target.reached(model, solution.motion)
-            return NormalState(p, u, approach, *measures, covered, iterations, tilt)
+            return NormalState(p, u, approach, *measures, iterations, tilt)
         overlap_outside = np.min(np.where(box.mask(whole.shape), 0.0, g)) < 0
         box, aim = (whole, aim) if overlap_outside else (box, 0.1 * aim)
         start = np.where(p > 0, p, np.where(g < 0, np.min(p[p > 0]), 0.0))

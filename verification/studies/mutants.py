@@ -43,7 +43,7 @@ COPIED = (
 KERNELS = {
     "semi_analytical/frf/surface.py": ("test_frf",),
     "semi_analytical/influence/closed_form.py": ("test_operator", "test_influence_layered"),
-    "semi_analytical/normal/contact_area.py": ("test_stick_area",),
+    "semi_analytical/edge/contact_area.py": ("test_stick_area",),
     "semi_analytical/increments/stick_slip.py": ("test_stick_slip", "test_torsion_load"),
     "semi_analytical/tangential/admissible_shear.py": ("test_normal", "test_stick_slip"),
     "semi_analytical/edge/kernels.py": ("test_edge_shape",),

@@ -31,8 +31,8 @@ def covered_cells(values: Field, inside: Mask, domain: ReducedDomain = WINDOW) -
     values do not fall towards the edge (flat punch).
     """
     framed = domain.framed(inside, 1)
-    trusted = ~_near(~framed)  # cells whose neighbours are inside, too
-    i, j = np.nonzero(_near(framed) & ~trusted)
+    trusted = ~near(~framed)  # cells whose neighbours are inside, too
+    i, j = np.nonzero(near(framed) & ~trusted)
     if len(i) == 0:
         return float(np.count_nonzero(inside))
     phi = np.square(values / np.max(values))
@@ -75,7 +75,7 @@ def _box_with_edge(marked: Mask) -> tuple[slice, ...]:
     return tuple(slice(max(0, i[0] - 1), i[-1] + 2) if len(i) else slice(0) for i in at)
 
 
-def _near(marked: Mask) -> Mask:
+def near(marked: Mask) -> Mask:
     """Return the cells that are marked or adjacent to a marked cell, without the border (nx - 2, ny
     - 2)."""
     along = marked[:-2] | marked[1:-1] | marked[2:]
