@@ -23,7 +23,7 @@ from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
-from verification.closed_forms.validity import require_positive, unit_gauss
+from verification.closed_forms.quadrature import unit_gauss
 
 Array = NDArray[np.float64]
 Compliance = Callable[[Array], Array]
@@ -49,9 +49,6 @@ class LayeredSurface:
     compliance: Compliance
     contact_modulus: float
     thickness: float
-
-    def __post_init__(self) -> None:
-        require_positive(contact_modulus=self.contact_modulus, thickness=self.thickness)
 
     def excess(self, k: Array) -> Array:
         """Compute X(k) - 1, the effect of the layers on a half-space of the outermost material
@@ -133,13 +130,11 @@ def flat_punch(surface: LayeredSurface, contact_radius: float) -> LayeredIndenta
 
 def paraboloid(surface: LayeredSurface, radius: float, contact_radius: float) -> LayeredIndentation:
     """Solve a paraboloid with a given contact radius."""
-    require_positive(radius=radius)
     return _solved(surface, contact_radius, radius)
 
 
 def paraboloid_under(load: float, surface: LayeredSurface, radius: float) -> LayeredIndentation:
     """Solve a paraboloid under a load [force]."""
-    require_positive(load=load, radius=radius)
     hertz = float(np.cbrt(3 * load * radius / (4 * surface.contact_modulus)))
 
     def excess(scale: float) -> float:
@@ -155,7 +150,6 @@ def paraboloid_under(load: float, surface: LayeredSurface, radius: float) -> Lay
 
 
 def _solved(surface: LayeredSurface, a: float, radius: float) -> LayeredIndentation:
-    require_positive(contact_radius=a)
     k, weight = _wavenumbers(a, surface.thickness)
     weighted = weight * surface.excess(k)
     s, weights = unit_gauss(_order(a, surface.thickness))

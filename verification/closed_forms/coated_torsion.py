@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 from scipy.special import j1
 
-from verification.closed_forms.validity import require_positive, unit_gauss
+from verification.closed_forms.quadrature import unit_gauss
 
 Array = NDArray[np.float64]
 
@@ -51,9 +51,6 @@ class TorsionalSurface:
     compliance: Callable[[Array], Array]
     torsional_modulus: float
     thickness: float
-
-    def __post_init__(self) -> None:
-        require_positive(torsional_modulus=self.torsional_modulus, thickness=self.thickness)
 
     def excess(self, k: Array) -> Array:
         """Compute X(k) - 1, the effect of the layers on a half-space of the outermost material
@@ -88,7 +85,6 @@ class CoatedTorsion:
     stick_radius: float
 
     def __post_init__(self) -> None:
-        require_positive(contact_radius=self.contact_radius, stick_radius=self.stick_radius)
         if not 0.1 <= self.stick_radius / self.contact_radius < 1:
             raise ValueError(
                 f"stick radius {self.stick_radius!r} is not between a tenth of the contact radius "

@@ -10,8 +10,6 @@ from math import pi, sqrt, tan
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from verification.closed_forms.validity import require_non_negative, require_positive
-
 
 @dataclass(frozen=True)
 class ConeContact:
@@ -26,17 +24,9 @@ class ConeContact:
     contact_modulus: float
     contact_radius: float
 
-    def __post_init__(self) -> None:
-        _require_slope(self.slope_angle)
-        require_positive(contact_modulus=self.contact_modulus)
-        require_non_negative(contact_radius=self.contact_radius)
-
     @classmethod
     def under_load(cls, load: float, slope_angle: float, contact_modulus: float) -> "ConeContact":
         """Return the contact under a normal load W >= 0 [force]: a² = 2W/(πE* tan(slope))."""
-        require_non_negative(load=load)
-        require_positive(contact_modulus=contact_modulus)
-        _require_slope(slope_angle)
         a = sqrt(2 * load / (pi * contact_modulus * tan(slope_angle)))
         return cls(slope_angle, contact_modulus, a)
 
@@ -65,8 +55,3 @@ class ConeContact:
         outside = np.maximum(rho, a)
         root = np.sqrt((outside - a) * (outside + a))
         return np.asarray(tan(self.slope_angle) * (root - a * np.arctan2(root, a)))
-
-
-def _require_slope(slope_angle: float) -> None:
-    if not 0 < slope_angle < pi / 2:
-        raise ValueError(f"slope_angle is {slope_angle!r} rad, expected 0 < slope_angle < pi/2")

@@ -13,8 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 from scipy.special import elliprd, elliprf
 
-from verification.closed_forms.validity import require_non_negative, require_positive
-
 
 def axis_ratio(radius_x: float, radius_y: float) -> float:
     """Solve for the ratio k = b/a of the semi-axes along y and x (Hertz 1882).
@@ -22,7 +20,6 @@ def axis_ratio(radius_x: float, radius_y: float) -> float:
     Solves Rx/Ry = R_D(1, 0, k²)/R_D(k², 0, 1), which is the classical B/A = [(a/b)²E - K]/[K - E]
     after cancelling the common factor 1 - k².
     """
-    require_positive(radius_x=radius_x, radius_y=radius_y)
     if radius_x == radius_y:
         return 1.0
     target = np.log(radius_x / radius_y)
@@ -54,10 +51,7 @@ class EllipticalContact:
     def under_load(
         cls, load: float, radii: tuple[float, float], contact_modulus: float
     ) -> "EllipticalContact":
-        """Return the contact under a normal load W >= 0 [force]; raise ValueError outside the
-        range."""
-        require_non_negative(load=load)
-        require_positive(contact_modulus=contact_modulus)
+        """Return the contact under a normal load W >= 0 [force]."""
         k = axis_ratio(*radii)
         a = np.cbrt(load * radii[0] * elliprd(k**2, 0, 1) / (pi * contact_modulus))
         return cls(radii, contact_modulus, (float(a), float(k * a)), k)

@@ -10,8 +10,6 @@ from math import hypot, pi
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from verification.closed_forms.validity import require_non_negative, require_positive
-
 
 @dataclass(frozen=True)
 class FlatPunchContact:
@@ -25,10 +23,6 @@ class FlatPunchContact:
     contact_radius: float
     contact_modulus: float
     load: float
-
-    def __post_init__(self) -> None:
-        require_positive(contact_radius=self.contact_radius, contact_modulus=self.contact_modulus)
-        require_non_negative(load=self.load)
 
     @classmethod
     def under_load(
@@ -81,11 +75,6 @@ class TiltedPunch:
     eccentricity: tuple[float, float]
 
     def __post_init__(self) -> None:
-        require_positive(
-            contact_radius=self.contact_radius,
-            contact_modulus=self.contact_modulus,
-            load=self.load,
-        )
         if hypot(*self.eccentricity) > self.contact_radius / 3:
             raise ValueError(
                 f"eccentricity {hypot(*self.eccentricity)!r} exceeds a third of the radius "

@@ -11,12 +11,9 @@ substrate must reproduce the derivatives.
 
 from math import atan, log, pi
 
-from verification.closed_forms.validity import require_positive
-
 
 def modulus_weight(xi: float, poisson_ratio: float) -> float:
     """Compute I0, the weight of the film's shear modulus in the stiffness [1]."""
-    require_positive(xi=xi)
     nu = poisson_ratio
     logarithm = (1 - 2 * nu) * xi * log((1 + xi**2) / xi**2)
     return 2 / pi * atan(xi) + (logarithm - xi / (1 + xi**2)) / (2 * pi * (1 - nu))
@@ -24,5 +21,4 @@ def modulus_weight(xi: float, poisson_ratio: float) -> float:
 
 def ratio_weight(xi: float) -> float:
     """Compute I1, the weight of the film's Poisson ratio in the stiffness [1]."""
-    require_positive(xi=xi)
     return 2 / pi * atan(xi) + xi / pi * log((1 + xi**2) / xi**2)

@@ -16,8 +16,6 @@ from math import atanh, exp
 from scipy.optimize import brentq
 from scipy.special import ellipkm1
 
-from verification.closed_forms.validity import require_positive
-
 # Range of log(c/a) in which doubles differ from 0 (for the square) and from 1.
 SMALLEST, LARGEST = -340.0, -(2.0**-52)
 
@@ -30,7 +28,6 @@ def stick_ratio(friction: float, dundurs_beta: float) -> float:
 
     A ratio that differs from 0 or 1 by less than double precision is returned as 0 or 1.
     """
-    require_positive(friction=friction, dundurs_beta=dundurs_beta)
 
     def excess(log_c: float) -> float:
         """Compute the difference of both sides of the equation, which grows with c."""

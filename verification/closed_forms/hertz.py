@@ -11,8 +11,6 @@ from math import pi, sqrt
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from verification.closed_forms.validity import require_non_negative, require_positive
-
 ElasticConstants = tuple[float, float]
 
 
@@ -50,30 +48,20 @@ class PointContact:
     radius           relative radius of curvature R [length]
     contact_modulus  E* [force/length²]
     contact_radius   a [length], zero at first touch
-
-    Raises ValueError unless radius and contact_modulus are > 0 and contact_radius is >= 0.
     """
 
     radius: float
     contact_modulus: float
     contact_radius: float
 
-    def __post_init__(self) -> None:
-        require_positive(radius=self.radius, contact_modulus=self.contact_modulus)
-        require_non_negative(contact_radius=self.contact_radius)
-
     @classmethod
     def under_load(cls, load: float, radius: float, contact_modulus: float) -> "PointContact":
         """Return the contact under a normal load W >= 0 [force]: a³ = 3WR/4E*."""
-        require_non_negative(load=load)
-        require_positive(radius=radius, contact_modulus=contact_modulus)
         return cls(radius, contact_modulus, float(np.cbrt(3 * load * radius / contact_modulus / 4)))
 
     @classmethod
     def at_approach(cls, approach: float, radius: float, contact_modulus: float) -> "PointContact":
         """Return the contact at an approach >= 0 of distant points [length]: a² = R * approach."""
-        require_non_negative(approach=approach)
-        require_positive(radius=radius, contact_modulus=contact_modulus)
         return cls(radius, contact_modulus, sqrt(radius * approach))
 
     @property

@@ -10,8 +10,6 @@ from math import pi
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from verification.closed_forms.validity import require_positive
-
 
 @dataclass(frozen=True)
 class AxisymmetricStress:
@@ -79,7 +77,6 @@ def sliding_axis_shear(
 
     peak_shear  q0 = µ p0 at gross slip [force/length²]; Poisson's ratio has no effect
     """
-    require_positive(contact_radius=contact_radius)
     depth, arc = _depth(z, contact_radius)
     return np.asarray(-peak_shear * (1 - 1.5 * arc + depth**2 / (2 * (1 + depth**2))))
 
@@ -93,7 +90,6 @@ def _depth(z: ArrayLike, a: float) -> tuple[NDArray[np.float64], NDArray[np.floa
 
 
 def _require_half_space(a: float, p0: float, nu: float) -> None:
-    require_positive(contact_radius=a, peak_pressure=p0)
     if not -1 < nu <= 0.5:
         raise ValueError(f"Poisson's ratio is {nu!r}, expected -1 < nu <= 0.5")
 
@@ -112,7 +108,6 @@ def stress_by_hertz_shear(
     shear over R is π (x cos φ - √(x²-a²)) q0/a. The integrals over φ from 0 to m = arcsin(a/x) are
     elementary.
     """
-    require_positive(contact_radius=contact_radius)
     nu = poisson_ratio
     t = np.asarray(x, dtype=float) / contact_radius
     outside = np.abs(t) > 1

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
-from verification.closed_forms.validity import require_non_negative, require_positive, unit_gauss
+from verification.closed_forms.quadrature import unit_gauss
 
 SERIES_BELOW = 0.3
 SERIES_TERMS = 20
@@ -36,8 +36,6 @@ class SphereContact:
     contact_radius: float
 
     def __post_init__(self) -> None:
-        require_positive(radius=self.radius, contact_modulus=self.contact_modulus)
-        require_non_negative(contact_radius=self.contact_radius)
         if self.contact_radius >= self.radius:
             raise ValueError(
                 f"contact radius {self.contact_radius!r} reaches the ball's radius {self.radius!r}"
@@ -47,8 +45,6 @@ class SphereContact:
     def under_load(cls, load: float, radius: float, contact_modulus: float) -> "SphereContact":
         """Return the contact under a normal load W >= 0 [force]; raise ValueError if a reaches
         R."""
-        require_non_negative(load=load)
-        require_positive(radius=radius, contact_modulus=contact_modulus)
         target = load / (contact_modulus * radius**2)
         if target == 0:
             return cls(radius, contact_modulus, 0.0)

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 from scipy.special import ellipe, elliprd
 
-from verification.closed_forms.validity import require_positive, unit_gauss
+from verification.closed_forms.quadrature import unit_gauss
 
 ORDER = 120
 
@@ -29,11 +29,6 @@ class StuckTorsion:
     contact_radius: float
     torsional_modulus: float
     moment: float
-
-    def __post_init__(self) -> None:
-        require_positive(
-            contact_radius=self.contact_radius, torsional_modulus=self.torsional_modulus
-        )
 
     @property
     def twist(self) -> float:
@@ -67,13 +62,6 @@ class TorsionalPartialSlip:
     stick_radius: float
 
     def __post_init__(self) -> None:
-        require_positive(
-            contact_radius=self.contact_radius,
-            peak_pressure=self.peak_pressure,
-            friction_coefficient=self.friction_coefficient,
-            torsional_modulus=self.torsional_modulus,
-            stick_radius=self.stick_radius,
-        )
         if self.stick_radius > self.contact_radius:
             raise ValueError(
                 f"stick radius {self.stick_radius!r} exceeds the contact radius "
