@@ -12,6 +12,7 @@ from surface_quadrature import normal_displacement, tangential_displacement
 
 from semi_analytical.frf.stack import Stack
 from semi_analytical.frf.surface import scalars
+from verification.cases.frictional_pressing import stick_ratio
 from verification.closed_forms.cattaneo_mindlin import PartialSlip, superpose
 from verification.closed_forms.coated_indentation import (
     LayeredSurface,
@@ -22,7 +23,6 @@ from verification.closed_forms.coated_indentation import (
 from verification.closed_forms.cone import ConeContact
 from verification.closed_forms.elliptical_contact import EllipticalContact
 from verification.closed_forms.flat_punch import FlatPunchContact
-from verification.closed_forms.goodman import stick_ratio
 from verification.closed_forms.hertz import PointContact, contact_modulus, tangential_modulus
 from verification.closed_forms.sphere import SphereContact
 from verification.references import load_reference

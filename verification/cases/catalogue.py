@@ -82,7 +82,6 @@ CASES = (
     "fem_penalty_slip",
     "layered_reference",
     "frf_laws",
-    "sampling_route",
     "worked_examples",
     "written_files",
 )
@@ -115,7 +114,7 @@ MODULES = {
         *("load_paths", "coupled_history", "same_surface", "forced_effects", "exchanged_bodies"),
         *("led_histories", "fem_far_field"),
     ),
-    "responses": ("layered_reference", "frf_laws", "sampling_route"),
+    "responses": ("layered_reference", "frf_laws"),
     "stress": ("subsurface_stress", "edge_stress", "radial_stress"),
 }
 MODULE_OF = {name: module for module, names in MODULES.items() for name in names}

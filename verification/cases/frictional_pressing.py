@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from math import log, sqrt
+from math import atanh, exp, log, sqrt
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import brentq
+from scipy.special import ellipkm1
 
 from contact_scene import (
     RIGID,
@@ -34,7 +36,6 @@ from fem_reference.plan import Path
 from semi_analytical import one_way
 from semi_analytical.grid import SurfaceGrid
 from verification.cases.levels import ELEMENT_RADIUS, JUDGED_BY, PENALTY, because, finest
-from verification.closed_forms.goodman import stick_ratio
 from verification.exhibits.chart import Chart
 from verification.exhibits.convergence_chart import convergence_chart
 from verification.judging.case import Case, Check, Comparison, Level, Quantity, Required
@@ -99,6 +100,32 @@ from verification.problems.problem import (
     identity,
 )
 from verification.quantities import shear_of, shift_along_x
+
+# Range of log(c/a) in which doubles differ from 0 (for the square) and from 1.
+SMALLEST, LARGEST = -340.0, -(2.0**-52)
+
+
+def stick_ratio(friction: float, dundurs_beta: float) -> float:
+    """Compute c/a, between 0 (gross slip) and 1 (full stick).
+
+    friction      µ > 0
+    dundurs_beta  β > 0; (1 - 2ν)/(2(1 - ν)) under a rigid indenter
+
+    A ratio that differs from 0 or 1 by less than double precision is returned as 0 or 1.
+    """
+
+    def excess(log_c: float) -> float:
+        """Compute the difference of both sides of the equation, which grows with c."""
+        c = exp(log_c)
+        # K of the modulus √(1 - c²), from its complementary parameter c².
+        return float(atanh(c) / c - friction / dundurs_beta * ellipkm1(c * c))
+
+    if excess(SMALLEST) >= 0:
+        return 0.0
+    if excess(LARGEST) <= 0:
+        return 1.0
+    return exp(brentq(excess, SMALLEST, LARGEST, xtol=1e-16, rtol=1e-15))
+
 
 Field = NDArray[np.float64]
 

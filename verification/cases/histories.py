@@ -32,7 +32,6 @@ from contact_scene.quantities.residuals import worst
 from semi_analytical import SurfaceGrid, all_effects
 from verification.cases.levels import IDENTITY
 from verification.closed_forms.hertz import PointContact
-from verification.exhibits.chart import NONE, Table
 from verification.judging.case import Case, Check, Comparison, Finding, Level, Quantity, Required
 from verification.judging.declared_case import case
 from verification.judging.run import OTHER_NORMS, SOLVER_TOLERANCE, Run, SectionRun, per_radius
@@ -608,30 +607,13 @@ def forced_effects(level: Level = Level.QUICK) -> Case:
         for name, scene in scenes.items()
     }
 
-    def savings(results: Any) -> tuple[Table, ...]:
-        rows = []
-        for name, runs in pairs.items():
-            few, many = (sum(i.convolutions for i in results[r.label].increments) for r in runs)
-            rows.append((name, str(few), str(many), f"{many / few:.1f}"))
-        return (
-            Table(
-                title="Savings of the plan",
-                columns=("scene", "convolutions, as planned", "all effects on", "ratio"),
-                rows=tuple(rows),
-                note="Increments are equal on both sides. For scenes that do not depend on the "
-                "load path a plan also needs fewer increments, which adds to the savings.",
-                units=NONE,
-            ),
-        )
-
     return case(
         "forced_effects",
         "Only the effects that a scene needs",
         "Scenes whose plan omits effects because they vanish: shear without friction, tilt and "
         "torsion without a moment or torque, the coupling of pressure and shear for equal "
         "bodies, and the mirror images of tractions. Each scene is solved again with all effects "
-        "on. The results must be equal; the savings of the plan are the ratio of the "
-        "convolutions.",
+        "on. The results must be equal.",
         runs=tuple(run for pair in pairs.values() for run in pair),
         comparisons=tuple(
             Comparison(
@@ -643,7 +625,6 @@ def forced_effects(level: Level = Level.QUICK) -> Case:
             )
             for name, (planned, forced) in pairs.items()
         ),
-        tables=savings,
         equations=(r"\mathbf{C}_{xz} = 0 \Rightarrow p\ \text{and}\ \mathbf{q}\ \text{uncoupled}",),
         no_order=IDENTITY,
     )  # fmt: skip

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from math import hypot
 from typing import Any
 
 import numpy as np
@@ -18,8 +19,17 @@ from contact_scene import (
     LoadStep,
     Scene,
 )
+from fem_reference import Path, Plan, Result, plan
+from fem_reference.compliance.angular_grid import (
+    end_grid,
+    mid_grid,
+)
+from fem_reference.contact.method import ContactMethod
+from fem_reference.expected_radius import meshed_radius
+from fem_reference.fields import Increment
+from fem_reference.history import solved_increments
+from fem_reference.model import ContactModel
 from verification.cases.levels import SQUARE_ROOTS, STICK_BORDER, because, finest
-from verification.cases.points_run import PointsRun
 from verification.closed_forms.cattaneo_mindlin import superpose
 from verification.closed_forms.cone import ConeContact
 from verification.exhibits.chart import Chart, Look, Panel, curve
@@ -52,7 +62,7 @@ from verification.judging.refinement_levels import (
     part_of_side,
     refinement,
 )
-from verification.judging.run import per_radius
+from verification.judging.run import SectionRun, per_radius
 from verification.observed.ring_errors import tractions_at
 from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import (
@@ -65,6 +75,63 @@ from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, N
 from verification.problems.problem import Problem, ReferenceKind
 from verification.problems.shifted_grid import OFFSETS, UNLIKE
 from verification.quantities import force_along_x, shear_of, shift_along_x
+
+ACROSS = "slip across the load"
+
+
+@dataclass(frozen=True)
+class PointsRun(SectionRun):
+    """Run on two sets of points: points with the line of the load, and points halfway between.
+
+    The result is that of the first set, with the mean stick area of both sets, because the errors
+    of the stick area by sectors have opposite signs. Coulomb's law is a vector law even if the plan
+    neglects slip across the load.
+    """
+
+    def solve(self) -> Result:
+        """Solve on both sets of points; raises the exceptions of `fem_reference.solve`."""
+        scene, discretisation = self.scene, self.discretisation
+        decided = _with_vector_law(plan(scene))
+        radius = meshed_radius(scene, discretisation.contact_radius)
+        model = ContactModel.of(scene, discretisation, radius)
+        own, between = (
+            solved_increments(
+                ContactMethod(model, decided, around=grid(discretisation.harmonics)),
+                self.tolerance,
+            )
+            for grid in (end_grid, mid_grid)
+        )
+        means = (_with_mean_stick(*pair) for pair in zip(own, between, strict=True))
+        increments = tuple(_counted(model, means))
+        return Result(scene, discretisation, model.sections, radius, decided, increments)
+
+
+def _with_vector_law(decided: Plan) -> Plan:
+    if decided.path is Path.HARMONICS:
+        return decided
+    effects = tuple(
+        replace(effect, on=True, why="required by this case") if effect.name == ACROSS else effect
+        for effect in decided.effects
+    )
+    return replace(decided, path=Path.HARMONICS, effects=effects)
+
+
+def _counted(model: ContactModel, increments: Iterator[Increment]) -> Iterator[Increment]:
+    """Yield the increments with the number of sparse factorisations on both sets of points.
+
+    The count is that of `solve`: it does not depend on the cache of matrices.
+    """
+    counted = 0
+    for increment in increments:
+        spent, counted = model.factorizations - counted, model.factorizations
+        yield replace(increment, factorizations=spent)
+
+
+def _with_mean_stick(own: Increment, between: Increment) -> Increment:
+    if own.stick_radius is None or between.stick_radius is None:
+        return own
+    return replace(own, stick_radius=hypot(own.stick_radius, between.stick_radius) / 2**0.5)
+
 
 PARTS = (0.3, 0.6, 0.9, 0.99)  # of µW, one loading step each
 STOPS = dict(enumerate(PARTS, 1))  # by step

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
 from contact_results.cycles import fretting_cycles
@@ -15,7 +16,6 @@ from contact_scene import Ellipsoid, IsotropicMaterial, Layer, LoadStep, Rig
 from contact_scene.quantities.summary import OF_CYCLES
 from verification.cases.levels import SQUARE_ROOTS
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
-from verification.closed_forms.eccentric_contact import EccentricContact
 from verification.closed_forms.elliptical_contact import EllipticalContact
 from verification.closed_forms.tangential_history import TangentialHistory
 from verification.judging.case import Case, Level
@@ -53,6 +53,71 @@ from verification.problems.problem import Problem, ReferenceKind
 from verification.problems.shifted_grid import UNLIKE
 from verification.quantities import shear_of
 from verification.references import load_reference
+
+
+@dataclass(frozen=True)
+class EccentricContact:
+    """State under T and ε that have grown in proportion; fields are functions of x and y.
+
+    contact  normal contact, for the modulus E* that is also the tangential one
+    friction µ
+    tangential_force  T along x [force]
+    strain   ε of the lower body along x
+    """
+
+    contact: EllipticalContact
+    friction: float
+    tangential_force: float
+    strain: float
+
+    def __post_init__(self) -> None:
+        if self.eccentricity + self.stick.semi_axes[0] > self.contact.semi_axes[0]:
+            raise ValueError("the stick zone reaches the edge of the contact: slip turns back")
+
+    @property
+    def stick(self) -> EllipticalContact:
+        """The smaller contact, whose ellipse is the stick zone."""
+        load = self.contact.load - self.tangential_force / self.friction
+        modulus = self.contact.contact_modulus
+        return EllipticalContact.under_load(load, self.contact.radii, modulus)
+
+    @property
+    def eccentricity(self) -> float:
+        """e of the centre of the stick zone [length]."""
+        return self.strain * self.contact.radii[0] / self.friction
+
+    @property
+    def shift(self) -> float:
+        """δ [length]."""
+        drawn = 0.5 * self.strain * self.eccentricity
+        return self.friction * (self.contact.approach - self.stick.approach) + drawn
+
+    @property
+    def stick_radius(self) -> float:
+        """√(area/π) of the stick zone [length]."""
+        a, b = self.stick.semi_axes
+        return float(np.sqrt(a * b))
+
+    def shear(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+        """Compute the shear along x on the lower body [force/length²]."""
+        xs = np.asarray(x, dtype=float)
+        lacking = self.stick.pressure(xs - self.eccentricity, y)
+        return self.friction * (self.contact.pressure(xs, y) - lacking)
+
+    @property
+    def dissipated_energy(self) -> float:
+        """∫ µp s dA with the slip s, µ times the gap of the smaller contact [force length].
+
+        By reciprocity of the two contacts; ∫ p x² dA = W a²/5.
+        """
+        whole, stick, e = self.contact, self.stick, self.eccentricity
+        (R_x, R_y), lost = whole.radii, 0.0
+        for sign, of in ((1, whole), (-1, stick)):
+            a, b = of.semi_axes
+            lost += sign * of.load * ((a**2 / 5 + e**2) / R_x + b**2 / (5 * R_y)) / 2
+        lost += whole.approach * stick.load - stick.approach * whole.load
+        return self.friction**2 * lost
+
 
 OVER_FORCE = "µW"
 # Stiffness of the rig [N/m], and shift of the actuator, in turn positive and negative [m].
@@ -234,7 +299,7 @@ def eccentric(name: str) -> Problem:
         paper.frictional(title, Ellipsoid(radii=radii, material=NU_ZERO), NU_ZERO, step),
         (contact, exact),
         a,
-        "Hertz, Cattaneo; derived in verification.closed_forms.eccentric_contact",
+        "Hertz, Cattaneo; derived in verification.cases.rig_and_strain",
         across=b,
         scales={OVER_SLIDING_SHIFT: FRICTION * contact.approach},
         equations=(

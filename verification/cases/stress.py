@@ -36,7 +36,6 @@ from verification.closed_forms.huber_stress import (
     stress_by_hertz_shear,
     trailing_edge_tension,
 )
-from verification.exhibits.chart import NONE, Table, plain
 from verification.judging.case import Case, Check, Level, Required
 from verification.judging.declared_case import Observable, Within, case, error_norm, judged
 from verification.judging.refinement_levels import (
@@ -152,24 +151,6 @@ def _surface() -> float:
     return _largest((stress[ZZ] + p, stress[XZ] + q[0], stress[YZ] + q[1]))
 
 
-def _errors_by_depth() -> Table:
-    counts = (64, 128, 256)
-    return Table(
-        title="Error on the axis over p₀, against depth and cells",
-        columns=("z / a", *(f"{s}, {n}²" for s in ("σ_zz", "σ_xx", "τ_xz") for n in counts)),
-        rows=tuple(
-            (
-                f"{depth:g}",
-                *(plain(abs(_axis_errors(n)[k, c]) / P0, 2) for c in range(3) for n in counts),
-            )
-            for k, depth in enumerate(AXIS)
-        ),
-        note="The order in the cell side is 2, because the pressure is sampled at cell centres. "
-        "Close to the surface and to the edge of the contact the cells are visible.",
-        units=NONE,
-    )
-
-
 def subsurface_stress(level: Level = Level.QUICK) -> Case:
     """Build the case of stress below a sliding ball, and at the interface of a coated body."""
     closed: tuple[tuple[str, str, str, Callable[[], float]], ...] = (
@@ -216,9 +197,8 @@ def subsurface_stress(level: Level = Level.QUICK) -> Case:
                 for name, meaning, source, measure, scale in laws
             ),
         ),
-        tables=lambda _: (_errors_by_depth(),),
         equations=(HAMILTON_EQUATION,),
-        no_order="judged on one grid; the table shows second order in the cell at every depth",
+        no_order="judged on one grid",
     )  # fmt: skip
 
 

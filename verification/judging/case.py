@@ -12,7 +12,7 @@ from verification.judging.run import AnyRun
 from verification.problems.problem import Reference, ReferenceKind
 
 if TYPE_CHECKING:
-    from verification.exhibits.chart import Chart, Table
+    from verification.exhibits.chart import Chart
 
 
 class Level(IntEnum):
@@ -129,7 +129,6 @@ class Case:
     runs     by either solver; what is measured takes the result of the run it names
     checks   what is judged beside the runs; a case may have nothing else
     charts   figures drawn from the results, by label of the run
-    tables   more numbers than verdicts could show, likewise
     limits   what this case does not show
     equations  governing equations of the reference, in LaTeX
     no_order   reason for which no order of convergence is judged; empty where one is
@@ -145,7 +144,6 @@ class Case:
     comparisons: tuple[Comparison, ...] = ()
     checks: tuple[Check, ...] = ()
     charts: Callable[[Mapping[str, Any]], tuple[Chart, ...]] | None = None
-    tables: Callable[[Mapping[str, Any]], tuple[Table, ...]] | None = None
     limits: tuple[str, ...] = ()
     equations: tuple[str, ...] = ()
     no_order: str = ""

@@ -12,7 +12,7 @@ from contact_scene.quantities.increment import (
     SCALARS,
     components,
 )
-from verification.exhibits.chart import Chart, Table
+from verification.exhibits.chart import Chart
 from verification.judging import field_errors
 from verification.judging.case import (
     Case,
@@ -394,7 +394,6 @@ def case(
     comparisons: tuple[Comparison, ...] = (),
     checks: tuple[Check, ...] = (),
     charts: Sequence[Drawing] = (),
-    tables: Callable[[Results], tuple[Table, ...]] | None = None,
     limits: tuple[str, ...] = (),
     equations: tuple[str, ...] = (),
     no_order: str = "",
@@ -411,7 +410,6 @@ def case(
         comparisons=comparisons,
         checks=checks,
         charts=(lambda results: tuple(draw(results) for draw in charts)) if charts else None,
-        tables=tables,
         limits=limits,
         equations=tuple(dict.fromkeys((*(e for p in parts for e in p.equations), *equations))),
         no_order=no_order,

@@ -126,7 +126,6 @@ def judge(case: Case, solve: Solve = lambda run: run.solve()) -> CaseOutcome:
         limits=case.limits,
         equations=case.equations,
         no_order=case.no_order,
-        tables=case.tables(results) if case.tables and not failures else (),
     )
 
 

@@ -13,7 +13,7 @@ from contact_scene.quantities.summary import EffectSummary
 from contact_scene.reading.description import Description
 from contact_scene.reading.engineering_units import engineering_unit
 from verification.convergence.observed_order import ILLEGIBLE, ORDER_WIDTH, order_is_kept
-from verification.exhibits.chart import NOT_FINITE, Chart, Table, plain, value_text
+from verification.exhibits.chart import NOT_FINITE, Chart, plain, value_text
 from verification.judging.order_of_convergence import Followed, Refinement
 from verification.solver import Method, Solver
 
@@ -391,7 +391,6 @@ class CaseOutcome(Description):
     findings: tuple[FindingRecord, ...]
     charts: tuple[Chart, ...]
     limits: tuple[str, ...]
-    tables: tuple[Table, ...] = ()
     equations: tuple[str, ...] = ()
     """Governing equations of the reference, in LaTeX."""
 
