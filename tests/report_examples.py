@@ -72,7 +72,6 @@ def case(
         runs=(run,), findings=(), limits=(text,),
         charts=(chart(f"{name}_chart", text),) if drawn else (),
         verdicts=tuple(verdict(n, *pair, run.label) for n, pair in values.items()),
-        tables=(Table(title=text, columns=("a", "b"), rows=((text, text),) * 30, note=text),),
     )  # fmt: skip
 
 
