@@ -569,10 +569,15 @@ def test_coarse_solves_are_cheap_and_their_tolerance_has_no_effect(
 
 @pytest.mark.parametrize(
     ("changes", "left"),
-    [((1e-2,), 1.0), ((1e-2, 1e-3), 1.0), ((1e-2, 8e-4, 2e-4), 1 / 3), ((1e-2, 1e-4, 2e-4), 1.0)],
+    [
+        ((1e-2,), 1.0),
+        ((1e-2, 1e-3), 1.0),
+        ((1e-2, 8e-4, 2e-4), 1 / 3),
+        ((1, 8e-4, 1e-4, 2e-4), 1.0),
+    ],
 )
 def test_an_iteration_leaves_its_last_change_times_the_contraction(changes, left) -> None:
-    """A geometric series of the ratio κ sums to κ/(1-κ); κ = 1/2 where it is unknown or larger."""
+    """A geometric series of the ratio κ sums to κ/(1-κ); κ = 1/2 where it is unknown."""
     assert left_over(changes) == pytest.approx(left)
 
 

@@ -105,10 +105,14 @@ def next_change(changes: Sequence[float]) -> float:
 def left_over(changes: Sequence[float]) -> float:
     """Return the error after the last iteration over its change: κ/(1-κ) with the contraction κ.
 
-    The contraction is the ratio of the last two changes, except of the first one, and at most 1/2
-    as each iteration at least halves the error.
+    The contraction is the mean ratio of successive changes, except of the first one; 1/2 if they
+    are too few. Ten iterations do not tell a slower contraction than 0.9 from none.
     """
-    contraction = min(0.5, next_change(changes) / changes[-1]) if changes[-1] else 0.0
+    _, *later = changes
+    contraction = 0.5
+    if len(later) > 1 and later[0]:
+        contraction = (later[-1] / later[0]) ** (1 / (len(later) - 1))
+    contraction = min(contraction, 1 - 1 / MAX_ITERATIONS)
     return contraction / (1 - contraction)
 
 
