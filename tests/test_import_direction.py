@@ -147,9 +147,7 @@ ORDERS = {
         "stress",
         "figures",
         "result_files",
-        "stress_files",
         "stress_history",
-        "export",
     ),
     "contact_errors": (
         *("values", "error_formula", "cost_estimate", "coarse_solves"),

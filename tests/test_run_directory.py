@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from contact_results.directory.atomic_file import OutputRefused
 from contact_results.directory.file_names import SUMMARY, TIMING
-from contact_results.directory.refusal import OutputRefused
 from contact_results.directory.run_directory import run_directory
 from contact_results.directory.run_lock import acquire, release
 from contact_results.directory.timing import Stopwatch, write_timing

@@ -36,7 +36,7 @@ class SolverFile(pytest.File):
 
     def collect(self) -> Iterator[pytest.Item]:
         """Yield a test for every case; raises Refused for a file without a solver."""
-        from contact_results.directory.refusal import Refused
+        from contact_results.directory.atomic_file import Refused
         from verification.challenge.cases import challenges
         from verification.challenge.python_api import module_of
 

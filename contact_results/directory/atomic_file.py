@@ -6,7 +6,13 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from contact_results.directory.refusal import OutputRefused
+
+class Refused(Exception):
+    """A file cannot be used by the command; the message has its name and the reason."""
+
+
+class OutputRefused(Refused):
+    """The directory cannot be written, is in use, or contains files of other programs."""
 
 
 @contextmanager

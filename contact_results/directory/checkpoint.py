@@ -15,9 +15,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from contact_results.directory.atomic_file import atomic_file
+from contact_results.directory.atomic_file import OutputRefused, atomic_file
 from contact_results.directory.checkpoint_file import Unusable, pack, unpacked
-from contact_results.directory.refusal import OutputRefused
 from contact_results.directory.run_lock import acquire, release
 from contact_results.directory.stop_signals import cleaned_up_when_stopped
 from contact_scene.quantities.stored_fields import (

@@ -15,9 +15,8 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from contact_results.directory.atomic_file import create_parents, remove_empty
+from contact_results.directory.atomic_file import OutputRefused, create_parents, remove_empty
 from contact_results.directory.file_names import RUN_FILES, SUMMARY, TIMING
-from contact_results.directory.refusal import OutputRefused
 from contact_results.directory.run_lock import acquire, in_sole_use, release
 from contact_results.directory.stop_signals import cleaned_up_when_stopped, stop_signals_held
 

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
-from contact_results.directory.refusal import OutputRefused
+from contact_results.directory.atomic_file import OutputRefused
 from contact_results.directory.stop_signals import cleaned_up_when_stopped
 
 # Systems without these flags, such as Windows, have no locks.

@@ -49,10 +49,10 @@ def write_figures(
         for name, figure in _figures_called_for(result, cycles, errors):
             dots = DOTS_PER_INCH if name != file_names.OVERVIEW_FIGURE else OF_OVERVIEW
             save(figure, directory / name, dots)
-            # Reference cycles between the artists keep a figure in memory until it is cleared.
-            figure.clear()
             if not everything:
                 break
+            # Reference cycles between the artists keep a figure in memory until it is cleared.
+            figure.clear()
 
 
 def _figures_called_for(

@@ -1,4 +1,4 @@
-"""VTU files of the fields at the surface, for ParaView."""
+"""VTU files of the fields at the surface, for ParaView, and their collection over load steps."""
 
 from __future__ import annotations
 
@@ -11,9 +11,12 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_results.directory.run_directory import files_at_once
 from contact_results.files.csv_file import Column
 from contact_results.files.mesh_file import Mesh, write_mesh
-from contact_results.surface import Rings, Surface
+from contact_results.files.stored_run import StoredRun
+from contact_results.files.stored_values import ends_of_steps
+from contact_results.surface import Rings, Surface, surface_on
 
 VECTORS = {
     "shear": Column("shear", "Pa", "Tangential traction, vector (x, y, 0)."),
@@ -117,3 +120,28 @@ def _mirrored(name: str, field: NDArray[Any] | None) -> NDArray[Any] | None:
 def _flat(places: Places) -> Places:
     """Append the depth coordinate 0 to the points."""
     return np.column_stack([places, np.zeros(len(places))]) + 0.0
+
+
+COLLECTION = "surface.pvd"
+NAMES = (*SCALARS, *VECTORS, *(f"{stem}_{part}" for stem in VECTORS for part in POLAR))
+
+
+def write_paraview(run: StoredRun, directory: Path) -> None:
+    """Write one file `surface_step_N.vtu` per load step, and `surface.pvd` with N as the time."""
+    places = {name: values.array for name, values in run.coordinates.items()}
+    surface, steps = surface_on(places, run.direction), run.increments["step"].array
+    ends = ends_of_steps(steps)
+    there = [name for name in NAMES if name in run.increments]
+    entries = []
+    with files_at_once(directory, COLLECTION, ()) as staging:
+        for row in ends.tolist():
+            step = int(steps[row])
+            file = f"surface_step_{step}.vtu"
+            fields = {name: run.increments.at(name, row) for name in there}
+            write_surface(surface, fields, staging / file, run.convention)
+            entries.append(f'<DataSet timestep="{step}" file="{file}"/>\n')
+        (staging / COLLECTION).write_text(
+            '<VTKFile type="Collection" version="0.1">\n<Collection>\n'
+            f"{''.join(entries)}</Collection>\n</VTKFile>\n",
+            encoding="ascii",
+        )

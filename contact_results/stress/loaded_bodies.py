@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from contact_results.directory.atomic_file import Refused
 from contact_results.directory.file_names import FIELDS
-from contact_results.directory.refusal import Refused
 from contact_results.files.stored_run import StoredRun, load
 from contact_results.files.stored_values import MISREAD, FieldsAtEndsOnly, ends_of_steps
 from contact_results.stress.points import StressPoints

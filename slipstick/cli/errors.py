@@ -27,7 +27,7 @@ DISK_FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 
 def exit_code(error: Exception) -> ExitCode:
     """Return the exit code of an exception."""
-    from contact_results.directory.refusal import Refused
+    from contact_results.directory.atomic_file import Refused
     from contact_scene import SceneError, solver_errors
 
     unsolved = (

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from contact_results.directory.refusal import Refused
+from contact_results.directory.atomic_file import Refused
 from contact_scene.reading.units import (
     LENGTH,
     MOMENT,

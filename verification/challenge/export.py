@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from contact_results.directory.refusal import Refused
+from contact_results.directory.atomic_file import Refused
 from contact_results.directory.run_directory import files_at_once
 from contact_scene import Scene
 from contact_scene.stepping.load_path import (

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from contact_results.directory.refusal import Refused
+from contact_results.directory.atomic_file import Refused
 from verification.challenge.answer import Answer, Key, Solver, Vector
 from verification.challenge.cases import challenges
 from verification.challenge.judgement import Judgement, judged

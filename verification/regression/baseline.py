@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field, model_validator
 
-from contact_results.directory.atomic_file import atomic_file
-from contact_results.directory.refusal import Refused
+from contact_results.directory.atomic_file import Refused, atomic_file
 from contact_scene.reading.description import Description
 from verification.judging.case import Level
 from verification.judging.outcome import (

@@ -8,8 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from contact_results.directory.atomic_file import atomic_file
-from contact_results.directory.refusal import OutputRefused
+from contact_results.directory.atomic_file import OutputRefused, atomic_file
 from contact_results.directory.run_lock import acquire, release
 from contact_results.directory.stop_signals import stop_signals_held
 from verification.running.report_record import PACKED_SUFFIX, Report, dump_report

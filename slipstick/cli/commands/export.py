@@ -7,10 +7,10 @@ from typing import Annotated
 
 import typer
 
+from contact_results.directory.atomic_file import Refused
 from contact_results.directory.file_names import STRESS, SUMMARY
-from contact_results.directory.refusal import Refused
-from contact_results.export.paraview import COLLECTION, write_paraview
 from contact_results.files.stored_run import load
+from contact_results.files.surface_file import COLLECTION, write_paraview
 from slipstick.cli.options import OutputOption
 
 

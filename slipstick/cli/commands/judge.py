@@ -9,8 +9,7 @@ from typing import Annotated
 
 import typer
 
-from contact_results.directory.atomic_file import atomic_file
-from contact_results.directory.refusal import Refused
+from contact_results.directory.atomic_file import Refused, atomic_file
 from slipstick.cli.errors import ExitCode
 from slipstick.cli.options import optional, unknown_names
 from slipstick.cli.terminal import print_table

@@ -14,6 +14,7 @@ from pydantic import TypeAdapter, ValidationError
 from contact_errors.stress_errors import stress_at, stress_errors
 from contact_results.directory.run_directory import refuse_files_above
 from contact_results.number_text import number_text, uncertainty
+from contact_results.result_files import write_stress
 from contact_results.stress.loaded_bodies import (
     LoadedBodies,
     state_of_result,
@@ -27,7 +28,6 @@ from contact_results.stress.on_section import stress_on_section
 from contact_results.stress.points import StressField
 from contact_results.stress.radial_body import is_sheared, refuse_infinite, refuse_turned
 from contact_results.stress.stress_maxima import Extreme, extremes
-from contact_results.stress_files import write_stress
 from contact_scene import Body, SceneFile, read_scene_file
 from contact_scene.accuracy import AccuracyRequest
 from contact_scene.quantities.field_metadata import CONVENTION, OF_THE_INDENTER
