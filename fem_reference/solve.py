@@ -6,12 +6,11 @@ from dataclasses import replace
 from contact_scene import FiniteElementDiscretisation, Scene
 from contact_scene.machine import one_thread
 from contact_scene.normal_form import normal_form
-from contact_scene.quantities.stored_fields import FieldStore
 from contact_scene.solver_errors import ContactAtZoneEdge
 from contact_scene.stepping.checkpoint import (
-    Checkpoint,
     CheckpointStore,
     ResumePoint,
+    with_checkpoints,
 )
 from fem_reference.compliance.angular_grid import end_grid
 from fem_reference.contact.augmented_lagrangian import Penalty
@@ -84,7 +83,11 @@ def solve(
         solver = _solver(model, chosen_plan, discretisation, method)
         history = resumable_solve(solver, discretisation.tolerance, last)
         try:
-            increments = tuple(_counted_increments(model, radius, history, last, progress, store))
+            increments = tuple(
+                with_checkpoints(
+                    _counted(model, history), last, store, progress, radius, model.settled
+                )
+            )
         except ContactAtZoneEdge:
             if radius == requested_radius or enlargements == MAX_ENLARGEMENTS:
                 raise
@@ -115,28 +118,11 @@ def _solver(
     return ContactMethod(model, chosen_plan, penalty, end_grid(discretisation.harmonics))
 
 
-def _counted_increments(
-    model: ContactModel,
-    radius: float,
-    history: Iterator[tuple[Increment, ResumePoint[PointState]]],
-    since: Checkpoint | None,
-    progress: Progress | None,
-    store: CheckpointStore | None,
-) -> Iterator[Increment]:
-    """Yield all increments, first stored ones, each with its number of sparse factorisations."""
-    increments: list[Increment] = []
-    fields = FieldStore()
-    for increment in since.increments if since else ():
-        if progress is not None:
-            progress(increment)
-        increments.append(increment)
-        yield increment
+def _counted(
+    model: ContactModel, history: Iterator[tuple[Increment, ResumePoint[PointState]]]
+) -> Iterator[tuple[Increment, ResumePoint[PointState]]]:
+    """Add to each increment its number of sparse factorisations."""
     counted = 0
     for increment, point in history:
         spent, counted = model.factorizations - counted, model.factorizations
-        increments.append(fields.stored(replace(increment, factorizations=spent)))
-        if store is not None:
-            store.keep(Checkpoint(tuple(increments), point, radius, tuple(sorted(model.settled))))
-        if progress is not None:
-            progress(increments[-1])
-        yield increments[-1]
+        yield replace(increment, factorizations=spent), point

@@ -15,8 +15,8 @@ from contact_scene.normal_form import normal_form
 from contact_scene.quantities.residuals import Residuals
 from contact_scene.rig import of_contact
 from contact_scene.stepping.checkpoint import (
-    Checkpoint,
     CheckpointStore,
+    with_checkpoints,
 )
 from contact_scene.stepping.load_stepping import (
     Reached,
@@ -90,26 +90,21 @@ def solve(
         return Result(
             scene, discretisation, decided, _extrapolated(scene, solver, decided, progress, store)
         )
-    increments = []
-    for increment in _solved_increments(scene, solver, decided, store):
-        increments.append(increment)
-        if progress is not None:
-            progress(increment)
+    increments = _solved_increments(scene, solver, decided, store, progress)
     return Result(scene, discretisation, decided, tuple(increments))
 
 
 def _solved_increments(
-    scene: Scene, solver: Any, plan: Plan, store: CheckpointStore | None
+    scene: Scene,
+    solver: Any,
+    plan: Plan,
+    store: CheckpointStore | None,
+    progress: Progress | None = None,
 ) -> Iterator[Increment]:
     """Yield all increments: first those of the last checkpoint, then newly solved ones."""
     last = store.last() if store else None
-    increments = [*last.increments] if last else []
-    yield from increments
-    for increment, point in resumable_increments(scene, plan.increments, solver, last):
-        increments.append(increment)
-        if store is not None:
-            store.keep(Checkpoint(tuple(increments), point, None))
-        yield increment
+    history = resumable_increments(scene, plan.increments, solver, last)
+    return with_checkpoints(history, last, store, progress, None)
 
 
 def _extrapolated(

@@ -5,11 +5,10 @@ from collections.abc import Callable, Sequence
 from contact_scene import Scene, SurfaceDiscretisation
 from contact_scene.machine import one_thread
 from contact_scene.normal_form import normal_form
-from contact_scene.quantities.stored_fields import FieldStore
 from contact_scene.solver_errors import ContactAtWindowEdge
 from contact_scene.stepping.checkpoint import (
-    Checkpoint,
     CheckpointStore,
+    with_checkpoints,
 )
 from semi_analytical.default_grid import (
     discretise,
@@ -75,16 +74,8 @@ def solve(
     model = ContactModel.of(scene, grid, decided.symmetry)
     last = store.last() if store else None
     since = last if last and last.extent == grid else None
-    increments, fields = [*since.increments] if since else [], FieldStore()
-    if progress is not None:
-        for increment in increments:
-            progress(increment)
-    for increment, point in marked(model, decided, tolerance, since):
-        increments.append(fields.stored(increment))
-        if store is not None:
-            store.keep(Checkpoint(tuple(increments), point, grid))
-        if progress is not None:
-            progress(increment)
+    history = marked(model, decided, tolerance, since)
+    increments = with_checkpoints(history, since, store, progress, grid)
     return Result(scene, grid, tolerance, decided, tuple(increments))
 
 

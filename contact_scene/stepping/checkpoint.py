@@ -3,8 +3,11 @@
 A solve that continues from a checkpoint gives the same bits as an uninterrupted solve.
 """
 
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any, Generic, Protocol, TypeVar
+
+from contact_scene.quantities.stored_fields import FieldStore
 
 S = TypeVar("S")
 
@@ -57,3 +60,34 @@ class CheckpointStore(Protocol):
 
     def keep(self, checkpoint: Checkpoint) -> None:
         """Store a checkpoint. Called after every increment; an implementation may skip calls."""
+
+
+def with_checkpoints(
+    history: Iterable[tuple[Any, ResumePoint[Any]]],
+    since: Checkpoint | None,
+    store: CheckpointStore | None,
+    progress: Callable[[Any], None] | None,
+    extent: Any,
+    settled: Iterable[str] = (),
+) -> Iterator[Any]:
+    """Yield the increments of a checkpoint, then new ones, after each of which one is stored.
+
+    history   new increments with their resume points, see `resumable_increments`
+    since     checkpoint from which the solve continues
+    progress  called with each increment
+    extent    size of the grid or mesh
+    settled   names for the checkpoint, read after every increment
+    """
+    increments, fields = list[Any](), FieldStore()
+    for increment in since.increments if since else ():
+        increments.append(increment)
+        if progress is not None:
+            progress(increment)
+        yield increment
+    for increment, point in history:
+        increments.append(fields.stored(increment))
+        if store is not None:
+            store.keep(Checkpoint(tuple(increments), point, extent, tuple(sorted(settled))))
+        if progress is not None:
+            progress(increments[-1])
+        yield increments[-1]
