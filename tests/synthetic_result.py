@@ -10,6 +10,7 @@ from contact_scene import CoulombFriction, IsotropicMaterial, LoadStep, Parabolo
 from contact_scene.array_types import Field
 from contact_scene.effect import Effect
 from contact_scene.quantities.residuals import Residuals
+from contact_scene.quantities.stated_error import StatedError, StatedErrors
 from contact_scene.quantities.summary import ContactStatus
 from semi_analytical.fields import Increment, Result
 from semi_analytical.grid import SurfaceGrid
@@ -52,6 +53,20 @@ def synthetic_result(cells: tuple[int, int] = (24, 20), *, friction: bool = True
         effects=(effect,),
     )  # fmt: skip
     return Result(synthetic_scene(friction=friction), grid, 1e-8, plan, tuple(increments))
+
+
+def synthetic_errors(result: Result) -> StatedErrors:
+    """Errors that differ from step to step."""
+    return StatedErrors(
+        tuple(
+            {
+                name: StatedError(error=10.0 ** (-9 - end.step), parts={}, status="estimated")
+                for name in ("approach", "normal_force", "dissipated_energy")
+            }
+            for end in result.steps
+        ),
+        (),
+    )
 
 
 def _indentation(grid: SurfaceGrid) -> Increment:
@@ -101,7 +116,7 @@ def _partial_slip(grid: SurfaceGrid, indentation: Increment, number: int) -> Inc
         "dissipation_before": np.where(slips, 2.0 * max(number - 1, 0), 0.0),
         "slip_distance": np.where(slips, 1e-7 * number, 0.0),
         "slip_before": np.zeros((2, *grid.cells)),
-        "residuals": replace(indentation.residuals, friction_cone=WORST_RESIDUAL),
+        "residuals": replace(indentation.residuals, friction_cone=WORST_RESIDUAL / index),
         "status": ContactStatus.PARTIAL_SLIP if force else ContactStatus.FULL_STICK,
     }
     return replace(indentation, **changes)

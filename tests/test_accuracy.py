@@ -1,6 +1,7 @@
 """An accuracy that is asked for is met, or it is said why not."""
 
 import json
+import re
 import signal
 import tracemalloc
 from dataclasses import replace
@@ -518,7 +519,9 @@ def test_plan_prints_prices_and_what_cannot_be_had(
     assert slipstick("plan", written(tmp_path), *requests) == 0
     shown = capsys.readouterr().out
     assert "approach 0.1%" in shown
-    assert "MiB" in shown
+    memory = re.findall(r"about (\d+) MiB", shown)
+    assert len(memory) == 3
+    assert all(int(size) >= LIBRARIES // 2**20 for size in memory)
     assert "no grid can meet" in shown
     for solver in ("fem", "radial"):
         assert slipstick("plan", written(tmp_path), "--accuracy", "1%", "--solver", solver) == 0

@@ -14,6 +14,7 @@ from contact_results.stress.on_cells import stress_on_cells
 from contact_results.stress.on_disc import stress_on_disc
 from contact_results.stress.on_section import stress_on_section
 from contact_scene import FiniteElementDiscretisation, RadialDiscretisation, Scene, SceneError
+from contact_scene.bulk_strain import strain_under, stress_by
 from contact_scene.quantities.cycles import load_cycles
 from contact_scene.solver_errors import UnsupportedScene
 from semi_analytical.grid import SurfaceGrid
@@ -108,6 +109,11 @@ def test_cells_balance_any_strain_out_of_phase_and_need_no_whole_window():
 
 
 def test_a_stress_is_the_strain_of_a_free_specimen_and_counts_from_the_touch():
+    given = (84e6, -42e6, 16.8e6)
+    for body in (scene(PRESS).body, scene(PRESS, body=COATED).body):
+        strain = strain_under(given, body.material)
+        xx, yy, zz, yz, xz, xy = stress_by(strain, body, len(body.layers))
+        assert (xx, yy, xy, zz, yz, xz) == pytest.approx((*given, 0, 0, 0))
     stressed, strained = (
         on_cells(scene(PRESS, {**by, "increments": 1})).steps[-1]
         for by in (

@@ -20,6 +20,7 @@ from slipstick.cli import main
 from tests.cell_means import ellipse_means
 from verification import Answer, CannotDo, Field, Solver, judge
 from verification.adapters import surface
+from verification.challenge.answer_reader import read_answers
 from verification.challenge.cases import challenges
 from verification.challenge.export import toml_text
 from verification.challenge.frictional_cases import PLACES
@@ -343,6 +344,17 @@ def test_a_number_that_the_finest_level_lacks_leaves_it_open(name: str) -> None:
     found = judged(challenge, Solver("s"), [whole, fine])
     (told,) = (row for row in found.rows if row.quantity == f"{number.quantity}: finest level")
     assert told.status is Status.INCONCLUSIVE
+    assert (*key, number.required) in found.omitted
+
+
+def test_a_class_has_room_for_the_uncertainty_of_the_reference() -> None:
+    each = ((one, asked) for one in challenges().values() for asked in one.values)
+    challenge, asked = next(pair for pair in each if pair[1].uncertainty > 1e-7)
+    for part, grade in ((0.5, "B"), (1.5, "A")):
+        off = (Grade.A.bound - part * 2 * asked.uncertainty) * asked.scale
+        answer = Answer(1e-5, {(asked.quantity, asked.step): asked.value + off})
+        (row,) = (r for r in judged(challenge, Solver("s"), [answer]).rows if r.grade)
+        assert (row.quantity, row.grade) == (asked.quantity, grade)
 
 
 def test_a_field_that_the_finest_level_lacks_leaves_it_open() -> None:
@@ -427,6 +439,13 @@ def test_filled_files_pass_and_their_sheet_is_escaped(
     assert "stranger <b>" not in page.read_text()
     badge = json.loads((tmp_path / "badge.json").read_text())
     assert (badge["message"], badge["color"]) == ("A · 2/2", "brightgreen")
+
+
+def test_a_number_and_its_uncertainty_share_their_unit(filled: Path) -> None:
+    write(filled, ("1", "1", "approach", "2.5", "um", "0.1"))
+    *_, (answer,) = read_answers(filled)
+    key = "approach", 1
+    assert (answer.value(key), answer.uncertainty(key)) == pytest.approx((2.5e-6, 1e-7))
 
 
 @pytest.mark.parametrize("number", ["nan", "inf", "-inf"])

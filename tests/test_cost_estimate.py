@@ -16,6 +16,7 @@ from contact_errors.cost_estimate import (
     work_on_cells,
     work_on_elements,
 )
+from slipstick.solvers.solver import time_text
 
 RECORD = json.loads(Path(__file__).with_name("cost_record.json").read_text(encoding="utf-8"))
 FACTOR, LEAST_SECONDS = 2.0, 1.0  # less is stated as less than that
@@ -36,6 +37,14 @@ def test_a_worked_example() -> None:
     # (576 + 1024)/(64 + 1024) = 1.470588, to the power 1.1: 1.52840; times 70/60 and 3 harmonics.
     coarse, fine = work_on_elements(8, (10,), 1), work_on_elements(24, (20,), 3)
     assert estimated_seconds(1.0, coarse, fine) == pytest.approx(3.5 * 1.5284, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("seconds", "text"),
+    [(0.5, "less than 1 s"), (90.0, "about 90 s"), (6e2, "about 10 min"), (3.6e4, "about 10 h")],
+)
+def test_a_time_is_told_in_the_unit_that_suits_it(seconds: float, text: str) -> None:
+    assert time_text(seconds) == text
 
 
 def test_a_coarse_solve_has_few_increments_in_the_same_proportion() -> None:

@@ -83,6 +83,8 @@ def test_slip_within_stick_has_its_edge_where_nothing_is_missing_from_the_limit(
     sides = np.where(radii < inner, side, 0).astype(np.int8)
     whole = stick_area(radii, bound, np.zeros((1, 60)), np.zeros(60, bool), outer, HatEdge())
     assert whole == pytest.approx(pi * outer**2, rel=1e-2)
+    shear, slips = np.zeros((1, 60)), np.zeros(60, bool)
+    assert stick_area(radii, bound, shear, slips, outer - 0.5, HatEdge()) <= pi * (outer - 0.5) ** 2
     area = stick_area(radii, bound, side * (bound - missing)[None], sides != 0, outer, HatEdge())
     assert whole - area == pytest.approx(pi * inner**2, rel=1e-2)
 

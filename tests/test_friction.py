@@ -88,6 +88,13 @@ def test_a_coefficient_stays_at_its_place_whatever_window_and_cells(origin, cell
     np.testing.assert_allclose(found, plane(x[:, None], y), rtol=1e-12)
 
 
+def test_a_map_is_even_about_the_origin_of_the_contact_alone() -> None:
+    even = 0.1 + 0.01 * np.add.outer(np.abs(np.arange(6) - 2.5), np.abs(np.arange(5) - 2))
+    assert mapped(even).is_even
+    assert not any(mapped(even, origin=at).is_even for at in ((0.3, 0.0), (0.0, -0.9)))
+    assert not any(mapped(even + np.eye(6, 5)[::sign]).is_even for sign in (1, -1))
+
+
 def test_beyond_its_extent_a_map_says_nothing() -> None:
     placed = mapped(np.ones(CELLS), origin=(-0.5, 1.0))
     assert placed.extent == (2.0, 8.0)

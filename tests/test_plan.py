@@ -8,6 +8,8 @@ from coupled_scenes import BALL, bulk, coated, press
 from coupled_scenes import push as coupled_push
 from coupled_scenes import scene as coupled_scene
 
+from contact_scene import Body, Layer
+from contact_scene.body_pair import contact_modulus, outermost_beta
 from semi_analytical import Coupling, Result, SurfaceGrid, all_effects, one_way, plan, solve
 from semi_analytical.operator.domain import WINDOW
 from semi_analytical.plan import COMPUTED, EDGES, MIRROR_PLANES
@@ -55,6 +57,21 @@ def test_effects_follow_the_scene():
 )
 def test_steps_are_cut_only_where_the_path_matters(loading, cut):
     assert tuple(count > 1 for count in plan(scene(*loading)).increments) == cut
+
+
+def test_bodies_have_the_modulus_and_beta_of_their_outermost_layers():
+    film, inner = steel(0.2, 3e11), steel(0.45, 3e10)
+    layers = tuple(Layer(thickness=1e-3, material=one) for one in (film, inner))
+    bare, alone, layered = (
+        scene(PRESS, indenter=RIGID_BALL).model_copy(update={"body": body})
+        for body in (
+            Body(material=steel()),
+            Body(material=film),
+            Body(material=steel(), layers=layers),
+        )
+    )
+    for of in (contact_modulus, outermost_beta):
+        assert of(layered) == of(alone) != of(bare)
 
 
 @pytest.mark.parametrize(

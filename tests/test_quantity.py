@@ -1,6 +1,7 @@
 """Quantities: numbers in SI, or texts with a unit, to the last bit."""
 
 import math
+import re
 import warnings
 from collections.abc import Callable
 from datetime import timedelta
@@ -30,6 +31,15 @@ from contact_scene.reading.quantity import (
     SlopeAngle,
     Tolerance,
     WithUnit,
+)
+from contact_scene.reading.units import (
+    ANGLE,
+    FORCE,
+    LENGTH,
+    MOMENT,
+    PRESSURE,
+    STIFFNESS,
+    Kind,
 )
 from slipstick import LoadStep, Paraboloid
 
@@ -76,6 +86,14 @@ def test_a_text_with_a_unit_is_the_literal_in_si_to_the_last_bit(
     kind: Any, written: Any, expected: float
 ) -> None:
     assert value_of(kind, written) == expected
+
+
+@pytest.mark.parametrize("kind", [LENGTH, FORCE, MOMENT, STIFFNESS, PRESSURE, ANGLE])
+def test_each_unit_of_a_table_has_the_factor_of_another_registry(kind: Kind) -> None:
+    assert len(kind.units) > 3
+    for unit, factor in kind.units.items():
+        apart = re.sub("N(?=m)", "N ", unit)  # "Nm" is a nanometre there
+        assert float(factor) == pytest.approx(UNITS.Quantity(1.0, apart).to(kind.si).magnitude)
 
 
 @given(st.floats(1e-29, 1e29))

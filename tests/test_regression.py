@@ -485,6 +485,11 @@ def test_comparison_ends_by_what_changed(
     output = capsys.readouterr().out
     assert said in output
     assert ("reproduce: slipstick verify hertz_point" in output) == (code > 0)
+    moved = shifted(healthy, "approach", part)
+    less = moved.model_copy(update={"verdicts": moved.verdicts[:-1]})
+    write_report(report_of(less), report)
+    both = slipstick("maintain", "compare", report, "--baseline", baselines)
+    assert both == (code if code == 1 else 7)
 
 
 def test_damaged_baseline_ends_the_commands_before_any_work(

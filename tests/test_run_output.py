@@ -12,11 +12,14 @@ import numpy as np
 import pytest
 from command import rows
 from conftest import leave_figures_undrawn
-from synthetic_result import CONVOLUTIONS, ITERATIONS, synthetic_result
+from synthetic_result import CONVOLUTIONS, ITERATIONS, synthetic_errors, synthetic_result
 
-from contact_results.directory.file_names import SUMMARY
+from contact_results.directory.file_names import PAGE, SUMMARY
 from contact_results.directory.timing import Stopwatch, write_timing
+from contact_results.key_numbers import key_numbers
 from contact_results.result_files import write_result
+from contact_scene.quantities.field_metadata import Kind
+from contact_scene.quantities.increment import SCALARS
 from contact_scene.quantities.summary import (
     load_summary,
     summary_schema,
@@ -30,7 +33,7 @@ ROOT = Path(__file__).resolve().parents[1]
 @pytest.fixture(scope="module")
 def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Result, Path]:
     result, directory = synthetic_result(), tmp_path_factory.mktemp("written")
-    write_result(result, directory, figures="all")
+    write_result(result, directory, figures="all", errors=synthetic_errors(result))
     return result, directory
 
 
@@ -47,9 +50,11 @@ def test_equal_results_give_equal_bytes(written: tuple[Result, Path], tmp_path: 
     """In a fresh process with other hash seed, locale and matplotlibrc, too."""
     script = (
         "import sys; from pathlib import Path\n"
-        "from synthetic_result import synthetic_result\n"
+        "from synthetic_result import synthetic_errors, synthetic_result\n"
         "from contact_results.result_files import write_result\n"
-        "write_result(synthetic_result(), Path(sys.argv[1]), figures='all')"
+        "result = synthetic_result()\n"
+        "errors = synthetic_errors(result)\n"
+        "write_result(result, Path(sys.argv[1]), figures='all', errors=errors)"
     )
     (tmp_path / "matplotlibrc").write_text(
         "font.size: 20\nlines.solid_capstyle: butt\naxes.facecolor: red\n"
@@ -72,18 +77,25 @@ def test_summary_fulfils_its_schema_and_reads_back(written: tuple[Result, Path])
     result, directory = written
     text = (directory / SUMMARY).read_text(encoding="utf-8")
     jsonschema.validate(json.loads(text), summary_schema())
-    summary = load_summary(text)
+    summary, errors = load_summary(text), synthetic_errors(result).steps
+    assert tuple(step.errors for step in summary.steps) == errors
+    page = (directory / PAGE).read_text(encoding="utf-8")
+    assert all(shown in page for _, shown in key_numbers(result.steps, errors[-1]))
     assert len(summary.steps) == len(result.scene.loading)
     for step, end in zip(summary.steps, result.steps, strict=True):
-        assert step.approach == end.approach
-        assert end.tangential_force is not None
-        assert step.tangential_force == tuple(end.tangential_force)
+        within = [i for i in result.increments if i.step == end.step]
+        for name, mark in SCALARS.items():
+            values = [v for i in within if (v := getattr(i, name)) is not None] or [None]
+            expected = max(values) if mark.kind is Kind.LARGEST and values[0] else values[-1]
+            assert np.array_equal(getattr(step, name), expected), name
 
 
 def test_timing_counts_the_work_of_all_increments_of_a_step(tmp_path: Path) -> None:
     result = synthetic_result()
     write_timing(Stopwatch(), tmp_path, result.increments)
-    steps = json.loads((tmp_path / "timing.json").read_text(encoding="utf-8"))["counters"]
+    record = json.loads((tmp_path / "timing.json").read_text(encoding="utf-8"))
+    steps = record["counters"]
+    assert 2e7 < record["peak_memory_bytes"] < 1e11  # an interpreter with numpy takes more
     numbers = [end.increments_in_step for end in result.steps]
     assert [step["increments"] for step in steps] == numbers
     assert [step["iterations"] for step in steps] == [ITERATIONS * number for number in numbers]

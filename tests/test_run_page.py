@@ -16,6 +16,7 @@ from contact_results.figures.style import figure_style
 from contact_results.key_numbers import key_numbers
 from contact_results.number_text import Uncertainty, number_text
 from contact_results.surface import Rings
+from contact_scene.quantities.stated_error import ErrorStatus, StatedError
 
 
 def ended(result: Any, **changes: Any) -> Any:
@@ -33,6 +34,14 @@ def test_an_error_however_small_does_not_read_as_zero(error: float) -> None:
 @pytest.mark.parametrize(("error", "text"), [(7.5e-4, "0 ± 0.00075"), (7.5e-10, "0 ± 7.5e-10")])
 def test_what_its_error_rounds_away_is_zero(value: float, error: float, text: str) -> None:
     assert number_text(value, Uncertainty(error, True), 1.0) == text
+
+
+def test_a_component_is_shown_with_its_own_error() -> None:
+    both = StatedError(error=(1.0, 2.0), parts={}, status=ErrorStatus.ESTIMATED)
+    pushed = ended(synthetic_result(), tangential_force=np.array([30.0, 40.0])).steps
+    found = dict(key_numbers(pushed, {"tangential_force": both}))
+    shown = [found[f"tangential force {axis}"] for axis in "xy"]
+    assert shown == ["30.0 ± 1.0 N", "40.0 ± 2.0 N"]
 
 
 @pytest.mark.parametrize(("name", "tiny"), [("torque", 9.9e-22), ("twist", 1e-20)])

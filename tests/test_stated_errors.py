@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
-from command import outcome, slipstick
+from command import outcome, rows, slipstick
 from contact_scenes import (
     LOAD,
     MU,
@@ -58,6 +58,7 @@ from contact_scene import (
     Scene,
     SurfaceDiscretisation,
 )
+from contact_scene.quantities.field_metadata import Kind
 from contact_scene.quantities.stated_error import (
     ErrorStatus,
     StatedError,
@@ -121,7 +122,7 @@ def test_a_worked_example() -> None:
     found = errors_of_one(2.0, comparisons, Features(contact=10))
     assert found.status is ErrorStatus.ESTIMATED
     assert found.parts == pytest.approx(
-        {"cells": 0.04625, "increments": 0.01939, "tolerance": 2e-7}, abs=1e-5
+        {"cells": 0.04625, "increments": 0.01939, "tolerance": 2e-7}, rel=2e-4
     )
     few = errors_of_one(2.0, comparisons, Features(contact=3.9))
     far = [Comparison("cells", two, [{"approach": np.array([4.0])}], [2.0])]
@@ -615,12 +616,25 @@ def runs(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[dict[str, 
         ended = outcome(*asked, cwd=folder)
         assert ended.returncode == 0, ended.stderr
         written = (folder / option / "summary.json").read_text(encoding="utf-8")
-        found[option] = json.loads(written), ended.stdout
+        found[option] = json.loads(written), ended.stdout, rows(folder / option / "cycles.csv")
     return found
 
 
+def test_a_cycle_has_the_numbers_and_errors_of_the_step_that_closes_it(runs: Any) -> None:
+    summary, _, cycles = runs["--error"]
+    assert [(row["start_step"], row["end_step"]) for row in cycles] == [("2", "4")]
+    end = summary["steps"][3]
+    assert [step["cycle_start"] for step in summary["steps"]] == [None, None, None, 2]
+    for name, mark in OF_CYCLES.items():
+        parts = ("_x", "_y") if mark.kind is Kind.VECTOR else ("",)
+        error = end["errors"].get(name, {"error": None})["error"]
+        errors = [None] * len(parts) if error is None else np.ravel(error).tolist()
+        shown = [cycles[0][f"{name}{part}_error [{mark.unit or 1}]"] for part in parts]
+        assert shown == ["" if size is None else repr(size) for size in errors]
+
+
 def test_a_run_writes_the_errors_and_counts_their_solves_apart(runs: Any) -> None:
-    with_errors, without = (deepcopy(summary) for summary, _ in runs.values())
+    with_errors, without = (deepcopy(summary) for summary, *_ in runs.values())
     assert {step.pop("errors") is None for step in without["steps"]} == {True}
     assert without.pop("coarse_solves") is None
     assert len(with_errors.pop("coarse_solves")) >= 2
@@ -632,7 +646,7 @@ def test_a_run_writes_the_errors_and_counts_their_solves_apart(runs: Any) -> Non
 
 
 def test_the_table_shows_what_is_wrong_beside_the_number(runs: Any) -> None:
-    shown, alone = (said for _, said in runs.values())
+    shown, alone = (said for _, said, _ in runs.values())
     assert " ± " in shown
     assert " ± " not in alone
     assert "because of --no-error" in alone

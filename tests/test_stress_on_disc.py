@@ -270,3 +270,5 @@ def test_a_run_that_was_written_has_the_same_stress(scene: Scene, tmp_path: Path
     again = stress_on_disc(state_of_run(tmp_path / "run", None), depths=[0.0, 0.3])
     assert np.array_equal(again.points.stress, at_once.points.stress)
     assert again.direction == at_once.direction
+    units = {name: on.unit for name, on in slipstick.load(tmp_path / "run").coordinates.items()}
+    assert units in ({"radii": "m"}, {"radii": "m", "angles": "rad"})

@@ -1,5 +1,6 @@
 """A surface says the same of a field of revolution, whether it lies on cells or on rings."""
 
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -8,6 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from contact_results.files.mesh_file import read_mesh
+from contact_results.files.surface_file import write_surface
 from contact_results.stress.invariants import principal_stresses, von_mises
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.on_cells import stress_on_cells
@@ -128,6 +131,21 @@ def test_rings_stand_for_the_disc_they_reach() -> None:
     for radii in (np.array([0.0, 0.1, 0.4, 1.0]), np.array([0.2, 0.3, 1.0])):
         for points in (None, 6):
             assert np.sum(rings(radii, points).weights) == pytest.approx(np.pi, rel=1e-14)
+
+
+def test_a_half_circle_is_exported_with_its_mirror_image(tmp_path: Path) -> None:
+    """A vector along the load, of components outward and around the axis."""
+    half = rings(np.linspace(0.0, REACH, 16), 9, OBLIQUE)
+    size, angles = hump(half.radii)[:, None], np.asarray(half.angles)
+    fields = {
+        "shear_radial": size * np.cos(angles),
+        "shear_circumferential": -size * np.sin(angles),
+    }
+    write_surface(half, {"pressure": hump(half.radii), **fields}, tmp_path / "half.vtu", "")
+    mesh = read_mesh(tmp_path / "half.vtu")
+    expected = hump(np.hypot(*mesh.points[:, :2].T))[:, None] * [*OBLIQUE, 0.0]
+    assert len(mesh.points) == 16 * len(half.radii)
+    np.testing.assert_allclose(mesh.at_points["shear [Pa]"], expected, atol=ROUND_OFF)
 
 
 # ---- Points of a stress field say the same whoever computed them and however they lie.

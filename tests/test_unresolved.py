@@ -326,6 +326,9 @@ MISTAKES = {  # of a steel ball on a coated one: the contact radius is 0.19 mm
         'indenter={shape="cone",slope_angle=0.5,material="rigid"}', 'was "0.5 deg" meant?',
     ),
     "mm of approach": ('loading[1]={approach="10 mm"}', "strains of about"),
+    "a window of a radius": (
+        'semi_analytical.window=["0.3 mm","0.3 mm"]', "less than the diameter of the contact",
+    ),
     "a tolerance of cells": ("semi_analytical.tolerance=0.1", "above the usual 0.001"),
 }  # fmt: skip
 
