@@ -348,6 +348,20 @@ def test_a_number_that_has_not_converged_doubles_the_cells() -> None:
     assert bounded({}, "cells")["cells"] > 1
 
 
+def test_a_request_is_met_where_every_number_of_every_step_meets_it() -> None:
+    fine, rough = (level_of({"cells": error}) for error in (1e-4, 0.5))
+    steps = (*fine.stated.steps, *rough.stated.steps)
+    for order in (steps, steps[::-1]):
+        level = replace(fine, values=[*fine.values] * 2, stated=StatedErrors(order, ()))
+        assert level.reached("approach") == 0.25
+        assert not level.meets({"approach": 0.1})
+    both = {"approach": steps[0]["approach"], "twist": steps[1]["approach"]}
+    values = [dict.fromkeys(both, np.array([2.0]))]
+    assert not replace(fine, values=values, stated=StatedErrors((both,), ())).meets(
+        dict.fromkeys(both, 0.1)
+    )
+
+
 @given(st.floats(1, 16000))
 def test_cells_are_even_and_smooth(least: float) -> None:
     number, _ = scaled((1, 1), least)
@@ -437,12 +451,18 @@ def test_what_cannot_be_is_refused(tmp_path: Path, words: tuple[str, ...]) -> No
     assert not (tmp_path / "out").exists()
 
 
-def test_python_solves_as_accurately_as_the_file_asks(tmp_path: Path) -> None:
+def test_python_solves_as_accurately_as_the_file_asks(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     result = solve_file(read_scene_file(written(tmp_path, "[accuracy]\napproach = '0.2 %'\n")))
     assert result.steps[-1].approach == pytest.approx(APPROACH, rel=2e-3)
     assert result.grid.cells < (64, 64)
     asked = read_scene_file(written(tmp_path, "[accuracy]\ncontact_radius = 1e-12\n"))
     with pytest.raises(AccuracyOutOfReach):
+        solve_file(asked)
+    monkeypatch.setattr(adaptive_refinement, "MAX_ROUNDS", 1)
+    asked = read_scene_file(written(tmp_path, "[accuracy]\napproach = '0.01 %'\n"))
+    with pytest.raises(AccuracyOutOfReach, match="1 rounds have not met it"):
         solve_file(asked)
 
 

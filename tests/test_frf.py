@@ -139,8 +139,10 @@ def test_stack_of_a_body_keeps_the_order():
         IsotropicMaterial(young_modulus=200e9, poisson_ratio=0.25),
         IsotropicMaterial(young_modulus=400e9, poisson_ratio=0.0),
     )
-    body = Body(material=steel, layers=(Layer(thickness=1e-6, material=coating),))
-    assert stack_of(body) == Stack([(200e9, 0.0, 1e-6)], (80e9, 0.25))
+    films = (Layer(thickness=1e-6, material=coating), Layer(thickness=2e-6, material=steel))
+    body = Body(material=coating, layers=films)
+    expected = Stack([(200e9, 0.0, 1e-6), (80e9, 0.25, 2e-6)], (200e9, 0.0))
+    assert stack_of(body) == expected
 
 
 @pytest.mark.parametrize(

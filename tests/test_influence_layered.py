@@ -331,8 +331,9 @@ def test_self_coefficient_is_the_integral_around_the_observer(component, cell):
     )
 
 
-def test_turning_the_cell_swaps_x_and_y():
-    one, other = coefficients((0.5, 1.6), (6, 5)), coefficients((1.6, 0.5), (5, 6))
+@pytest.mark.parametrize("shape", [(6, 5), (6, 6)])
+def test_turning_the_cell_swaps_x_and_y(shape):
+    one, other = coefficients((0.5, 1.6), shape), coefficients((1.6, 0.5), shape[::-1])
     for name, swapped in [("zz", "zz"), ("xx", "yy"), ("xy", "xy"), ("zx", "zy")]:
         np.testing.assert_allclose(
             getattr(one, name), getattr(other, swapped).T, rtol=1e-13, atol=1e-15

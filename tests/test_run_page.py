@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 from matplotlib.quiver import Quiver
-from synthetic_result import synthetic_result
+from synthetic_result import MU, synthetic_result
 
 from contact_results.figures.figure_files import seen_from_above
 from contact_results.figures.map_panels import RingsAbove
-from contact_results.figures.maps import stick_slip_map
+from contact_results.figures.maps import field_map, stick_slip_map
+from contact_results.figures.profile_plot import profile_plot
 from contact_results.figures.style import figure_style
 from contact_results.key_numbers import key_numbers
 from contact_results.number_text import Uncertainty, number_text
@@ -100,6 +101,18 @@ def test_arrows_of_the_latest_slip_oppose_the_shear_where_it_slips() -> None:
         q_x, q_y = step.shear[:, i, j]
         assert np.all(arrow.U * q_x + arrow.V * q_y < 0)
         assert np.all(step.in_contact[i, j] & ~step.in_stick[i, j])
+
+
+def test_a_map_has_every_cell_at_its_place_and_a_profile_the_limit_of_its_last_step() -> None:
+    whole: Any = synthetic_result()
+    result = ended(whole, pressure=whole.increments[-1].pressure / 2)
+    cells, end = seen_from_above(result), result.steps[-1]
+    with figure_style():
+        drawn = field_map(result, cells, "pressure").axes[2].images[0].get_array().filled(0.0)
+        (band,) = profile_plot(result, cells).axes[1].collections
+    np.testing.assert_allclose(1e9 * drawn, end.pressure.T)
+    highest = 1e6 * np.max(band.get_paths()[0].vertices[:, 1])
+    assert highest == pytest.approx(MU * np.max(cells.along(end.pressure)))
 
 
 @pytest.mark.parametrize("direction", [(1.0, 0.0), (0.6, 0.8)])

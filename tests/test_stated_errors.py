@@ -37,6 +37,7 @@ from contact_errors.error_formula import (
     SolvedRun,
     largest_so_far,
     values_of,
+    stated,
 )
 from contact_errors.on_cells import CellSolver
 from contact_errors.stress_errors import largest_stresses, on_wide_cells, stress_errors
@@ -146,6 +147,17 @@ def test_components_of_a_vector_share_one_size() -> None:
     both, one = ({"tangential_shift": np.array([3.0, y])} for y in (-1.0, 1e-12))
     sizes = [found["tangential_shift"] for found in largest_so_far([one, both])]
     np.testing.assert_array_equal(sizes, [[3.0, 3.0]] * 2)
+    assert stated({"cells": np.array([1.0, 2.0])}, True).error == (1.0, 2.0)
+
+
+def test_an_error_is_no_smaller_than_that_of_an_earlier_step() -> None:
+    names = ("normal_force", "contact_radius", "contact_area", "peak_pressure", "approach")
+    at_2, at_3 = ({name: np.full(1, size) for name in names} for size in (2.0, 3.0))
+    part = Comparison("cells", [at_2, at_2], [at_3, at_2], [2.0, 2.0])
+    posed, features = scene({"approach": 1e-6}, {"approach": 2e-6}), [Features(contact=10)] * 2
+    run = SolvedRun(posed, [at_2] * 2, [1e-8] * 2, features, [part], {"cells": [True] * 2}, {})
+    first, second = (step["peak_pressure"].error for step in run.errors())
+    assert second == first > 0.1
 
 
 def test_constants_are_those_that_are_explained() -> None:

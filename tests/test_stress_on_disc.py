@@ -50,6 +50,7 @@ from radial.stress.subsurface_circle import SubsurfaceCircle
 from radial.stress.subsurface_disc import SubsurfaceDisc
 from semi_analytical.frf.depth import Level
 from semi_analytical.frf.stack import HalfSpace, Stack, stack_of
+from slipstick.against import comparison
 from verification.closed_forms.hamilton_stress import hamilton_stress
 from verification.closed_forms.huber_stress import huber_stress
 
@@ -256,6 +257,15 @@ def pushed(direction: tuple[float, float] = (1.0, 0.0)) -> Scene:
         Body(material=SOFT), SAME, LoadStep(normal_force=W, increments=1),
         LoadStep(tangential_force=force, increments=2),
     )  # fmt: skip
+
+
+def test_a_profile_is_compared_along_an_oblique_load(tmp_path: Path) -> None:
+    result = radial.solve(pushed((0.6, 0.8)))
+    slipstick.save(result, tmp_path / "run", figures="none")
+    end = result.steps[-1]
+    table = {"x": end.radii, "pressure": end.pressure[:, 0]}
+    *_, at_places = comparison(table, slipstick.load(tmp_path / "run"))
+    assert at_places.gap < 1e-9 * end.peak_pressure
 
 
 @pytest.mark.parametrize(

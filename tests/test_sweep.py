@@ -89,8 +89,12 @@ def test_a_row_has_value_error_and_a_scene_that_gives_it_again(scene: Path) -> N
 
 def test_percentiles_of_a_monotonic_result_are_its_values_at_those_of_the_key(scene: Path) -> None:
     varied = ("--vary", "indenter.radius=normal(18,1) mm 40")
-    ended = sweep(scene, *varied, "--solver", "radial", "--workers", 1)
+    wanted = ("--get", "peak_pressure,approach", "--solver", "radial", "--workers", 1)
+    ended = sweep(scene, *varied, *wanted)
     assert ended.returncode == 0, ended.stderr
+    (approach,) = (text for text in ended.stdout.splitlines() if "approach" in text)
+    numbers = [float(text) for text in approach.split("(µm)")[1].split() if text[0].isdigit()]
+    assert max(numbers[1::2]) < 1e-6 * min(numbers[::2])
     line = next(line for line in ended.stdout.splitlines() if "peak_pressure (GPa)" in line)
     middle = peak(18e-3, 1e3) / 1e9
     shown = [float(text) for text in line.split("(GPa)")[1].split() if text[0].isdigit()][::2]
