@@ -108,6 +108,12 @@ def test_cells_balance_any_strain_out_of_phase_and_need_no_whole_window():
             assert reduced.steps[-1].dissipated_energy > 1e-7
 
 
+def test_a_shear_strain_is_the_same_along_both_axes():
+    along_x, along_y = on_cells(scene(PRESS, {"bulk_strain": (0, 0, 2e-4)})).steps[-1].shear
+    assert pytest.approx(along_x, abs=1e-6 * np.max(along_x)) == along_y.T
+    assert np.max(along_x) > 1e6
+
+
 def test_a_stress_is_the_strain_of_a_free_specimen_and_counts_from_the_touch():
     given = (84e6, -42e6, 16.8e6)
     for body in (scene(PRESS).body, scene(PRESS, body=COATED).body):

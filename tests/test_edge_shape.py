@@ -67,6 +67,7 @@ def test_a_quadratic_is_found_from_its_cell_means(stencil: Stencil) -> None:
     np.testing.assert_allclose(found.f_y, 0.5 - 0.2 * i + 1.4 * j)
     for bend, expected in ((found.f_xx, 0.6), (found.f_xy, -0.2), (found.f_yy, 1.4)):
         np.testing.assert_allclose(bend, expected, rtol=1e-6)
+    np.testing.assert_allclose(found.mean, means[i, j])
     np.testing.assert_allclose(
         found.about(np.array(4.0), np.array(5.0)).f, 3 - 8 + 2.5 + 4.8 - 4 + 17.5
     )

@@ -1,7 +1,7 @@
 """First law: work put in is stored or dissipated, in every increment and whatever the history."""
 
 from itertools import combinations
-from math import cos, pi, sin
+from math import cos, pi, sin, sqrt
 
 import contact_scenes
 import coupled_scenes
@@ -282,6 +282,15 @@ def test_slip_amplitude_is_half_the_largest_distance_of_two_slips(monkeypatch):
     assert len(slips) == 9
     largest = np.max([np.hypot(*(a - b)) for a, b in combinations(slips, 2)], axis=0)
     np.testing.assert_allclose(found.slip_amplitude, largest / 2, rtol=1e-13)
+
+
+def test_the_tension_of_a_loop_is_that_along_its_force():
+    oblique = [push(x * sqrt(0.5), x * sqrt(0.5), increments=8) for x in (0.9, -0.9, 0.9)]
+    along_x, along_diagonal = (
+        np.max(fretting_cycles(loop(32, *loading))[0].surface_tension)
+        for loading in (LOOP, (PRESS, *oblique))
+    )
+    assert along_diagonal == pytest.approx(along_x, rel=0.02)
 
 
 @pytest.mark.parametrize(

@@ -145,6 +145,8 @@ def test_the_chosen_box_suffices(modulus, thickness, patch):
     of, load = PATCHES[patch]
     larger = energy_in_a_box(body, of, load, 4 * sufficient_box(body))
     assert energy_in_a_box(body, of, load, None) == pytest.approx(larger, rel=2e-5)
+    alike_in_shear, _ = coated(1.49 / 1.3, 0.49, 1.0, 0.3, 50.0)
+    assert sufficient_box(alike_in_shear) > 20 * 50.0
 
 
 @pytest.mark.parametrize("of", MOTIONS.values(), ids=MOTIONS)

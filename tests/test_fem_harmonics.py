@@ -1,6 +1,7 @@
 """Laws of the contact solver on points (r, θ), on compliances that know no finite elements."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -44,6 +45,7 @@ from fem_reference.contact.augmented_lagrangian import Penalty
 from fem_reference.contact.increment import advance
 from fem_reference.contact.point_contact import PointContact
 from fem_reference.contact.point_state import PointState
+from fem_reference.energy import COMPONENTS, dissipation_uncertainty
 from fem_reference.loads import Loads, NormalTarget, TangentialTarget
 from fem_reference.model import ContactModel
 from fem_reference.plan import Path
@@ -457,3 +459,15 @@ def test_load_in_any_direction_is_the_same_load(result):
         np.testing.assert_allclose(p_turned, p, rtol=1e-9)
         expected = [0.6 * q[0] - 0.8 * q[1], 0.8 * q[0] + 0.6 * q[1]]
         np.testing.assert_allclose(q_turned, expected, rtol=1e-7, atol=1e-6 * np.max(np.abs(q)))
+
+
+def test_an_error_of_increments_is_the_same_with_angles_and_without():
+    radii, points = np.linspace(0.0, 1.0, 11), np.linspace(0.0, np.pi, 5)
+    names = [f"{field}_{part}" for field in ("shear", "slip") for part in COMPONENTS]
+    found = []
+    for angles in (None, points):
+        field = 1 - radii**2 if angles is None else np.outer(1 - radii**2, np.ones(5))
+        of = {name: field if name.endswith("radial") else None for name in names}
+        end = SimpleNamespace(step=1, dissipated_energy=1.0, radii=radii, angles=angles, **of)
+        found.append(dissipation_uncertainty(SimpleNamespace(path_matters=(True,)), None, end))
+    assert found[1] == pytest.approx(found[0]) == pytest.approx(np.pi / 3, rel=0.02)

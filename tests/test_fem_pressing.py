@@ -184,10 +184,16 @@ def test_mirrored_load_has_the_mirrored_answer() -> None:
     back = end(scene(PRESS, push(0.2), push(-0.7)))
     forth = end(scene(PRESS, push(-0.2), push(0.7)))
     assert np.array_equal(back.shear_along_load, forth.shear_along_load)
+    for last in (1.0, -1.0):
+        assert end(scene(PRESS, push(0.2), push(last))).status is ContactStatus.GROSS_SLIDING
 
 
 def test_oblique_load_is_the_same_along_its_line() -> None:
     along, oblique = end(scene(PRESS, push(0.5))), end(scene(PRESS, push(0.3, 0.4)))
+    twice = end(scene(PRESS, push(0.0, 0.2), {**push(0.0, 0.5), "increments": 2}))
+    assert twice.shear_along_load == pytest.approx(
+        along.shear_along_load, abs=1e-3 * HERTZ.peak_pressure * MU
+    )
     assert oblique.shear_along_load == pytest.approx(along.shear_along_load, rel=1e-9, abs=1.0)
     x, y = oblique.tangential_shift
     assert np.hypot(x, y) == pytest.approx(shift_along_x(along), rel=1e-9)

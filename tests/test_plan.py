@@ -8,6 +8,8 @@ from coupled_scenes import BALL, bulk, coated, press
 from coupled_scenes import push as coupled_push
 from coupled_scenes import scene as coupled_scene
 
+import fem_reference
+import radial
 from contact_scene import Body, Layer
 from contact_scene.body_pair import contact_modulus, outermost_beta
 from semi_analytical import Coupling, Result, SurfaceGrid, all_effects, one_way, plan, solve
@@ -57,6 +59,19 @@ def test_effects_follow_the_scene():
 )
 def test_steps_are_cut_only_where_the_path_matters(loading, cut):
     assert tuple(count > 1 for count in plan(scene(*loading)).increments) == cut
+
+
+@pytest.mark.parametrize("of", [fem_reference.plan, radial.plan])
+def test_a_push_is_cut_by_its_change_over_the_friction_limit(of):
+    steps = (coupled_push(part, increments=None) for part in (0.6, 0.5))
+    assert of(coupled_scene(press(), *steps)).increments[1:] == (12, 2)
+
+
+def test_a_load_under_shear_is_cut_alike_there_and_back():
+    half = {"normal_force": 0.5 * PRESS["normal_force"], **push(0.2)}
+    whole = {**PRESS, **push(0.3)}
+    *_, back, there = plan(scene(PRESS, push(0.3), half, whole)).increments
+    assert back == there > 1
 
 
 def test_bodies_have_the_modulus_and_beta_of_their_outermost_layers():

@@ -38,9 +38,11 @@ from radial.normal.disc import (
 )
 from radial.normal.surface import (
     displacement,
+    largest_pressure,
     pressure,
 )
 from radial.response.bodies import Bodies
+from radial.richardson import extrapolated
 from radial.torsion.torsion import (
     PartialSlip,
     Torsion,
@@ -161,6 +163,35 @@ def test_round_off_of_thin_and_unlike_layers_is_refused_by_its_name() -> None:
 
 
 # ---- histories, errors and files --------------------------------------------------------------
+
+
+def test_rings_reach_beyond_the_largest_contact_and_the_work_adds_up() -> None:
+    steps = tuple(LoadStep(normal_force=part * FORCE) for part in (0.1, 1.0, 0.5))
+    contact = Scene(indenter=BALL, body=Body(material=STEEL), loading=steps)
+    ends = radial.solve(contact).steps
+    assert all(end.radii[-1] > 1.5 * ends[1].contact_radius for end in ends)
+    loads, motions = np.transpose([(0.0, 0.0), *((e.normal_force, e.approach) for e in ends)])
+    assert_allclose(ends[-1].trapezoidal_work, np.trapezoid(loads, motions), rtol=1e-9)
+
+
+def test_a_peak_between_rings_is_found() -> None:
+    profile = PowerLaw.model_construct(power=4.0, material=RIGID, layers=())
+    made = disc(Bodies((), MODULUS), profile, 2e-3)
+    few, many = np.linspace(0, 1, 6), np.linspace(0, 1, 4001)
+    found = largest_pressure(made, few, pressure(made, few))
+    assert_allclose(found, np.max(pressure(made, many)), rtol=1e-6)
+
+
+def test_the_work_of_an_extrapolated_state_is_that_of_the_finer_history() -> None:
+    few, many = (
+        radial.solve(Scene(
+            indenter=BALL, body=Body(material=STEEL), friction={"coefficient": 0.2},
+            loading=({"normal_force": FORCE, "increments": count},),
+        )).steps[-1]
+        for count in (2, 4)
+    )  # fmt: skip
+    assert_allclose(extrapolated(few, many).trapezoidal_work, many.trapezoidal_work, rtol=1e-12)
+    assert few.unresolved_work
 
 
 def _scene(indenter: ShapedBody, body: Body, **step: Any) -> Scene:
@@ -314,6 +345,16 @@ def test_twist_and_torque_lead_the_same_way(amounts: list[float]) -> None:
         by_torque = by_torque.to_torque(by_twist.torque)
         assert_allclose(by_torque.twist, by_twist.twist, rtol=1e-7, atol=1e-9 * unit)
         assert by_twist.work >= by_twist.dissipated - 1e-12 * abs(by_twist.work)
+
+
+def test_a_closed_loop_of_twist_loses_the_work_that_is_done_on_it() -> None:
+    torsion = twisted(BARE)[1]
+    far = 2 * torsion.partial_slip(0.5).twist
+    first = TwistPath(torsion).to_twist(far)
+    again = first.to_twist(-far).to_twist(far)
+    lost = again.dissipated - first.dissipated
+    assert_allclose(again.work - first.work, lost, rtol=1e-9)
+    assert lost > 3 * first.dissipated > 0
 
 
 def test_beyond_its_limit_the_contact_turns_and_carries_no_more(tmp_path: Path) -> None:

@@ -124,6 +124,13 @@ def test_turning_the_loads_by_a_right_angle_turns_the_state(bodies):
     close(other.tilt[::-1], [-one.tilt[0], one.tilt[1]], 1e-5 * np.max(np.abs(one.tilt)))
 
 
+@pytest.mark.parametrize("bodies", [{}, {"indenter": RIGID_BALL}], ids=["alike", "unlike"])
+def test_a_moment_and_its_tilt_lead_to_the_same_state(bodies):
+    by_moment = end({**PRESS, **lean(0.3, 0.1), "increments": 1}, **bodies)
+    by_tilt = end({**PRESS, "tilt": by_moment.tilt, "increments": 1}, **bodies)
+    close(by_tilt.pressure, by_moment.pressure, 1e-5 * by_moment.peak_pressure)
+
+
 @pytest.mark.parametrize(
     ("loading", "tilts", "twists"),
     [

@@ -1,7 +1,9 @@
 """Loading: what is held, what is ramped, and where force control ends."""
 
+from contextlib import nullcontext
 from typing import Any
 
+import numpy as np
 import pytest
 
 from contact_scene import (
@@ -9,6 +11,7 @@ from contact_scene import (
     ControlKind,
     CoulombFriction,
     FlatPunch,
+    HeightMap,
     IsotropicMaterial,
     LoadStep,
     Problem,
@@ -204,3 +207,14 @@ def test_a_moment_that_tips_a_flat_punch_over_is_refused(
     (problem,) = caught.value.problems
     assert problem.key == key
     assert "tips over" in problem.message
+
+
+def test_a_moment_tips_a_map_over_its_shorter_side_alone() -> None:
+    narrow = HeightMap.model_validate(
+        {"file": np.zeros((8, 4)), "spacing": 1e-3, "material": STEEL}
+    )
+    for moment, tips in (((0.0, 3e-3), False), ((3e-3, 0.0), True)):
+        step = LoadStep(normal_force=1.0, moment=moment)
+        with pytest.raises(SceneError, match="tips over") if tips else nullcontext():
+            posed = Scene(indenter=narrow, body=Body(material=STEEL), loading=(step,))
+    assert posed.loading[0].moment == (0.0, 3e-3)

@@ -5,7 +5,8 @@ import json
 from collections.abc import Callable
 from copy import deepcopy
 from pathlib import Path
-from typing import Any, NamedTuple
+from types import SimpleNamespace
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 import pytest
@@ -29,17 +30,20 @@ from scene_texts import COARSE, STEEL_BALL_PRESSED
 import contact_errors
 import slipstick as package
 from contact_errors import coarse_solves
-from contact_errors.coarse_solves import Fineness, ratios, recounted
+from contact_errors.coarse_solves import Fineness, added, ratios, recounted
 from contact_errors.error_formula import (
     PHYSICAL,
     Comparison,
     Features,
     SolvedRun,
     largest_so_far,
-    values_of,
+    scale,
     stated,
+    values_of,
 )
 from contact_errors.on_cells import CellSolver
+from contact_errors.on_elements import ElementSolver
+from contact_errors.on_radii import RingSolver
 from contact_errors.stress_errors import largest_stresses, on_wide_cells, stress_errors
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
 from contact_results.stress.on_cells import stress_on_cells
@@ -56,6 +60,7 @@ from contact_scene import (
     Layer,
     LoadStep,
     Paraboloid,
+    RadialDiscretisation,
     Scene,
     SurfaceDiscretisation,
 )
@@ -71,6 +76,7 @@ from contact_scene.stepping.increment_error import (
     near_gross_slip,
     with_error,
 )
+from fem_reference import Path as ElementPath
 from semi_analytical import SurfaceGrid, solve
 from semi_analytical.edge_correction.pressure import left_over
 from slipstick import stated_errors
@@ -130,6 +136,35 @@ def test_a_worked_example() -> None:
     assert few.status is ErrorStatus.NOT_CONVERGED
     assert errors_of_one(2.0, far, Features(10)).status is ErrorStatus.NOT_CONVERGED
     assert errors_of_one(2.0, [], Features(10)).error is None
+    for name, few in {
+        "stick_radius": Features(10, stick=2.9), "dissipated_energy": Features(10, annulus=0.4),
+        "approach": Features(10, layer=0.9), "peak_pressure": Features(10, wave=3.9),
+    }.items():  # fmt: skip
+        assert not few.resolve(name), name
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    {"torque": 15.0, "approach": 2.0, "twist": 0.4, "elastic_energy": 6.0}.items(),
+)
+def test_a_size_is_made_of_those_with_its_unit(name, expected) -> None:
+    sizes = {"approach": 2.0, "normal_force": 3.0, "contact_radius": 5.0}
+    values = {key: np.array([size]) for key, size in sizes.items()}
+    others = {"contact_area": np.zeros(1), "peak_pressure": np.zeros(1)}
+    assert scale(name, values | others) == pytest.approx(expected)
+
+
+def test_parts_without_a_coarse_solve_are_those_of_their_step_and_body() -> None:
+    steps = [SimpleNamespace(worst_residual=size) for size in (1e-9, 1e-5)]
+    rings = RingSolver(scene({"approach": 1e-6}), RadialDiscretisation())
+    assert rings.residuals(cast("Any", SimpleNamespace(steps=steps))) == [1e-9, 1e-5]
+    inclined = SimpleNamespace(plan=SimpleNamespace(path=ElementPath.SHEARING))
+    elements = ElementSolver(rings.scene, FiniteElementDiscretisation())
+    ratio = rings.scene.body.elastic_materials[0].poisson_ratio
+    left = 1 - np.cos(ratio / (4 - 2 * ratio))  # of Mindlin's slip across the load
+    assert elements.neglected(cast("Any", inclined))["stick_radius"] == pytest.approx(
+        left, rel=0.01
+    )
 
 
 @pytest.mark.parametrize("order", [0.5, 1.0, 2.0])
@@ -243,6 +278,8 @@ def test_increments_of_coarse_solves() -> None:
     assert (few, fewer) == ((1, 32, 20, 4, 20), (1, 8, 10, 4, 10))
     # A step that inherits a state takes the ratio nearest to 1 so far.
     assert ratios(counts, few, matters) == (1.0, 1 / 16, 1 / 4, 2.0, 2.0)
+    of_many, of_few = ([{"approach": np.array([x])}] for x in (3.0, 2.0))
+    assert added([{"approach": np.array([1.0])}], (of_many, of_few)) == [{"approach": 2.0}]
 
 
 def test_a_push_near_gross_slip_is_marked() -> None:

@@ -114,6 +114,12 @@ def test_a_history_of_points_needs_the_fields_of_all_increments(place: Path) -> 
     found = at_points(place, "all", "history", *point)
     assert len(found) == 10
     assert float(found[4][SIGMA[2]]) == pytest.approx(float(shown[1][SIGMA[2]]), rel=1e-5)
+    for row in found:
+        largest, middle, least = (float(row[f"principal_{n} [Pa]"]) for n in (1, 2, 3))
+        assert largest >= middle >= least
+    for step in (1, 2):
+        (of_step,) = at_points(place, "run", f"step {step}", *point[:2], "--step", step)[:1]
+        assert of_step == shown[step - 1] | {"increment": ""}
     assert (place / "history/stress_history.png").is_file()
 
 

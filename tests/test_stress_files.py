@@ -240,6 +240,9 @@ def test_a_stress_comes_back_with_its_places_units_and_meanings(place: Path) -> 
             assert len(values.array) == counts[values.indices[0]]
             assert values.unit or name == "material"
             assert values.meaning
+    table = stress.tables["stress_maxima"]
+    for name in ("region", "measure", "value", "x", "y", "depth"):
+        assert table[name].array.tolist() == [each[name] for each in stress.record["maxima"]]
     assert stress.volume is not None
     largest = np.max(stress.volume.fields["von_mises"].array)
     assert largest == max(e["value"] for e in stress.record["maxima"] if e["region"] == "body"

@@ -259,13 +259,22 @@ def pushed(direction: tuple[float, float] = (1.0, 0.0)) -> Scene:
     )  # fmt: skip
 
 
-def test_a_profile_is_compared_along_an_oblique_load(tmp_path: Path) -> None:
+def test_an_oblique_load_has_its_profile_along_it_and_acts_on_the_indenter_in_reverse(
+    tmp_path: Path,
+) -> None:
     result = radial.solve(pushed((0.6, 0.8)))
     slipstick.save(result, tmp_path / "run", figures="none")
     end = result.steps[-1]
     table = {"x": end.radii, "pressure": end.pressure[:, 0]}
     *_, at_places = comparison(table, slipstick.load(tmp_path / "run"))
     assert at_places.gap < 1e-9 * end.peak_pressure
+    state = state_of_result(result, None)
+    lower, upper = (
+        stress_on_disc(state, indenter=of, depths=[0.3]).axis.components for of in (False, True)
+    )
+    assert np.max(np.abs(lower["xz"])) > 1e-3 * end.peak_pressure
+    assert_allclose(upper["xz"], -lower["xz"])
+    assert_allclose(upper["zz"], lower["zz"])
 
 
 @pytest.mark.parametrize(

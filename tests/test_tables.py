@@ -17,6 +17,7 @@ from semi_analytical.frf.stack import Stack
 from semi_analytical.frf.surface import scalars
 from slipstick.cli.commands import deposit
 from slipstick.tables.catalogue import TABLES
+from slipstick.tables.table import Axis, Found, Table
 from verification.closed_forms.coated_indentation import (
     LayeredSurface,
     flat_punch,
@@ -41,6 +42,14 @@ def test_the_ball_is_that_of_the_reference_within_both_uncertainties() -> None:
         for name in TABLES["ball"].quantities:
             allowed = found[f"{name}_uncertainty"] + 2 * row["est_rel_error"] * row[name]
             assert abs(found[name] - row[name]) <= allowed
+
+
+def test_an_uncertainty_has_its_parts_with_their_signs_and_sizes() -> None:
+    """2 |3 - 3.5| + 0.01 * 3 + 0.1, whichever is larger."""
+    found = {1: Found((3.0,), 0.01, (0.1,)), 2: Found((3.5,))}
+    table = Table("t", {"k": Axis("", (7.0,))}, {"q": ""}, "", "", lambda place, fine: found[fine])
+    (row,) = table.rows({})
+    assert row == pytest.approx({"k": 7.0, "q": 3.0, "q_uncertainty": 1.13})
 
 
 FRICTIONAL = [
