@@ -279,7 +279,7 @@ def test_increments_of_coarse_solves() -> None:
     # A step that inherits a state takes the ratio nearest to 1 so far.
     assert ratios(counts, few, matters) == (1.0, 1 / 16, 1 / 4, 2.0, 2.0)
     of_many, of_few = ([{"approach": np.array([x])}] for x in (3.0, 2.0))
-    assert added([{"approach": np.array([1.0])}], (of_many, of_few)) == [{"approach": 2.0}]
+    assert added([{"approach": np.array([1.0])}], [(of_many, of_few)]) == [{"approach": 2.0}]
 
 
 def test_a_push_near_gross_slip_is_marked() -> None:
