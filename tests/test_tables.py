@@ -45,7 +45,7 @@ def test_the_ball_is_that_of_the_reference_within_both_uncertainties() -> None:
 
 
 def test_an_uncertainty_has_its_parts_with_their_signs_and_sizes() -> None:
-    """2 |3 - 3.5| + 0.01 * 3 + 0.1, whichever is larger."""
+    """2 |3 - 3.5| + 0.01 * 3 + 0.1."""
     found = {1: Found((3.0,), 0.01, (0.1,)), 2: Found((3.5,))}
     table = Table("t", {"k": Axis("", (7.0,))}, {"q": ""}, "", "", lambda place, fine: found[fine])
     (row,) = table.rows({})
