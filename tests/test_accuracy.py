@@ -461,7 +461,7 @@ def test_python_solves_as_accurately_as_the_file_asks(
     with pytest.raises(AccuracyOutOfReach):
         solve_file(asked)
     monkeypatch.setattr(adaptive_refinement, "MAX_ROUNDS", 1)
-    asked = read_scene_file(written(tmp_path, "[accuracy]\napproach = '0.001 %'\n"))
+    asked = read_scene_file(written(tmp_path, "[accuracy]\napproach = '0.0001 %'\n"))
     with pytest.raises(AccuracyOutOfReach, match="1 rounds have not met it"):
         solve_file(asked)
 
