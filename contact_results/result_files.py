@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from contact_results.cycles import fretting_cycles
-from contact_results.directory.file_names import STRESS
+from contact_results.directory.file_names import STRESS, STRESS_PAGE
 from contact_results.directory.run_directory import files_at_once
 from contact_results.files.field_file import write_fields
 from contact_results.files.summary_file import write_summary
@@ -67,7 +67,7 @@ def write_stress(
     errors: Sequence[StatedError] | None = None,
     accuracy: AccuracyReached | None = None,
 ) -> None:
-    """Write tables, their meanings, meshes, figures and summary atomically.
+    """Write tables, their meanings, meshes, figures, page and summary atomically.
 
     which     "body" or "indenter"
     found     largest stresses
@@ -75,12 +75,15 @@ def write_stress(
     accuracy  requested and reached accuracy; None if none was requested
     """
     from contact_results.stress.files import VOLUME, write_files
+    from contact_results.stress.stress_maxima import maxima_columns
 
-    with files_at_once(directory, STRESS, (VOLUME,)) as staging:
+    with files_at_once(directory, STRESS, (VOLUME, STRESS_PAGE)) as staging:
         write_files(state, which, field, found, staging, errors, accuracy)
         if with_figures:
+            from contact_results.figures.run_page import write_stress_page
             from contact_results.figures.stress_plot import write_stress_figures
 
             title = f"{state.title or 'Stress'}: {which}, step {state.step}"
             body = state.indenter if which == "indenter" else state.body
-            write_stress_figures(field, body, staging, title)
+            names = write_stress_figures(field, body, staging, title)
+            write_stress_page(maxima_columns(found, errors), title, names, staging)

@@ -8,6 +8,7 @@ INCREMENTS = "increments.csv"
 CYCLES = "cycles.csv"
 COLUMNS = "columns.csv"
 STRESS = "stress.json"  # summary of `slipstick stress`, in a directory of its own
+STRESS_PAGE = "stress.html"
 
 PAGE = "index.html"
 OVERVIEW_FIGURE = "overview.png"

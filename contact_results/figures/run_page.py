@@ -1,9 +1,9 @@
-"""`index.html`: self-contained page of a run, without scripts and external files."""
+"""Self-contained pages of a run and of a stress, without scripts and external files."""
 
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -41,6 +41,11 @@ READ_ON = (
     "(along y = 0), result.h5 (fields), columns.csv (units and meanings). z points into the lower "
     "body; tractions act on the lower body."
 )
+OF_STRESS = (
+    "The number after ± is the stated error. A question mark means that it has not converged. "
+    "stress.json lists the parts of each error. stress_axis.csv, stress_interfaces.csv and the VTU "
+    "files contain the fields. z points into the body; tension is positive."
+)
 LOOPS = (
     "E_d: energy per cycle; Q*, δ, δ*: half ranges of force, of the shift of the contact and of a "
     "rig's actuator; δ_g: half the opening of the loop at the middle force; A = E_d/4Q*δ*; µ_e = "
@@ -64,14 +69,7 @@ def write_page(
     errors  of the last step; None where they were left out
     cycles  columns of `cycle_columns`
     """
-    title = escape(result.scene.title or "Contact")
-    drawn = [directory / name for name in file_names.RUN_FILES if name.endswith(".png")]
     parts = [
-        '<!doctype html><html lang="en"><head><meta charset="utf-8">',
-        f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">',
-        '<meta name="viewport" content="width=device-width,initial-scale=1">',
-        '<meta name="color-scheme" content="light dark">',
-        f"<title>{title}</title><style>{STYLE}</style></head><body><h1>{title}</h1>",
         f"<h2>At the end of step {result.steps[-1].step}</h2><table>",
         _row("status", result.steps[-1].status.value),
         *(_row(name, text) for name, text in key_numbers(result.steps, errors)),
@@ -79,15 +77,42 @@ def write_page(
         *(_cycles(cycles) if cycles else ()),
         f'<p class="soft">{READ_ON}</p>',
         *(f"<p><strong>Warning:</strong> {escape(text)}.</p>" for text in warnings_of(result)),
-        '<div class="figures">',
-        *(_figure(path) for path in drawn if path.is_file()),
-        "</div><h2>Settings</h2><table>",
+        *_figures(directory / name for name in file_names.RUN_FILES if name.endswith(".png")),
+        "<h2>Settings</h2><table>",
         *(_row(name, text) for name, text in _settings(result)),
         "</table><details><summary>The scene</summary><pre>",
         escape(result.scene.model_dump_json(indent=2, exclude_none=True)),
-        "</pre></details></body></html>\n",
+        "</pre></details>",
     ]
-    (directory / file_names.PAGE).write_text("\n".join(parts), encoding="utf-8")
+    _write(directory / file_names.PAGE, result.scene.title or "Contact", parts)
+
+
+def write_stress_page(
+    columns: Mapping[str, Sequence[str]], title: str, figures: Sequence[str], directory: Path
+) -> None:
+    """Write the page of a stress whose figures are in the directory.
+
+    columns  headings and texts of the largest stresses
+    """
+    parts = [
+        *("<h2>Largest stresses</h2>", *_table(columns), f'<p class="soft">{OF_STRESS}</p>'),
+        *_figures(directory / name for name in figures),
+    ]
+    _write(directory / file_names.STRESS_PAGE, title, parts)
+
+
+def _write(path: Path, title: str, parts: Iterable[str]) -> None:
+    title = escape(title)
+    page = [
+        '<!doctype html><html lang="en"><head><meta charset="utf-8">',
+        f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">',
+        '<meta name="viewport" content="width=device-width,initial-scale=1">',
+        '<meta name="color-scheme" content="light dark">',
+        f"<title>{title}</title><style>{STYLE}</style></head><body><h1>{title}</h1>",
+        *parts,
+        "</body></html>\n",
+    ]
+    path.write_text("\n".join(page), encoding="utf-8")
 
 
 def _settings(result: Result) -> Iterator[tuple[str, str]]:
@@ -104,15 +129,27 @@ def _settings(result: Result) -> Iterator[tuple[str, str]]:
 
 def _cycles(columns: Mapping[str, Sequence[str]]) -> Iterator[str]:
     """The table of load cycles."""
-    yield "<h2>Load cycles</h2><table><tr>"
+    yield "<h2>Load cycles</h2>"
+    yield from _table(columns)
+    yield f'<p class="soft">{LOOPS}</p>'
+
+
+def _table(columns: Mapping[str, Sequence[str]]) -> Iterator[str]:
+    yield "<table><tr>"
     yield from (f'<th scope="col">{escape(heading)}</th>' for heading in columns)
     for texts in zip(*columns.values(), strict=True):
         yield "</tr><tr>" + "".join(f"<td>{escape(text)}</td>" for text in texts)
-    yield f'</tr></table><p class="soft">{LOOPS}</p>'
+    yield "</tr></table>"
 
 
 def _row(name: str, text: str) -> str:
     return f'<tr><th scope="row">{escape(name)}</th><td>{escape(text)}</td></tr>'
+
+
+def _figures(paths: Iterable[Path]) -> Iterator[str]:
+    yield '<div class="figures">'
+    yield from (_figure(path) for path in paths if path.is_file())
+    yield "</div>"
 
 
 def _figure(path: Path) -> str:

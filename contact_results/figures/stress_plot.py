@@ -24,8 +24,10 @@ BAR = {"fraction": 0.05, "pad": 0.03}
 SECTION, AXIS, SURFACE = "stress_section.png", "stress_axis.png", "stress_surface.png"
 
 
-def write_stress_figures(field: StressField, body: Body, directory: Path, title: str) -> None:
-    """Write the three figures of a stress."""
+def write_stress_figures(
+    field: StressField, body: Body, directory: Path, title: str
+) -> Sequence[str]:
+    """Write the three figures of a stress; return their names."""
     figures: dict[str, Callable[[StressField, Body, str], Figure]] = {
         SECTION: section_plot,
         AXIS: axis_plot,
@@ -36,6 +38,7 @@ def write_stress_figures(field: StressField, body: Body, directory: Path, title:
             with atomic_file(directory / name) as path:
                 dots = style.OF_SECTIONS if name == SECTION else style.DOTS_PER_INCH
                 style.save(draw(field, body, title), path, dots)
+    return list(figures)
 
 
 def section_plot(field: StressField, body: Body, title: str) -> Figure:

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_results.number_text import number_text, uncertainty
 from contact_results.stress.points import ON_INTERFACES, StressField, StressPoints
 from contact_scene import Body, IsotropicMaterial
+from contact_scene.quantities.stated_error import StatedError
+from contact_scene.reading.engineering_units import engineering_unit
 
 # Region of all surface points. A shear load has its largest principal stress at the trailing edge.
 SURFACE = "surface"
@@ -91,3 +94,26 @@ def _regions(points: StressPoints, body: Body) -> Iterator[tuple[str, NDArray[np
         yield layer_name(material, len(body.layers)), points.material == material
     for number, side, depth, material in interface_sides(body):
         yield f"interface {number} {side}", points.on_side(depth, material)
+
+
+def maxima_columns(
+    found: Sequence[Extreme], errors: Sequence[StatedError] | None
+) -> dict[str, list[str]]:
+    """Return the columns of a table of the largest stresses, by heading.
+
+    Regions with the same maximum share a row.
+
+    errors  stated errors of `found`; None if they were left out
+    """
+    unit = engineering_unit(max(abs(e.value) for e in found), "Pa")
+    length = engineering_unit(max(abs(x) for e in found for x in (e.x, e.y, e.depth)), "m")
+    headings = ["region", "measure", f"largest\n{unit.name}"]
+    headings += [f"{name}\n{length.name}" for name in ("x", "y", "depth")]
+    rows: dict[tuple[str, ...], list[str]] = {}
+    stated: Sequence[StatedError | None] = errors or [None] * len(found)
+    for e, error in zip(found, stated, strict=True):
+        places = (round(x / length.size, 4) + 0.0 for x in (e.x, e.y, e.depth))
+        value = number_text(e.value, uncertainty(error), unit.size)
+        rows.setdefault((e.measure, value, *(f"{x:.4g}" for x in places)), []).append(e.region)
+    regions = [", ".join(names) for names in rows.values()]
+    return dict(zip(headings, [regions, *map(list, zip(*rows, strict=True))], strict=True))

@@ -13,7 +13,6 @@ from pydantic import TypeAdapter, ValidationError
 
 from contact_errors.stress_errors import stress_at, stress_errors
 from contact_results.directory.run_directory import refuse_files_above
-from contact_results.number_text import number_text, uncertainty
 from contact_results.result_files import write_stress
 from contact_results.stress.loaded_bodies import (
     LoadedBodies,
@@ -27,12 +26,11 @@ from contact_results.stress.on_disc import stress_on_disc
 from contact_results.stress.on_section import stress_on_section
 from contact_results.stress.points import StressField
 from contact_results.stress.radial_body import is_sheared, refuse_infinite, refuse_turned
-from contact_results.stress.stress_maxima import Extreme, extremes
+from contact_results.stress.stress_maxima import extremes, maxima_columns
 from contact_scene import Body, SceneFile, read_scene_file
 from contact_scene.accuracy import AccuracyRequest
 from contact_scene.quantities.field_metadata import CONVENTION, OF_THE_INDENTER
-from contact_scene.quantities.stated_error import StatedError, StatedErrors
-from contact_scene.reading.engineering_units import engineering_unit
+from contact_scene.quantities.stated_error import StatedErrors
 from contact_scene.reading.quantity import Length
 from contact_scene.solver_errors import ContactNotResolved, SolverError, UnsupportedScene
 from semi_analytical.frf.stack import stack_of
@@ -136,7 +134,7 @@ def stress(
     """Compute the stress in layers and substrate.
 
     DIR receives stress.json, tables (CSV) of maxima, of the z axis and of both sides of interfaces,
-    the section y = 0 for ParaView (VTU), and figures.
+    the section y = 0 for ParaView (VTU), figures, and the page stress.html.
 
     With --accuracy, or a table [accuracy] in the scene, the scene is refined as by 'run';
     "max_principal 1%" requests the accuracy of the largest tensile stress in the body.
@@ -202,7 +200,8 @@ def stress(
         )
     if reached is not None:
         print_pairs(how_accurate(reached))
-    _print_maxima(found, errors)
+    columns = maxima_columns(found, errors)
+    print_table(columns, list(zip(*columns.values(), strict=True)), numbers=True)
     edge: Any = field.how.get("edge")
     if edge is not None and not edge["fitted"]:
         typer.echo(f"  no correction of the stress near the contact edge: {edge['because']}")
@@ -364,16 +363,3 @@ def _length(text: str, option: str = "--depths") -> float:
     except ValidationError as error:
         reason = error.errors()[0]["msg"]
         raise typer.BadParameter(f"{option}: {reason}") from None
-
-
-def _print_maxima(found: tuple[Extreme, ...], errors: tuple[StatedError, ...] | None) -> None:
-    unit = engineering_unit(max(abs(e.value) for e in found), "Pa")
-    length = engineering_unit(max(abs(x) for e in found for x in (e.x, e.y, e.depth)), "m")
-    columns = ["region", "measure", f"largest\n{unit.name}"]
-    columns += [f"{name}\n{length.name}" for name in ("x", "y", "depth")]
-    rows: dict[tuple[str, ...], list[str]] = {}
-    for e, error in zip(found, errors or [None] * len(found), strict=True):
-        places = (round(x / length.size, 4) + 0.0 for x in (e.x, e.y, e.depth))
-        value = number_text(e.value, uncertainty(error), unit.size)
-        rows.setdefault((e.measure, value, *(f"{x:.4g}" for x in places)), []).append(e.region)
-    print_table(columns, [(", ".join(names), *row) for row, names in rows.items()], numbers=True)
