@@ -16,6 +16,7 @@ from semi_analytical.grid import SurfaceGrid
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients, RectangleIntegrals
 from semi_analytical.stress import default_depths, interfaces, subsurface, subsurface_section
 from semi_analytical.stress.components import FIELDS, TRACTIONS
+from semi_analytical.stress.convolution import mirror_planes
 from semi_analytical.stress.field import depth_coefficients
 from semi_analytical.stress.rectangle import half_space_response
 
@@ -248,6 +249,28 @@ def test_section_is_the_plane_at_y(rng):
             np.testing.assert_allclose(
                 section.displacement, whole.along_x(y).displacement, atol=1e-12
             )
+
+
+@pytest.mark.parametrize("cells", [(12, 10), (11, 10)])
+@pytest.mark.parametrize("axes", [(0,), (1,), (0, 1)], ids=["x", "y", "both"])
+def test_mirrored_tractions_have_the_sum_of_the_fields_of_their_parts(axes, cells, rng):
+    """The parts are not symmetric; the sum uses its mirror planes."""
+    grid = SurfaceGrid(cells, (1.2, 1.0))
+    tractions = rng.normal(size=(3, *cells))
+    for axis in axes:
+        image = np.flip(tractions, 1 + axis).copy()
+        image[axis] *= -1
+        tractions = tractions + image
+    assert np.flatnonzero(mirror_planes(tractions)).tolist() == list(axes)
+    part = rng.random(cells) * tractions
+    whole, one, other = (
+        subsurface(COATED, grid, p, np.stack([q_x, q_y]), [0.05, 0.5])
+        for q_x, q_y, p in (tractions, part, tractions - part)
+    )
+    np.testing.assert_allclose(whole.stress, one.stress + other.stress, atol=1e-12)
+    np.testing.assert_allclose(
+        whole.displacement, one.displacement + other.displacement, atol=1e-12
+    )
 
 
 def test_a_number_on_an_interface_is_its_upper_side():
