@@ -150,7 +150,7 @@ FAMILIES = {
     "tilted": Family((of.ball,), (RIGID_ON_BARE, UNLIKE_COATED), beside_the_centre, 100),
     "pushed": Family((of.ball,), (NO_POISSON,), similar, 60, of.pushes, coarsest=8.0, finest=24.0),
     "pushed-shapes": Family(
-        (of.cone, of.power_law, of.sphere, of.ellipsoid), (NO_POISSON,), similar, 24, of.pushes
+        (of.cone, of.power_law, of.sphere, of.ellipsoid), (NO_POISSON,), similar, 20, of.pushes
     ),
     "near-sliding": Family((of.ball,), (NO_POISSON,), similar, 16, of.near_gross_slip),
     "sliding": Family((of.ball,), (ALIKE,), slid, 26, of.near_gross_slip),
@@ -178,11 +178,11 @@ FAMILIES = {
         (of.ball,), (RIGID_ON_BARE, RIGID_ON_COATED), refined, 11, of.pushes, finest=COUPLED
     ),
     "films-pushed": Family(
-        (of.ball,), (RIGID_ON_FILM,), refined, 18, of.pushes, finest=COUPLED, stressed=True
+        (of.ball,), (RIGID_ON_FILM,), refined, 24, of.pushes, finest=COUPLED, stressed=True
     ),
     "ridges": Family((of.rounded_flat, of.ring), (ALIKE,), refined, 18, of.pushes, finest=PUSHED),
     "smooth-maps": Family((of.smooth_map,), (ALIKE,), refined, 18, of.pushes, finest=PUSHED),
-    "rough-maps": Family((of.rough_map,), (ALIKE,), refined, 36, of.pushes, finest=PUSHED),
+    "rough-maps": Family((of.rough_map,), (ALIKE,), refined, 40, of.pushes, finest=PUSHED),
     "elements": Family(
         (of.ball, of.cone), (RIGID_ON_BARE, RIGID_ON_COATED), by_rings, 34, solver=ELEMENTS
     ),
