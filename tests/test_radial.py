@@ -149,17 +149,17 @@ def test_what_is_stored_is_the_work_of_the_load(indenter: ShapedBody, body: Body
 
 
 def test_round_off_of_thin_and_unlike_layers_is_refused_by_its_name() -> None:
-    """A film of a million times the stiffness: a tolerance that round-off lets be is told."""
-    film = IsotropicMaterial(young_modulus=2.1e17, poisson_ratio=0.3)
+    """A film of ten million times the stiffness: the message names a tolerance above round-off."""
+    film = IsotropicMaterial(young_modulus=2.1e18, poisson_ratio=0.3)
     asked = Scene(
         indenter=Paraboloid(radius=0.018, material=RIGID),
-        body=Body(material=STEEL, layers=(Layer(thickness=3.9e-6, material=film),)),
+        body=Body(material=STEEL, layers=(Layer(thickness=2e-6, material=film),)),
         loading=(LoadStep(normal_force=1e3, increments=1),),
     )
-    with pytest.raises(UnsupportedScene, match=r"round-off.* tolerance = 1e-09"):
+    with pytest.raises(UnsupportedScene, match=r"round-off.* tolerance = 1e-0[89]"):
         radial.solve(asked)
-    (end,) = radial.solve(asked, RadialDiscretisation(tolerance=1e-9)).steps
-    assert end.worst_residual < 1e-9
+    (end,) = radial.solve(asked, RadialDiscretisation(tolerance=1e-8)).steps
+    assert end.worst_residual < 1e-8
 
 
 # ---- histories, errors and files --------------------------------------------------------------
