@@ -30,6 +30,7 @@ from scene_texts import COARSE, STEEL_BALL_PRESSED
 import contact_errors
 import slipstick as package
 from contact_errors import coarse_solves
+from contact_errors import stress_errors as stress_errors_module
 from contact_errors.coarse_solves import Fineness, added, ratios, recounted
 from contact_errors.error_formula import (
     PHYSICAL,
@@ -552,6 +553,22 @@ def test_a_largest_stress_between_depths_is_covered(deeper: float) -> None:
     for extreme, error in zip(found, stress_errors(state, field, found), strict=True):
         largest = exact if extreme.measure == "von_mises" else exact / 2
         assert abs(extreme.value - largest) <= size(error) <= 0.05 * largest
+
+
+def test_the_error_of_two_coarse_tractions_is_the_larger_one(monkeypatch) -> None:
+    result = solve(scene(PRESS), grid(24), 1e-8)
+    state, sizes = state_of_result(result, 1, stated_errors(result)), {}
+    field = stress_on_cells(state, depths=[0.0, 0.5 * A])
+    for shifts in ((0, 1), (0, 0), (1, 1)):
+        monkeypatch.setattr(
+            stress_errors_module, "on_wide_cells",
+            lambda state, shift, of=shifts: on_wide_cells(state, of[shift]),
+        )  # fmt: skip
+        found = stress_errors(state, field, extremes(field, result.scene.body))
+        sizes[shifts] = np.array([one.error for one in found])
+    one, other = sizes[0, 0], sizes[1, 1]
+    np.testing.assert_array_equal(sizes[0, 1], np.maximum(one, other))
+    assert np.any(one < other)
 
 
 @pytest.mark.parametrize(("nu", "count"), [(0.2, 32), (0.49, 32), (0.499, 32), (0.47, 100)])
