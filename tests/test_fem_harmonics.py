@@ -43,6 +43,7 @@ from fem_reference.contact import (
 from fem_reference.contact.admissible_shear import into_discs, project
 from fem_reference.contact.augmented_lagrangian import Penalty
 from fem_reference.contact.increment import advance
+from fem_reference.contact.increment_report import _contact_area
 from fem_reference.contact.point_contact import PointContact
 from fem_reference.contact.point_state import PointState
 from fem_reference.energy import COMPONENTS, dissipation_uncertainty
@@ -459,6 +460,12 @@ def test_load_in_any_direction_is_the_same_load(result):
         np.testing.assert_allclose(p_turned, p, rtol=1e-9)
         expected = [0.6 * q[0] - 0.8 * q[1], 0.8 * q[0] + 0.6 * q[1]]
         np.testing.assert_allclose(q_turned, expected, rtol=1e-7, atol=1e-6 * np.max(np.abs(q)))
+
+
+def test_the_area_within_an_edge_is_the_sum_of_its_sectors():
+    quarters = SimpleNamespace(grid=SimpleNamespace(weights=np.full(4, np.pi / 2)))
+    area = _contact_area(SimpleNamespace(compliance=quarters), np.array([1.0, 1.0, 2.0, 2.0]))
+    assert area == pytest.approx(2.5 * np.pi)
 
 
 def test_an_error_of_increments_is_the_same_with_angles_and_without():
