@@ -11,6 +11,7 @@ from semi_analytical import SurfaceGrid
 from semi_analytical.edge.clipped_power_means import mean_power
 from semi_analytical.edge.film import FilmLaw, film_law
 from semi_analytical.edge.fit import NARROW, WIDE, Stencil, fit_about, peak_of
+from semi_analytical.edge.kernels import PARITY
 from semi_analytical.edge.shape import EdgeShape, edge_shape
 from tests.cell_means import ellipse_means, elliptic_radius
 from verification.norms import cell_means, round_means
@@ -104,6 +105,13 @@ def test_a_region_without_data_is_refused() -> None:
     means = ellipse_means(CELLS, (13.3, 1.2), (19.37, 19.81))
     with pytest.raises(ValueError, match="Use smaller cells"):
         edge_shape(means, means > 0, WIDE, rings=2)
+
+
+@pytest.mark.parametrize(("component", "parity"), PARITY.items())
+def test_a_mirror_turns_every_index_along_its_normal(
+    component: str, parity: tuple[int, int]
+) -> None:
+    assert parity == tuple((-1) ** component.count(axis) for axis in "xy")
 
 
 # ---- Means of a known field over cells.
