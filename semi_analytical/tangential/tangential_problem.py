@@ -38,6 +38,9 @@ ROUGHLY = 0.05
 FINE = 0.3
 # Changes of the energy below this fraction of the work of the shear may be round-off.
 LEVEL = 1e-12
+# Largest growth of the natural residual where changes of the energy are round-off: in a Newton
+# step, and in the adjustment of an accepted point to its zones before the next linear solve.
+REDUCTION, SAME_POINT = 0.5, 2.0
 
 
 @dataclass(frozen=True)
@@ -106,7 +109,7 @@ def solve_tangential(
     zones: ShearZones | None = None
     carriers: list[VectorField] | None = None
     accepted: tuple[Point, float] | None = None  # with its distance from P(z)
-    iterations, first, residual = 0, np.inf, np.inf
+    iterations, first, residual, shortened = 0, np.inf, np.inf, False
     for number in range(MAX_STEPS):
         if not np.isfinite(natural.error):
             break
@@ -116,7 +119,9 @@ def solve_tangential(
         linearised = LinearisedShear(displace, inverse, zones, load, carriers if settled else None)
         carriers = linearised.carriers
         q = linearised.admissible(guess.shear, bound)
-        point, natural = _line_search(problem, accepted, Point(q, displace(q)), natural.motion)
+        growth = SAME_POINT if shortened else REDUCTION
+        trial = Point(q, displace(q))
+        point, natural = _line_search(problem, accepted, trial, natural.motion, growth)
         shortened = point.shear is not q
         accepted = point, natural.error
         in_slip = (bound > 0) & (magnitude(natural.z) > bound)
@@ -142,14 +147,20 @@ def solve_tangential(
 
 
 def _line_search(
-    problem: _Problem, accepted: tuple[Point, float] | None, newton: Point, motion: Vector
+    problem: _Problem,
+    accepted: tuple[Point, float] | None,
+    newton: Point,
+    motion: Vector,
+    growth: float,
 ) -> tuple[Point, NaturalShear]:
     """Accept the Newton point, a shortened step, or a step along the projected gradient (line
     search).
 
-    Close to the solution changes of the energy are below round-off. Only there a Newton point is
-    also accepted if it halves the natural residual; elsewhere this criterion may increase the
-    energy and lead to cycles.
+    Close to the solution changes of the energy are below round-off. Only there a point is also
+    accepted by its natural residual; elsewhere this criterion may increase the energy and lead to
+    cycles.
+
+    growth  largest ratio of the natural residual of the point to the accepted one
     """
     natural = problem.natural(newton, motion)
     if accepted is None:
@@ -160,7 +171,7 @@ def _line_search(
     slope, curvature = np.sum(d * gradient), np.sum(d * d_u)
     change = slope + 0.5 * curvature
     level = change <= LEVEL * np.sum(np.abs(q * u))
-    if change <= 0.1 * slope or (level and natural.error < 0.5 * error):
+    if change <= 0.1 * slope or (level and natural.error < growth * error):
         return newton, natural
     # Without curvature the points differ by round-off.
     step = min(1.0, -slope / curvature) if curvature > 0 else 0.0
