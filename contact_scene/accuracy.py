@@ -1,4 +1,4 @@
-"""Requested accuracy of a run: the table `[accuracy]`, or the text of an option."""
+"""Requested accuracy of a run, from the table `[accuracy]` or the text of a command-line option."""
 
 from collections.abc import Mapping
 from re import fullmatch
@@ -72,24 +72,29 @@ class AccuracyRequest(_Named):
 
     @property
     def named(self) -> tuple[str, ...]:
-        """Quantities with a limit by name, in the order of the results."""
+        """Names of the quantities with an error limit by name, in the order of the results."""
         return tuple(name for name in BOUND if getattr(self, name) is not None)
 
     def shares(self) -> Mapping[str, float]:
-        """Return the largest relative error of every limited quantity; names override `overall`."""
+        """Return the largest allowed relative error of each quantity with a limit.
+
+        A limit by name overrides the limit `overall`.
+        """
         overall = {} if self.overall is None else dict.fromkeys(OVERALL, self.overall)
         return overall | {name: getattr(self, name) for name in self.named}
 
     @property
     def binds_stress(self) -> bool:
-        """True if a stress below the surface has a limit."""
+        """True if the request limits the error of the largest principal stress in the body."""
         return LARGEST_TENSION in self.named
 
 
 def accuracy_texts(text: str) -> dict[str, Any]:
-    """Convert a text such as "0.1%" or "peak_pressure 0.1%, approach 1%" to a table.
+    """Parse the text of a requested accuracy into the entries of the table `[accuracy]`.
 
-    Raises `SceneError` for other texts. Names and limits are not checked.
+    Examples are "0.1%" and "peak_pressure 0.1%, approach 1%". Names and limits are not checked.
+
+    Raises `SceneError` for other texts.
     """
     table: dict[str, Any] = {}
     for item in text.split(","):

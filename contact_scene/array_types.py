@@ -1,4 +1,4 @@
-"""Types of arrays: float64, but for masks and indices."""
+"""Names for the types of numpy arrays: float64 arrays, Boolean masks and arrays of indices."""
 
 import numpy as np
 from numpy.typing import NDArray

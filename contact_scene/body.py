@@ -34,20 +34,23 @@ class Body(Description):
 
     @property
     def elastic_materials(self) -> tuple[IsotropicMaterial, ...]:
-        """Materials of the layers and of the substrate that deform, outermost first."""
+        """Elastic materials of the body: those of the layers, outermost first, and of an elastic
+        substrate."""
         substrate = (self.material,) if isinstance(self.material, IsotropicMaterial) else ()
         return *(layer.material for layer in self.layers), *substrate
 
     @property
     def deforms(self) -> bool:
-        """True if a layer or the substrate is elastic."""
+        """True if a layer or the substrate of the body is elastic."""
         return bool(self.elastic_materials)
 
     @property
     def thinnest(self) -> float:
-        """Smallest thickness of nearly uniform material [length]; infinite for a uniform body.
+        """Smallest depth of nearly uniform material in the body [length]; infinite for a uniform
+        body.
 
-        Adjacent layers count as one if their materials differ by less than `NEARLY_EQUAL`.
+        A grid or mesh must resolve this depth. Adjacent layers count as one layer if their
+        materials differ by less than `NEARLY_EQUAL`.
         """
         return min(map(self._uniform_depth, range(len(self.layers))), default=inf)
 

@@ -1,4 +1,5 @@
-"""Elastic properties of the pair of bodies: coupling, effective modulus, contrast of materials."""
+"""Elastic properties of the two bodies in contact: coupling, contact modulus, contrast of
+materials."""
 
 from contact_scene.body import Body
 from contact_scene.material import IsotropicMaterial, Material
@@ -10,10 +11,13 @@ UNCOUPLED = 1e-12
 
 
 def coupling(scene: Scene) -> tuple[bool, str]:
-    """Determine if pressure causes a relative tangential displacement, with the reason.
+    """Determine if pressure displaces the two surfaces relative to each other in the tangential
+    direction.
 
-    The criterion is Dundurs' beta (Dundurs 1969) for half-spaces. Layered bodies are coupled unless
-    both bodies are equal.
+    In this case the normal and the tangential problem are coupled. The criterion for half-spaces is
+    Dundurs' constant β ≠ 0 (Dundurs 1969). Layered bodies are coupled unless both bodies are equal.
+
+    returns  True for coupled problems; reason in one sentence
     """
     lower, upper = scene.body, scene.indenter
     if (lower.material, lower.layers) == (upper.material, upper.layers):
@@ -28,9 +32,11 @@ def coupling(scene: Scene) -> tuple[bool, str]:
 
 
 def dundurs_beta(scene: Scene) -> float | None:
-    """Compute Dundurs' β = ½ [(1-2ν1)/G1 - (1-2ν2)/G2] / [(1-ν1)/G1 + (1-ν2)/G2].
+    """Compute Dundurs' constant β = ½ [(1-2ν1)/G1 - (1-2ν2)/G2] / [(1-ν1)/G1 + (1-ν2)/G2].
 
-    A rigid body has 1/G = 0. None for bodies with layers of another material.
+    G is the shear modulus and ν Poisson's ratio, with index 1 for the lower body and 2 for the
+    indenter. A rigid body has 1/G = 0. Returns None if a body has a layer of another material than
+    its substrate.
     """
     for body in (scene.body, scene.indenter):
         if any(layer.material != body.material for layer in body.layers):
@@ -39,7 +45,10 @@ def dundurs_beta(scene: Scene) -> float | None:
 
 
 def outermost_beta(scene: Scene) -> float:
-    """Compute Dundurs' β of the outermost materials, which determines edge singularities."""
+    """Compute Dundurs' constant β of the outermost materials of the two bodies [1].
+
+    β determines the singularity of the tractions at an edge of the contact.
+    """
     difference = total = 0.0
     for sign, body in ((1, scene.body), (-1, scene.indenter)):
         material = _outermost(body)
@@ -51,9 +60,9 @@ def outermost_beta(scene: Scene) -> float:
 
 
 def contact_modulus(scene: Scene) -> float:
-    """Compute E* of the outermost materials, 1/E* = Σ (1-ν²)/E [force/length^2].
+    """Compute the contact modulus E* of the outermost materials of the two bodies [force/length^2].
 
-    The sum is over elastic materials.
+    1/E* is the sum of (1-ν²)/E over the elastic ones of the two materials.
     """
     outermost = map(_outermost, (scene.body, scene.indenter))
     return 1 / sum(
@@ -68,9 +77,9 @@ def _outermost(body: Body) -> Material:
 
 
 def refuse_contrast(scene: Scene, most: float, why: str) -> None:
-    """Raise UnsupportedScene if the shear moduli of a body differ too much.
+    """Raise UnsupportedScene if the shear moduli of the materials within one body differ too much.
 
-    most  largest ratio of shear moduli
+    most  largest allowed ratio of the shear moduli
     why   reason of the limit, for the message
     """
     for name, body in (("body", scene.body), ("indenter", scene.indenter)):

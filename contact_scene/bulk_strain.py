@@ -1,7 +1,7 @@
-"""Uniform bulk strain of the lower body, as in a fretting-fatigue specimen.
+"""Uniform bulk strain of the lower body, as in a fretting-fatigue specimen under tension.
 
 A strain ε displaces the surface at x by ε x, in addition to the displacement by the tractions.
-Layers have the strain of the substrate; each is in plane stress with its modulus.
+Layers have the strain of the substrate; each layer is in plane stress with its modulus.
 """
 
 from collections.abc import Sequence
@@ -24,7 +24,10 @@ ROUND_OFF = 1e-12
 
 
 def strain_under(stress: Sequence[float], material: Material) -> Strain:
-    """Compute the strain under a stress (σxx, σyy, σxy) [force/length^2] in plane stress."""
+    """Compute the strain (εxx, εyy, εxy) of an elastic material under a plane stress.
+
+    stress  (σxx, σyy, σxy) [force/length^2]
+    """
     assert isinstance(material, IsotropicMaterial)
     E, nu = material.young_modulus, material.poisson_ratio
     xx, yy, xy = stress
@@ -32,10 +35,11 @@ def strain_under(stress: Sequence[float], material: Material) -> Strain:
 
 
 def stress_by(strain: Sequence[float], body: Body, layer: int) -> Vector:
-    """Compute the stress of a layer under the bulk strain, in plane stress.
+    """Compute the plane stress that the bulk strain causes in one layer of the lower body.
 
-    layer    index from the surface; the number of layers for the substrate
-    returns  xx, yy, zz, yz, xz, xy [force/length^2], shape (6,)
+    strain   (εxx, εyy, εxy) of the lower body
+    layer    index of the layer from the surface; the number of layers for the substrate
+    returns  σxx, σyy, σzz, σyz, σxz, σxy [force/length^2], shape (6,); 0 for a rigid material
     """
     material = (*(one.material for one in body.layers), body.material)[layer]
     if not isinstance(material, IsotropicMaterial):
@@ -47,7 +51,12 @@ def stress_by(strain: Sequence[float], body: Body, layer: int) -> Vector:
 
 
 def with_strain(increment: Reported, strain: Strain | None) -> Reported:
-    """Return the increment's results with the bulk strain at its end; unchanged without one."""
+    """Return the results of an increment with the bulk strain at its end entered.
+
+    increment  results of the increment
+    strain     (εxx, εyy, εxy) of the lower body; None without bulk strain, which leaves the results
+               unchanged
+    """
     if strain is None:
         return increment
     changes = {"bulk_strain": strain[:2], "bulk_shear": strain[2]}
@@ -55,11 +64,13 @@ def with_strain(increment: Reported, strain: Strain | None) -> Reported:
 
 
 def around_axis(strains: Sequence[Strain], pushed: bool) -> bool:
-    """Determine if an axisymmetric solver has a bulk strain to apply.
+    """Determine if an axisymmetric solver has to apply a bulk strain.
 
-    pushed  True with a tangential load or a torsion
+    Raises UnsupportedScene for a strain that is not equal in all directions (equibiaxial), and for
+    a strain together with a tangential load or torsion.
 
-    Raises UnsupportedScene for a strain that is not equibiaxial or acts together with such a load.
+    strains  bulk strains (εxx, εyy, εxy) of the load steps
+    pushed   True if the scene has a tangential load or a torsion
     """
     strained = any(any(strain) for strain in strains)
     if strained and pushed:

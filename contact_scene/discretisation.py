@@ -1,4 +1,5 @@
-"""Discretisation of each solver: the tables `[semi_analytical]`, `[fem_reference]`, `[radial]`."""
+"""Discretisation settings of each solver: the tables `[semi_analytical]`, `[fem_reference]` and
+`[radial]` of a scene file."""
 
 from typing import Annotated, Literal
 
@@ -97,7 +98,10 @@ class FiniteElementDiscretisation(Description):
     """Limit of every dimensionless residual at the end of an increment."""
 
     def refined(self) -> "FiniteElementDiscretisation":
-        """Double the elements per radius; raises ValueError beyond their limit."""
+        """Return the settings of a mesh with twice the number of elements per contact radius.
+
+        Raises ValueError if the doubled number exceeds the limit of `elements_per_radius`.
+        """
         finer = {**self.model_dump(), "elements_per_radius": 2 * self.elements_per_radius}
         return FiniteElementDiscretisation.model_validate(finer)
 

@@ -1,6 +1,6 @@
 """Cache of arrays on disk, for operators that do not depend on load, shape and friction.
 
-A file contains a checksum and raw numbers; its name is the hash of all data that determine the
+A file contains a checksum and raw numbers. Its name is the hash of all data that determine the
 array. A damaged, foreign or renamed file causes a warning; its array is computed again and
 replaced. Without a writable directory there is no cache and no warning.
 """
@@ -35,9 +35,11 @@ log = logging.getLogger(__name__)
 def remembered(
     identity: str, shape: tuple[int, ...], compute: Callable[[], NDArray[np.float64]]
 ) -> NDArray[np.float64]:
-    """Return an array from the cache, or compute and store it.
+    """Return an array from the disk cache, or compute the array and store it there.
 
-    identity  text that determines every bit of the array
+    identity  text that determines every bit of the array; its hash is the name of the file
+    shape     shape of the array
+    compute   function that computes the array
     """
     key = sha256(identity.encode()).hexdigest()
     directory = cache_directory()
@@ -54,7 +56,7 @@ def remembered(
 
 @contextlib.contextmanager
 def without_cache() -> Iterator[None]:
-    """Disable the cache in the block, to measure the cost of a solve."""
+    """Disable the disk cache within a `with` block, to measure the cost of a solve."""
     before = _ignored.set(True)
     try:
         yield
@@ -63,7 +65,11 @@ def without_cache() -> Iterator[None]:
 
 
 def cache_directory() -> Path | None:
-    """Return SLIPSTICK_CACHE_DIR, or `slipstick` in the user's cache directory (XDG), or None."""
+    """Return the directory of the disk cache; None if the user has no home directory.
+
+    The environment variable SLIPSTICK_CACHE_DIR sets the directory. The default is `slipstick` in
+    the user's cache directory (XDG_CACHE_HOME or ~/.cache).
+    """
     chosen = os.environ.get("SLIPSTICK_CACHE_DIR")
     if chosen:
         return Path(chosen)
@@ -77,7 +83,13 @@ def cache_directory() -> Path | None:
 
 
 def _read(path: Path, key: str, shape: tuple[int, ...]) -> NDArray[np.float64] | None:
-    """Read a stored array; None if the file is damaged or has another key."""
+    """Read an array from its file in the disk cache.
+
+    Returns None if the file is missing, unreadable or damaged, or belongs to another key.
+
+    key    hash in the header of the file
+    shape  shape of the array
+    """
     size = 8 * int(np.prod(shape))
     try:
         with open_own(path) as file:
@@ -98,7 +110,10 @@ def _read(path: Path, key: str, shape: tuple[int, ...]) -> NDArray[np.float64] |
 
 
 def _write(path: Path, key: str, values: NDArray[np.float64]) -> None:
-    """Store an array atomically, and delete old entries."""
+    """Store an array in the disk cache atomically, and delete the entries beyond its largest size.
+
+    An array larger than a quarter of the cache is not stored.
+    """
     body = values.astype("<f8").tobytes()
     if len(body) > LARGEST_CACHE // 4:
         return
@@ -116,12 +131,17 @@ def _write(path: Path, key: str, values: NDArray[np.float64]) -> None:
 
 
 def _header(key: str, body: bytes) -> bytes:
-    """Build the header of a file: format, key and checksum."""
+    """Build the header of a cache file: format, key of the entry and checksum of the numbers."""
     return FIRST_LINE + f"{key}\n{sha256(body).hexdigest()}\n".encode()
 
 
 def _make_room(newest: Path) -> None:
-    """Delete the least recently used entries beyond LARGEST_CACHE; other files remain."""
+    """Delete the least recently used entries of the disk cache beyond its size LARGEST_CACHE.
+
+    Files without the suffix of the cache remain.
+
+    newest  file of the newest entry, which is deleted last
+    """
     entries = []
     for path in newest.parent.glob("*" + SUFFIX):
         with contextlib.suppress(OSError):  # another process may delete entries, too

@@ -1,4 +1,8 @@
-"""Physical effects of a scene, active or not, with reasons for the user."""
+"""Physical effects that a scene may contain, such as layers and friction, with reasons for the
+user.
+
+The plan of each solver lists these effects, whether they act in the scene or not.
+"""
 
 from dataclasses import dataclass
 
@@ -10,7 +14,12 @@ COUPLING = "normal-tangential coupling"
 
 @dataclass(frozen=True)
 class Effect:
-    """Effect, active (on) or not, with the reason in one sentence."""
+    """Physical effect of contact, such as friction, and its presence in a scene.
+
+    name  name of the effect
+    on    True if the effect acts in the scene
+    why   reason in one sentence, for the user
+    """
 
     name: str
     on: bool
@@ -21,7 +30,10 @@ PRESSURE = Effect("pressure", True, "the indenter is pressed on")
 
 
 def second_body(scene: Scene) -> Effect:
-    """Determine if both bodies deform."""
+    """Return the effect of a second elastic body, which acts if both bodies of the scene deform.
+
+    The compliances of two elastic bodies add.
+    """
     both = scene.body.deforms and scene.indenter.deforms
     if both:
         return Effect("second elastic body", True, "both bodies deform; their compliances add")
@@ -30,7 +42,10 @@ def second_body(scene: Scene) -> Effect:
 
 
 def layers(scene: Scene) -> Effect:
-    """Determine the number of layers of each body."""
+    """Return the effect of layers, which acts if a body of the scene has layers.
+
+    The reason states the number of layers of each body.
+    """
     where = [
         f"the {name} has {len(body.layers)} layer{'s' if len(body.layers) > 1 else ''}"
         for name, body in (("body", scene.body), ("indenter", scene.indenter))
@@ -40,27 +55,35 @@ def layers(scene: Scene) -> Effect:
 
 
 def friction(scene: Scene) -> Effect:
-    """Determine if the scene has friction."""
+    """Return the effect of friction, which acts if the scene has a friction law."""
     on = scene.friction is not None
     return Effect("friction", on, "[friction] is given" if on else "the scene has no friction")
 
 
 def strained(scene: Scene) -> Effect:
-    """Determine if the lower body has a bulk strain."""
+    """Return the effect of bulk strain, which acts if a load step strains the lower body."""
     on = any(ramp.stretch for ramp in scene.load_path())
     why = "a step prescribes" if on else "no step prescribes"
     return Effect("bulk strain", on, f"{why} a bulk strain or a bulk stress of the lower body")
 
 
 def coupled(scene: Scene, on: bool, why: str) -> Effect:
-    """Create the effect of the coupling; without friction there is another reason."""
+    """Create the effect of the coupling of the normal and the tangential problem.
+
+    on   True if the problems are coupled
+    why  reason; without friction, a missing shear is the reason instead
+    """
     if scene.friction is None:
         why = "without friction there is no shear"
     return Effect(COUPLING, on, why)
 
 
 def load_history(on: bool) -> Effect:
-    """Create the effect of path-dependence."""
+    """Create the effect of the load history, which acts if the final state depends on the load
+    path.
+
+    on  True if the final state depends on the load path
+    """
     if on:
         return Effect("load history", True, "slip depends on the path of several steps")
     return Effect("load history", False, "the final state does not depend on the path")

@@ -1,4 +1,4 @@
-"""Friction law and friction map of the contact."""
+"""Coulomb's law of friction with a uniform coefficient or a map of coefficients."""
 
 from functools import cached_property
 from types import EllipsisType
@@ -59,7 +59,8 @@ class FrictionMap(Description):
 
     @property
     def extent(self) -> Pair:
-        """Side lengths of the largest rectangle about the origin that the map covers [length]."""
+        """Side lengths of the largest rectangle about the origin of the contact that the map covers
+        [length]."""
         L_x, L_y = (
             count * spacing - 2.0 * abs(middle)
             for count, spacing, middle in zip(
@@ -70,13 +71,14 @@ class FrictionMap(Description):
 
     @cached_property
     def constant(self) -> float | None:
-        """Coefficient of a uniform map; None if the coefficient varies."""
+        """Coefficient of friction if all values of the map are equal; None if the coefficient
+        varies."""
         values = self.map.values
         return float(values[0, 0]) if np.all(values == values[0, 0]) else None
 
     @property
     def is_even(self) -> bool:
-        """True if the coefficient is equal at (±x, ±y), to round-off."""
+        """True if the map has equal coefficients of friction at (±x, ±y), to round-off."""
         values = self.map.values
         images = values[::-1], values[:, ::-1]
         nearly = ROUND_OFF * float(np.max(values))
@@ -87,10 +89,12 @@ class FrictionMap(Description):
     def on(self, cells: tuple[int, int], spacing: Pair) -> "FrictionMap":
         """Interpolate the map at the cell centres of a grid centred on the origin of the contact.
 
-        cells    number along x and y
+        cells    number of cells along x and y
         spacing  side lengths of a cell [length]
+        returns  map of the coefficients of the cells, equal bit for bit at the points of the
+                 original map
 
-        Returns equal bits at the points of the map. Raises ValueError for cells beyond its extent.
+        Raises ValueError for cells beyond the extent of the map.
         """
         x, y = (
             (np.arange(count) - (count - 1) / 2) * side - middle
@@ -122,7 +126,8 @@ class CoulombFriction(Description):
 
     @property
     def uniform(self) -> float | None:
-        """Coefficient µ if the limit is µp with the same µ everywhere; None otherwise."""
+        """Coefficient µ if the friction limit is µ times the pressure with equal µ everywhere; else
+        None."""
         lowest, highest = self.slope(0.0), self.slope(HIGHEST_PRESSURE)
         if self.varying is not None or not np.array_equal(lowest, highest):
             return None
@@ -130,20 +135,21 @@ class CoulombFriction(Description):
 
     @property
     def varying(self) -> FrictionMap | None:
-        """Map of the coefficient; None if the coefficient is uniform."""
+        """Map of the coefficient of friction; None if the coefficient is uniform."""
         mu = self.coefficient
         return mu if isinstance(mu, FrictionMap) and mu.constant is None else None
 
     @property
     def extent(self) -> Pair | None:
-        """Side lengths of the rectangle about the origin where the coefficient is defined [length];
-        None without a map."""
+        """Side lengths of the rectangle about the origin where the coefficient of friction is
+        defined [length]; None without a map."""
         return self.coefficient.extent if isinstance(self.coefficient, FrictionMap) else None
 
     def on(self, cells: tuple[int, int], spacing: Pair) -> "CoulombFriction":
-        """Return the law with the map interpolated at the cell centres; itself without a map.
+        """Return the friction law with its map interpolated at the cell centres of a grid.
 
-        Arguments and errors are those of `FrictionMap.on`.
+        Without a map the law is returned unchanged. Arguments and errors are those of
+        `FrictionMap.on`.
         """
         if not isinstance(self.coefficient, FrictionMap):
             return self
@@ -151,40 +157,46 @@ class CoulombFriction(Description):
 
     @property
     def is_even(self) -> bool:
-        """True if the coefficient is equal at (±x, ±y), to round-off."""
+        """True if the coefficient of friction is equal at (±x, ±y), to round-off."""
         return self.varying is None or self.varying.is_even
 
     @property
     def largest(self) -> float:
-        """Largest slope of the limit at zero pressure over the surface [1]."""
+        """Largest coefficient of friction on the surface: slope of the friction limit at zero
+        pressure [1]."""
         return float(np.max(self.slope(0.0)))
 
     def slope(self, pressure: Field | float, where: Where = ...) -> Field:
-        """Compute the derivative of the limit with respect to the pressure [1].
+        """Compute the derivative of the friction limit with respect to the pressure [1].
 
-        where  index of the cells of `pressure` in the map; absent: all cells
+        pressure  pressure of the selected cells [force/length^2]
+        where     index of these cells in the friction map; absent: all cells of the map
         """
         mu = self._at(where)
         return np.broadcast_to(mu, np.broadcast_shapes(np.shape(mu), np.shape(pressure)))
 
     def limit(self, pressure: Field, where: Where = ...) -> Field:
-        """Compute the friction limit under a pressure [force/length^2].
+        """Compute the friction limit, the largest shear under a pressure [force/length^2].
 
-        where  index of the cells of `pressure` in the map; absent: all cells
+        pressure  pressure of the selected cells [force/length^2]
+        where     index of these cells in the friction map; absent: all cells of the map
         """
         return np.asarray(self._at(where) * pressure)
 
     def _at(self, where: Where) -> float | Field:
-        """Return the coefficient of cells."""
+        """Return the coefficient of friction of the selected cells: one number if it is uniform.
+
+        where  index of the cells in the friction map
+        """
         mu = self.coefficient
         if not isinstance(mu, FrictionMap):
             return mu
         return mu.map.values[where] if mu.constant is None else mu.constant
 
     def carried(self, normal_force: float) -> float | None:
-        """Compute the friction limit of the tangential force under a normal force [force].
+        """Compute the largest tangential force that friction carries under a normal force [force].
 
-        None if the limit depends on the distribution of the pressure.
+        Returns None if this force depends on the distribution of the pressure.
         """
         mu = self.uniform
         return None if mu is None else mu * normal_force

@@ -1,4 +1,4 @@
-"""Load steps of a scene, as the user writes them."""
+"""Load steps of a scene: the entries of `[[loading]]`, as the user writes them."""
 
 from typing import Annotated
 
@@ -93,5 +93,5 @@ class LoadStep(Description):
 
     @property
     def names_normal(self) -> bool:
-        """True if the step prescribes a normal force or an approach."""
+        """True if the load step prescribes a normal force or an approach."""
         return self._names("normal_force") or self._names("approach")

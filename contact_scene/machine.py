@@ -1,4 +1,4 @@
-"""Memory, threads and trusted files of the machine."""
+"""Properties of the machine: available memory, threads of BLAS, and files of trusted owners."""
 
 import os
 import stat
@@ -32,7 +32,7 @@ def available_bytes() -> int:
 
 @contextmanager
 def one_thread() -> Iterator[None]:
-    """Limit BLAS to one thread in the block.
+    """Limit the linear algebra of BLAS to one thread within a `with` block.
 
     Several threads sum in another order, which changes bits, and are slower for small systems.
     """
@@ -42,14 +42,17 @@ def one_thread() -> Iterator[None]:
 
 @lru_cache(maxsize=1)
 def _libraries(imported: int) -> ThreadpoolController:
-    """Find the loaded libraries. The search is slow, and only an import can load another."""
+    """Find the loaded libraries with threads (BLAS, OpenMP), or return the last search.
+
+    imported  number of imported modules; a new search is needed only after an import
+    """
     return ThreadpoolController()
 
 
 def open_own(path: Path) -> BufferedReader:
-    """Open a file of this user or of the administrator for reading.
+    """Open a file for reading if its owner is this user or the administrator.
 
-    Raises OSError, also for pipes and devices, which may not end, and for files of other users.
+    Raises OSError for files of other users, and for pipes and devices, which may not end.
     """
     descriptor = os.open(path, os.O_RDONLY | NEITHER_WAITING_NOR_TEXT)
     try:

@@ -23,12 +23,12 @@ class IsotropicMaterial(Description):
 
     @property
     def shear_modulus(self) -> float:
-        """G = E / 2(1 + nu) [force/length^2]."""
+        """Shear modulus G = E / 2(1 + nu) [force/length^2]."""
         return self.young_modulus / (2.0 * (1.0 + self.poisson_ratio))
 
     @property
     def plane_strain_modulus(self) -> float:
-        """E' = E / (1 - nu^2) [force/length^2]."""
+        """Plane-strain modulus E' = E / (1 - nu^2) [force/length^2]."""
         return self.young_modulus / ((1.0 - self.poisson_ratio) * (1.0 + self.poisson_ratio))
 
 

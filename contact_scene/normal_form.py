@@ -1,7 +1,8 @@
-"""Normal form of a scene, with degenerate values replaced by the absence of their effect.
+"""Normal form of a scene: inputs without effect, such as a layer of the substrate's material, are
+removed.
 
-All solvers plan and solve the normal form. A scene and its degenerate variants therefore have the
-same plan and the same numbers.
+All solvers plan and solve the normal form. A scene with such inputs therefore has the plan and the
+numbers of the scene without them.
 """
 
 from itertools import groupby
@@ -23,12 +24,12 @@ Unnamed = dict[str, tuple[str, object]]
 
 
 def normal_form(scene: Scene) -> Scene:
-    """Return the scene without its degenerate values; the same object if there is none.
+    """Return the scene without inputs that have no effect; the same object if there are none.
 
     - Layers with the material below them are merged into it.
     - An ellipsoid with equal radii becomes a paraboloid.
-    - A control that is zero in all steps and equal to the default control by symmetry becomes the
-      default: free shift, fixed twist, fixed tilt.
+    - A control that is zero in all load steps becomes the default control of its coordinate (free
+      shift, fixed twist, fixed tilt) if both are equal by symmetry.
     - Friction that is zero everywhere is removed if no load shears the contact.
     """
     indenter, ramps = scene.indenter, scene.load_path()
@@ -49,7 +50,10 @@ def normal_form(scene: Scene) -> Scene:
 
 
 def _merged(body: B) -> B:
-    """Merge layers with the material below them."""
+    """Return a body in which adjacent layers of equal material are one layer.
+
+    A lowest layer that has the material of the substrate becomes part of the substrate.
+    """
     equal = groupby(body.layers, key=lambda layer: layer.material)
     layers = [
         Layer(thickness=sum(layer.thickness for layer in reversed([*some])), material=material)
@@ -61,7 +65,15 @@ def _merged(body: B) -> B:
 
 
 def _unnamed(scene: Scene, ramps: tuple[LoadRamp, ...]) -> Unnamed:
-    """Determine the controls that are zero in the whole history and without effect."""
+    """Determine the controls of a scene that can be replaced by the default controls.
+
+    Such a control is zero in all load steps and, by symmetry or without friction, has the effect of
+    the default control.
+
+    scene    scene after all other replacements
+    ramps    load ramps of the scene
+    returns  default control and its value 0, by the name of the control that it replaces
+    """
     tilts = any(any(ramp.tilting.end) for ramp in ramps)
     twists = any(ramp.twisting.end or (ramp.stretch and ramp.stretch[1][2]) for ramp in ramps)
     pushed = any(any(ramp.tangential.end) for ramp in ramps)

@@ -1,9 +1,10 @@
 """Series springs of a test rig, between the actuator and the indenter.
 
-The displacement of the actuator is δ* = δ + T/k, with the shift δ of the contact under the force T;
-the normal direction is equal. A rig is an additional elastic body with a uniform displacement:
-solvers add the constant 1/k to the compliance of the surfaces and obtain the displacements of the
-actuator. Results contain the displacements of actuator and contact; energies exclude the springs.
+The displacement of the actuator is δ* = δ + T/k, with the tangential shift δ of the contact under
+the tangential force T and the stiffness k. In the normal direction, approach and normal
+force replace δ and T. A rig is an additional elastic body with a uniform displacement: solvers add
+the constant 1/k to the compliance of the surfaces and obtain the displacements of the actuator.
+Results contain the displacements of actuator and contact; energies exclude the springs.
 """
 
 from dataclasses import replace
@@ -46,21 +47,37 @@ class Rig(Description):
 
 
 def compliances(rig: Rig | None) -> Pair:
-    """Return 1/k along the normal and along the surface [length/force], 0 for a rigid rig."""
+    """Return the compliances 1/k of the springs of a test rig [length/force].
+
+    returns  compliance along the normal and along the surface; 0 for a rigid direction or without a
+             rig
+    """
     springs = (rig.normal_stiffness, rig.tangential_stiffness) if rig else (None, None)
     down, along = (1 / k if k else 0.0 for k in springs)
     return down, along
 
 
 def prescribed_motions(rig: Rig | None) -> tuple[str, str]:
-    """Return the names in a result of the approach and shift that load steps prescribe."""
+    """Return the names of the displacements in a result that load steps prescribe.
+
+    With a spring of the test rig, a load step prescribes the displacement of the actuator
+    ("actuator_approach"), else the displacement of the contact ("approach").
+
+    returns  name of the approach, name of the tangential shift
+    """
     names = zip(compliances(rig), MOTIONS.items(), strict=True)
     approach, shift = (actuator if c else name for c, (name, (actuator, _)) in names)
     return approach, shift
 
 
 def of_contact(increment: Reported, rig: Rig | None) -> Reported:
-    """Convert an increment of a solve with springs: add the displacements of the contact."""
+    """Add the displacements of the contact to an increment that was solved with the springs of a
+    rig.
+
+    Such a solve yields the displacements of the actuator. The displacement of the contact is
+    smaller by the force times the compliance of the spring. Without springs the increment is
+    unchanged.
+    """
     values: dict[str, Any] = {}
     for c, (name, (actuator, load)) in zip(compliances(rig), MOTIONS.items(), strict=True):
         moved = getattr(increment, name)
@@ -72,5 +89,5 @@ def of_contact(increment: Reported, rig: Rig | None) -> Reported:
 
 
 def plain(value: Any) -> Any:
-    """Convert an array to a float or a tuple of floats."""
+    """Convert a number or an array of numpy to a float or to a tuple of floats."""
     return tuple(map(float, value)) if np.ndim(value) else float(value)

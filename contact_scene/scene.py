@@ -63,7 +63,8 @@ class Scene(Description):
 
     @property
     def array_files(self) -> dict[str, ArrayFile]:
-        """Arrays of the scene, by the keys of their file names."""
+        """Arrays of the scene from files, by their keys: `file` of a height map, `map` of a
+        friction map."""
         found = {"file": getattr(self.indenter, "file", None)}
         if self.friction is not None:
             found["map"] = getattr(self.friction.coefficient, "map", None)
@@ -92,13 +93,20 @@ class Scene(Description):
         return changed_scene(self, changes, keys)
 
     def with_increments(self, increments: Sequence[int]) -> "Scene":
-        """Return the scene with these numbers of increments of its load steps."""
+        """Return the scene with other numbers of increments.
+
+        increments  number of increments of each load step, in order
+        """
         steps = zip(self.loading, increments, strict=True)
         loading = tuple(step.model_copy(update={"increments": count}) for step, count in steps)
         return self.model_copy(update={"loading": loading})
 
     def load_path(self) -> tuple[LoadRamp, ...]:
-        """Resolve the load steps: return one ramp per step, with all controls explicit."""
+        """Resolve the load steps into load ramps: one ramp per load step, with the controls of all
+        coordinates.
+
+        A coordinate that a load step does not prescribe keeps its last control.
+        """
         return load_path(self.loading, self.body.material)
 
 
@@ -120,7 +128,7 @@ class SceneFile(Scene):
 
     @property
     def scene(self) -> Scene:
-        """Scene without discretisations and accuracy."""
+        """Scene of the scene file, without the discretisations and the requested accuracy."""
         return Scene.model_construct(**{name: getattr(self, name) for name in Scene.model_fields})
 
 

@@ -4,10 +4,11 @@ from typing import Any
 
 
 class SolverError(RuntimeError):
-    """Valid scene without a reliable solution by this solve.
+    """Error of a solve that found no reliable solution of a valid scene.
 
-    last_state  last converged state of the history, or None
-    where       position in the history, such as "step 2, increment 3 of 18"; None before its start
+    last_state  last converged increment of the load history; None without one
+    where       position in the load history, such as "step 2, increment 3 of 18"; None before its
+                start
     """
 
     last_state: Any = None
@@ -19,15 +20,18 @@ class SolverError(RuntimeError):
 
 
 class UnsupportedScene(SolverError):
-    """Scene with physics that the solver does not support."""
+    """Error for a scene with physics that the chosen solver does not support."""
 
 
 class GrossSliding(SolverError):
-    """Tangential force above the friction limit."""
+    """Error for a tangential load or a torque that friction cannot carry."""
 
 
 def motion_undefined() -> GrossSliding:
-    """Create the error of a history that continues from an undefined shift or twist."""
+    """Create the error for a load history that continues from an undefined shift or twist.
+
+    Under force control, the tangential shift and the twist are undefined at the friction limit.
+    """
     return GrossSliding(
         "the previous increment reached the friction limit under force control, where the shift or "
         "twist is undefined, so the history cannot continue; prescribe the shift or twist instead"
@@ -35,25 +39,28 @@ def motion_undefined() -> GrossSliding:
 
 
 class ContactAtWindowEdge(SolverError):
-    """Contact at the border of the window, which cuts off its tractions."""
+    """Error for a contact that reaches the border of the window, which cuts off its tractions."""
 
 
 class ContactAtZoneEdge(SolverError):
-    """Contact at the end of the fine elements or rings, which cuts off its tractions."""
+    """Error for a contact that reaches the end of the fine elements or rings, which cuts off its
+    tractions."""
 
 
 class ContactNotResolved(SolverError):
-    """Contact of too few cells or rings, or of none."""
+    """Error for a contact that covers too few cells or rings for a reliable result, or none."""
 
 
 class NothingTouches(ContactNotResolved):
-    """Prescribed approach without contact of any cell or ring."""
+    """Error for a prescribed approach at which no cell and no ring comes into contact."""
 
 
 class SurfacesOverlap(SolverError):
-    """Overlap above its limit in the penalty method; smaller increments do not help.
+    """Error for an overlap of the surfaces above its limit in the penalty method.
 
-    overlap  overlap relative to the displacement of the bodies
+    Smaller load increments do not reduce the overlap.
+
+    overlap  largest overlap, relative to the displacement of the bodies
     """
 
     def __init__(self, overlap: float, augmentations: int, allowed: float) -> None:
@@ -66,18 +73,18 @@ class SurfacesOverlap(SolverError):
 
 
 class ResourceRefused(SolverError):
-    """Solve that requires more than the available memory."""
+    """Error for a solve that requires more than the available memory."""
 
 
 class AccuracyOutOfReach(SolverError):
-    """Requested accuracy that no grid reaches."""
+    """Error for a requested accuracy that no discretisation reaches."""
 
 
 class NotConverged(SolverError):
-    """Iteration that ended above its tolerance; the increment has no result.
+    """Error for an iteration that ended above its tolerance, so that the increment has no result.
 
     iterations  number of iterations
-    residual    largest dimensionless residual
+    residual    largest dimensionless residual at the end
     tolerance   limit of the residuals
     """
 
