@@ -1,4 +1,4 @@
-"""Indenter shapes and the undeformed gap between indenter and plane."""
+"""Indenter shapes, with the undeformed gap between the indenter and the plane of contact."""
 
 import math
 from abc import abstractmethod
@@ -54,12 +54,12 @@ class ShapedBody(Body):
 
     @abstractmethod
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
-        """Compute the undeformed gap at first contact.
+        """Compute the gap between the undeformed indenter and the plane at first contact.
 
         Parameters
         ----------
         x, y : array_like
-            Coordinates in the contact plane [length], broadcast together.
+            Coordinates in the plane of contact [length], broadcast together.
 
         Returns
         -------
@@ -69,28 +69,30 @@ class ShapedBody(Body):
 
     @property
     def is_of_revolution(self) -> bool:
-        """True if the gap depends on the distance from the origin only."""
+        """True if the gap of the indenter depends on the distance from the origin only."""
         return False
 
     @property
     def is_even(self) -> bool:
-        """True if the gap is equal at (x, y), (-x, y) and (x, -y)."""
+        """True if the gap of the indenter is equal at (x, y), (-x, y) and (x, -y)."""
         return self.is_of_revolution
 
     @property
     def rim(self) -> float | None:
-        """Radius of an edge that bounds the contact at every load [length]; None without one."""
+        """Radius of an edge of the indenter that bounds the contact at every load [length]; None
+        without such an edge."""
         return None
 
     @property
     def extent(self) -> Pair | None:
-        """Side lengths along x and y of the region about the origin where the gap is defined
-        [length]; None if the gap is defined everywhere."""
+        """Side lengths along x and y of the region about the origin where the gap of the indenter
+        is defined [length]; None if the gap is defined everywhere."""
         return None
 
     @property
     def gap_exponent(self) -> float | None:
-        """Exponent k of the gap as a power of the distance from first contact.
+        """Exponent k of the gap of the indenter as a power of the distance from the point of first
+        contact.
 
         Under a growing load the approach is proportional to a^k and the normal force to a^(k+1),
         with the contact radius a. None if the contact does not grow or follows no such law.
@@ -100,16 +102,22 @@ class ShapedBody(Body):
     # Estimates to an order of magnitude, for grids and meshes. Callers take the roots.
 
     def contact_at(self, approach: float) -> Pair | None:
-        """Estimate a^k for an approach, with the extent a of the contact along x and along y.
+        """Estimate the size of the contact at an approach, to an order of magnitude.
 
-        None if there is no estimate.
+        approach  approach of the bodies [length]
+        returns   a^k along x and along y [length^k], with the half width a of the contact and the
+                  exponent k of `gap_exponent`; None without an estimate
         """
         return None
 
     def contact_under(self, force: float, modulus: float) -> Pair | None:
-        """Estimate a^(k+1) for a normal force between half-spaces, a as in `contact_at`.
+        """Estimate the size of the contact of half-spaces under a normal force, to an order of
+        magnitude.
 
-        modulus  E* [force/length^2]
+        force    normal force [force]
+        modulus  contact modulus E* [force/length^2]
+        returns  a^(k+1) along x and along y [length^(k+1)], with a and k as in `contact_at`; None
+                 without an estimate
         """
         return None
 
@@ -130,21 +138,29 @@ class SmoothTip(ShapedBody):
 
     @property
     def gap_exponent(self) -> float:
-        """Exponent of a parabola."""
+        """Exponent of the gap as a power of the distance from the tip: 2, since the tip is a
+        parabola."""
         return 2
 
     @property
     @abstractmethod
     def tip_radii(self) -> Pair:
-        """Radii of curvature along x and y at the tip [length]."""
+        """Radii of curvature of the indenter along x and y at its tip [length]."""
 
     def contact_at(self, approach: float) -> Pair:
-        """Estimate a^2 = R delta, an upper bound along either axis."""
+        """Estimate a^2 = R delta along x and along y, an upper bound for each half width a of the
+        contact.
+
+        R is the radius of curvature along the axis and delta the approach.
+        """
         R_x, R_y = self.tip_radii
         return R_x * approach, R_y * approach
 
     def contact_under(self, force: float, modulus: float) -> Pair:
-        """Estimate a^3 = 3 W R / 4 E* with the larger radius R."""
+        """Estimate a^3 = 3 W R / 4 E* for the half width a of the contact along x and along y.
+
+        W is the normal force, E* the contact modulus and R the larger radius of curvature.
+        """
         power = 3.0 * force * max(self.tip_radii) / (4.0 * modulus)
         return power, power
 
@@ -158,12 +174,12 @@ class RoundTip(SmoothTip):
 
     @property
     def is_of_revolution(self) -> bool:
-        """True for every radius."""
+        """True: the gap depends on the distance from the origin only, for every radius."""
         return True
 
     @property
     def tip_radii(self) -> Pair:
-        """Radius R along x and y [length]."""
+        """Radius of curvature R at the tip, equal along x and y [length]."""
         return self.radius, self.radius
 
 
@@ -173,7 +189,8 @@ class Sphere(RoundTip):
     shape: Literal["sphere"] = "sphere"
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
-        """Compute the height of the arc; beyond the equator, the gap is R."""
+        """Compute the height of the arc of the sphere above the plane; beyond the equator, the gap
+        is R."""
         R = self.radius
         r = np.minimum(np.hypot(x, y), R)
         return np.asarray(r * (r / (R + np.sqrt((R - r) * (R + r)))))
@@ -185,7 +202,7 @@ class Paraboloid(RoundTip):
     shape: Literal["paraboloid"] = "paraboloid"
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
-        """Compute (x^2 + y^2) / 2R."""
+        """Compute the undeformed gap (x^2 + y^2) / 2R of the paraboloid."""
         return np.asarray((np.square(x) + np.square(y)) / (2.0 * self.radius))
 
 
@@ -198,21 +215,21 @@ class Ellipsoid(SmoothTip):
 
     @property
     def is_of_revolution(self) -> bool:
-        """True if both radii are equal."""
+        """True if the radii of curvature along x and y are equal."""
         return self.radii[0] == self.radii[1]
 
     @property
     def is_even(self) -> bool:
-        """True for all radii."""
+        """True: the gap is equal at (x, y), (-x, y) and (x, -y), for all radii."""
         return True
 
     @property
     def tip_radii(self) -> Pair:
-        """Radii Rx and Ry [length]."""
+        """Radii of curvature Rx and Ry along x and y at the tip [length]."""
         return self.radii
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
-        """Compute x^2 / 2Rx + y^2 / 2Ry."""
+        """Compute the undeformed gap x^2 / 2Rx + y^2 / 2Ry of the elliptical paraboloid."""
         Rx, Ry = self.radii
         return np.asarray(np.square(x) / (2.0 * Rx) + np.square(y) / (2.0 * Ry))
 
@@ -226,21 +243,25 @@ class Cone(ShapedBody):
 
     @property
     def gap_exponent(self) -> float:
-        """Exponent of a straight flank."""
+        """Exponent of the gap as a power of the distance from the tip: 1, since the flank is
+        straight."""
         return 1
 
     @property
     def is_of_revolution(self) -> bool:
-        """True for every slope."""
+        """True: the gap depends on the distance from the origin only, for every slope."""
         return True
 
     def contact_at(self, approach: float) -> Pair:
-        """Estimate a = 2 delta / pi tan(slope) (Johnson 1985, section 5.2)."""
+        """Estimate a = 2 delta / pi tan(slope) for the contact radius a at an approach delta.
+
+        See Johnson 1985, section 5.2.
+        """
         reach = 2.0 * approach / (np.pi * self._slope)
         return reach, reach
 
     def contact_under(self, force: float, modulus: float) -> Pair:
-        """Estimate a^2 = 2 W / pi E* tan(slope)."""
+        """Estimate a^2 = 2 W / pi E* tan(slope) for the contact radius a under a normal force W."""
         power = 2.0 * force / (np.pi * modulus * self._slope)
         return power, power
 
@@ -249,7 +270,7 @@ class Cone(ShapedBody):
         return math.tan(self.slope_angle)
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
-        """Compute r tan(slope)."""
+        """Compute the undeformed gap r tan(slope) of the cone, with the distance r from the tip."""
         return np.asarray(np.hypot(x, y) * np.tan(self.slope_angle))
 
 
@@ -262,16 +283,16 @@ class FlatPunch(ShapedBody):
 
     @property
     def is_of_revolution(self) -> bool:
-        """True for every radius."""
+        """True: the gap depends on the distance from the origin only, for every radius."""
         return True
 
     @property
     def rim(self) -> float:
-        """Radius of the edge of the end face [length]."""
+        """Radius of the edge of the end face, which bounds the contact [length]."""
         return self.radius
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
-        """Return 0 below the end face and on its edge, infinity outside."""
+        """Return the undeformed gap of the punch: 0 at its end face and edge, infinity outside."""
         return np.where(np.hypot(x, y) <= self.radius, 0.0, np.inf)
 
 
@@ -297,17 +318,18 @@ class HeightMap(ShapedBody):
 
     @property
     def gap_exponent(self) -> float:
-        """Exponent of the first asperities in contact."""
+        """Exponent of the gap as a power of the distance from first contact: 2, for the first
+        asperities."""
         return 2
 
     @property
     def is_even(self) -> bool:
-        """True if the heights are even bit for bit."""
+        """True if the heights are even about both axes of the map, bit for bit."""
         return all(np.array_equal(self.heights, np.flip(self.heights, axis)) for axis in (0, 1))
 
     @property
     def extent(self) -> Pair:
-        """Side lengths along x and y of the area covered by the map [length]."""
+        """Side lengths along x and y of the area covered by the height map [length]."""
         (nx, ny), (dx, dy) = self.file.shape, self.spacing
         return nx * dx, ny * dy
 
@@ -323,24 +345,27 @@ class HeightMap(ShapedBody):
 
     @property
     def unmeasured(self) -> float:
-        """Fraction of points without a height."""
+        """Fraction of the points of the height map without a measured height."""
         return float(np.mean(np.isnan(self.file.values)))
 
     @property
     def heights(self) -> Gap:
-        """Heights above the body [length], with interpolated values at points without one."""
+        """Heights of the map above the body [length], with interpolated values at points without a
+        measurement."""
         return _surface(self.file, self.height_unit, self.flip)[0]
 
     @property
     def lowest_on_rim(self) -> bool:
-        """True if the point of first contact lies on the boundary of the map."""
+        """True if the point of first contact lies on the boundary of the height map."""
         *_, place = _surface(self.file, self.height_unit, self.flip)
         return any(at in (0.0, n - 1.0) for at, n in zip(place, self.file.shape, strict=True))
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
-        """Interpolate the heights above the minimum of the surface between the outermost points.
+        """Interpolate the height of the map above its lowest point, which is the undeformed gap
+        [length].
 
-        Raises ValueError if a point lies outside the map.
+        The lowest point is the minimum of the interpolated surface between the outermost points of
+        the map. Raises ValueError if a point (x, y) lies outside the map.
         """
         heights, lowest, dip, _ = _surface(self.file, self.height_unit, self.flip)
         return np.asarray(interpolate(heights - lowest, self.spacing, x, y) - dip)
@@ -348,8 +373,15 @@ class HeightMap(ShapedBody):
 
 @lru_cache(maxsize=2)
 def _surface(file: ArrayFile, unit: float, flip: bool) -> tuple[Gap, float, float, Pair]:
-    """Return the heights, the lowest height, and the minimum of the interpolated surface: its
-    value relative to the lowest height (not positive), and its position in indices of points."""
+    """Evaluate the heights of a map and the minimum of their interpolated surface.
+
+    file     measured values, with NaN at points without a measurement
+    unit     factor of the values to SI [length]
+    flip     True if the values are positive towards the body
+    returns  heights without NaN (nx, ny) [length]; lowest height [length]; minimum of the
+             interpolated surface minus the lowest height, not positive [length]; position of this
+             minimum in indices of points
+    """
     factor = -unit if flip else unit
     heights = file.values if factor == 1.0 else factor * file.values
     heights = filled(heights)
@@ -367,7 +399,11 @@ SHAPES: dict[str, type[ShapedBody]] = {
 
 
 def nearest_shape(written: Any) -> str:
-    """Return the shape with this name or the most similar one; empty without a similar one."""
+    """Return the name of the indenter shape that is most similar to a text; empty without a similar
+    one.
+
+    Used to suggest a shape for a misspelt name in a scene file.
+    """
     if not isinstance(written, str):
         return ""
     name = written[:100].lower().replace(" ", "_").replace("-", "_")
@@ -375,7 +411,10 @@ def nearest_shape(written: Any) -> str:
 
 
 def _branch(value: Any) -> str:
-    """Return the branch of the union; a misspelt shape is checked as the most similar one."""
+    """Return the tag of the indenter class that validates a value of a scene.
+
+    The class of the most similar shape validates a table with a misspelt shape.
+    """
     shape = value.get("shape") if isinstance(value, dict) else getattr(value, "shape", None)
     return f"<{nearest_shape(shape)}>"
 

@@ -1,4 +1,5 @@
-"""Interpolation of maps: cubic convolution of heights, linear of friction coefficients."""
+"""Interpolation of maps: cubic convolution of heights, bilinear interpolation of friction
+coefficients."""
 
 from functools import reduce
 from typing import Annotated, Any
@@ -39,14 +40,16 @@ HeightUnit = Annotated[
 
 
 def _is_name(value: Any) -> bool:
-    """Determine if a unit is given by its name alone."""
+    """Determine if a value is the name of a unit alone, such as "um", instead of a quantity."""
     return isinstance(value, str) and value[:1].isalpha()
 
 
 def filled(heights: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Replace NaN by a solution of Laplace's equation, to about 1 % of the adjacent heights.
+    """Replace the missing heights of a map (NaN) by a solution of Laplace's equation between the
+    others.
 
-    Cascadic multigrid: Jacobi iteration from the solution on half the points along each side
+    The solution has an error of about 1 % of the adjacent heights. The method is cascadic
+    multigrid: a Jacobi iteration that starts from the solution on half the points along each side
     (Bornemann and Deuflhard 1996, Numer. Math. 75, 135). Every iterate is a mean of measured
     heights and not below the lowest of them.
     """
@@ -106,13 +109,14 @@ def interpolate(
 
 
 def lowest_point(heights: NDArray[np.float64]) -> tuple[float, tuple[float, float]]:
-    """Find the minimum of the surface of `interpolate` between the outermost points of a map.
+    """Find the minimum of the interpolated surface of a height map between its outermost points.
 
-    The surface beyond the outermost points is extrapolated and therefore ignored. The search is by
-    blocks of rows, without a copy of the map.
+    The surface is that of `interpolate`. Beyond the outermost points the surface is extrapolated
+    and therefore ignored. The search is by blocks of rows, without a copy of the map.
 
-    heights  values at the points, (nx, ny) [length]
-    returns  minimum relative to the lowest value [length]; its position in indices of points
+    heights  heights at the points, (nx, ny) [length]
+    returns  minimum minus the lowest of the heights [length]; position of the minimum in indices of
+             points
     """
     x = int(np.argmin(np.min(heights, axis=1)))  # argmin copies whole arrays that are read-only
     y = int(np.argmin(heights[x]))
@@ -127,9 +131,13 @@ def lowest_point(heights: NDArray[np.float64]) -> tuple[float, tuple[float, floa
 
 
 def _with_neighbours(heights: NDArray[np.float64], begin: int, end: int) -> NDArray[np.float64]:
-    """Return rows `begin` to `end` of a map with one more row or column on every side.
+    """Return a block of rows of a height map, with one more row or column on every side.
 
-    Those beyond the outermost points are extrapolated.
+    The added rows and columns are those of the map; beyond the outermost points they are
+    extrapolated.
+
+    heights     heights at the points, (nx, ny) [length]
+    begin, end  first and last row of the block
     """
     first = max(begin - 3, 0)  # extrapolation takes three rows
     padded = _continued(_continued(heights[first : end + 4]).T).T
@@ -137,13 +145,16 @@ def _with_neighbours(heights: NDArray[np.float64], begin: int, end: int) -> NDAr
 
 
 def _lowest_between(padded: NDArray[np.float64], limit: float) -> tuple[float, tuple[float, float]]:
-    """Find the minimum of the surface below a limit, and its position; else return the limit.
+    """Find the minimum of the interpolated surface of a padded map, if it is below a limit.
 
-    Cubic convolution undershoots its 16 values by at most their range times `_NEGATIVE_WEIGHTS`.
-    This bound selects the patches that can be below the limit. Their minimum is located on grids
-    that shrink around it.
+    A patch is the surface between four adjacent points, interpolated from 16 values. It is lower
+    than these values by at most `_NEGATIVE_WEIGHTS` times their range. This bound selects the
+    patches that can be below the limit. The minimum of these patches is located on grids that
+    shrink around it.
 
-    padded  map with one value beyond the outermost points
+    padded   map with one more value beyond the outermost points on every side [length]
+    limit    value above which a minimum is ignored [length]
+    returns  minimum, or the limit if no value is below it [length]; position in indices of points
     """
     last = np.array(padded.shape) - 3.0
     lowest, place, half = limit, np.zeros(2), 0.5
@@ -167,10 +178,15 @@ def _lowest_between(padded: NDArray[np.float64], limit: float) -> tuple[float, t
 
 
 def _patches_below(padded: NDArray[np.float64], limit: float) -> NDArray[np.float64]:
-    """Select the patches between four points with a bound below a limit; return their centres.
+    """Select the patches of an interpolated map that can contain values below a limit.
 
-    padded   map with one value beyond the outermost points
-    returns  (count, 2), in indices of points, at most `_MAX_PATCHES` with the lowest bounds
+    A patch is the surface between four adjacent points. Its lower bound follows from the 16 values
+    from which it is interpolated.
+
+    padded   map with one more value beyond the outermost points on every side [length]
+    limit    limit of the lower bound [length]
+    returns  centres of at most `_MAX_PATCHES` patches with the lowest bounds, in indices of points,
+             (count, 2)
     """
 
     def of_four(extreme: np.ufunc, rows: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -190,10 +206,11 @@ def _convolved(
     j: NDArray[np.intp],
     t: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Evaluate the cubic convolution of 4 x 4 padded values.
+    """Evaluate the cubic convolution of a padded map at given points, from 4 x 4 values each.
 
-    i, j  indices of the first value
-    s, t  distances from the second value, in spacings
+    padded  map with added rows and columns on every side
+    i, j    indices of the first of the four values along each axis, in the padded map
+    s, t    distances of the points from the second value, in spacings
     """
     across, along = _weights(s), _weights(t)
     result = np.zeros(np.broadcast_shapes(s.shape, t.shape))
@@ -206,10 +223,11 @@ def _convolved(
 def interpolate_between(
     values: NDArray[np.float64], spacing: tuple[float, float], x: ArrayLike, y: ArrayLike
 ) -> NDArray[np.float64]:
-    """Interpolate a map bilinearly, within the range of the adjacent values.
+    """Interpolate a map bilinearly, so that the result stays within the range of the adjacent
+    values.
 
-    Arguments are those of `interpolate`. Values are constant up to half a spacing beyond the
-    outermost points.
+    Used for coefficients of friction, which must not become negative. Arguments are those of
+    `interpolate`. Values are constant up to half a spacing beyond the outermost points.
     """
     x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
     i, s = _locate(x, values.shape[0], spacing[0], "x")
@@ -222,8 +240,17 @@ def interpolate_between(
 def _locate(
     coordinate: NDArray[np.float64], count: int, spacing: float, axis: str
 ) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
-    """Determine the index of the map point at or before each coordinate, plus one for the first
-    extrapolated value, and the distance from it in spacings."""
+    """Determine the position of coordinates between the points of a map along one axis.
+
+    coordinate  coordinates relative to the centre of the map [length]
+    count       number of points of the map along the axis
+    spacing     distance between adjacent points [length]
+    axis        name of the axis, for the message
+    returns     index of the point at or before each coordinate, plus 1; distance of the coordinate
+                from this point, in spacings
+
+    Raises ValueError for coordinates outside the map.
+    """
     position = coordinate / spacing + 0.5 * (count - 1)
     nearest = np.rint(position)
     position = np.where(np.abs(position - nearest) <= _COINCIDES, nearest, position)
@@ -240,7 +267,10 @@ def _locate(
 
 
 def _continued(rows: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Extrapolate two rows before the first and after the last by parabolas through three rows."""
+    """Extrapolate a map by two rows before the first and two after the last row.
+
+    The extrapolation in each column is a parabola through three rows.
+    """
     first = 3.0 * rows[0] - 3.0 * rows[1] + rows[2]
     second = 3.0 * first - 3.0 * rows[0] + rows[1]
     last = 3.0 * rows[-1] - 3.0 * rows[-2] + rows[-3]
@@ -249,7 +279,10 @@ def _continued(rows: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _weights(t: NDArray[np.float64]) -> tuple[NDArray[np.float64], ...]:
-    """Compute the weights of four values at the distance t in [0, 1] from the second."""
+    """Compute the four weights of cubic convolution along one axis (Keys 1981).
+
+    t  distance of the point from the second of the four values, in spacings, from 0 to 1
+    """
     return (
         t * (-0.5 + t * (1.0 - 0.5 * t)),
         1.0 + t * t * (-2.5 + 1.5 * t),

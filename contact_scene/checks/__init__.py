@@ -1,1 +1,2 @@
-"""Checks of a scene: consistency, plausibility and the limits of linear theory."""
+"""Checks of a scene: contradictions between tables, implausible numbers, limits of linear
+theory."""

@@ -1,4 +1,7 @@
-"""Consistency of tables of a scene that are valid individually."""
+"""Checks for contradictions between the tables of a scene, each of which is valid alone.
+
+Each check yields problems with the key to change.
+"""
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -36,11 +39,12 @@ _SHEARING = {
 
 
 def inconsistencies(tables: Mapping[str, Any]) -> tuple[Problem, ...]:
-    """Determine the contradictions between the tables of a scene file.
+    """Find the contradictions between the tables of a scene file.
 
-    tables  valid tables by their keys
+    A check runs if all tables that its parameters name are valid. The parameter `ramps` contains
+    the load steps, resolved into load ramps.
 
-    A check runs if all tables that its parameters name are valid. `ramps` are the resolved steps.
+    tables  valid tables of the scene file by their keys
     """
     known, loading = dict(tables), tables.get("loading")
     if loading and loading[0].names_normal:
@@ -72,7 +76,11 @@ def _first_step_without_normal_load(loading: Sequence[LoadStep]) -> Iterator[Pro
 
 
 def _loads_without_contact(ramps: Sequence[LoadRamp]) -> Iterator[Problem]:
-    """Find loads on separated bodies, and tilted bodies at the approach 0, which may touch."""
+    """Find load steps that separate the bodies but prescribe a load on them.
+
+    Separated bodies carry no tangential force, torque or moment. A tilted indenter at an approach
+    of 0 may still touch the body and is also refused.
+    """
     for index, ramp in enumerate(ramps):
         if ramp.normal.end != 0:
             continue
@@ -112,9 +120,11 @@ def _shear_without_friction(
 def _gross_sliding(
     friction: CoulombFriction | None, loading: Sequence[LoadStep], ramps: Sequence[LoadRamp]
 ) -> Iterator[Problem]:
-    """Find steps under force control that exceed the limit mu W, or continue from the limit.
+    """Find load steps under force control with a tangential force above the friction limit mu W.
 
-    |T| - mu W is convex along a ramp, so the ends of the ramps suffice.
+    A force at the limit is refused if another load step follows, since the shift is undefined. |T|
+    - mu W, with the tangential force T and the normal force W, is convex along a ramp, so the ends
+    of the ramps suffice.
     """
     for index, ramp in enumerate(ramps):
         limit = friction.carried(ramp.normal.end) if friction and ramp.normal.end else None
@@ -140,7 +150,11 @@ def _gross_sliding(
 
 
 def _key_of_shear(index: int, step: LoadStep) -> Path:
-    """Return the key to change: the tangential load, else the normal force of the limit."""
+    """Return the key to change in a load step that slides: the tangential load or the normal force.
+
+    index  index of the load step from 0
+    step   load step
+    """
     names = ("tangential_force", "tangential_shift", "normal_force")
     named = [name for name in names if getattr(step, name) is not None]
     return ("loading", index, *named[:1])
@@ -149,9 +163,12 @@ def _key_of_shear(index: int, step: LoadStep) -> Path:
 def _moment_beyond_the_contact(
     indenter: Indenter, loading: Sequence[LoadStep], ramps: Sequence[LoadRamp]
 ) -> Iterator[Problem]:
-    """Find steps under force control with a normal force that acts outside of the indenter.
+    """Find load steps with a moment that shifts the normal force beyond the indenter, which tips
+    over.
 
-    |M| - W reach is convex along a ramp, so the ends of the ramps suffice.
+    Only steps under force control are checked. |M| - W reach, with the moment M, the normal force W
+    and the half width `reach` of the indenter, is convex along a ramp, so the ends of the ramps
+    suffice.
     """
     half_x, half_y = (side / 2 for side in indenter.extent or (math.inf, math.inf))
     for index, ramp in enumerate(ramps):

@@ -1,4 +1,7 @@
-"""Estimates of contact radius and strain: from Hertz theory before a solve, or from a result."""
+"""Estimates of contact radius and strain: from Hertz theory before a solve, or from a result.
+
+Used for finite-element meshes and for warnings about strains beyond linear elasticity.
+"""
 
 import math
 from collections.abc import Iterable, Iterator
@@ -30,9 +33,10 @@ SMALL_STRAIN = 0.1
 
 
 def refuse_equator(scene: Scene) -> None:
-    """Raise UnsupportedScene for a sphere pressed to its equator, where its shape ends.
+    """Raise UnsupportedScene if a load step presses a sphere to its equator, where its shape ends.
 
-    The limit is that of the approach or, for bodies without layers, of the normal force.
+    The limit is an approach equal to the radius. Under force control of bodies without layers, the
+    limit is the normal force at that approach.
     """
     indenter = scene.indenter
     if not isinstance(indenter, Sphere):
@@ -58,9 +62,13 @@ def refuse_equator(scene: Scene) -> None:
 
 
 def contact_approach(scene: Scene, approach: float, modulus: float) -> float:
-    """Estimate the approach of half-spaces from that of the actuator of a rig [length].
+    """Estimate the approach of the bodies from the approach of the actuator of a test rig [length].
 
-    modulus  E* [force/length^2]
+    The normal spring of the rig takes up the difference. The estimate is by Hertz theory and
+    bisection.
+
+    approach  approach of the actuator [length]
+    modulus   contact modulus E* [force/length^2]
     """
     down, indenter = compliances(scene.rig)[0], scene.indenter
     at, under = indenter.contact_at(1.0), indenter.contact_under(1.0, modulus)
@@ -78,11 +86,12 @@ def contact_approach(scene: Scene, approach: float, modulus: float) -> float:
 
 @dataclass(frozen=True)
 class ExpectedContact:
-    """Estimated contact at the end of a step, from Hertz theory with one modulus.
+    """Estimate of the contact at the end of a load step, from Hertz theory with one modulus.
 
-    modulus  E* [force/length^2]
+    ramp     load ramp of the load step
+    modulus  contact modulus E* [force/length^2]
     radius   contact radius [length]
-    strain   strain to an order of magnitude
+    strain   strain in the bodies, to an order of magnitude; 0 for a cone
     """
 
     ramp: LoadRamp
@@ -92,12 +101,16 @@ class ExpectedContact:
 
     @property
     def stiffness(self) -> float:
-        """Normal stiffness [force/length], up to 30 % above the tangential stiffness."""
+        """Normal stiffness of the contact [force/length], up to 30 % above the tangential
+        stiffness."""
         return 2 * self.modulus * self.radius
 
 
 def expected_contacts(scene: Scene) -> Iterator[ExpectedContact]:
-    """Estimate the contact at the end of every step, as far as the shape allows."""
+    """Yield an estimate of the contact at the end of every load step.
+
+    The estimate is from Hertz theory. There is none for shapes without an exponent of the gap.
+    """
     k, outermost = scene.indenter.gap_exponent, contact_modulus(scene)
     if k is None:
         return
@@ -105,6 +118,8 @@ def expected_contacts(scene: Scene) -> Iterator[ExpectedContact]:
         by_force, end = ramp.normal.kind is ControlKind.FORCE, ramp.normal.end
 
         def radius(modulus: float, by_force: bool = by_force, end: float = end) -> float:
+            """Estimate the contact radius at the end of the load step [length]; NaN without an
+            estimate."""
             power = (
                 scene.indenter.contact_under(end, modulus)
                 if by_force
@@ -121,9 +136,13 @@ def expected_contacts(scene: Scene) -> Iterator[ExpectedContact]:
 
 
 def _modulus_within(scene: Scene, radius: float) -> float:
-    """Compute E* of the substrates below thin layers and of the outermost thick layers.
+    """Compute the contact modulus E* of the materials within a depth of about one contact radius.
 
-    Layers are thin if their total thickness is below the radius. Returns 0 for rigid materials.
+    The materials are the substrate below thin layers, or the outermost layer. Layers of a body are
+    thin if their total thickness is below the radius.
+
+    radius   contact radius [length]
+    returns  E* [force/length^2]; 0 if these materials are rigid
     """
     compliance = 0.0
     for body in (scene.body, scene.indenter):
@@ -135,7 +154,13 @@ def _modulus_within(scene: Scene, radius: float) -> float:
 
 
 def beyond_linear_theory(scene: Scene, ends: Iterable[State]) -> tuple[str, ...]:
-    """Return a warning about the largest strain if it exceeds linear theory in any load step."""
+    """Return a warning if the strain at the end of any load step is beyond linear elasticity.
+
+    The warning states the largest strain. The result is empty if all strains are at most
+    `SMALL_STRAIN`.
+
+    ends  solved states at the ends of the load steps
+    """
     found = [
         (strain, where, step)
         for step, end in enumerate(ends, start=1)
@@ -151,7 +176,14 @@ def beyond_linear_theory(scene: Scene, ends: Iterable[State]) -> tuple[str, ...]
 
 
 def _strains(scene: Scene, end: State) -> Iterator[tuple[float, str]]:
-    """Estimate strains to an order of magnitude, with their locations; none without contact."""
+    """Estimate the strains in both bodies at the end of a load step, to an order of magnitude.
+
+    The strain is the mean pressure over a modulus. For layers on rigid substrates there is also the
+    approach over the thickness of the layers.
+
+    end     solved state at the end of the load step; without contact there are no strains
+    yields  strain and its location in words
+    """
     if end.contact_area <= 0 or end.normal_force <= 0:
         return
     pressure = end.normal_force / end.contact_area
@@ -165,9 +197,12 @@ def _strains(scene: Scene, end: State) -> Iterator[tuple[float, str]]:
 
 
 def _strained(body: Body, contact_radius: float) -> Iterator[tuple[float, str]]:
-    """Yield the moduli of layers and substrate down to a depth of one contact radius.
+    """Yield the moduli of the layers and the substrate of a body to a depth of one contact radius.
 
     The modulus is E/(1 - nu^2); for thin layers see `_layer_modulus`.
+
+    yields  modulus [force/length^2] and location in words, such as "layer 1"; empty for a body
+            without layers
     """
     depth = 0.0
     for number, layer in enumerate(body.layers, start=1):
@@ -179,10 +214,11 @@ def _strained(body: Body, contact_radius: float) -> Iterator[tuple[float, str]]:
 
 
 def _layer_modulus(layer: Layer, contact_radius: float) -> float:
-    """Compute the ratio of pressure to strain of a layer [force/length^2].
+    """Compute the ratio of mean pressure to strain for a layer below the contact [force/length^2].
 
-    The bond restrains a layer thinner than the contact radius: it is compressed in uniaxial strain,
-    E (1 - nu) / ((1 + nu) (1 - 2 nu)), or squeezed out in shear, G a/h, whichever is softer.
+    The bond restrains a layer thinner than the contact radius a. The layer is compressed in
+    uniaxial strain, with the modulus E (1 - nu) / ((1 + nu) (1 - 2 nu)), or squeezed out in shear,
+    with the modulus G a/h and the thickness h, whichever is softer.
     """
     material, nu = layer.material, layer.material.poisson_ratio
     if layer.thickness >= contact_radius:

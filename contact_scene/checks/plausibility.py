@@ -1,7 +1,7 @@
 """Warnings about implausible numbers in a scene.
 
 Unit errors, such as a factor of 1000 between a data sheet and a scene file, give a valid scene with
-wrong results. The warnings refuse no scene.
+wrong results. A warning does not refuse the scene.
 """
 
 import math
@@ -33,7 +33,7 @@ from contact_scene.stepping.load_path import ControlKind
 
 @dataclass(frozen=True)
 class Usual:
-    """Usual range of a quantity.
+    """Usual range of a physical quantity, and the units in which a bare number may have been meant.
 
     least, most  limits of the magnitude [SI unit]
     unit         SI unit
@@ -90,7 +90,7 @@ _DEEP, _THIN = 20.0, 1e-4
 
 
 def implausible(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
-    """Return warnings about implausible numbers, with the probable intention.
+    """Return warnings about implausible numbers of a scene, with the probable intention.
 
     fineness  discretisation tables of the scene file, by name
 
@@ -100,7 +100,12 @@ def implausible(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
 
 
 def unlikely(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
-    """Return the warnings without those about strains, which a result determines better."""
+    """Return warnings about implausible numbers of a scene, except warnings about strains.
+
+    Used for scenes with a result, since the result determines the strains better.
+
+    fineness  discretisation tables of the scene file, by name
+    """
     pressed = tuple(expected_contacts(scene))
     if _without_units(scene) and not any(_strained(pressed)):
         return ()
@@ -140,7 +145,11 @@ def _text(value: float, usual: Usual) -> str:
 
 
 def _numbers(value: object, path: Path) -> Iterator[tuple[Path, float]]:
-    """Yield every number of a part of the scene, with its path."""
+    """Yield every number in a part of a scene, with the path of its key.
+
+    value  model, tuple, number or array of the scene; of an array, the largest value is yielded
+    path   path of the value in the scene
+    """
     if isinstance(value, BaseModel):
         for name in type(value).model_fields:
             yield from _numbers(getattr(value, name), (*path, name))
@@ -154,7 +163,11 @@ def _numbers(value: object, path: Path) -> Iterator[tuple[Path, float]]:
 
 
 def _without_units(scene: Scene) -> bool:
-    """Determine if the numbers of a scene are dimensionless: too soft and too large for SI."""
+    """Determine if the numbers of a scene are dimensionless.
+
+    This is assumed if all Young's moduli are below that of rubber and all radii above that of a
+    ball.
+    """
     known = list(_numbers(scene, ()))
     moduli = [value for path, value in known if path[-1] == "young_modulus"]
     radii = [value for path, value in known if {"radius", "radii"} & {*path}]
@@ -188,7 +201,11 @@ def _of_map(indenter: HeightMap) -> Iterator[str]:
 def _too_small(
     scene: Scene, pressed: tuple[ExpectedContact, ...], fineness: Mapping[str, BaseModel]
 ) -> Iterator[str]:
-    """Warn about a window or mesh that is smaller than the expected contact."""
+    """Warn about a window or a finite-element mesh that is smaller than the expected contact.
+
+    pressed   expected contacts at the ends of the load steps
+    fineness  discretisation tables of the scene file, by name
+    """
     a = max((end.radius for end in pressed), default=scene.indenter.rim or 0.0)
     window = getattr(fineness.get("semi_analytical"), "window", None)
     radius = getattr(fineness.get("fem_reference"), "contact_radius", None)
@@ -205,7 +222,11 @@ def _too_small(
 
 
 def _of_no_effect(scene: Scene, pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
-    """Warn about layers without effect, and layers that hide the material below."""
+    """Warn about layers so thin that they have no effect, or so thick that the material below has
+    none.
+
+    pressed  expected contacts at the ends of the load steps
+    """
     a = max((end.radius for end in pressed), default=0.0)
     if not a:
         return
@@ -231,7 +252,11 @@ def _of_no_effect(scene: Scene, pressed: tuple[ExpectedContact, ...]) -> Iterato
 
 
 def _far(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
-    """Warn about a shift that exceeds the contact radius."""
+    """Warn about the first load step with a tangential shift that exceeds the expected contact
+    radius.
+
+    pressed  expected contacts at the ends of the load steps
+    """
     for end in pressed:
         if end.ramp.tangential.kind is ControlKind.DISPLACEMENT:
             shift = math.hypot(*end.ramp.tangential.end)
@@ -245,7 +270,13 @@ def _far(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
 
 
 def _soft(scene: Scene, pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
-    """Warn about springs so soft that a prescribed displacement nearly prescribes the force."""
+    """Warn about springs of a test rig that are too soft for a prescribed displacement.
+
+    With a spring much softer than the contact, a prescribed displacement of the actuator nearly
+    prescribes the force.
+
+    pressed  expected contacts at the ends of the load steps
+    """
     pairs = zip(SPRINGS, compliances(scene.rig), strict=True)
     for end, ((key, name, force), compliance) in product(pressed, pairs):
         control = end.ramp.normal if force == "normal_force" else end.ramp.tangential
@@ -260,7 +291,10 @@ def _soft(scene: Scene, pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
 
 
 def _yielding(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
-    """Warn about the first step with a pressure beyond the hardness of most stiff materials."""
+    """Warn about the first load step with a pressure beyond the hardness of most stiff materials.
+
+    pressed  expected contacts at the ends of the load steps
+    """
     for end in pressed:
         if end.modulus > _STIFF and _HARD < end.strain <= SMALL_STRAIN:
             yield (
@@ -273,14 +307,18 @@ def _yielding(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
 
 
 def _normal_load(end: ExpectedContact) -> str:
-    """Write the normal control of a step and its value."""
+    """Write the key of the prescribed normal load of a step with its value, such as "approach: 1
+    µm"."""
     by_force = end.ramp.normal.kind is ControlKind.FORCE
     load = quantity(end.ramp.normal.end, "N" if by_force else "m")
     return f"{'normal_force' if by_force else 'approach'}: {load}"
 
 
 def _strained(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
-    """Warn about the first step with strains far beyond linear elasticity."""
+    """Warn about the first load step with strains far beyond linear elasticity.
+
+    pressed  expected contacts at the ends of the load steps
+    """
     for end in pressed:
         if end.strain > SMALL_STRAIN:
             yield (

@@ -1,1 +1,1 @@
-"""Load stepping: path of the load, increments, checkpoints."""
+"""Load stepping: load path, increments, increment error and checkpoints of a load history."""

@@ -1,4 +1,4 @@
-"""Checkpoints of the solve of a load history.
+"""Checkpoints of the solve of a load history, from which an interrupted solve continues.
 
 A solve that continues from a checkpoint gives the same bits as an uninterrupted solve.
 """
@@ -14,12 +14,13 @@ S = TypeVar("S")
 
 @dataclass(frozen=True)
 class ResumePoint(Generic[S]):
-    """Resume point of a load history.
+    """Position in a load history, with the states that the next increment needs.
 
-    done   number of completed increments of all steps
-    state  state after the last of them; None without contact
-    start  state at the start of the current ramp; None without contact
-    last   last increment, counted from the last separation of the bodies; None without one
+    done   number of completed increments of all load steps
+    state  state of the solver after the last of them; None without contact
+    start  state of the solver at the start of the current load ramp; None without contact
+    last   last reported increment, with displacements and energies counted from the last separation
+           of the bodies; None without a separation or without contact since then
     """
 
     done: int
@@ -30,20 +31,20 @@ class ResumePoint(Generic[S]):
     def within(self, before: int, count: int) -> int:
         """Return the number of completed increments of one load step.
 
-        before  number of increments of all earlier steps
-        count   number of increments of the step
+        before  number of increments of all earlier load steps
+        count   number of increments of the load step
         """
         return min(max(self.done - before, 0), count)
 
 
 @dataclass(frozen=True)
 class Checkpoint:
-    """State of a solve after an increment.
+    """Stored state of a solve after an increment, from which the solve can continue.
 
-    increments  reported increments so far
-    point       resume point
+    increments  all increments reported so far
+    point       resume point of the load history
     extent      size of the grid or mesh
-    settled     names of computations for all increments that are in the counters already
+    settled     names of computations for all increments whose work the counters contain already
     """
 
     increments: tuple[Any, ...]
@@ -53,10 +54,10 @@ class Checkpoint:
 
 
 class CheckpointStore(Protocol):
-    """Storage of the checkpoints of one solve, outside of its process."""
+    """Interface of a storage for the checkpoints of one solve, outside of its process."""
 
     def last(self) -> Checkpoint | None:
-        """Return the last stored checkpoint; None if there is none."""
+        """Return the checkpoint that was stored last; None if there is none."""
 
     def keep(self, checkpoint: Checkpoint) -> None:
         """Store a checkpoint. Called after every increment; an implementation may skip calls."""
@@ -70,13 +71,14 @@ def with_checkpoints(
     extent: Any,
     settled: Iterable[str] = (),
 ) -> Iterator[Any]:
-    """Yield the increments of a checkpoint, then new ones, after each of which one is stored.
+    """Yield the increments of a checkpoint, then new increments, and store a checkpoint after each.
 
     history   new increments with their resume points, see `resumable_increments`
-    since     checkpoint from which the solve continues
-    progress  called with each increment
-    extent    size of the grid or mesh
-    settled   names for the checkpoint, read after every increment
+    since     checkpoint from which the solve continues; None for a new solve
+    store     storage of the checkpoints; None to store none
+    progress  function called with each increment
+    extent    size of the grid or mesh, for the checkpoints
+    settled   names for `Checkpoint.settled`, read after every increment
     """
     increments, fields = list[Any](), FieldStore()
     for increment in since.increments if since else ():

@@ -1,6 +1,6 @@
-"""Load steps with an increment error: the end state depends on the number of increments.
+"""Load steps with an increment error: their end state depends on the number of increments.
 
-Within an increment the direction of slip is fixed. Three cases are proved to have no such error:
+The direction of slip is constant within an increment. Three cases are proved to have no such error:
 
 - No shear has acted so far.
 - A torsion of bodies of revolution under constant pressure, without any other shear.
@@ -30,13 +30,21 @@ NEAR_GROSS_SLIP = 0.99
 
 
 def with_error(scene: Scene) -> tuple[bool, ...]:
-    """Determine for each load step if its end state depends on the number of increments."""
+    """Determine for each load step if its end state depends on the number of increments.
+
+    Returns False for the proved cases of this module, else True.
+    """
     ramps = scene.load_path()
     return tuple(not _proved(scene, ramps[: number + 1]) for number in range(len(ramps)))
 
 
 def near_gross_slip(scene: Scene) -> tuple[bool, ...]:
-    """Determine the steps with an increment error that push to nearly the friction limit."""
+    """Determine for each load step if the tangential force has come close to the friction limit.
+
+    This is the case from the first load step on that has an increment error and, under force
+    control, ends above `NEAR_GROSS_SLIP` of the friction limit. Shift and energy
+    there depend strongly on the number of increments.
+    """
     reached, found = False, []
     for ramp, matters in zip(scene.load_path(), with_error(scene), strict=True):
         forces = ramp.normal.kind is ramp.tangential.kind is ControlKind.FORCE
@@ -48,7 +56,10 @@ def near_gross_slip(scene: Scene) -> tuple[bool, ...]:
 
 
 def _proved(scene: Scene, ramps: Sequence[LoadRamp]) -> bool:
-    """Determine if a history is one of the three proved cases."""
+    """Determine if the end state of a load history is proved to be independent of the increments.
+
+    ramps  load ramps of the history up to this state
+    """
     if scene.friction is None or scene.friction.uniform == 0:
         return True
     if any(r.stretch and any(r.stretch[1]) for r in ramps):
@@ -73,12 +84,15 @@ def _proved(scene: Scene, ramps: Sequence[LoadRamp]) -> bool:
 
 
 def _follows_force(ramp: LoadRamp) -> bool:
-    """Determine if a prescribed displacement follows a prescribed force and may cause shear."""
+    """Determine if the control of shift or twist changes from force to displacement, or back.
+
+    The value at the start of the load step is then a result of the solve, and may cause shear.
+    """
     return ramp.tangential.start is None or ramp.twisting.start is None
 
 
 def _similar(scene: Scene) -> bool:
-    """Determine if the bodies are uncoated and of one material with ν = 0."""
+    """Determine if both bodies are without layers and have Poisson's ratio 0."""
     materials = {body.material for body in (scene.body, scene.indenter)}
     layers = scene.body.layers or scene.indenter.layers
     return not layers and all(

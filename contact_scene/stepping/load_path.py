@@ -1,4 +1,5 @@
-"""Resolved load history: linear ramps of all controls in every load step."""
+"""Load history of a scene, resolved into load ramps: linear changes of all controls in each load
+step."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -27,12 +28,15 @@ class ControlKind(Enum):
 
 @dataclass(frozen=True)
 class Control(Generic[Value]):
-    """Linear ramp of a generalised displacement or of its force in a load step.
+    """Linear change of one prescribed force or displacement during a load step.
+
+    The force may be a moment or torque, the displacement a rotation.
 
     kind        kind of start and end: forces [force] or, for rotations, moments [force length];
                 displacements [length] or rotations [radian]
-    start, end  values at the start and at the end of the step. The start is None if the preceding
-                control is of the other kind; its value is a result of the preceding step.
+    start, end  values at the start and at the end of the load step. The start is None if the
+                preceding control is of the other kind; its value is a result of the preceding load
+                step.
     """
 
     kind: ControlKind
@@ -42,13 +46,15 @@ class Control(Generic[Value]):
     def prescribed(
         self, fraction: float, reached: tuple[Value, Value | None]
     ) -> tuple[Value | None, Value | None]:
-        """Compute the prescribed force or displacement at a fraction of the step.
+        """Compute the prescribed force or displacement at a fraction of the load step.
 
-        At the end, and for constant values, the result is exactly `end`: equal loads are equal.
+        At the end of the step, and for a constant control, the value is exactly `end`, so that
+        equal loads of different steps are equal bit for bit.
 
-        reached  force and displacement at the start of the step, for a start that is None; the
-                 displacement is None if undefined
-        returns  force and displacement; the one that is not prescribed is None
+        fraction  fraction of the load step, from 0 to 1
+        reached   force and displacement at the start of the step, used if `start` is None; the
+                  displacement is None if undefined
+        returns   force and displacement; the one that is not prescribed is None
 
         Raises GrossSliding if the ramp starts from an undefined displacement.
         """
@@ -63,7 +69,10 @@ class Control(Generic[Value]):
 
 
 def _ramped(begin: Any, end: Any, fraction: float) -> Any:
-    """Interpolate between two numbers, or component by component between two tuples."""
+    """Interpolate linearly between two numbers, or between two tuples component by component.
+
+    fraction  position between `begin` (0) and `end` (1)
+    """
     if isinstance(end, tuple):
         return tuple(_ramped(*ends, fraction) for ends in zip(begin, end, strict=True))
     return end if fraction == 1 or begin == end else begin + (end - begin) * fraction
@@ -75,14 +84,14 @@ VectorControl = Control[Vector]
 
 @dataclass(frozen=True)
 class LoadRamp:
-    """Load step with explicit controls of all coordinates.
+    """Load step with explicit controls of all coordinates of the indenter.
 
-    step        number of the step, counted from 1
+    step        number of the load step, counted from 1
     normal      normal force or approach
     tangential  tangential force or shift, (x, y)
     twisting    torque or twist
     tilting     moment (Mx, My) or tilt (x, y)
-    increments  number of increments in the scene, or None
+    increments  number of increments in the scene; None if the solver chooses
     stretch     bulk strain of the lower body at start and end; None without a bulk strain in the
                 history
     """
@@ -96,13 +105,14 @@ class LoadRamp:
     stretch: tuple[Strain, Strain] | None = None
 
     def strain(self, fraction: float) -> Strain | None:
-        """Interpolate the bulk strain at a fraction of the step; None without one."""
+        """Interpolate the bulk strain of the lower body at a fraction of the load step; None
+        without one."""
         strain: Strain | None = self.stretch and _ramped(*self.stretch, fraction)
         return strain
 
     @property
     def strains(self) -> bool:
-        """True if the bulk strain changes in the step."""
+        """True if the bulk strain of the lower body changes in the load step."""
         return self.stretch is not None and self.stretch[0] != self.stretch[1]
 
 
@@ -118,11 +128,16 @@ _AT_REST = LoadRamp(
 
 
 def load_path(loading: Sequence[LoadStep], base: Material | None = None) -> tuple[LoadRamp, ...]:
-    """Resolve load steps: a coordinate that a step does not prescribe keeps its last control.
+    """Resolve load steps into load ramps with the controls of all coordinates.
 
-    The history starts from first contact without load. The first step must prescribe a normal load.
+    A coordinate that a load step does not prescribe keeps its last control at a constant value. The
+    history starts from first contact without load.
 
-    base  material of the substrate, for bulk stresses; without it, these are ignored
+    loading  load steps in order; the first must prescribe a normal load
+    base     material of the substrate, for bulk stresses; without a material, bulk stresses are
+             ignored
+
+    Raises ValueError if the first load step prescribes no normal load.
     """
     ramps: list[LoadRamp] = []
     last = _AT_REST
@@ -147,7 +162,10 @@ def load_path(loading: Sequence[LoadStep], base: Material | None = None) -> tupl
 
 
 def first_direction(ramps: Sequence[LoadRamp]) -> tuple[float, float]:
-    """Return the unit vector of the first nonzero tangential load, (1, 0) without one."""
+    """Return the direction of the first nonzero tangential force or shift, as a unit vector (x, y).
+
+    Returns (1, 0) without a tangential load.
+    """
     for ramp in ramps:
         x, y = ramp.tangential.end
         if x or y:
@@ -156,7 +174,10 @@ def first_direction(ramps: Sequence[LoadRamp]) -> tuple[float, float]:
 
 
 def along_one_line(ramps: Sequence[LoadRamp]) -> bool:
-    """Determine if all tangential loads are on one line to round-off, or zero."""
+    """Determine if the tangential forces and shifts at the ends of all load steps lie on one line.
+
+    Values of 0 lie on every line; deviations of round-off are allowed.
+    """
     ends = [ramp.tangential.end for ramp in ramps]
     longest = max(ends, key=lambda end: hypot(*end))
     return all(
@@ -168,7 +189,13 @@ def along_one_line(ramps: Sequence[LoadRamp]) -> bool:
 def _stretched(
     step: LoadStep, last: LoadRamp, base: Material | None
 ) -> tuple[Strain, Strain] | None:
-    """Determine the bulk strain at start and end of a step."""
+    """Determine the bulk strain of the lower body at the start and end of a load step.
+
+    step     load step
+    last     ramp of the preceding load step
+    base     material of the substrate, for a bulk stress
+    returns  both strains (εxx, εyy, εxy); None without a bulk strain in the history
+    """
     if last.stretch is None:
         return None
     start = last.stretch[1]
@@ -179,9 +206,13 @@ def _stretched(
 def _next(
     force: Value | None, displacement: Value | None, last: Control[Value], at_rest: bool
 ) -> Control[Value]:
-    """Determine the ramp of one coordinate, of which a step prescribes at most one control.
+    """Determine the control of one coordinate in a load step.
 
-    at_rest  True if force and displacement are both zero so far
+    force, displacement  values that the load step prescribes; at most one of them is not None
+    last                 control of the coordinate in the preceding load step, which continues if
+                         both are None
+    at_rest              True if force and displacement are both zero so far, so that the ramp
+                         starts from 0
     """
     named = displacement if force is None else force
     if named is None:

@@ -1,6 +1,6 @@
 """Load stepping: the loop over the increments of all load steps, with bisection.
 
-An increment that does not converge is divided into two halves, up to `MAX_HALVINGS` times.
+An increment that does not converge is bisected, down to `MAX_HALVINGS` levels.
 """
 
 from collections.abc import Iterator, Sequence
@@ -36,7 +36,8 @@ Report = TypeVar("Report")
 
 @dataclass(frozen=True)
 class Place:
-    """Position of an increment in the history: load step and increment, counted from 1."""
+    """Position of an increment in the load history: load step and increment, each counted from
+    1."""
 
     step: int
     index: int
@@ -45,11 +46,13 @@ class Place:
 
 @dataclass(frozen=True)
 class Reached(Generic[S]):
-    """End of an increment.
+    """Converged solve of an increment, from which a solver creates its reported increment.
 
+    place     position of the increment in the load history
     before    state at the start of the increment; None before first contact
+    state     state at the end of the increment
     halvings  number of bisections
-    spent     work of the solver for the increment
+    spent     work of the solver for the increment, in its unit
     """
 
     place: Place
@@ -60,7 +63,7 @@ class Reached(Generic[S]):
 
 
 class Solver(Protocol[S, Report]):
-    """Solver of single increments.
+    """Interface of a solver of single increments, called by load stepping.
 
     most_spent  work above which an increment that does not converge is not bisected any further
     """
@@ -69,32 +72,43 @@ class Solver(Protocol[S, Report]):
     def most_spent(self) -> float: ...
 
     def spent(self) -> float:
-        """Return the work so far, in a unit that the solver chooses."""
+        """Return the work of the solver so far, in a unit that the solver chooses."""
 
     def advance(self, ramp: LoadRamp, start: S | None, before: S | None, fraction: float) -> S:
-        """Solve for the state at a fraction of a ramp.
+        """Solve for the state of contact at a fraction of a load ramp.
 
-        start   state at the start of the ramp
-        before  state at the end of the previous increment
+        start     state at the start of the ramp; None without contact
+        before    state at the end of the previous increment; None without contact
+        fraction  fraction of the ramp, from 0 to 1
 
-        Raises NotConverged, and other errors that a bisection does not help against.
+        Raises NotConverged, after which load stepping bisects the increment, and other errors that
+        a bisection does not remedy.
         """
 
     def report(self, reached: Reached[S], last: Report | None) -> Report:
-        """Create the reported increment, which follows the reported increment `last`."""
+        """Create the reported increment from a converged solve.
+
+        reached  converged solve
+        last     previous reported increment; None before the first
+        """
 
     def undeformed_gap(self, last: Report, tilt: Any) -> Field:
-        """Compute the gap without tractions at the approach 0, at the points of an increment."""
+        """Compute the gap of the undeformed bodies at an approach of 0 and a tilt [length].
+
+        last  increment at whose points the gap is computed
+        tilt  tilt (x, y) of the indenter [radian]; None without tilt
+        """
 
 
 def resumable_increments(
     scene: Scene, counts: Sequence[int], solver: Solver[S, Report], since: Checkpoint | None
 ) -> Iterator[tuple[Report, ResumePoint[S]]]:
-    """Solve the load history; yield every increment with its resume point.
+    """Solve the load history; yield every reported increment with its resume point.
 
     An increment within a step that has no contact at its approach, before first contact or before
-    separation, is the empty contact. Those before the first contact of the history are yielded
-    together with the first increment in contact, which determines the shapes of their fields.
+    separation, is the empty contact. Such increments before the first contact of the history are
+    yielded together with the first increment in contact, which determines the shapes of their
+    fields.
 
     Parameters
     ----------
@@ -112,7 +126,14 @@ def resumable_increments(
     def empty(
         last: Report, ramp: LoadRamp, end: float, approach: float | None, place: Place
     ) -> Report:
-        """Return the empty contact at a fraction of a ramp."""
+        """Return the reported increment of separated bodies (empty contact) at a fraction of a load
+        ramp.
+
+        last      preceding reported increment
+        end       fraction of the ramp
+        approach  prescribed approach [length]; None for the approach of first contact
+        place     position of the increment in the load history
+        """
         gap = solver.undeformed_gap(last, position(last, ramp, end)["tilt"])
         return with_strain(separated(last, ramp, end, gap, vars(place), approach), ramp.strain(end))
 
@@ -168,10 +189,13 @@ def resumable_increments(
 
 
 def fractions(scene: Scene, ramp: LoadRamp, count: int) -> list[float]:
-    """Determine the fractions of a ramp at the ends of its increments.
+    """Compute the fractions of a load ramp at which its increments end.
 
-    They are uniform in the contact radius if the normal load starts from 0 or ends there, else
+    The increments are uniform in the contact radius if the normal load starts or ends at 0, else
     uniform in the load.
+
+    count    number of increments
+    returns  fractions in ascending order; the last is 1
     """
     exponent = None
     falls = ramp.normal.end == 0
@@ -192,11 +216,14 @@ def _advanced(
     most_spent: float,
     halvings_left: int = MAX_HALVINGS,
 ) -> tuple[S, int]:
-    """Solve one increment, by bisection if needed; return the state and the number of bisections.
+    """Solve one increment of a load ramp, by bisection if the solve does not converge.
 
-    start      state at the start of the ramp
-    before     state at the start of the increment; None before first contact
-    fractions  of the ramp at start and end of the increment
+    start          state at the start of the ramp
+    before         state at the start of the increment; None before first contact
+    fractions      fractions of the ramp at the start and the end of the increment
+    most_spent     total work of the solver above which no further bisection starts
+    halvings_left  number of further levels of bisection
+    returns        state at the end of the increment, number of bisections
     """
     begin, end = fractions
     try:
