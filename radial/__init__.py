@@ -1,7 +1,11 @@
-"""Contact of bodies of revolution: axisymmetric geometry, fields over rings, no mesh.
+"""Solver for frictional contact of layered bodies of revolution, with fields on rings.
 
-The only numerics shared with another solver are the responses of layers to one wavenumber
-(`semi_analytical.frf`). The package imports numpy and scipy with the first solve, not with a plan.
+Pressure and shear are functions of the radius, and harmonics of the angle under a tangential load.
+No mesh is necessary. `plan` determines the effects of a scene, and `solve` computes all increments
+of its load history.
+
+The package shares with the solver `semi_analytical` only the responses of layers to one wavenumber
+(`semi_analytical.frf`). scipy is imported by the first solve, not by the import of the package.
 """
 
 from typing import TYPE_CHECKING, Any
@@ -18,6 +22,10 @@ __all__ = ["Effect", "Increment", "Plan", "Residuals", "Result", "plan", "solve"
 
 
 def __getattr__(name: str) -> Any:
+    """Import the function `solve` when it is first read from the package.
+
+    The late import keeps scipy out of programs that only make a plan.
+    """
     if name == "solve":
         from radial.history import solve
 

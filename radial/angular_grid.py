@@ -1,7 +1,8 @@
-"""Angular grid of a ring, and the transform from values at its angles to harmonics.
+"""Angles of the points on a ring, and the transform from values at these angles to harmonics.
 
-The symmetric family of harmonics has p and q_r ∝ cos mθ and q_θ ∝ sin mθ. The antisymmetric family
-has p and q_r ∝ sin mθ and q_θ ∝ -cos mθ. Its harmonic 0 is torsion: q_θ alone.
+In the symmetric family of harmonics p and q_r are ∝ cos mθ, and q_θ is ∝ sin mθ. In the
+antisymmetric family p and q_r are ∝ sin mθ, and q_θ is ∝ -cos mθ. Harmonic 0 of the antisymmetric
+family is torsion: q_θ alone.
 """
 
 from __future__ import annotations
@@ -14,29 +15,42 @@ from contact_scene.array_types import Array
 
 
 class Circle(Enum):
-    """Angles that represent a field by its symmetry."""
+    """Angles at which fields on a ring are represented, chosen by the symmetry of the fields.
+
+    ONE    one angle, for axisymmetric fields including torsion
+    HALF   angles between 0 and π, for fields symmetric about the direction θ = 0 of the load
+    WHOLE  angles of the full circle, for fields without symmetry
+    """
 
     ONE = "one angle"
     HALF = "half the circle"
     WHOLE = "the whole circle"
 
     def angles(self, highest: int) -> Array:
-        """Return θ_j = π(j + ½)/J, the angles that resolve harmonics up to J = highest."""
+        """Return the angles θ_j = π(j + ½)/J of the points on a ring [radian].
+
+        A half circle has J angles and a whole circle 2J. They resolve harmonics up to J =
+        `highest`. The single angle of axisymmetric fields is 0.
+        """
         if self is Circle.ONE:
             return np.zeros(1)
         count = highest if self is Circle.HALF else 2 * highest
         return np.pi * (np.arange(count) + 0.5) / highest
 
     def shown(self, highest: int) -> Array:
-        """Return the angles of output πj/J: 0 … π for a half circle, [0, 2π) for a whole one."""
+        """Return the angles πj/J at which fields are output, with J = `highest` [radian].
+
+        They run from 0 to π for a half circle and from 0 to less than 2π for a whole circle.
+        """
         count = highest + 1 if self is Circle.HALF else 2 * highest
         return np.pi * np.arange(count) / highest
 
     def families(self, highest: int) -> tuple[Array, ...]:
-        """Return matrices from values at the angles to harmonics 0 … J of q_r, q_θ and p.
+        """Return matrices from values at the angles of a ring to amplitudes of harmonics.
 
-        Each family has one matrix of shape (3, J + 1, angles). A half circle has the symmetric
-        family only.
+        Each family of harmonics (symmetric, antisymmetric) has one matrix of shape (3, J + 1,
+        angles), with the components q_r, q_θ, p and the harmonics 0 … J = `highest`. A half circle
+        has the symmetric family only.
         """
         angles = self.angles(highest)
         at = np.multiply.outer(np.arange(highest + 1), angles)

@@ -1,4 +1,7 @@
-"""Result of a solve: fields over the radius, with the names and signs of CONVENTIONS."""
+"""Result of a solve: scene, plan, and fields over the radius for every increment.
+
+Names and signs of the fields are those of CONVENTIONS.
+"""
 
 from __future__ import annotations
 
@@ -12,18 +15,25 @@ from radial.plan import Plan
 
 @dataclass(frozen=True, kw_only=True)
 class Increment(RingIncrement):
-    """Converged state at the end of one increment of the load history.
+    """Converged state of the contact at the end of one increment of the load history.
 
-    Fields are values at the rings. No ring lies where the pressure is infinite (below a tip, at a
-    rim). There `peak_pressure` is the pressure at the adjacent ring.
+    Fields are values at the rings. No ring lies where the pressure is infinite (the axis below a
+    tip, the rim of a punch). `peak_pressure` is then the largest pressure at a ring.
 
-    iterations  number of contact radii tried, or of Newton steps with a tangential load or torsion
+    iterations  number of contact radii tried; for a contact at points (rings × angles) the number
+                of Newton steps
     """
 
 
 @dataclass(frozen=True)
 class Result:
-    """Result of a solve: scene, discretisation, plan and all increments."""
+    """Result of a solve: scene, discretisation, plan and all increments.
+
+    scene       the solved contact problem, in its normal form
+    fineness    number of output rings, and tolerance of the residuals
+    plan        effects of the scene, and number of increments of each load step
+    increments  all increments of the load history, in order
+    """
 
     scene: Scene
     fineness: RadialDiscretisation
@@ -33,10 +43,10 @@ class Result:
 
     @property
     def tolerance(self) -> float:
-        """Return the limit of every residual at the end of every increment."""
+        """Return the upper bound of every residual at the end of every increment [1]."""
         return self.fineness.tolerance
 
     @property
     def steps(self) -> tuple[Increment, ...]:
-        """Return the last increment of each load step."""
+        """Return the last increment of each load step, in order."""
         return tuple(i for i in self.increments if i.index == i.increments_in_step)

@@ -1,4 +1,7 @@
-"""Solve a scene: plan, rings and load stepping."""
+"""Entry point of the solver: the solve of all increments of a load history.
+
+The module also contains the solver of load steps without friction.
+"""
 
 from __future__ import annotations
 
@@ -101,7 +104,15 @@ def _solved_increments(
     store: CheckpointStore | None,
     progress: Progress | None = None,
 ) -> Iterator[Increment]:
-    """Yield all increments: first those of the last checkpoint, then newly solved ones."""
+    """Yield all increments of the load history, resumed from a checkpoint if there is one.
+
+    The increments of the checkpoint come first. Newly solved increments follow.
+
+    solver    solver of single increments, created by `_solver`
+    plan      number of increments of each load step
+    store     checkpoints; None if the run stores none
+    progress  called with each increment
+    """
     last = store.last() if store else None
     history = resumable_increments(scene, plan.increments, solver, last)
     return with_checkpoints(history, last, store, progress, None)
@@ -110,9 +121,10 @@ def _solved_increments(
 def _extrapolated(
     scene: Scene, solver: Any, plan: Plan, progress: Progress | None, store: CheckpointStore | None
 ) -> tuple[Increment, ...]:
-    """Return increments extrapolated to the limit of fine increments.
+    """Solve the load history twice and extrapolate to infinitely many increments per load step.
 
-    The checkpoints are those of the finer history.
+    The second history has twice the number of increments. Only the second history stores
+    checkpoints.
     """
     from radial.richardson import (
         doubled,
@@ -130,6 +142,11 @@ def _extrapolated(
 
 
 def _solver(scene: Scene, discretisation: RadialDiscretisation, plan: Plan) -> Any:
+    """Create the solver of load steps with the effects of the plan.
+
+    The solvers are: contact at points (rings × angles), normal load with friction, normal load
+    without friction, and torsion in closed form.
+    """
     if plan.circle:
         from radial.tangential.tangential_steps import TangentialSteps
 
@@ -152,11 +169,15 @@ def _solver(scene: Scene, discretisation: RadialDiscretisation, plan: Plan) -> A
 
 @dataclass(frozen=True)
 class _Solver(StepsOnRings):
-    """Load stepping of the frictionless contact. No increment depends on the previous one.
+    """Solver of load steps of a contact without friction.
 
-    fineness  multiple of the numbers of orders and points
-    radii     of the rings [length]
-    largest   contacts solved to place the rings
+    The contact of an increment does not depend on the previous increment.
+
+    bodies     normal response of both bodies
+    tolerance  upper bound of every residual
+    fineness   multiple of the numbers of polynomials and quadrature points
+    radii      radii of the output rings (n,) [length]
+    largest    contacts at the largest prescribed force and approach, solved to place the rings
     """
 
     bodies: Bodies
@@ -167,6 +188,7 @@ class _Solver(StepsOnRings):
 
     @classmethod
     def of(cls, scene: Scene, discretisation: RadialDiscretisation, fineness: int) -> _Solver:
+        """Create the solver of a scene, with its output rings over the largest contact."""
         bodies = Bodies.of(scene)
         largest = tuple(
             normal_contact(bodies, scene.indenter, prescribed, fineness)
@@ -182,7 +204,13 @@ class _Solver(StepsOnRings):
         before: NormalContact | None,
         fraction: float,
     ) -> NormalContact:
-        """Return the contact at a fraction of the ramp."""
+        """Solve the contact without friction at a fraction of a load step.
+
+        ramp      load step
+        start     contact at the start of the load step; None without contact
+        before    contact at the end of the previous increment (not used)
+        fraction  fraction of the linear change of the load, 0 to 1
+        """
         reached = (start.normal_force, start.approach) if start else (0.0, 0.0)
         prescribed = target(self.scene, *ramp.normal.prescribed(fraction, reached))
         for found in self.largest:
@@ -191,9 +219,13 @@ class _Solver(StepsOnRings):
         return normal_contact(self.bodies, self.scene.indenter, prescribed, self.fineness)
 
     def report(self, reached: Reached[NormalContact], last: Increment | None) -> Increment:
-        """Return the increment with its fields at the rings.
+        """Compute the output of an increment: pressure and gap at rings, energies and residuals.
 
-        Raises UnsupportedScene if the contact area is no disc, NotConverged above the tolerance.
+        Raises UnsupportedScene if the contact area is not a disc, and NotConverged if a residual
+        exceeds the tolerance.
+
+        reached  solved state at the end of the increment
+        last     output of the previous increment, for the work of the loads
         """
         state = reached.state
         contact, x = state.contact, self.radii / state.contact.radius

@@ -1,4 +1,7 @@
-"""Estimate of the radius and the number of wavenumbers of the largest contact of a scene."""
+"""Estimates of the radius and of the number of wavenumbers of the largest contact of a scene.
+
+They are made before the solve, for the estimate of its memory.
+"""
 
 from __future__ import annotations
 
@@ -25,9 +28,10 @@ FEW_ORDERS, TRIED, NEAR = 16, 12, 0.02
 
 @lru_cache(maxsize=8)
 def wavenumbers(scene: Scene) -> int:
-    """Return the number of wavenumbers for the largest contact, 0 without layers.
+    """Return the number of wavenumbers of the Hankel integrals for the largest contact of a scene.
 
-    Raises UnsupportedScene for contacts too large for the thickness of their layers.
+    The number is 0 for bodies without layers. Raises UnsupportedScene if the contact radius is too
+    large for the thickness of the layers.
     """
     bodies, indenter = Bodies.of(scene), scene.indenter
     if not bodies.layered:
@@ -39,17 +43,27 @@ def wavenumbers(scene: Scene) -> int:
 
 
 def expected_radius(scene: Scene) -> float:
-    """Estimate the radius of the largest frictionless contact of the history [length]."""
+    """Estimate the radius of the largest contact of the load history, without friction [length]."""
     bodies = Bodies.of(scene)
     return max(_radius(bodies, scene, target) for target in largest_targets(scene))
 
 
 def _radius(bodies: Bodies, scene: Scene, target: Target) -> float:
-    """Estimate the radius of the frictionless contact at a target [length]."""
+    """Estimate the contact radius under a prescribed normal force or approach [length].
+
+    The contact has no friction. Below an indenter with a rim, the radius of the rim is returned.
+    Otherwise a secant iteration with few polynomials gives the radius to a few percent.
+
+    target  prescribed normal force or approach
+    """
     if scene.indenter.rim is not None:
         return scene.indenter.rim
 
     def residual(x: float) -> float:
+        """Return the logarithm of the ratio of computed to prescribed force or approach.
+
+        x  logarithm of the contact radius
+        """
         return target.residual(disc(bodies, scene.indenter, exp(x), most=FEW_ORDERS))
 
     x, power = log(first_radius(bodies, scene.indenter, target)), 2.0

@@ -1,7 +1,8 @@
-"""Memory of a run, estimated before any allocation.
+"""Estimate of the memory of a run, made before any allocation.
 
-It is proportional to the number of wavenumbers that the largest contact needs for the thinnest
-outermost layer.
+The memory is a constant, plus a part for each increment, plus a part proportional to the number of
+wavenumbers. The wavenumbers are those that the largest contact requires for the thinnest outermost
+layer.
 """
 
 from __future__ import annotations
@@ -26,9 +27,9 @@ PUSHED, WHOLE, PER_WAVE_PUSHED, DRAWN = 133 << 20, 246 << 20, 8_600, 181 << 20
 
 
 def estimated_bytes(scene: Scene, plan: Plan) -> int:
-    """Estimate the largest memory of a run, with coarse solve and figures [byte].
+    """Estimate the peak memory of a run, including the coarse solve and the figures [byte].
 
-    Raises UnsupportedScene for contacts too large for the thickness of their layers.
+    Raises UnsupportedScene if the largest contact is too large for the thickness of its layers.
     """
     reported = LIGHT * sum(plan.increments)
     libraries = LIBRARIES + reported
@@ -43,7 +44,7 @@ def estimated_bytes(scene: Scene, plan: Plan) -> int:
 
 
 def refuse_if_too_large(scene: Scene, plan: Plan) -> None:
-    """Raise ResourceRefused if the estimated memory exceeds the available memory."""
+    """Raise ResourceRefused if the estimated memory of a run exceeds the available memory."""
     needed, available = estimated_bytes(scene, plan), available_bytes()
     if needed > available:
         raise ResourceRefused(
@@ -54,7 +55,10 @@ def refuse_if_too_large(scene: Scene, plan: Plan) -> None:
 
 
 def _wavenumbers(scene: Scene) -> int:
-    """Return the number of wavenumbers of the largest contact, 0 without layers."""
+    """Return the number of wavenumbers of the Hankel integrals for the largest contact of a scene.
+
+    The number is 0 for bodies without layers, which need no such integrals.
+    """
     if not scene.body.layers and not scene.indenter.layers:
         return 0
     from radial.largest_contact import wavenumbers

@@ -1,4 +1,7 @@
-"""Output radii over the largest contact, targets of the history, and checks of the contact area."""
+"""Output rings, prescribed normal loads of the history, and checks of the contact area.
+
+The solvers of load steps of this package use them.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +31,11 @@ NO_DISC = 1e-9
 
 
 def largest_targets(scene: Scene) -> Iterator[Target]:
-    """Return the largest force and the largest approach prescribed at the end of a load step."""
+    """Yield the largest normal force and the largest approach that the load steps prescribe.
+
+    Values at the ends of the load steps are compared. A kind of control that the history lacks is
+    skipped.
+    """
     for kind in ControlKind:
         ends = [ramp.normal.end for ramp in scene.load_path() if ramp.normal.kind is kind]
         if any(ends):
@@ -37,7 +44,10 @@ def largest_targets(scene: Scene) -> Iterator[Target]:
 
 
 def targets(scene: Scene) -> Iterator[Target]:
-    """Return the normal force or approach prescribed at the end of each load step."""
+    """Yield the normal force or approach that each load step prescribes at its end.
+
+    Load steps that end without contact are skipped.
+    """
     for ramp in scene.load_path():
         force = ramp.normal.kind is ControlKind.FORCE
         if ramp.normal.end:
@@ -46,15 +56,23 @@ def targets(scene: Scene) -> Iterator[Target]:
 
 
 def target(scene: Scene, force: float | None, approach: float | None) -> Target:
-    """Return a target in the scene's rig: a force, or an approach of the far end of its spring."""
+    """Create the prescribed normal load of a contact: a normal force, or an approach.
+
+    The approach is that of the far end of the normal spring of the scene's rig (test machine). One
+    of `force` and `approach` is None.
+    """
     return Target(force, approach, compliances(scene.rig)[0])
 
 
 def output_radii(count: int, largest: Sequence[NormalContact], rim: float | None) -> Array:
-    """Return output radii, denser towards the edge of the largest contact, up to twice its radius
-    [length].
+    """Return the radii of the output rings [length].
 
-    Radii of infinite pressure (an apex, a rim) are omitted.
+    They are denser towards the edge of the largest contact and end at twice its radius. Radii with
+    infinite pressure (the axis below a tip, a rim) are omitted.
+
+    count    number of rings within the largest contact
+    largest  contacts at the largest prescribed force and approach
+    rim      radius of the rim of the indenter; None without a rim [length]
     """
     widest = max((found.contact for found in largest), key=lambda contact: contact.radius)
     inside = np.sin(0.5 * np.pi * np.arange(count + 1) / count)
@@ -65,29 +83,49 @@ def output_radii(count: int, largest: Sequence[NormalContact], rim: float | None
 
 @dataclass(frozen=True)
 class StepsOnRings:
-    """Base of the solvers of load steps whose work does not limit the bisection."""
+    """Base class of the solvers of load steps.
+
+    The work of an increment does not limit its bisection. A subclass that limits it overrides
+    `most_spent` and `spent`.
+
+    scene  the contact problem
+    """
 
     scene: Scene
 
     @property
     def most_spent(self) -> float:
-        """Work above which an increment that does not converge is not bisected any further."""
+        """Work above which an increment that does not converge is not bisected any further.
+
+        The value 0 has no effect, because `spent` always returns 0.
+        """
         return 0.0
 
     def spent(self) -> float:
-        """Return the work so far."""
+        """Return the work of all increments up to now; 0 if the solver does not count it."""
         return 0.0
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Array:
-        """Return the gap without tractions at the rings of an increment [length]."""
+        """Return the gap of the undeformed surfaces at the points of an increment [length].
+
+        The gap is that at the approach 0, where the surfaces first touch.
+
+        last  increment whose rings are used
+        tilt  not used, since this solver does not tilt the indenter
+        """
         gap = np.asarray(self.scene.indenter.initial_gap(last.radii, 0.0))
         return np.array(np.broadcast_to(gap, last.gap.T.shape).T)
 
 
 def refuse_no_disc(radii: Array, p: Array, gap: Array) -> None:
-    """Raise UnsupportedScene if the surfaces separate within the contact or touch outside.
+    """Raise UnsupportedScene if the contact area is not a single disc.
 
-    gap  divided by the approach
+    A negative pressure means that the surfaces separate within the contact. A negative gap means
+    that they touch outside it.
+
+    radii  radii of the points (n,) [length]
+    p      pressure at the points (n,)
+    gap    gap at the points over the approach (n,)
     """
     for wrong, what in (
         (p < -NO_DISC * np.max(p), "separate within the contact"),
@@ -101,10 +139,10 @@ def refuse_no_disc(radii: Array, p: Array, gap: Array) -> None:
 
 
 def refuse_round_off(contact: Disc, tolerance: float) -> None:
-    """Raise UnsupportedScene if the error of the contact equation exceeds the tolerance.
+    """Raise UnsupportedScene if round-off keeps the error of a contact above the tolerance.
 
-    The error is due to round-off: `disc` has increased the number of polynomials until it
-    stagnates.
+    The error is that of the integral equation of the frictionless contact. `disc` has increased the
+    number of polynomials until this error decreased no further.
     """
     if contact.residual > tolerance:
         enough = 10.0 ** ceil(log10(contact.residual))

@@ -1,4 +1,7 @@
-"""Effects computed for a scene, and checks that refuse unsupported scenes before the solve."""
+"""Plan of a solve: effects of a scene, numbers of increments, and checks of unsupported scenes.
+
+The checks raise UnsupportedScene before the solve.
+"""
 
 from __future__ import annotations
 
@@ -36,18 +39,21 @@ ELSEWHERE = "solve it with the semi-analytical solver"
 
 @dataclass(frozen=True)
 class Plan:
-    """Effects computed for a scene: pressure, and shear by friction, torsion or a tangential load.
+    """Effects that the solve of a scene includes, and its numbers of increments.
 
-    coupled       true if friction acts without a tangential load or torsion, because pressure or
-                  strain displaces the surfaces relative to each other
-    twists        true with torsion
-    pushed        true with a tangential load
-    increments    number of increments of each load step
-    effects       all effects with reasons, for output
-    direction     unit vector of the first tangential load, (1, 0) without one
-    circle        angles of the contact at points (rings × angles), which solves contact and
-                  friction together; None if no such solve is necessary
-    fineness      multiple of the numbers of orders and points; with friction, of rings and angles
+    The effects are pressure, and shear by friction, torsion or a tangential load.
+
+    coupled     true if pressure or bulk strain displaces the surfaces relative to each other, so
+                that friction acts under a normal load alone
+    twists      true with torsion
+    pushed      true with a tangential load
+    increments  number of increments of each load step
+    effects     all effects with reasons, for the output
+    direction   unit vector of the first tangential load; (1, 0) without one
+    circle      angles of a contact at points (rings × angles), whose solve treats contact and
+                friction together; None if no such solve is necessary
+    fineness    multiple of the numbers of polynomials and quadrature points; with friction, of the
+                numbers of rings, angles and intermediate solves
     """
 
     coupled: bool
@@ -61,28 +67,30 @@ class Plan:
 
     @property
     def rings(self) -> int:
-        """Return the number of rings over a contact at points."""
+        """Return the number of rings inside the largest contact, for a contact at points."""
         return round(self.fineness * (ROUND_RINGS if self.circle is Circle.ONE else RINGS))
 
     @property
     def highest(self) -> int:
-        """Return the highest angular harmonic of a contact at points."""
+        """Return the highest angular harmonic of the tractions of a contact at points."""
         return round(self.fineness * ANGLES)
 
     @property
     def angles(self) -> int:
-        """Return the number of angles of a ring."""
+        """Return the number of angles of the points on a ring; 0 without a contact at points."""
         return 0 if self.circle is None else len(self.circle.angles(self.highest))
 
     @property
     def sheared(self) -> bool:
-        """Return true if the surfaces carry shear."""
+        """Return true if the surfaces carry shear: by friction, torsion or a tangential load."""
         return self.coupled or self.twists or self.pushed
 
 
 def plan(scene: Scene) -> Plan:
-    """Determine the effects of a scene; raise UnsupportedScene if the solver does not support
-    it."""
+    """Determine the effects of a scene and the number of increments of each load step.
+
+    Raises UnsupportedScene if the solver does not support the scene.
+    """
     scene = normal_form(scene)
     refuse_equator(scene)
     _refuse_shape(scene)
@@ -121,14 +129,29 @@ def plan(scene: Scene) -> Plan:
 
 
 def _twists(ramp: LoadRamp, curved: bool) -> bool:
-    """Return true if a step prescribes torsion, or if a curved tangential path leaves the twist
-    free."""
+    """Return true if the indenter twists in a load step.
+
+    The load step has a nonzero torque or twist, or the twist is free while the tangential loads of
+    the history are not on one line.
+
+    curved  true if the tangential loads of the history are not on one line
+    """
     return bool(ramp.twisting.end) or (curved and ramp.twisting.kind is ControlKind.FORCE)
 
 
 def _circle(
     scene: Scene, frictional: bool, twists: bool, pushed: bool, curved: bool
 ) -> Circle | None:
+    """Return the angles of the points on a ring; None if no contact at points is necessary.
+
+    A tangential load needs half a circle, or a whole one if the load turns or acts with torsion.
+    Torsion alone needs one angle, unless its shear has a closed form.
+
+    frictional  true if friction acts under a normal load alone
+    twists      true with torsion
+    pushed      true with a tangential load
+    curved      true if the tangential loads are not on one line
+    """
     if pushed:
         return Circle.WHOLE if twists or curved else Circle.HALF
     if not twists:
@@ -140,6 +163,7 @@ def _circle(
 
 
 def _normal_changes_in_torsion(ramps: tuple[LoadRamp, ...]) -> bool:
+    """Return true if the normal load changes in the first load step with torsion or a later one."""
     twisted = False
     for ramp in ramps:
         twisted = twisted or bool(ramp.twisting.end)
@@ -149,7 +173,11 @@ def _normal_changes_in_torsion(ramps: tuple[LoadRamp, ...]) -> bool:
 
 
 def _pushed_increments(scene: Scene, circle: Circle) -> tuple[int, ...]:
-    """Return the increments of each load step of a contact at points: requested, or by its path."""
+    """Return the number of increments of each load step of a contact at points (rings × angles).
+
+    A number in the scene has precedence. Otherwise the result is the larger one of two numbers: for
+    load cycles, and for the change of the loads in the load step.
+    """
     ramps = scene.load_path()
     return tuple(
         ramp.increments or max(of_loop, _on_path(scene, ramp, circle))
@@ -158,6 +186,12 @@ def _pushed_increments(scene: Scene, circle: Circle) -> tuple[int, ...]:
 
 
 def _on_path(scene: Scene, ramp: LoadRamp, circle: Circle) -> int:
+    """Return the number of increments that the change of the loads in a load step requires.
+
+    The number is fixed if the normal load or the twist changes, or if displacements are prescribed.
+    Otherwise it is proportional to the change of the tangential force over the friction limit. It
+    is 1 if no load changes.
+    """
     start, end = ramp.tangential.start, ramp.tangential.end
     most = PATH_INCREMENTS if circle is Circle.ONE else PUSHED_INCREMENTS
     if ramp.normal.start != ramp.normal.end or ramp.twisting.start != ramp.twisting.end:
@@ -174,7 +208,13 @@ def _on_path(scene: Scene, ramp: LoadRamp, circle: Circle) -> int:
 
 
 def _increments(scene: Scene, frictional: bool) -> tuple[int, ...]:
-    """Return the increments of each load step: requested, or more than 1 only if path-dependent."""
+    """Return the number of increments of each load step of a contact without tangential load.
+
+    A number in the scene has precedence. Otherwise the result is 1, or `PATH_INCREMENTS` if
+    friction makes the load step path-dependent.
+
+    frictional  true if friction acts under a normal load alone
+    """
     return tuple(
         ramp.increments or (PATH_INCREMENTS if frictional and _moves(ramp) else 1)
         for ramp in scene.load_path()
@@ -182,11 +222,15 @@ def _increments(scene: Scene, frictional: bool) -> tuple[int, ...]:
 
 
 def _moves(ramp: LoadRamp) -> bool:
-    """Return true if a change of the normal load or strain can cause slip."""
+    """Return true if the normal load or the bulk strain changes in a load step.
+
+    Either change can cause slip.
+    """
     return ramp.normal.start != ramp.normal.end or ramp.strains
 
 
 def _refuse_shape(scene: Scene) -> None:
+    """Raise UnsupportedScene if the indenter is not a body of revolution."""
     indenter = scene.indenter
     if not indenter.is_of_revolution:
         raise UnsupportedScene(
@@ -196,6 +240,7 @@ def _refuse_shape(scene: Scene) -> None:
 
 
 def _refuse_map(scene: Scene) -> None:
+    """Raise UnsupportedScene if the coefficient of friction is a map over the surface."""
     assert scene.friction is not None
     if scene.friction.varying is not None:
         raise UnsupportedScene(
@@ -205,7 +250,13 @@ def _refuse_map(scene: Scene) -> None:
 
 
 def _refuse_friction(scene: Scene, circle: Circle | None) -> None:
-    """Raise UnsupportedScene for friction maps, rims, and tangential loads without friction."""
+    """Raise UnsupportedScene if the solver does not support the friction of a scene.
+
+    The solver does not support friction maps, or friction below an indenter with a rim. Tangential
+    load and torsion require a coefficient of friction above zero.
+
+    circle  angles of a contact at points; None without one
+    """
     _refuse_map(scene)
     assert scene.friction is not None
     if scene.indenter.rim is not None:
@@ -221,6 +272,7 @@ def _refuse_friction(scene: Scene, circle: Circle | None) -> None:
 
 
 def _refuse_loads(scene: Scene) -> None:
+    """Raise UnsupportedScene if a load step prescribes a moment or a tilt."""
     ramps = scene.load_path()
     if any(any(ramp.tilting.end) or ramp.tilting.kind is ControlKind.FORCE for ramp in ramps):
         raise UnsupportedScene(

@@ -1,9 +1,10 @@
-"""Richardson extrapolation (Richardson 1911) of a load history to the limit of fine increments.
+"""Richardson extrapolation (Richardson 1911) of a load history to infinitely many increments.
 
-The increment error of a contact with a tangential load is of first order in the length of the
-increments, so the limit is twice the value of the finer history minus that of the coarser one. The
-work of the loads (trapezoidal rule) converges faster and is taken from the finer history. Fields,
-peak pressure and stick radius are also those of the finer history.
+The increment error of a contact with tangential load is of first order in the length of the
+increments. The extrapolated value is therefore twice the value of the history with doubled
+increments minus the value of the planned history. The work of the loads (trapezoidal rule)
+converges faster and is taken from the finer history. Fields, peak pressure and stick radius are
+also those of the finer history.
 """
 
 from __future__ import annotations
@@ -23,12 +24,18 @@ EXTRAPOLATED = (
 
 
 def doubled(plan: Plan) -> Plan:
-    """Return the plan with twice the increments."""
+    """Return a plan with twice the number of increments in every load step."""
     return replace(plan, increments=tuple(2 * count for count in plan.increments))
 
 
 def extrapolated(coarse: Increment, fine: Increment) -> Increment:
-    """Return the extrapolated increment from those of both histories at the same loads."""
+    """Extrapolate the scalars of an increment to infinitely many increments per load step.
+
+    Energies are kept at or above zero. Fields are those of `fine`.
+
+    coarse  increment of the planned history
+    fine    increment at the same loads, of the history with twice the number of increments
+    """
     values = {name: _limit(getattr(coarse, name), getattr(fine, name)) for name in EXTRAPOLATED}
     for energy in ("elastic_energy", "dissipated_energy"):
         values[energy] = max(values[energy], 0.0)  # extrapolation can give negative energies
@@ -46,6 +53,11 @@ def extrapolated(coarse: Increment, fine: Increment) -> Increment:
 
 
 def _limit(coarse: Any, fine: Any) -> Any:
+    """Return 2 `fine` - `coarse`: a value extrapolated to zero length of the increments.
+
+    Tuples are extrapolated by component. None (a quantity that the scene lacks) is returned as
+    None.
+    """
     if isinstance(fine, tuple):
         return tuple(_limit(*pair) for pair in zip(coarse, fine, strict=True))
     return fine if fine is None else 2 * fine - coarse

@@ -1,1 +1,1 @@
-"""Indentation with friction: pressure and radial shear on rings."""
+"""Indentation with friction under a normal load: pressure and radial shear on rings."""

@@ -1,1 +1,1 @@
-"""Normal problem of a frictionless contact on a disc, solved with polynomials."""
+"""Normal problem: frictionless contact on a disc, expanded in Legendre polynomials."""

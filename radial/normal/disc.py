@@ -1,13 +1,14 @@
-"""Frictionless contact on a disc, by Legendre polynomials.
+"""Frictionless contact on a disc r < a, expanded in Legendre polynomials.
 
-With the pressure's transform p~(k) = (E*/π) ∫₀ᵃ G(s) cos ks ds, contact on r < a is (Lebedev and
-Ufliand 1958; for layers, Perriot and Barthel 2004), with s = a t and κ = k a,
+With the pressure's transform p~(k) = (E*/π) ∫₀ᵃ G(s) cos ks ds, the condition of contact on r < a
+is (Lebedev and Ufliand 1958; for layers, Perriot and Barthel 2004), with s = a t and κ = k a,
 
-    G(t) = δ - S(t) + C(t),    C(t) = -(2/π) ∫₀^∞ (X - 1) cos κt G~ dκ,   G~ = ∫₀¹ G(t) cos κt dt,
+    G(t) = δ - S(t) + C(t),    C(t) = -(2/π) ∫₀^∞ (X - 1) cos κt G~ dκ,   G~ = ∫₀¹ G(t) cos κt dt.
 
-where δ is the approach and S depends on the profile. C is zero without layers. It is even and
-entire for every profile, so its coefficients c_n of P_2n(t) decrease geometrically. By Galerkin's
-method,
+δ is the approach, S the Abel transform of the undeformed gap (see `Profile`), and X the normal
+response over that of half-spaces (see `Bodies.excess`). The contribution C of the layers is zero
+without layers. C is even and entire for every profile, so its coefficients c_n of P_2n(t) decrease
+geometrically. By Galerkin's method,
 
     c_n/(4n+1) = -(2/π) ∫₀^∞ (X - 1) B_n G~ dκ,    G~ = δ B_0 - S~ + Σ c_m B_m
 
@@ -59,15 +60,15 @@ PLACES = 40
 
 @dataclass(frozen=True)
 class Disc:
-    """Frictionless contact on a disc.
+    """Solution of the frictionless contact on a disc of radius a.
 
-    bodies    both bodies
-    profile   undeformed gap over the contact
-    radius    a [length]
+    bodies    normal response of both bodies
+    profile   undeformed gap over the contact, by its Abel transform S
+    radius    contact radius a [length]
     approach  δ since first contact [length]
-    layers    c_n [length]
-    residual  largest error of the equation over the approach [1], a bound of the gap that remains
-              within the contact over the approach
+    layers    coefficients c_n of the contribution C of the layers to G (orders,) [length]
+    residual  largest error of the contact equation over the approach [1]; it bounds the gap that
+              remains within the contact, over the approach
     """
 
     bodies: Bodies
@@ -79,46 +80,59 @@ class Disc:
 
     @property
     def load(self) -> float:
-        """Return W = 2 E* a ∫₀¹ G dt [force]."""
+        """Return the normal force of the contact, W = 2 E* a ∫₀¹ G dt [force]."""
         mean = self.approach - self.profile.abel[0] + self.layers[0]
         return float(2 * self.bodies.modulus * self.radius * mean)
 
     @property
     def elastic_energy(self) -> float:
-        """Return ½ ∫ p u_z dA = E* a ∫₀¹ G (δ - S) dt of both bodies [force length]."""
+        """Return the elastic energy of both bodies, ½ ∫ p u_z dA [force length].
+
+        The integral is E* a ∫₀¹ G (δ - S) dt, with the functions G and S of the contact equation.
+        """
         t, weights = unit_gauss(len(self.profile.abel) + len(self.layers))
         moved = self.approach - self.profile.at(t)
         return float(self.bodies.modulus * self.radius * (weights @ (self.transform(t) * moved)))
 
     @property
     def edge(self) -> float:
-        """Return G(1) [length], which makes the pressure singular at a rim; 0 at a smooth edge."""
+        """Return G(1), the strength of the singularity of the pressure at a rim [length].
+
+        The value is 0 at a smooth edge, where the pressure ends with zero.
+        """
         value = float(self.transform(np.ones(1))[0])
         return value if abs(value) > SMOOTH * self.approach else 0.0
 
     def transform(self, t: Array) -> Array:
-        """Return G at s = a t [length]."""
+        """Return the function G of the contact equation at s = a t, 0 ≤ t ≤ 1 [length].
+
+        The cosine transform of G is proportional to the Hankel transform of the pressure.
+        """
         changed = legendre.legval(t, every_order(self.layers))
         return np.asarray(self.approach - self.profile.at(t) + changed)
 
     def rate(self, t: Array) -> Array:
-        """Return dG/dt [length]."""
+        """Return the derivative dG/dt of G in the contact equation, at s = a t [length]."""
         changed = legendre.legval(t, legendre.legder(every_order(self.layers)))
         return np.asarray(changed - shifted(self.profile.rate, t))
 
     def wave_transform(self, waves: Waves) -> Array:
-        """Return G~ at every κ (n,) [length]; (E* a/π) G~ is the transform of the pressure."""
+        """Return the cosine transform G~ of G at every dimensionless wavenumber (κ,) [length].
+
+        (E* a/π) G~ is the Hankel transform of the pressure at the wavenumber κ/a.
+        """
         bases = waves.even_transforms(len(self.layers))
         by_profile = waves.shifted_transform(self.profile.abel)
         return np.asarray(self.approach * bases[0] - by_profile + self.layers @ bases)
 
 
 class _Galerkin:
-    """Galerkin equations for one contact radius.
+    """Galerkin equations for the contribution C of the layers, for one contact radius.
 
-    waves   κ
-    count   number of orders
-    excess  X - 1 at every κ, times the quadrature weight
+    waves   dimensionless wavenumbers κ
+    count   number of coefficients c_n of C
+    excess  relative contribution X - 1 of the layers to the normal response, times the quadrature
+            weight (κ,)
     """
 
     def __init__(self, waves: Waves, count: int, excess: Array) -> None:
@@ -128,7 +142,10 @@ class _Galerkin:
 
     @cached_property
     def factor(self) -> Any:
-        """Return the Cholesky factor of the matrix, which is positive definite because X > 0."""
+        """Return the Cholesky factor of the Galerkin matrix.
+
+        The matrix is positive definite because X > 0.
+        """
         kernel = np.zeros((self.count, self.count))
         for first in range(0, len(self.excess), AT_ONCE):
             some = slice(first, first + AT_ONCE)
@@ -137,12 +154,21 @@ class _Galerkin:
         return cho_factor(matrix, lower=True, overwrite_a=True, check_finite=False)
 
     def changed(self, transform: Array) -> Array:
-        """Return c_n for G = f + C, from the transform of f."""
+        """Solve for the coefficients c_n of C in the contact equation G = f + C.
+
+        C is the contribution of the layers.
+
+        transform  cosine transform of the given function f (κ,)
+        """
         right = -2 / pi * self.scale * (self.bases @ (self.excess * transform))
         return np.asarray(self.scale * cho_solve(self.factor, right, check_finite=False))
 
     def residual(self, layers: Array, transform: Array) -> float:
-        """Return the largest error of the equation for c_n and the transform of f [length]."""
+        """Return the largest error of the contact equation G = f + C at check points [length].
+
+        layers     coefficients c_n of the contribution C of the layers
+        transform  cosine transform of the given function f (κ,)
+        """
         polynomials, cosines = _judged(self.waves, self.count)
         exact = -2 / pi * (cosines @ (self.excess * (transform + layers @ self.bases)))
         return float(np.max(np.abs(polynomials @ layers - exact)))
@@ -150,7 +176,10 @@ class _Galerkin:
 
 @cached_within(MAX_CACHED)
 def _judged(waves: Waves, count: int) -> tuple[Array, Array]:
-    """Return P_2n and cos κt at the points where the error of the equation is evaluated."""
+    """Return P_2n(t) and cos κt at the check points t of the contact equation.
+
+    The shapes are (points, count) and (points, κ).
+    """
     t = (np.arange(PLACES) + 0.5) / PLACES
     polynomials = np.asarray(legendre.legvander(t, 2 * count - 2)[:, ::2], dtype=float)
     return polynomials, np.cos(np.multiply.outer(t, waves.rule[0]))
@@ -164,13 +193,16 @@ def disc(
     fineness: int = 1,
     most: int | None = None,
 ) -> Disc:
-    """Solve the contact of a given radius [length].
+    """Solve the frictionless contact of a prescribed contact radius.
 
-    The approach [length] is prescribed at a rim. Otherwise it follows from a smooth end of the
-    pressure, G(1) = 0.
+    Below a rim the approach is prescribed. Otherwise the approach follows from G(1) = 0: the
+    pressure ends with zero at the edge. The number of polynomials is doubled until the error of the
+    contact equation is due to round-off.
 
-    fineness  multiple of the numbers of points and orders
-    most      largest number of orders, for estimates with an error of a few percent
+    radius    contact radius [length]
+    approach  approach below a rim, else None [length]
+    fineness  multiple of the numbers of points and polynomials
+    most      largest number of polynomials, for estimates with an error of a few percent
     raises    NotConverged if the equation cannot be solved to round-off, and errors of `profile`
     """
     shape = profile(indenter, radius, fineness)
@@ -203,12 +235,14 @@ def disc(
 
 
 def orders(thickness: float, apex: bool) -> int:
-    """Return the number of orders, a multiple of 8.
+    """Return the number of Legendre polynomials for the contribution C of the layers.
 
     C has singularities at t = ±1 ± 2ih/a (images of the edge in the underside of the layer) and,
-    with an apex, at ± 2ih/a. Their distance determines the convergence.
+    with an apex, at ±2ih/a. Their distance from the interval -1 < t < 1 determines the rate of
+    convergence. The number is a multiple of 8.
 
-    thickness  of the layer over the contact radius
+    thickness  thickness h of the outermost layer over the contact radius a
+    apex       true if the indenter has a tip on the axis
     raises     UnsupportedScene above `MAX_ORDERS`
     """
     image = (0 if apex else 1) + 2j * thickness

@@ -1,4 +1,4 @@
-"""Frictionless contact under a prescribed force or approach. The contact radius is the unknown."""
+"""Frictionless contact under a prescribed force or approach. The contact radius is unknown."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ LEAST_POWER = 0.5  # least exponent of the power law of force or approach in the
 
 
 class Loaded(Protocol):
-    """Contact with its radius [length], load [force] and approach [length]."""
+    """Protocol of a solved contact: its radius [length], load [force] and approach [length]."""
 
     @property
     def radius(self) -> float: ...
@@ -46,10 +46,12 @@ C = TypeVar("C", bound=Loaded)
 
 @dataclass(frozen=True)
 class Target:
-    """Prescribed normal force [force] or approach [length].
+    """Prescribed normal force or approach of a contact. One of the two is None.
 
-    spring  compliance of the normal spring of a rig [length/force]; the approach is that of its far
-            end
+    force     normal force [force]
+    approach  approach of the far end of the spring [length]
+    spring    compliance of the normal spring of a rig (test machine); 0 without a spring
+              [length/force]
     """
 
     force: float | None
@@ -58,20 +60,23 @@ class Target:
 
     @property
     def prescribed(self) -> float:
-        """Prescribed value [force or length]."""
+        """Return the prescribed normal force [force] or approach [length]."""
         value = self.approach if self.force is None else self.force
         assert value is not None
         return value
 
     def value(self, contact: Loaded) -> float:
-        """Return the value of the prescribed quantity for a contact [force or length]."""
+        """Return the normal force [force] or the approach [length] of a solved contact.
+
+        The quantity is the one that this target prescribes.
+        """
         return self.actuator_approach(contact) if self.force is None else contact.load
 
     def residual(self, contact: Loaded) -> float:
-        """Return log(value of the contact / prescribed value).
+        """Return log(value of a solved contact / prescribed value), of normal force or approach.
 
-        Raises UnsupportedScene for a contact beyond the end of the shape, whose load is not
-        positive.
+        Raises UnsupportedScene if the value is not positive. The contact radius is then beyond the
+        end of the shape (the equator of a sphere).
         """
         value = self.value(contact)
         if not (value > 0 and isfinite(value)):
@@ -83,13 +88,21 @@ class Target:
         return log(value / self.prescribed)
 
     def actuator_approach(self, contact: Loaded) -> float:
-        """Return the approach of the far end of the spring [length]."""
+        """Return the approach of a contact plus the shortening of the rig's spring [length].
+
+        The sum is the approach of the far end of the spring.
+        """
         return contact.approach + self.spring * contact.load
 
 
 @dataclass(frozen=True)
 class NormalContact:
-    """Contact at a target, and the number of contact radii tried."""
+    """Frictionless contact under a prescribed force or approach.
+
+    contact     solved contact
+    target      prescribed normal force or approach
+    iterations  number of contact radii tried
+    """
 
     contact: Disc
     target: Target
@@ -97,12 +110,15 @@ class NormalContact:
 
     @property
     def normal_force(self) -> float:
-        """Return the prescribed or computed normal force [force]."""
+        """Return the normal force: the prescribed value, or that of the solved contact [force]."""
         return self.contact.load if self.target.force is None else self.target.force
 
     @property
     def approach(self) -> float:
-        """Return the prescribed or computed approach [length]."""
+        """Return the approach of the far end of the rig's spring [length].
+
+        The value is the prescribed one, or that of the contact plus the shortening of the spring.
+        """
         prescribed = self.target.approach
         return self.target.actuator_approach(self.contact) if prescribed is None else prescribed
 
@@ -110,11 +126,13 @@ class NormalContact:
 def normal_contact(
     bodies: Bodies, indenter: ShapedBody, target: Target, fineness: int = 1
 ) -> NormalContact:
-    """Solve the contact at a target by the secant method for the radius.
+    """Solve the frictionless contact under a prescribed force or approach.
 
-    Raises NotConverged, and UnsupportedScene for a gap that is not smooth.
+    The contact radius follows from a secant method, or is that of the rim of the indenter.
 
-    fineness  multiple of the numbers of orders and points
+    target    prescribed normal force or approach
+    fineness  multiple of the numbers of polynomials and quadrature points
+    raises    NotConverged, and UnsupportedScene for a gap that is not smooth
     """
     if indenter.rim is not None:
         whole = disc(bodies, indenter, indenter.rim, fineness=fineness)
@@ -123,7 +141,7 @@ def normal_contact(
             return NormalContact(contact, target, 1)
 
     def solve(radius: float) -> Disc:
-        """Solve the contact of a radius."""
+        """Solve the frictionless contact of a prescribed contact radius [length]."""
         return disc(bodies, indenter, radius, fineness=fineness)
 
     radius = first_radius(bodies, indenter, target)
@@ -138,15 +156,18 @@ def contact_at_target(
     power: float,
     tolerance: float = ROUND_OFF,
 ) -> tuple[C, int, float]:
-    """Find the contact at a target by the secant method for the logarithm of the radius.
+    """Find the contact that has the prescribed force or approach.
 
-    Return the contact, the number of radii tried, and the exponent of the target in the radius.
-    Raises NotConverged, and the errors of `solve`.
+    The unknown is the logarithm of the contact radius, and the method is the secant method. The
+    function returns the contact, the number of radii tried, and the exponent of force or approach
+    as a power of the radius.
 
-    solve      contact of a radius [length]
-    radius     starting value [length]
-    power      expected exponent
-    tolerance  of the residual
+    solve      function that solves the contact of a radius [length]
+    target     prescribed normal force or approach
+    radius     initial guess of the radius [length]
+    power      expected exponent of force or approach as a power of the radius
+    tolerance  bound of the relative error of force or approach
+    raises     NotConverged, and the errors of `solve`
     """
     best, nearest, last, x = None, inf, inf, log(radius)
     last_x = x
@@ -169,9 +190,12 @@ def contact_at_target(
 def _contact_at_rim(
     bodies: Bodies, indenter: ShapedBody, target: Target, whole: Disc, fineness: int
 ) -> Disc:
-    """Return the contact bounded by a rim. Its load is linear in the approach.
+    """Solve the frictionless contact over the whole face of an indenter with a rim.
 
-    whole  contact that just reaches the rim
+    Force and pressure are linear in the approach, so two contacts determine the approach.
+
+    target  prescribed normal force or approach
+    whole   contact that just reaches the rim
     """
     missing = further = target.prescribed - target.value(whole)
     if target.force is not None:
@@ -182,14 +206,16 @@ def _contact_at_rim(
 
 
 def first_radius(bodies: Bodies, indenter: ShapedBody, target: Target) -> float:
-    """Return a lower estimate of the contact radius as a starting value [length].
+    """Return a lower estimate of the contact radius, as an initial guess [length].
 
-    It is the radius at which the gap equals the approach, or at which E* r f(r) equals the force
-    with the largest modulus. Larger radii are more expensive with layers.
+    Under a prescribed approach the estimate is the radius r at which the undeformed gap f(r) equals
+    the approach. Under a prescribed force, E r f(r) equals the force, with the upper bound E of all
+    moduli. An estimate from below saves time, because larger radii are more expensive with layers.
     """
     modulus = bodies.stiffest
 
     def short(r: float) -> bool:
+        """Return true if a radius r is smaller than the estimate of the contact radius."""
         gap = float(indenter.initial_gap(r, 0.0))
         if target.force is None:
             return gap < (target.approach or 0.0)

@@ -1,4 +1,4 @@
-"""Undeformed gap of a body of revolution over a contact, and its Abel transform."""
+"""Undeformed gap of a body of revolution over a contact, and its Abel transform S."""
 
 from __future__ import annotations
 
@@ -28,10 +28,14 @@ ANGLES = 16
 
 @dataclass(frozen=True)
 class Profile:
-    """Gap f of an indenter over r < a, lengths in units of a.
+    """Undeformed gap f of an indenter over a contact r < a, by its Abel transform S.
 
-    abel  Legendre coefficients in 2t - 1 of S(t) = t ∫₀^(π/2) f'(t sin φ) dφ [length]. At the
-          approach δ half-spaces have p~(k) = (E*/π) ∫₀ᵃ (δ - S(s)) cos ks ds (Sneddon 1965)
+        S(t) = t ∫₀^(π/2) f'(t sin φ) dφ
+
+    f' is the derivative with respect to r/a. At the approach δ, half-spaces have the transform of
+    the pressure p~(k) = (E*/π) ∫₀ᵃ (δ - S(s)) cos ks ds, s = a t (Sneddon 1965).
+
+    abel  Legendre coefficients of S in 2t - 1 [length]
     apex  true if the gap has a nonzero slope at the axis, where the pressure is infinite
     """
 
@@ -39,25 +43,35 @@ class Profile:
     apex: bool
 
     def at(self, t: Array) -> Array:
-        """Return S at s = a t [length]."""
+        """Return the Abel transform S of the undeformed gap at s = a t, 0 ≤ t ≤ 1 [length]."""
         return shifted(self.abel, t)
 
     @property
     def at_edge(self) -> float:
-        """Return S(1), the approach at which the pressure of half-spaces is zero at a [length]."""
+        """Return the value S(1) of the Abel transform of the undeformed gap [length].
+
+        S(1) is the approach at which the pressure of half-spaces is zero at the contact radius a.
+        """
         return float(np.sum(self.abel))
 
     @cached_property
     def rate(self) -> Array:
-        """Return Legendre coefficients of dS/dt in 2t - 1 [length]."""
+        """Return the Legendre coefficients in 2t - 1 of the derivative dS/dt [length].
+
+        S is the Abel transform of the undeformed gap.
+        """
         return np.asarray(2 * legendre.legder(self.abel))
 
 
 def profile(indenter: ShapedBody, radius: float, fineness: int = 1) -> Profile:
-    """Return the profile of an indenter over a contact of this radius [length].
+    """Compute the Abel transform of the undeformed gap of an indenter over a contact.
 
+    The gap is interpolated at Chebyshev points. Their number is doubled until the last coefficients
+    are round-off.
+
+    radius    contact radius [length]
     fineness  multiple of the number of points
-    raises    UnsupportedScene if the gap is no smooth function of the radius
+    raises    UnsupportedScene if the gap is not a smooth function of the radius
     """
     count = FEWEST
     while True:
@@ -84,14 +98,21 @@ def profile(indenter: ShapedBody, radius: float, fineness: int = 1) -> Profile:
 
 
 def _coefficients(indenter: ShapedBody, radius: float, count: int) -> Array:
-    """Return the Chebyshev coefficients of the gap in 2x - 1."""
+    """Return the Chebyshev coefficients in 2r/a - 1 of the undeformed gap over a contact [length].
+
+    radius  contact radius a [length]
+    count   number of Chebyshev points and coefficients
+    """
     places, fit = _fit(count)
     return np.asarray(fit @ indenter.initial_gap(radius * places, 0.0))
 
 
 @cache
 def _fit(count: int) -> tuple[Array, Array]:
-    """Return Chebyshev points on 0 < x < 1, and the matrix from values there to coefficients."""
+    """Return Chebyshev points 0 < x < 1, and the matrix from values there to coefficients.
+
+    The coefficients are those of Chebyshev polynomials of 2x - 1.
+    """
     points = chebyshev.chebpts1(count)
     fit = chebyshev.chebvander(points, count - 1).T * (2.0 / count)
     fit[0] /= 2
@@ -100,9 +121,12 @@ def _fit(count: int) -> tuple[Array, Array]:
 
 @cache
 def _abel(count: int, fineness: int) -> Array:
-    """Return the map from Chebyshev coefficients of a slope to Legendre coefficients of S.
+    """Return the matrix from coefficients of the slope of the gap to those of its Abel transform S.
 
-    Its shape is (count, count + 1).
+    Chebyshev coefficients (count,) of the slope in 2x - 1 are mapped to Legendre coefficients
+    (count + 1,) of S in 2t - 1. The shape is (count, count + 1).
+
+    fineness  multiple of the number of quadrature points
     """
     t, weights = unit_gauss(count + 1)
     angles, shares = unit_gauss((ANGLES + count) * fineness)

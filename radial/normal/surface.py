@@ -1,4 +1,4 @@
-"""Pressure and displacement of a contact on a disc, at any radius."""
+"""Pressure and surface displacement of a frictionless contact on a disc, at any radius."""
 
 from __future__ import annotations
 
@@ -23,10 +23,16 @@ PLACE = 1e-9  # error of the position of a maximum over the contact radius
 
 
 def pressure(contact: Disc, x: Array) -> Array:
-    """Return p at r = a x (n,) [force/length²], 0 outside and infinite at an apex or a rim.
+    """Return the pressure of a frictionless contact at r = a x (n,) [force/length²].
 
-    p = (E*/π a) [G(1)/√(1-x²) - ∫ₓ¹ G'(t)/√(t²-x²) dt]. The substitutions t² = x² + (1-x²) v² for
+    The pressure is 0 outside the contact, and infinite at an apex or a rim.
+
+        p = (E*/π a) [G(1)/√(1-x²) - ∫ₓ¹ G'(t)/√(t²-x²) dt]
+
+    G is the function of the contact equation, see `disc`. The substitutions t² = x² + (1-x²) v² for
     the contribution of layers and t = x cosh y for the profile make both integrands smooth.
+
+    x  radii over the contact radius a (n,)
     """
     found = np.zeros_like(x)
     inside = x < 1
@@ -40,7 +46,13 @@ def pressure(contact: Disc, x: Array) -> Array:
 
 
 def _of_layers(contact: Disc, rho: Array, chord: Array) -> Array:
-    """Return ∫ₓ¹ C'(t)/√(t²-x²) dt; C'/t is a polynomial."""
+    """Return the integral ∫ₓ¹ C'(t)/√(t²-x²) dt, the contribution of layers to the pressure (n,).
+
+    C is the contribution of the layers to G, see `disc` [length]. C'/t is a polynomial.
+
+    rho    radii x < 1 over the contact radius (n,)
+    chord  √(1-x²) (n,)
+    """
     rate = legendre.legder(every_order(contact.layers))
     v, weights = unit_gauss(len(contact.layers) + 1)
     t = np.hypot(rho[:, None], chord[:, None] * v)
@@ -48,7 +60,14 @@ def _of_layers(contact: Disc, rho: Array, chord: Array) -> Array:
 
 
 def _of_profile(contact: Disc, rho: Array, chord: Array) -> Array:
-    """Return ∫ₓ¹ S'(t)/√(t²-x²) dt."""
+    """Return the integral ∫ₓ¹ S'(t)/√(t²-x²) dt, the contribution of the gap to the pressure (n,).
+
+    S is the Abel transform of the undeformed gap [length]. The value at the axis is infinite below
+    a tip.
+
+    rho    radii x < 1 over the contact radius (n,)
+    chord  √(1-x²) (n,)
+    """
     shape = contact.profile
     v, weights = unit_gauss(POINTS + len(shape.abel))
     axis = rho == 0
@@ -60,9 +79,13 @@ def _of_profile(contact: Disc, rho: Array, chord: Array) -> Array:
 
 
 def largest_pressure(contact: Disc, x: Array, p: Array) -> float:
-    """Return the largest pressure over the contact, refined from values at rings [force/length²].
+    """Return the largest pressure over the contact, at rings or between them [force/length²].
 
-    If the pressure is infinite somewhere, return the largest value at a ring.
+    The maximum is searched near the ring of largest pressure. The value at this ring is returned if
+    it is the innermost ring, or if the pressure is infinite at a rim.
+
+    x  radii of the rings over the contact radius (n,)
+    p  pressure at the rings (n,) [force/length²]
     """
     at = int(np.argmax(p))
     if at == 0 or contact.edge:
@@ -77,9 +100,14 @@ def largest_pressure(contact: Disc, x: Array, p: Array) -> float:
 
 
 def displacement(contact: Disc, x: Array) -> Array:
-    """Return u_z at r = a x outside the contact (n,) [length].
+    """Return the normal surface displacement outside a frictionless contact (n,) [length].
 
-    u_z = (2/π) [∫₀¹ G(t)/√(x²-t²) dt + ∫₀^∞ (X - 1) G~ J₀(κx) dκ].
+        u_z = (2/π) [∫₀¹ G(t)/√(x²-t²) dt + ∫₀^∞ (X - 1) G~ J₀(κx) dκ]
+
+    G is the function of the contact equation and G~ its cosine transform, see `disc`. X - 1 is the
+    relative contribution of the layers to the normal response.
+
+    x  radii over the contact radius, above 1 (n,)
     """
     v, weights = unit_gauss(POINTS + len(contact.layers))
     angle = np.arcsin(1 / x)

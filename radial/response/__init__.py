@@ -1,1 +1,1 @@
-"""Responses of layered bodies to axisymmetric loads, and quadrature."""
+"""Responses of layered bodies to axisymmetric loads, and the quadrature of their integrals."""

@@ -1,6 +1,7 @@
-"""Cache of arrays, limited in bytes.
+"""Cache of the arrays that a function returns, limited in bytes.
 
-The size of these arrays is proportional to the number of wavenumbers, about 1e5 for a thin film.
+The arrays hold transforms at all wavenumbers. Their size is proportional to the number of
+wavenumbers, about 1e5 for a thin film.
 """
 
 from __future__ import annotations
@@ -17,16 +18,21 @@ MAX_CACHED = 24 << 20  # bytes of the results of one function
 
 
 def cached_within(most: int) -> Callable[[Callable[P, R]], Callable[P, R]]:
-    """Store the results of a function of hashable arguments: an array or a tuple of arrays.
+    """Return a decorator that caches the results of a function, up to a limit in bytes.
 
-    most  bytes; above it the least recently used results are removed before a new one is computed
+    The function has hashable arguments and returns an array or a tuple of arrays.
+
+    most  limit of the cached results [byte]; above it the least recently used results are removed
+          before a new result is computed
     """
 
     def of(compute: Callable[P, R]) -> Callable[P, R]:
+        """Return the function `compute` with a cache of its results."""
         found: OrderedDict[Hashable, Any] = OrderedDict()
 
         @wraps(compute)
         def remembered(*given: P.args, **named: P.kwargs) -> R:
+            """Return the cached result for the arguments, or compute and cache it."""
             key = (given, *named.items())
             value = found.pop(key, None)
             if value is None:
@@ -43,4 +49,5 @@ def cached_within(most: int) -> Callable[[Callable[P, R]], Callable[P, R]]:
 
 
 def _size(value: Any) -> int:
+    """Return the memory of an array, or of all arrays of a tuple [byte]."""
     return sum(map(_size, value)) if isinstance(value, tuple) else int(value.nbytes)

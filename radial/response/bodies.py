@@ -1,4 +1,7 @@
-"""Normal response of both bodies: their outermost materials, and the contribution of layers."""
+"""Normal response of both bodies to pressure: half-spaces plus the contribution of layers.
+
+The half-spaces have the outermost materials of the bodies.
+"""
 
 from __future__ import annotations
 
@@ -28,10 +31,10 @@ CACHED = 4
 
 @dataclass(frozen=True)
 class Bodies:
-    """Lower body and indenter.
+    """Normal response of the lower body and the indenter.
 
-    layered  bodies with layers
-    modulus  E* of the outermost materials [force/length²]
+    layered  those bodies that have layers
+    modulus  contact modulus E* of the outermost materials [force/length²]
     """
 
     layered: Sequence[Stack]
@@ -39,34 +42,46 @@ class Bodies:
 
     @classmethod
     def of(cls, scene: Scene) -> Bodies:
-        """Return the bodies of a scene."""
+        """Create the normal response of both bodies of a scene."""
         stacks = (stack_of(scene.body), stack_of(scene.indenter))
         return cls([stack for stack in stacks if stack.layers], contact_modulus(scene))
 
     @property
     def stiffest(self) -> float:
-        """Return an upper bound of the modulus of all materials, by order of magnitude
-        [force/length²]."""
+        """Return an upper bound of the moduli of all materials [force/length²].
+
+        The bound is an order of magnitude: 4 times the largest shear modulus, or E*.
+        """
         moduli = (4 * modulus for stack in self.layered for modulus in _moduli(stack))
         return max([self.modulus, *moduli])
 
     @property
     def thickness(self) -> float:
-        """Return the thickness of the thinner outermost layer, infinite without layers [length]."""
+        """Return the thickness of the thinner outermost layer of both bodies [length].
+
+        It is infinite if no body has layers.
+        """
         return min((stack.layers[0].thickness for stack in self.layered), default=np.inf)
 
     def waves(self, radius: float, reach: float = 1.0, fineness: int = 1) -> Waves:
-        """Return the wavenumbers at which layers contribute to a contact of this radius [length].
+        """Return the wavenumbers at which the layers contribute to the fields of a contact.
 
-        reach  largest distance from the axis over the radius
+        radius    contact radius [length]
+        reach     largest distance of the points of evaluation from the axis, over the contact
+                  radius
+        fineness  multiple of the number of wavenumbers
         """
         least = LONGEST_WAVE * min(longest(stack, radius) for stack in self.layered)
         return waves(REACH * radius / self.thickness, least, reach, fineness)
 
     def excess(self, waves: Waves, radius: float) -> Array:
-        """Return X - 1 with X = k E* F_zz / 2 at wavenumbers k = κ/radius [1].
+        """Return the relative contribution X - 1 of the layers to the normal response (κ,) [1].
 
-        X - 1 is the contribution of layers over the response of the outermost materials.
+        X = k E* F_zz/2 is the response F_zz of both bodies to pressure, over that of half-spaces of
+        their outermost materials. The wavenumbers are k = κ/radius, with the dimensionless κ of
+        `waves`.
+
+        radius  contact radius [length]
         """
         added = np.sum([added_by(stack, waves, radius).c22 for stack in self.layered], axis=0)
         return np.asarray(0.5 * self.modulus * (waves.rule[0] / radius) * added)
@@ -74,21 +89,31 @@ class Bodies:
 
 @lru_cache(maxsize=CACHED)
 def added_by(stack: Stack, waves: Waves, radius: float) -> SurfaceScalars:
-    """Return the surface response of a body minus that of a half-space of its outermost material.
+    """Compute the surface response of a body minus that of a half-space of its outermost material.
 
-    Wavenumbers are κ/radius (κ,) [length²/force · length].
+    The responses are displacements per unit traction at the wavenumbers κ/radius (κ,)
+    [length³/force].
+
+    waves   dimensionless wavenumbers κ
+    radius  contact radius [length]
     """
     return remainder_scalars(stack, waves.rule[0] / radius)
 
 
 def longest(stack: Stack, radius: float) -> float:
-    """Return the order of magnitude of κ below which layers have no effect."""
+    """Return the dimensionless wavenumber κ below which the layers of a body have no effect.
+
+    κ is the wavenumber times the contact radius `radius`. The result is an order of magnitude.
+    """
     moduli = _moduli(stack)
     total = sum(film.thickness for film in stack.layers)
     return radius / (radius + total) * min(moduli) / max(moduli)
 
 
 def _moduli(stack: Stack) -> list[float]:
-    """Return the shear moduli of layers and base, without a rigid base [force/length²]."""
+    """Return the shear moduli of the layers and the base of a body [force/length²].
+
+    A rigid base is omitted.
+    """
     films = [film.shear_modulus for film in stack.layers]
     return films if stack.base is None else [*films, stack.base.shear_modulus]

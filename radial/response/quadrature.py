@@ -1,4 +1,4 @@
-"""Gauss quadrature and Legendre polynomials on 0 < t < 1."""
+"""Gauss-Legendre quadrature and Legendre series on the interval 0 < t < 1."""
 
 from __future__ import annotations
 
@@ -12,18 +12,24 @@ from contact_scene.array_types import Array
 
 @lru_cache(maxsize=64)
 def unit_gauss(count: int) -> tuple[Array, Array]:
-    """Return points and weights."""
+    """Return `count` points and weights of Gauss-Legendre quadrature on the interval 0 < t < 1."""
     points, weights = legendre.leggauss(count)
     return (1 + points) / 2, weights / 2
 
 
 def shifted(coefficients: Array, t: Array) -> Array:
-    """Return Σ c_l P_l(2t - 1)."""
+    """Evaluate the Legendre series Σ c_l P_l(2t - 1) at points 0 ≤ t ≤ 1.
+
+    coefficients  c_l
+    """
     return np.asarray(legendre.legval(2 * t - 1, coefficients))
 
 
 def every_order(coefficients: Array) -> Array:
-    """Return the coefficients of all P_l(t) from those of even l."""
+    """Return the coefficients of a Legendre series of all orders from those of its even orders.
+
+    The coefficients of odd orders are 0. The input contains c_0, c_2, c_4, …
+    """
     every = np.zeros(2 * len(coefficients) - 1)
     every[::2] = coefficients
     return every

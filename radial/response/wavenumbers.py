@@ -1,7 +1,7 @@
-"""Gauss quadrature over wavenumbers κ = k a, in units of the inverse contact radius.
+"""Gauss quadrature over dimensionless wavenumbers κ = k a, with the contact radius a.
 
-The positions of the panels do not depend on the contact, only their number does. Contacts of
-different radii therefore share cached transforms.
+A panel is an interval of κ with `POINTS` Gauss points. The positions of the panels do not depend on
+the contact, only their number does. Contacts of different radii therefore share cached transforms.
 """
 
 from __future__ import annotations
@@ -33,7 +33,14 @@ CACHED = 8
 
 
 class Waves(NamedTuple):
-    """Panels: the first ends at GROWTH^first, `equal` panels have the largest width `widest`."""
+    """Panels of the quadrature over dimensionless wavenumbers κ = k a.
+
+    Panels near zero grow geometrically. Panels of equal width follow.
+
+    first   power of GROWTH at which the first panel ends; it begins at 0
+    widest  width of the equal panels
+    equal   number of the equal panels
+    """
 
     first: int
     widest: float
@@ -41,26 +48,37 @@ class Waves(NamedTuple):
 
     @property
     def rule(self) -> tuple[Array, Array]:
-        """Return points (n,) and weights."""
+        """Return the quadrature points κ (n,) and their weights (n,)."""
         return _rule(self)
 
     def even_transforms(self, count: int) -> Array:
-        """Return ∫₀¹ P_2n(t) cos κt dt = (-1)ⁿ j_2n(κ) for n < count, shape (count, n) (Abramowitz
-        and Stegun 10.1.14)."""
+        """Return the cosine transforms of even Legendre polynomials at all wavenumbers κ.
+
+            ∫₀¹ P_2n(t) cos κt dt = (-1)ⁿ j_2n(κ),    n < count
+
+        j is the spherical Bessel function (Abramowitz and Stegun 10.1.14). The shape is (count, κ).
+        """
         return _even_transforms(self, count)
 
     def shifted_transform(self, coefficients: Array) -> Array:
-        """Return ∫₀¹ f(t) cos κt dt = Σ c_l Re iˡ exp(iκ/2) j_l(κ/2) of f = Σ c_l P_l(2t - 1),
-        shape (n,)."""
+        """Return the cosine transform of a Legendre series f on 0 < t < 1, at all wavenumbers (κ,).
+
+            ∫₀¹ f(t) cos κt dt = Σ c_l Re iˡ exp(iκ/2) j_l(κ/2),    f = Σ c_l P_l(2t - 1)
+
+        coefficients  c_l; j_l is the spherical Bessel function
+        """
         count = 8 * ceil(len(coefficients) / 8)
         return np.asarray(coefficients @ _shifted_transforms(self, count)[: len(coefficients)])
 
 
 def waves(shortest: float, longest: float, reach: float, fineness: int = 1) -> Waves:
-    """Return panels between two wavenumbers, for positions within `reach` radii.
+    """Return the panels of the quadrature that resolve all waves between two wavenumbers.
 
-    shortest, longest  κ of the shortest and the longest wave
-    fineness           multiple of the number of points
+    shortest  dimensionless wavenumber κ of the shortest wave, at which the panels end
+    longest   κ of the longest wave, near which the first panel ends
+    reach     largest distance of the points of evaluation from the axis, over the contact radius; a
+              larger distance requires narrower panels
+    fineness  multiple of the number of points
     """
     widest = PHASE / (1 + reach) / fineness
     first = floor(log(min(longest, widest)) / log(GROWTH))
@@ -69,6 +87,7 @@ def waves(shortest: float, longest: float, reach: float, fineness: int = 1) -> W
 
 @lru_cache(maxsize=CACHED)
 def _rule(chosen: Waves) -> tuple[Array, Array]:
+    """Compute the quadrature points κ (n,) and weights (n,) of panels."""
     last = floor(log(chosen.widest) / log(GROWTH))
     growing = GROWTH ** np.arange(chosen.first, last + 1.0)
     equal = growing[-1] + chosen.widest * np.arange(1.0, chosen.equal + 1)
@@ -80,6 +99,10 @@ def _rule(chosen: Waves) -> tuple[Array, Array]:
 
 @cached_within(MAX_CACHED)
 def _even_transforms(chosen: Waves, count: int) -> Array:
+    """Compute the cosine transforms of P_2n(t), n < `count`, at all wavenumbers (count, κ).
+
+    See `Waves.even_transforms`. The results are cached.
+    """
     places = chosen.rule[0]
     found = np.empty((count, len(places)))
     near = places < 2 * count
@@ -98,6 +121,11 @@ def _even_transforms(chosen: Waves, count: int) -> Array:
 
 @cached_within(MAX_CACHED)
 def _shifted_transforms(chosen: Waves, count: int) -> Array:
+    """Compute the cosine transforms of P_l(2t - 1), l < `count`, at all wavenumbers (count, κ).
+
+    The interval is 0 < t < 1. The transforms are Re iˡ exp(iκ/2) j_l(κ/2), with the spherical
+    Bessel function j_l. The results are cached.
+    """
     half = chosen.rule[0] / 2
     found = np.empty((count, len(half)))
     for order, row in enumerate(found):

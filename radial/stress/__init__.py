@@ -1,1 +1,1 @@
-"""Displacement and stress below the surface."""
+"""Displacement and stress below the surface, from the pressure and shear of a contact."""

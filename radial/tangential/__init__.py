@@ -1,1 +1,1 @@
-"""Tangential load: shear on rings and angles, with stick and slip."""
+"""Contact with tangential load: pressure and shear at points on rings, with stick and slip."""

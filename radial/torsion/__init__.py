@@ -1,1 +1,1 @@
-"""Torsion: circumferential shear of a twisted contact."""
+"""Torsion: circumferential shear of a contact, in closed form, with a stick disc."""
