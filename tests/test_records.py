@@ -92,11 +92,17 @@ def test_records_are_listed_by_cost_and_old_ones_are_red(
         (place / "study.json").write_text(dump_study(record))
     assert [r.path.parent.name for r in stored_records(tmp_path)] == ["promises", "stability"]
     assert slipstick("maintain", "records", tmp_path, "--check") == 0
+    (place / "earlier").mkdir()  # as a regeneration that was killed leaves it
+    (place / "study.json").rename(place / "earlier" / "study.json")
+    assert [r.name for r in stored_records(tmp_path)] == ["promises", "stability"]
+    (place / "earlier" / "study.json").rename(place / "study.json")
     content = json.loads((place / "study.json").read_text())
     content["provenance"]["sources"] = "those"
     (place / "study.json").write_text(json.dumps(content))
     assert slipstick("maintain", "records", tmp_path) == 0
     assert slipstick("maintain", "records", tmp_path, "--check") == 7
+    assert slipstick("maintain", "records", tmp_path, "--check", "--only", "stability") == 0
+    assert slipstick("maintain", "records", tmp_path, "--only", "stabilities") == 2
     assert "older than the code" in capsys.readouterr().out
     shutil.rmtree(tmp_path / "studies")
     assert stored_records(tmp_path) == []

@@ -47,7 +47,7 @@ def test_every_sheet_and_study_is_folded_under_one_line_and_its_anchor_is_inside
     )
     front, sheets = render_page(report), render_sheets(report)
     for page, name in (
-        (sheets, "hertz_point"), (front, "study-stability"), (front, "study-mutants")
+        (sheets, "hertz_point"), (front, "study-stability"), (front, "study-scoreboard")
     ):  # fmt: skip
         before, _, _ = page.partition(f'<article id="{name}">')
         line = before[before.rindex("<details") :]

@@ -105,7 +105,7 @@ def test_promises_lead_the_page_with_figures_or_with_the_command_that_finds_them
 @pytest.mark.parametrize("number", [0, 1, 2])
 def test_headline_names_studies_that_are_inconclusive(number: int) -> None:
     claim = Statement(claim="c", outcome=Status.INCONCLUSIVE, measured="m")
-    names = ("stability", "mutants", "coated-tractions")[: number + 1]
+    names = ("stability", "scoreboard", "coated-tractions")[: number + 1]
     records = [study(name) for name in names]
     open_ = [
         one.model_copy(update={"conclusion": one.conclusion.model_copy(

@@ -23,7 +23,6 @@ from verification.regression.baseline import accept, baselines_of
 from verification.regression.comparison import compared
 from verification.report.changes import change_rows
 from verification.report.files import (
-    EARLIER,
     JUNIT,
     PAGE,
     RECORD,
@@ -38,6 +37,7 @@ from verification.report.summary_text import failure_lines, render_junit, render
 from verification.running import provenance
 from verification.running.case_pool import CaseStore, DamagedRecord, _digest
 from verification.running.provenance import Provenance
+from verification.running.records import EARLIER
 from verification.running.report_record import Report, load_report
 from verification.running.study import LostCase, StudyRecord, dump_study
 

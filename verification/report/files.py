@@ -11,6 +11,7 @@ from pathlib import Path
 from contact_results.directory.atomic_file import OutputRefused, atomic_file
 from contact_results.directory.run_lock import acquire, release
 from contact_results.directory.stop_signals import stop_signals_held
+from verification.running.records import EARLIER
 from verification.running.report_record import PACKED_SUFFIX, Report, dump_report
 from verification.running.study import RECORD as STUDY_RECORD
 from verification.running.study import StudyRecord, dump_study
@@ -24,7 +25,6 @@ FILES = (RECORD, PAGE, SHEETS, JUNIT, SUMMARY)  # of any report
 POSSIBLE = (*FILES, PACKED)
 STUDY_FILES = (STUDY_RECORD, PAGE)
 CASES = "cases"  # of the directory: the records of finished cases
-EARLIER = "earlier"  # of the directory: the files before, until the new ones are whole
 
 
 def refuse_if_unwritable(directory: Path) -> None:

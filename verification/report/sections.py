@@ -19,7 +19,6 @@ TITLES = {
     "error-coverage": "Coverage of stated errors",
     "stability": "The stability map",
     "seeded-defects": "Seeded defects",
-    "mutants": "What the tests of kernels notice",
     "scoreboard": "Other codes on the same problems",
 }
 PROMISES = {

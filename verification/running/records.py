@@ -13,6 +13,7 @@ from verification.running.study import RECORD, stored_studies
 
 REPORTS = Path("reports")
 FULL, REPORT = "full", "report.json"
+EARLIER = "earlier"  # of a directory: the files before, until the new ones are whole
 
 
 @dataclass(frozen=True)
@@ -25,6 +26,11 @@ class StoredRecord:
     path: Path
     provenance: Provenance
     arguments: tuple[str, ...]
+
+    @property
+    def name(self) -> str:
+        """Name of its folder."""
+        return self.path.parent.name
 
     @property
     def seconds(self) -> float:
@@ -45,12 +51,15 @@ def stored_records(folder: Path = REPORTS) -> list[StoredRecord]:
 
 
 def _records(folder: Path) -> Iterator[StoredRecord]:
+    """Yield all records, also those that a killed regeneration has set aside."""
     studies = folder / "studies"
-    for record in stored_studies(studies):
-        place = studies / record.name
-        words = ("maintain", "study", record.name, "--level", record.level, "--output", str(place))
-        yield StoredRecord(place / RECORD, record.provenance, words)
+    for place in (studies, *sorted(studies.glob("*"))):
+        for record in stored_studies(place):
+            path = studies / record.name / RECORD
+            words = ("study", record.name, "--level", record.level, "--output", str(path.parent))
+            yield StoredRecord(path, record.provenance, ("maintain", *words))
     report = folder / FULL / f"{REPORT}{PACKED_SUFFIX}"
-    if report.is_file():
-        verify = ("verify", "--level", FULL, "--output", str(report.parent))
-        yield StoredRecord(report, load_report(report).provenance, verify)
+    for path in (report, report.parent / EARLIER / report.name):
+        if path.is_file():
+            verify = ("verify", "--level", FULL, "--output", str(report.parent))
+            yield StoredRecord(report, load_report(path).provenance, verify)

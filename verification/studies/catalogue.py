@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from verification.running.study import Study
 from verification.studies.coated_tractions import STUDY as COATED_TRACTIONS
 from verification.studies.error_coverage.study import STUDY as ERROR_COVERAGE
-from verification.studies.mutants import STUDY as MUTANTS
 from verification.studies.refinement.scene_level import CELLS, METHODS
 from verification.studies.refinement.study import (
     SceneStudyOf,
@@ -38,7 +37,6 @@ STUDIES: dict[str, Study] = {
         COATED_TRACTIONS,
         STABILITY,
         SEEDED_DEFECTS,
-        MUTANTS,
         WORK_PRECISION,
         ERROR_COVERAGE,
         SCOREBOARD,

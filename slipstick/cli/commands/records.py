@@ -11,6 +11,7 @@ from typing import Annotated
 import typer
 
 from slipstick.cli.errors import ExitCode
+from slipstick.cli.options import optional, unknown_names
 from slipstick.cli.terminal import print_table
 from verification.judging.outcome import commit_text
 from verification.running.records import stored_records
@@ -21,6 +22,10 @@ def records(
     directory: Annotated[
         Path, typer.Argument(metavar="DIR", help="Folder with full/ and studies/.")
     ] = Path("reports"),
+    only: Annotated[
+        list[str] | None,
+        optional(metavar="NAME", help="Name of a folder with a record; repeatable. Default: all."),
+    ] = None,
     check: Annotated[
         bool, typer.Option("--check", help="Exit with code 7 if a record is older than the code.")
     ] = False,
@@ -31,10 +36,15 @@ def records(
     """List stored records by cost, with their commit and changes of the code since.
 
     A record is older than the code if one of the modules that made it, or of their imports, has
-    changed. --regenerate makes these records again, the cheapest first, and prints the times. Exit
+    changed. --regenerate makes these records again, the cheapest first, and prints the times.
+    After the command was killed, the same command computes the missing records and cases. Exit
     code 7 with --check if a record is older than the code; 1 if a record cannot be made.
     """
     found = stored_records(directory)
+    names = [record.name for record in found]
+    if problem := unknown_names("record", only or (), names, "slipstick maintain records"):
+        raise typer.BadParameter(problem)
+    found = [record for record in found if not only or record.name in only]
     stale = [record for record in found if age_text(record.provenance)]
     print_table(
         ("record", "made at", "seconds", "age"),
