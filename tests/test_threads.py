@@ -53,8 +53,9 @@ def test_a_table_has_the_same_bytes_by_two_threads(folder: Path) -> None:
 ROOT = Path(__file__).resolve().parents[1]
 # What Python lacks on Windows or on macOS, taken away before the program is imported.
 WITHOUT = """
-import os, pathlib, signal, sys
+import os, pathlib, shutil, signal, sys
 import numpy, scipy.sparse, typer
+shutil._use_fd_functions = False
 sys.modules |= dict.fromkeys(("fcntl", "resource"))
 del signal.SIGHUP
 for name in ("O_DIRECTORY", "O_NOFOLLOW", "O_NONBLOCK", "pread", "pwrite", "sysconf",
