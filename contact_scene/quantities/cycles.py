@@ -1,4 +1,4 @@
-"""Load cycles: parts of a load history between steps that end with equal loads."""
+"""Load cycles: sections of a load history between the ends of two load steps with equal loads."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -28,8 +28,8 @@ State = tuple[tuple[Kind, tuple[float, ...]], ...]
 class LoadCycle:
     """Load cycle between the ends of two load steps with equal loads.
 
-    start  number of the step at whose end the cycle begins, from 1
-    end    number of the step at whose end the cycle closes
+    start  number of the load step at whose end the cycle begins, from 1
+    end    number of the load step at whose end the cycle closes
     """
 
     start: int
@@ -37,9 +37,13 @@ class LoadCycle:
 
 
 def load_cycles(path: Iterable[LoadRamp]) -> tuple[LoadCycle, ...]:
-    """Find the shortest cycle of every step that closes one.
+    """Find the load cycles of a load path: for each load step, the shortest cycle that its end
+    closes.
 
-    The kinds and the values of all controls must be equal. A step of constant load closes none.
+    A cycle is closed if the kinds and the values of all controls equal those at the end of an
+    earlier load step. A load step of constant load closes none.
+
+    path  load ramps of all load steps
     """
     ramps = list(path)
     scales = _scales(ramps)
@@ -55,9 +59,13 @@ def load_cycles(path: Iterable[LoadRamp]) -> tuple[LoadCycle, ...]:
 
 
 def loop_increments(path: Iterable[LoadRamp]) -> tuple[int, ...]:
-    """Return the number of increments of each step for the work of its cycles.
+    """Return the number of increments that each load step needs for an accurate work of its load
+    cycles.
 
-    The number is 1 outside of cycles and in steps with constant tangential load.
+    The work of a cycle is a trapezoidal sum over the increments. The number is 1 outside of cycles
+    and in load steps with constant tangential load.
+
+    path  load ramps of all load steps
     """
     ramps = list(path)
     within = {step for c in load_cycles(ramps) for step in range(c.start + 1, c.end + 1)}
@@ -72,7 +80,11 @@ def _of_loop(ramp: LoadRamp) -> int:
 
 
 def _loads(ramp: LoadRamp) -> Iterator[tuple[Kind, tuple[float, ...]]]:
-    """Yield the values of all controls at the end of a ramp, by coordinate and kind."""
+    """Yield the values of all controls at the end of a load ramp.
+
+    yields  coordinate and kind of the control; its values, one or two (the bulk strain: three or
+            none)
+    """
     controls: tuple[Any, ...] = (ramp.normal, ramp.tangential, ramp.twisting, ramp.tilting)
     for coordinate, control in enumerate(controls):
         end = control.end if isinstance(control.end, tuple) else (control.end,)
@@ -81,7 +93,13 @@ def _loads(ramp: LoadRamp) -> Iterator[tuple[Kind, tuple[float, ...]]]:
 
 
 def _scales(ramps: list[LoadRamp]) -> dict[Kind, float]:
-    """Compute the largest value of every coordinate, separately of forces and displacements."""
+    """Compute the largest magnitude of each control over the load path.
+
+    Forces and displacements of a coordinate are separate controls. Used to compare loads with a
+    relative tolerance.
+
+    returns  largest magnitude by coordinate and kind of the control; 0 if all values are 0
+    """
     scales: dict[Kind, float] = {}
     for kind, values in chain.from_iterable(map(_loads, ramps)):
         scales[kind] = max(scales.get(kind, 0.0), *map(abs, values), 0.0)
@@ -89,7 +107,12 @@ def _scales(ramps: list[LoadRamp]) -> dict[Kind, float]:
 
 
 def _state(ramp: LoadRamp, scales: Mapping[Kind, float]) -> State:
-    """Return the kinds and rounded relative values of all controls at the end of a ramp."""
+    """Return the controls at the end of a load ramp in a form that is equal for equal loads.
+
+    scales   largest magnitude of each control, see `_scales`
+    returns  coordinate and kind of each control, with its values relative to the scale and rounded
+             to `DIGITS` decimals
+    """
     return tuple(
         (kind, tuple(round(value / (scales[kind] or 1.0), DIGITS) for value in values))
         for kind, values in _loads(ramp)

@@ -1,6 +1,6 @@
-"""Metadata of reported values: unit and meaning, declared by annotations of a class.
+"""Unit and meaning of reported values, declared by annotations of the attributes of a class.
 
-Tables, files and JSON Schemas read the metadata from that class.
+Tables, files and JSON Schemas read units and meanings from that class.
 """
 
 from collections.abc import Mapping
@@ -25,7 +25,8 @@ OF_THE_INDENTER = (
 
 
 class Kind(Enum):
-    """Kind of a value, which determines the value of a load step from those of its increments."""
+    """Kind of a reported value. It determines the value of a load step from the values of its
+    increments."""
 
     SCALAR = "the value at the end of the step"
     VECTOR = "(x, y), the value at the end of the step"
@@ -36,9 +37,11 @@ class Kind(Enum):
 
 @dataclass(frozen=True)
 class Reported:
-    """Annotation of a reported value.
+    """Annotation of a reported value with its unit and meaning.
 
     unit      SI unit; empty if dimensionless
+    meaning   meaning of the value in a sentence
+    kind      relation between the value of a load step and those of its increments
     key       True for the main results
     physical  True for properties of the contact, which have an error; False for numerical measures
     """
@@ -50,12 +53,15 @@ class Reported:
     physical: bool = True
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
-        """Add unit and meaning to a JSON Schema."""
+        """Add the unit and the meaning of the reported value to its JSON Schema."""
         return {**handler(schema), "description": self.meaning, "unit": self.unit or "1"}
 
 
 def reported(record: type) -> Mapping[str, Reported]:
-    """Return the annotations of a class by name: attributes first, then properties."""
+    """Return the annotations of the reported values of a class, by attribute name.
+
+    Attributes come first, then properties. Attributes without such an annotation are left out.
+    """
     hints = get_type_hints(record, include_extras=True)
     for owner in reversed(record.__mro__):
         for name, member in vars(owner).items():

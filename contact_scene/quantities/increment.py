@@ -1,7 +1,8 @@
-"""Scalars of an increment, with unit and meaning, for all solvers.
+"""Scalars of an increment, such as forces, areas and energies, with unit and meaning, for all
+solvers.
 
-A scalar is None if the solver does not compute it or its effect is off. This module alone lists
-the scalars; solvers pass them where they create an increment.
+A scalar is None if the solver does not compute it or its effect is off. This module alone lists the
+scalars; solvers pass their values where they create an increment.
 """
 
 from collections.abc import Mapping
@@ -30,7 +31,7 @@ Count: TypeAlias = Annotated[int, Field(ge=0)]
 
 @dataclass(frozen=True, kw_only=True)
 class State:
-    """State at the end of an increment.
+    """Scalars of the contact at the end of an increment: loads, displacements, areas and energies.
 
     Vectors are (x, y), of the indenter relative to the body: a positive force causes a positive
     shift.
@@ -214,13 +215,18 @@ class State:
 
     @property
     def trapezoidal_work(self) -> float | None:
-        """Sum of ½(f₀ + f₁) Δω over forces f, displacements ω and increments [force length]."""
+        """Sum of ½(f₀ + f₁) Δω over all forces f, their displacements ω and all increments [force
+        length].
+
+        f₀ and f₁ are the forces at the start and the end of an increment. None without an input
+        work.
+        """
         return None if self.input_work is None else self.input_work + (self.unresolved_work or 0.0)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Quality:
-    """Residual and edge correction of an increment."""
+    """Numerical quality of an increment: largest residual, and change by the edge correction."""
 
     edge_change: Annotated[
         float | None,
@@ -280,11 +286,12 @@ class Counters:
 
 @dataclass(frozen=True, kw_only=True)
 class ReportedIncrement(Counters, Quality, State, WithFields):
-    """Scalars of one increment, and its position in the history.
+    """Results of one increment: its scalars, residuals and counters, and its position in the
+    history.
 
-    step, index         load step and increment within the step, counted from 1
-    increments_in_step  number of increments of the step
-    residuals           residual of each equation
+    step, index         load step, and increment within the load step, counted from 1
+    increments_in_step  number of increments of the load step
+    residuals           residual of each equation of the contact problem
     """
 
     step: int
@@ -305,21 +312,26 @@ COUNTERS: Mapping[str, Reported] = reported(Counters)
 
 
 def _unsigned_zero(value: Any) -> Any:
-    """Replace -0.0 by 0.0 in a number or vector: its sign has no meaning and would be printed."""
+    """Replace -0.0 by 0.0 in a number or vector, since a sign of zero has no meaning in a
+    result."""
     if isinstance(value, tuple):
         return tuple(map(_unsigned_zero, value))
     return value if value is None or isinstance(value, int) else value + 0.0
 
 
 def components(name: str) -> tuple[str, ...]:
-    """Return the column names of a scalar: its name, or those of x and y of a vector."""
+    """Return the column names of a scalar in a table: its name, or a name with _x and _y for a
+    vector."""
     if SCALARS[name].kind is Kind.VECTOR:
         return f"{name}_x", f"{name}_y"
     return (name,)
 
 
 def numbers(increment: State | Quality) -> dict[str, float | int | None]:
-    """Return all scalars of a record, vectors by component; None where undefined."""
+    """Return the scalars of an increment as numbers by column name.
+
+    Vectors are split into their components x and y. Undefined scalars are None.
+    """
     found: dict[str, float | int | None] = {}
     for name in SCALARS:
         value = getattr(increment, name)

@@ -1,7 +1,7 @@
 """Dimensionless residuals of the contact equations, and the criterion of convergence.
 
-Each solver evaluates the residuals from its fields (see its `residuals`); names and criterion are
-common.
+Each solver evaluates the residuals from its fields (see its module `residuals`); names and
+criterion are common to all solvers.
 """
 
 from dataclasses import dataclass, replace
@@ -14,13 +14,17 @@ from contact_scene.solver_errors import NotConverged
 
 
 def worst(*measures: float | None) -> float:
-    """Return the largest residual that is not None; NaN if any is NaN, unlike Python's `max`."""
+    """Return the largest of several residuals, without those that are None; NaN if any is NaN.
+
+    Python's `max` may ignore NaN.
+    """
     return float(np.max([measure for measure in measures if measure is not None]))
 
 
 @dataclass(frozen=True)
 class ShearResiduals:
-    """Residuals of the tangential problem, with the names of `Residuals`; None where undefined."""
+    """Residuals of the tangential problem, with the definitions of `Residuals`; None where
+    undefined."""
 
     friction_cone: float
     slip_direction: float | None
@@ -29,19 +33,23 @@ class ShearResiduals:
 
     @property
     def worst(self) -> float:
-        """Largest residual; NaN if any is NaN."""
+        """Largest residual of the tangential problem; NaN if any is NaN."""
         return worst(*vars(self).values())
 
 
 @dataclass(frozen=True)
 class Residuals:
-    """Residuals of an increment; None where the effect or the control is off.
+    """Dimensionless residuals of the contact equations at the end of an increment.
+
+    A residual is None where its effect or its control is off. Here p is the pressure, q the shear,
+    µp the friction limit and r the distance from the origin. W, T, M and M_z are the prescribed
+    normal force, tangential force, moments and torque. Δs is the slip in the increment.
 
     complementarity         ∫|gap| p dA / (approach W)
     penetration             largest overlap / approach
     normal_equilibrium      |∫p dA - W| / W, under force control
     friction_cone           largest |q| - µp / largest µp
-    slip_direction          ∫(µp|Δs| + q·Δs) dA / ∫µp|Δs| dA, Δs the slip increment
+    slip_direction          ∫(µp|Δs| + q·Δs) dA / ∫µp|Δs| dA
     tangential_equilibrium  |∫q dA - T| / ∫µp dA, under force control
     moment_equilibrium      |∫p (y, x) dA - M| / ∫p r dA, under force control of the tilt
     torque_equilibrium      |∫(q_y x - q_x y) dA - M_z| / ∫µp r dA, under force control of the twist
@@ -100,17 +108,19 @@ class Residuals:
     ] = None
 
     def with_shear(self, shear: ShearResiduals) -> "Residuals":
-        """Return the residuals with those of the tangential problem."""
+        """Return the residuals of the normal problem together with those of the tangential
+        problem."""
         return replace(self, **vars(shear))
 
     @property
     def worst(self) -> float:
-        """Largest residual; NaN if any is NaN."""
+        """Largest residual of the increment; NaN if any is NaN."""
         return worst(*vars(self).values())
 
     def require(self, tolerance: float, problem: str, iterations: int) -> None:
-        """Raise NotConverged if a residual exceeds the tolerance.
+        """Raise NotConverged if a residual exceeds the tolerance or is NaN.
 
+        tolerance   limit of every residual
         problem     name of the problem, for the message
         iterations  number of iterations, for the message
         """

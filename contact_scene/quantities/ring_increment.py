@@ -1,4 +1,4 @@
-"""Increment of bodies of revolution, with fields on rings."""
+"""Results of one increment for bodies of revolution, with fields on concentric rings."""
 
 from dataclasses import dataclass, field
 from math import pi
@@ -20,7 +20,8 @@ F = Kind.FIELD
 
 @dataclass(frozen=True, kw_only=True)
 class RingIncrement(ReportedIncrement):
-    """Converged state at the end of one increment of the load history.
+    """Results of one converged increment for bodies of revolution, with scalars and fields on
+    rings.
 
     Fields have the shape (rings,), or (rings, angles) with `angles`. Slip is cumulative since the
     start of the history: the displacement of the lower body's particles relative to the indenter's
@@ -72,5 +73,5 @@ class RingIncrement(ReportedIncrement):
 
     @property
     def in_contact(self) -> Mask:
-        """Rings with a positive pressure."""
+        """Mask of the rings in contact: those with a positive pressure."""
         return np.asarray(self.pressure > 0)

@@ -1,4 +1,4 @@
-"""Separation of the bodies: the empty contact, an exact state.
+"""Results for separated bodies (the empty contact), which are exact without a solve.
 
 Without a normal load there is no contact: tractions, elastic energy, forces and moments are 0. A
 later contact starts from the virgin state. Only sums over the history and the position of the
@@ -56,11 +56,14 @@ def separated(
     place: Mapping[str, int],
     approach: float | None = None,
 ) -> Reported:
-    """Return the increment without contact that follows increment `last`.
+    """Return the results of separated bodies at the end of an increment without contact.
 
+    last      results of the preceding increment
+    ramp      load ramp of the load step
+    fraction  fraction of the ramp at the end of the increment
     gap       undeformed gap at the approach 0 and the tilt of `position` [length]
-    place     step and increment
-    approach  prescribed approach [length]; absent: that of first contact
+    place     load step, increment and number of increments
+    approach  prescribed approach [length]; None for the approach of first contact
     """
     before: Any = last
     found = {f.name: _zero(getattr(before, f.name)) for f in fields(before) if f.init}
@@ -94,7 +97,10 @@ def separated(
 
 
 def virgin(increment: Reported) -> Reported:
-    """Return an increment of bodies before any contact: all values are 0 except positions."""
+    """Return the results of bodies before any contact: all values of an increment are 0.
+
+    Only its positions in space and in the history remain.
+    """
     of: Any = increment
     values = {f.name: _zero(getattr(of, f.name)) for f in fields(of) if f.init}
     zero = {name: value for name, value in values.items() if name not in _PLACES}
@@ -102,9 +108,15 @@ def virgin(increment: Reported) -> Reported:
 
 
 def position(last: Any, ramp: LoadRamp, fraction: float) -> dict[str, Any]:
-    """Determine shift, twist and tilt of separated bodies.
+    """Determine tangential shift, twist and tilt of separated bodies.
 
-    They are the prescribed ones, else those of the last contact; None if not reported.
+    A prescribed displacement has its value on the load ramp. Other displacements keep their last
+    value.
+
+    last      results of the preceding increment
+    ramp      load ramp of the load step
+    fraction  fraction of the ramp
+    returns   shift, twist and tilt by name; None if the results do not contain them
     """
     controls: tuple[Any, ...] = (ramp.tangential, ramp.twisting, ramp.tilting)
     motions = {}
@@ -118,8 +130,13 @@ def position(last: Any, ramp: LoadRamp, fraction: float) -> dict[str, Any]:
 
 
 def since_touch(ramp: LoadRamp, apart: Any) -> LoadRamp:
-    """Return a load step with shift, twist and strain relative to the separated increment `apart`,
-    for a later contact."""
+    """Return a load ramp with shift, twist and bulk strain counted from their values at separation.
+
+    Used for a contact after a separation, which starts from the virgin state.
+
+    ramp   load ramp of the load step
+    apart  results of the last increment without contact
+    """
     return replace(
         ramp,
         tangential=_counted(ramp.tangential, apart.tangential_shift, from_zero=True),
@@ -143,7 +160,14 @@ def _counted(control: Any, motion: Any, *, from_zero: bool) -> Any:
 
 
 def continued(apart: Any, increment: Reported) -> Reported:
-    """Add the sums and the position at separation to an increment of a later contact."""
+    """Add the values at separation to the results of an increment in a later contact.
+
+    The solve of a later contact counts shift, twist, work and dissipation from the separation; the
+    results count them from the start of the history.
+
+    apart      results of the last increment without contact
+    increment  results of the increment as solved
+    """
     values = {
         name: _added(getattr(apart, source), getattr(increment, name))
         for name, source in _CONTINUED.items()
@@ -160,7 +184,8 @@ def _added(first: Any, second: Any) -> Any:
 
 
 def _zero(value: Any) -> Any:
-    """Return the zero of the type of a value; None for types without one."""
+    """Return the zero of the type of a value: number, array, pair or residuals; None for other
+    types."""
     if isinstance(value, Residuals):
         return Residuals(**{name: _zero(size) for name, size in vars(value).items()})
     if isinstance(value, np.ndarray):

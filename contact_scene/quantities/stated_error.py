@@ -1,4 +1,4 @@
-"""Error estimates of reported numbers, and the reached accuracy."""
+"""Error estimates of reported numbers, and the accuracy that a run reached."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -89,8 +89,11 @@ class CoarseSolveRecord(Description):
 
 @dataclass(frozen=True)
 class StatedErrors:
-    """Errors of every step of a result by the names of its scalars, and their coarse
-    solves."""
+    """Error estimates of a result, and the coarse solves from which they are computed.
+
+    steps          errors of each load step, by the names of the scalars
+    coarse_solves  coarse solves of the scene
+    """
 
     steps: tuple[Mapping[str, StatedError], ...]
     coarse_solves: tuple[CoarseSolveRecord, ...]

@@ -1,6 +1,7 @@
-"""Storage of a long history in a temporary file, with values read on access.
+"""Storage of the results of a long load history in a temporary file, from which they are read on
+access.
 
-The file has no name: the system deletes it with the last value that refers to it.
+The file has no name: the operating system deletes the file with the last value that refers to it.
 """
 
 from __future__ import annotations
@@ -26,7 +27,13 @@ Value = TypeVar("Value", bound="WithFields")
 
 @dataclass(frozen=True, slots=True)
 class StoredArray:
-    """An array in a file."""
+    """Reference to an array in a temporary file.
+
+    file    open file
+    offset  position of the first byte in the file
+    dtype   type of the numbers
+    shape   shape of the array
+    """
 
     file: IO[bytes]
     offset: int
@@ -35,30 +42,43 @@ class StoredArray:
 
     @property
     def nbytes(self) -> int:
-        """Size of the array [byte]."""
+        """Size of the stored array [byte]."""
         return self.dtype.itemsize * math.prod(self.shape)
 
     def read(self) -> NDArray[Any]:
-        """Read a copy of the array. It is read-only, since changes would not reach the file."""
+        """Read a copy of the array from its file.
+
+        The copy is read-only, since changes would not reach the file.
+        """
         mapped = np.memmap(self.file, self.dtype, "r", self.offset, self.shape)
         values = np.array(mapped, subok=False)
         values.flags.writeable = False
         return values
 
     def __reduce_ex__(self, protocol: Any) -> Any:
-        """Pickle the array instead of its place in the file, which other processes cannot read."""
+        """Pickle the array instead of the reference to its file, which other processes cannot
+        read."""
         return self.read().__reduce_ex__(protocol)
 
 
 class _StoredState(NamedTuple):
-    """Place of the attributes of a value in a file. Not a dataclass, which checkpoints accept."""
+    """Reference to the attributes of an object in a temporary file.
+
+    The class is no dataclass: files of checkpoints accept frozen dataclasses, and must not contain
+    such a reference, because its `read` unpickles bytes.
+
+    file    open file
+    offset  position of the first byte in the file
+    size    number of bytes
+    """
 
     file: IO[bytes]
     offset: int
     size: int
 
     def read(self) -> dict[str, Any]:
-        """Read the attributes; arrays remain in the file."""
+        """Read the attributes of the object from the file; arrays remain in the file as
+        references."""
         content = np.memmap(self.file, np.uint8, "r", self.offset, (self.size,)).tobytes()
         state, arrays = pickle.loads(content)
         return state | {
@@ -68,9 +88,10 @@ class _StoredState(NamedTuple):
 
 
 class WithFields:
-    """Value with arrays, or all attributes, in a file.
+    """Base class of results with arrays, which may be stored in a temporary file.
 
-    An array is read at every access. The attributes of one value at a time are in memory.
+    An array in a file is read at every access. If all attributes are in the file, they are read on
+    access; only those of the object that was read last remain in memory.
     """
 
     def __getattribute__(self, name: str) -> Any:
@@ -108,15 +129,15 @@ def _state(value: WithFields, own: dict[str, Any]) -> dict[str, Any]:
 
 
 def stored_bytes(value: WithFields) -> int:
-    """Compute the size of all arrays of a value [byte]."""
+    """Compute the size of all arrays of a result, in memory or in its file [byte]."""
     return sum(getattr(array, "nbytes", 0) for array in vars(value).values())
 
 
 class FieldStore:
-    """Storage of the values of one history, in their order.
+    """Storage of the results of all increments of one load history, in their order.
 
-    Arrays beyond `MAX_IN_MEMORY` bytes, and all values from then on, are in a file. An array that a
-    value shares with the preceding value, or has twice, is stored once.
+    Arrays beyond `MAX_IN_MEMORY` bytes in total, and all results from then on, are in a temporary
+    file. An array that a result shares with the preceding result, or has twice, is stored once.
     """
 
     def __init__(self) -> None:
@@ -125,7 +146,10 @@ class FieldStore:
         self._known: dict[int, tuple[NDArray[Any], NDArray[Any] | StoredArray]] = {}
 
     def stored(self, value: Value) -> Value:
-        """Store a value; return its equivalent. Raises OSError if the file cannot grow."""
+        """Store a result of an increment; return an equivalent object that may refer to the file.
+
+        Raises OSError if the file cannot grow.
+        """
         copied = copy.copy(value)
         known: dict[int, tuple[NDArray[Any], NDArray[Any] | StoredArray]] = {}
         for name, array in vars(value).items():
@@ -138,7 +162,13 @@ class FieldStore:
         return copied if self._file is None else self._in_file(copied, self._file)
 
     def _in_file(self, value: Value, file: IO[bytes]) -> Value:
-        """Write the attributes of a value to the file, except arrays that are there already."""
+        """Write the attributes of a result to the file; return an object that refers to them.
+
+        Arrays that are in the file already are not written again.
+
+        value  result of an increment
+        file   open temporary file
+        """
         state = dict(vars(value))
         arrays = {
             name: (array.offset, array.dtype.str, array.shape)
@@ -162,7 +192,12 @@ class FieldStore:
         return StoredArray(self._file, place, array.dtype, array.shape)
 
     def _write(self, content: bytes | memoryview) -> int:
-        """Append to the file; return the offset."""
+        """Append bytes to the temporary file, which is created if needed.
+
+        returns  position of the first byte in the file
+
+        Raises OSError if the folder of temporary files is full or missing.
+        """
         try:
             if self._file is None:
                 # Open as long as a value refers to it.

@@ -1,4 +1,4 @@
-"""Summary of a run, `summary.json`, with equal names for all solvers."""
+"""Summary of a run, stored as `summary.json`, with equal keys for all solvers."""
 
 import json
 from dataclasses import dataclass
@@ -64,7 +64,8 @@ class Residuals(residuals.Residuals):
 
 @dataclass(frozen=True, kw_only=True)
 class Closed:
-    """Load cycle that the end of a step closes, and the residuals of the state there."""
+    """Measures of the load cycle that the end of a load step closes, and the residuals of that
+    state."""
 
     cycle_start: Annotated[
         int | None,
@@ -248,13 +249,16 @@ class RunSummary(Description):
 
 
 def dump_summary(summary: RunSummary) -> str:
-    """Convert the summary to JSON text with all keys, null where one does not apply."""
+    """Convert the summary of a run to JSON text. A key without a value is null."""
     record = summary.model_dump(mode="json")
     return json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def load_summary(text: str) -> RunSummary:
-    """Read a summary from its JSON text; raises ValueError with the first mistake."""
+    """Read the summary of a run from its JSON text.
+
+    Raises ValueError with the first mistake in the text.
+    """
     try:
         return RunSummary.model_validate_json(text)
     except ValidationError as error:
@@ -264,6 +268,6 @@ def load_summary(text: str) -> RunSummary:
 
 
 def summary_schema() -> dict[str, Any]:
-    """Create the JSON Schema of `summary.json`, with meaning and unit of every key."""
+    """Create the JSON Schema of `summary.json`, with the meaning and unit of every key."""
     schema = RunSummary.model_json_schema(mode="serialization", schema_generator=DescribedSchema)
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}

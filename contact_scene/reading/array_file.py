@@ -1,4 +1,4 @@
-"""Arrays of a scene from files: height maps and friction maps."""
+"""Arrays of a scene that are read from files: height maps and friction maps."""
 
 import hashlib
 from dataclasses import dataclass, field
@@ -24,7 +24,7 @@ _MISSING = {"", "nan", "bad", "na", "n/a", "null", "***", "---"}
 
 @dataclass(frozen=True)
 class ArrayFile:
-    """Two-dimensional array with its name; arrays with equal values are equal.
+    """Two-dimensional array of a scene with its file name; arrays with equal values compare equal.
 
     values  read-only, index [i, j] = (x_i, y_j); NaN for missing values
     name    name in the scene file; empty for an array made in Python
@@ -40,13 +40,13 @@ class ArrayFile:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Number of values along x and along y."""
+        """Number of values of the array along x and along y."""
         nx, ny = self.values.shape
         return nx, ny
 
 
 def array_file(value: Any, info: ValidationInfo) -> ArrayFile:
-    """Return the array of a file key.
+    """Validate the value of a key that names an array file, and return the array.
 
     A scene file names a `.npy`, `.csv` or `.txt` file in or below its folder,
     `info.context["folder"]`. A stored run contains the array in `info.context["arrays"]`, by its
@@ -89,7 +89,13 @@ FileKey = Annotated[
 
 
 def _inside(folder: Path, name: str) -> Path:
-    """Resolve the name of a file in or below a folder; refuses links to other folders."""
+    """Resolve the name of a file in or below a folder to its path.
+
+    Raises a validation error for other names, and for links to other folders.
+
+    folder  folder of the scene file
+    name    file name, relative to the folder
+    """
     relative = PurePosixPath(name)
     is_plain = not relative.is_absolute() and ".." not in relative.parts
     try:
@@ -105,7 +111,14 @@ def _inside(folder: Path, name: str) -> Path:
 
 
 def _read(path: Path, name: str) -> NDArray[Any]:
-    """Read a text file, or map a `.npy` file into memory, which allocates no memory for it."""
+    """Read the array of a text file, or map the array of a `.npy` file into memory.
+
+    A mapped array allocates no memory. Raises a validation error for missing, incomplete or other
+    files.
+
+    path  path of the file
+    name  name of the file in the scene, for messages
+    """
     expected = (
         "a .npy file with a two-dimensional array of numbers (numpy.save writes it), or a .csv or "
         ".txt file with equally many numbers in every line"
@@ -127,10 +140,13 @@ def _read(path: Path, name: str) -> NDArray[Any]:
 
 
 def _text(path: Path, name: str) -> NDArray[Any]:
-    """Read a text file in the orientation of a top view: x to the right, y upwards.
+    """Read an array from a text file in the orientation of a top view: x to the right, y upwards.
 
     Fields are separated by semicolons, tabs, commas or spaces; lines before the first numbers are
-    skipped. Fields of `_MISSING` are NaN.
+    skipped. Fields of `_MISSING` become NaN.
+
+    path  path of the file
+    name  name of the file in the scene, for messages
     """
     if path.stat().st_size > _MAX_TEXT:
         raise refusal(f"the file {shown(name)} is too long", "a .npy file for this array")
@@ -161,7 +177,12 @@ def _named(name: str) -> str:
 
 
 def _checked(values: NDArray[Any], name: str) -> ArrayFile:
-    """Check shape and type, before memory is allocated, and copy the values."""
+    """Check the shape and the type of an array of a scene, and copy its values to float64.
+
+    The checks precede the copy, which allocates memory.
+
+    name  name of the file in the scene; empty for an array made in Python
+    """
     nx, ny = shape = values.shape if values.ndim == 2 else (0, 0)
     expected = ""
     if not _MIN_SIDE <= min(shape) <= max(shape) <= _MAX_SIDE:
@@ -182,7 +203,10 @@ def _checked(values: NDArray[Any], name: str) -> ArrayFile:
 
 
 def refuse_missing(array: ArrayFile) -> None:
-    """Raise an error with the position of the first NaN, if there is one."""
+    """Raise a validation error with the position of the first missing value (NaN) of an array.
+
+    Without a missing value, no error is raised.
+    """
     _refuse(np.isnan(array.values), array.values, array.name)
 
 

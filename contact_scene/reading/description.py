@@ -1,4 +1,4 @@
-"""Base class of all models of a scene: frozen, without unknown keys."""
+"""Base class of all models of a scene: frozen, without unknown keys, with documented fields."""
 
 import ast
 import inspect
@@ -27,7 +27,8 @@ class Description(BaseModel):
     @model_validator(mode="before")
     @classmethod
     def _refuse_sets(cls, given: Any) -> Any:
-        """Raise an error for steps, layers or components in a set, which has no order."""
+        """Raise a validation error for a value that is a set, since steps, layers and components
+        have an order."""
         for name, value in given.items() if isinstance(given, dict) else ():
             if isinstance(value, set | frozenset):
                 raise refusal(f"got a set for {name}", "a tuple or list, which has an order")
@@ -36,10 +37,11 @@ class Description(BaseModel):
 
 @cache
 def field_descriptions(model: type) -> dict[str, str]:
-    """Return the description of each field of a model: given to `Field`, or its docstring.
+    """Return the description of each field of a model, by the name of the field.
 
-    Docstrings are read from the source on demand: reading them takes longer than the solve of a
-    small contact.
+    The description is given to pydantic's `Field`, or is the docstring below the field. Docstrings
+    are read from the source on demand, since reading them takes longer than the solve of a small
+    contact.
     """
     found: dict[str, str] = {}
     for base in reversed(model.__mro__[:-1]):
@@ -68,7 +70,7 @@ def _docstrings(model: type) -> dict[str, str]:
 
 
 class DescribedSchema(GenerateJsonSchema):
-    """JSON Schema that describes each property by `field_descriptions`."""
+    """Generator of a JSON Schema whose properties are described by `field_descriptions`."""
 
     def model_schema(self, schema: Any) -> JsonSchemaValue:
         return _described(super().model_schema(schema), schema["cls"])

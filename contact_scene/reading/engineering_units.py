@@ -1,4 +1,4 @@
-"""SI prefixes for readable quantities: 3.17 GPa, 0.6 mm, 0.8 µm."""
+"""SI prefixes for readable quantities in texts and plots: 3.17 GPa, 0.6 mm, 0.8 µm."""
 
 from dataclasses import dataclass
 
@@ -11,22 +11,35 @@ LARGEST_PREFIX = {"m": 0}
 
 @dataclass(frozen=True)
 class EngineeringUnit:
-    """Unit with an SI prefix; `value / size` is the number in this unit."""
+    """SI unit with a prefix, such as mm or GPa.
+
+    size  the unit in SI, such as 1e-3 for mm; a value in SI divided by `size` is the number in this
+          unit
+    name  symbol of the unit with its prefix
+    """
 
     size: float
     name: str
 
     def labelled(self, text: str) -> str:
-        """Append the unit to the label of an axis: `x (mm)`."""
+        """Append the unit to the label of a plot axis, as in `x (mm)`."""
         return f"{text} ({self.name})"
 
     def text(self, value: float, digits: int = 4) -> str:
-        """Write a value with its unit and a number of significant digits."""
+        """Write a value with the unit.
+
+        value   value in SI
+        digits  number of significant digits
+        """
         return f"{value / self.size:.{digits}g} {self.name}"
 
 
 def engineering_unit(magnitude: float, unit: str) -> EngineeringUnit:
-    """Select the prefix of an SI unit for numbers up to a magnitude."""
+    """Select the prefix of an SI unit so that numbers up to a magnitude are readable.
+
+    magnitude  largest magnitude [SI unit]
+    unit       SI unit without a prefix; empty for pure numbers
+    """
     if not unit:
         return EngineeringUnit(1.0, "")
     exponents = [e for e in PREFIXES if e <= LARGEST_PREFIX.get(unit, 9)]
@@ -40,5 +53,10 @@ def engineering_unit(magnitude: float, unit: str) -> EngineeringUnit:
 
 
 def quantity(value: float, unit: str, digits: int = 4) -> str:
-    """Write a value in its most readable unit."""
+    """Write a value in SI with the most readable prefix of its unit, such as "0.6 mm".
+
+    value   value in SI
+    unit    SI unit without a prefix
+    digits  number of significant digits
+    """
     return engineering_unit(abs(value), unit).text(value, digits)

@@ -1,4 +1,7 @@
-"""Changes of a scene document by dotted keys, as with `--set key=value`."""
+"""Changes of a scene document by dotted keys, as with the command-line option `--set key=value`.
+
+A document is the content of a scene file: nested tables and arrays.
+"""
 
 import re
 import tomllib
@@ -21,7 +24,7 @@ _EXPECTED = "key=value such as semi_analytical.cells=[128,128] or loading[2].inc
 
 
 def override(document: dict[str, Any], assignment: str) -> Path:
-    """Set one key of a document in place, and return its path.
+    """Set one key of a scene document in place to the value of a text; return the path of the key.
 
     assignment  `dotted.key=value`. Array entries count from 1: `loading[2].increments=5`. A value
                 that is not TOML, such as a bare word or `18 mm`, is a text.
@@ -38,7 +41,12 @@ def override(document: dict[str, Any], assignment: str) -> Path:
 
 
 def assign(document: dict[str, Any], key: str, value: Any) -> None:
-    """Set one key of a document in place to a Python value; see `override`."""
+    """Set one key of a scene document in place to a Python value.
+
+    key  dotted key. Array entries count from 1: `loading[2].increments`
+
+    Raises `SceneError` and leaves the document unchanged if there is no such key; see `override`.
+    """
     path = _path(key)
     if not path:
         expected = "a key such as loading[2].increments"
@@ -49,7 +57,9 @@ def assign(document: dict[str, Any], key: str, value: Any) -> None:
 def _changed(holder: Any, path: Path, value: Any, problem: Problem) -> Any:
     """Return a copy of a table, model or array with another value at a path.
 
-    problem  template of the error if the path does not exist
+    holder   table, model or array of a scene document
+    path     keys and indices from `holder` to the value; missing tables are created
+    problem  template of the error for a path that does not exist
     """
     if not path:
         return value
@@ -91,5 +101,8 @@ def _value(text: str) -> Any:
 
 
 def origin(assignment: str) -> str:
-    """Return the name of an override in messages, in place of a file name."""
+    """Return the text that names an override in messages, such as "--set key=value".
+
+    Messages contain the text in place of the name of a scene file.
+    """
     return f"--set {shown(assignment)[1:-1]}"

@@ -1,4 +1,4 @@
-"""Validators of physical quantities, numbers in SI or texts with a unit, and of whole numbers."""
+"""Validators of physical quantities (numbers in SI, or texts with a unit) and of whole numbers."""
 
 import math
 import re
@@ -47,7 +47,7 @@ _PLAUSIBLE = 1e-30, 1e30
 
 
 class WithUnit(float):
-    """A number in SI that was written with its unit."""
+    """Number in SI that the user wrote with a unit, so that a wrong unit is unlikely."""
 
     def __reduce__(self) -> tuple[type[float], tuple[float]]:
         return float, (float(self),)
@@ -55,9 +55,10 @@ class WithUnit(float):
 
 @dataclass(frozen=True)
 class Quantity:
-    """Validator of one kind of quantity with limits, for use in `Annotated[float, ...]`.
+    """Validator of numbers of one physical quantity within limits, for use in `Annotated[float,
+    ...]`.
 
-    kind             kind of the quantity, with its units
+    kind             physical quantity, with its units
     above, at_least  lower limit, exclusive or inclusive [SI unit of the kind]
     below, at_most   upper limit, exclusive or inclusive [SI unit of the kind]
     wanted           expected value in words, such as "a positive length"
@@ -72,11 +73,14 @@ class Quantity:
 
     @property
     def expected(self) -> str:
-        """Expected value in words, with an example."""
+        """Expected value of the quantity in words, with an example, for messages."""
         return f"{self.wanted} such as {self.kind.example}" if self.kind.units else self.wanted
 
     def __call__(self, value: Any) -> float:
-        """Convert a value to SI; raises an error with the received and the expected value."""
+        """Convert a number, or a text with a unit, to SI and check its limits.
+
+        Raises a validation error with the received and the expected value.
+        """
         number = self._in_si(value)
         if not math.isfinite(number):
             raise refusal(f"got {shown(value)}, which is not finite", self.expected)
@@ -104,7 +108,12 @@ class Quantity:
             raise refusal(f"got {shown(value)}", self.expected) from None
 
     def _instead_of(self, value: Any) -> str:
-        """Return a hint on the value that a script should pass instead."""
+        """Return a hint for a script that passed an unsupported number, such as an object with a
+        unit.
+
+        value    received object
+        returns  hint on the value to pass instead; empty without a hint
+        """
         if has_unit(value):
             text = f"write a text such as {self.kind.example}, or " if self.kind.units else ""
             return f"{text}pass its number{f' in {self.kind.si}' if self.kind.si else ''}"
@@ -157,13 +166,16 @@ class Quantity:
 
 @dataclass(frozen=True)
 class WholeNumber:
-    """Validator of a whole number with inclusive limits, for use in `Annotated[int, ...]`."""
+    """Validator of whole numbers between two inclusive limits, for use in `Annotated[int, ...]`."""
 
     at_least: int
     at_most: int
 
     def __call__(self, value: Any) -> int:
-        """Return a whole number; raises an error for all other values, also for 5.0 and true."""
+        """Return a whole number within the limits.
+
+        Raises a validation error for all other values, also for 5.0 and true.
+        """
         try:
             number = index(value) if is_plain(value) else None
         except TypeError:
@@ -186,7 +198,7 @@ class WholeNumber:
 
 
 def is_plain(value: Any) -> bool:
-    """Determine if a value is a real number without loss.
+    """Determine if a value can be converted to a real number without loss.
 
     Excludes values with a unit, mask, imaginary part or several entries, truth values and times.
     """
@@ -200,7 +212,8 @@ def is_plain(value: Any) -> bool:
 
 
 def has_unit(value: Any) -> bool:
-    """Determine if a value is from a library of units such as pint, astropy or unyt."""
+    """Determine if a value is an object with a unit from a library such as pint, astropy or
+    unyt."""
     return hasattr(value, "units") or hasattr(value, "unit")
 
 

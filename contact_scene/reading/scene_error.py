@@ -16,9 +16,9 @@ _MAX_SHOWN = 60  # characters
 
 @dataclass(frozen=True)
 class Problem:
-    """One mistake.
+    """One mistake in a scene.
 
-    path      keys and indices in the document; indices count from 0
+    path      keys and indices of the wrong value in the document; indices count from 0
     message   mistake, or received value
     expected  expected value; may be empty
     hint      remedy; may be empty
@@ -35,7 +35,8 @@ class Problem:
 
     @property
     def key(self) -> str:
-        """Dotted path: `loading[2].normal_force` for the second step, counted from 1."""
+        """Dotted key of the wrong value: `loading[2].normal_force` for the second step, counted
+        from 1."""
         return dotted(self.path)
 
     def __str__(self) -> str:
@@ -47,7 +48,7 @@ class Problem:
 
 
 class SceneError(Exception):
-    """Invalid scene; `problems` contains every mistake."""
+    """Error for an invalid scene; the attribute `problems` contains every mistake."""
 
     def __init__(self, problems: Iterable[Problem]) -> None:
         self.problems = tuple(problems)
@@ -60,7 +61,10 @@ class SceneError(Exception):
 
 
 def dotted(path: Path) -> str:
-    """Join the keys of a path by dots; array indices count from 1."""
+    """Join the keys and indices of a path by dots, as in `loading[2].normal_force`.
+
+    path  keys, and array indices that count from 0; in the text they count from 1
+    """
     text = ""
     for part in path:
         if isinstance(part, int):
@@ -72,7 +76,12 @@ def dotted(path: Path) -> str:
 
 
 def refusal(message: str, expected: str = "", hint: str = "") -> PydanticCustomError:
-    """Create an exception for pydantic validators, with separate message, expectation and hint."""
+    """Create a validation error for pydantic, with separate message, expectation and hint.
+
+    message   mistake, or received value
+    expected  expected value; may be empty
+    hint      remedy; may be empty
+    """
     sentence = "{message}"
     sentence += ", expected {expected}" if expected else ""
     sentence += "; {hint}" if hint else ""
@@ -81,7 +90,8 @@ def refusal(message: str, expected: str = "", hint: str = "") -> PydanticCustomE
 
 
 def shown(value: Any) -> str:
-    """Convert a value to printable text of limited length, in the notation of TOML."""
+    """Convert a value to printable text of limited length for a message, in the notation of
+    TOML."""
     if isinstance(value, str):
         return '"' + printable(shortened(value)) + '"'
     if isinstance(value, bool):
@@ -98,7 +108,7 @@ def shown(value: Any) -> str:
 
 
 def printable(text: str) -> str:
-    """Escape control characters and quotes of a text, for a terminal or a log."""
+    """Escape control characters and quotes of a text, so that a terminal or a log can show it."""
     return "".join(c if c.isprintable() and c != '"' else ascii(c)[1:-1] for c in text)
 
 
@@ -109,10 +119,11 @@ def _shown_array(items: list[Any] | tuple[Any, ...]) -> str:
 
 
 def shortened(text: str, longest: int = _MAX_SHOWN) -> str:
-    """Cut a text to a largest length."""
+    """Cut a text to a maximum number of characters, with "…" in place of the rest."""
     return text if len(text) <= longest else text[: longest - 1] + "…"
 
 
 def is_bare_key(part: str) -> bool:
-    """Determine if TOML allows a key without quotes."""
+    """Determine if TOML allows a key without quotes: letters, digits, hyphens and underscores
+    only."""
     return re.fullmatch(r"[A-Za-z0-9_-]+", part) is not None

@@ -1,4 +1,4 @@
-"""Reading of scene files, with overrides, and checked changes of scenes."""
+"""Reading of scene files, with overrides of single keys, and checked changes of scenes."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
@@ -29,12 +29,15 @@ D = TypeVar("D", bound=Description)
 
 
 def load_scene(path: str | PathLike[str]) -> Scene:
-    """Read the scene of a scene file; raises `SceneError` with every mistake."""
+    """Read the scene of a scene file.
+
+    Raises `SceneError` with every mistake.
+    """
     return read_scene_file(path).scene
 
 
 def read_scene_file(path: str | PathLike[str], overrides: Iterable[str] = ()) -> SceneFile:
-    """Read and check a scene file.
+    """Read and check a scene file, after overrides of its keys.
 
     Parameters
     ----------
@@ -68,10 +71,12 @@ def read_scene_file(path: str | PathLike[str], overrides: Iterable[str] = ()) ->
 def _placed(
     problem: Problem, file: str, lines: Mapping[Key, int], options: Mapping[Key, str]
 ) -> Problem:
-    """Add to a problem the file and line of its key, or the option that set the key.
+    """Add its place to a problem: file and line of its key, or the option that set the key.
 
-    lines    line of every key in the file
-    options  options of the keys that they set
+    problem  problem without a place
+    file     name of the scene file
+    lines    line of each key in the scene file
+    options  command-line options by the keys that they set
     """
     path = problem.path
     prefixes = [path[:length] for length in range(len(path), -1, -1)]
@@ -85,9 +90,12 @@ def _placed(
 
 
 def read_accuracy(text: str, option: str) -> AccuracyRequest:
-    """Read a requested accuracy: "0.1%" or "peak_pressure 0.1%, dissipated_energy 1%".
+    """Parse and check the text of a requested accuracy: "0.1%" or "peak_pressure 0.1%, approach
+    1%".
 
+    text    text of the command-line option
     option  name of the option, for messages
+
     Raises `SceneError` with every mistake.
     """
     try:
@@ -97,7 +105,7 @@ def read_accuracy(text: str, option: str) -> AccuracyRequest:
 
 
 class _Accuracy(Description):
-    """Document with an accuracy alone."""
+    """Document that contains a requested accuracy alone, for the validation of a text."""
 
     accuracy: AccuracyRequest
 
@@ -105,7 +113,12 @@ class _Accuracy(Description):
 def changed_scene(
     scene: Scene, changes: Iterable[str | Mapping[str, Any]], keys: Mapping[str, Any]
 ) -> Scene:
-    """Apply the changes of `Scene.replace`."""
+    """Return a scene with other values of some keys, checked like a scene file; see
+    `Scene.replace`.
+
+    changes  texts `dotted.key=value`, or mappings from dotted keys to values
+    keys     values of keys without dots
+    """
     document = dict(scene)
     for change in (*changes, keys):
         if isinstance(change, str):
@@ -128,7 +141,14 @@ def changed_scene(
 
 
 def _valid(kind: type[D], document: dict[str, Any], context: dict[str, Any]) -> D:
-    """Check a document; raises `SceneError` with every mistake."""
+    """Validate a document as a model, and check the consistency of the tables of a scene.
+
+    kind      class of the model
+    document  tables by their keys
+    context   context of pydantic's validators: folder of the scene file
+
+    Raises `SceneError` with every mistake.
+    """
     try:
         return kind.model_validate(document, context=context)
     except ValidationError as error:
@@ -141,7 +161,15 @@ def _valid(kind: type[D], document: dict[str, Any], context: dict[str, Any]) -> 
 def _valid_tables(
     document: Mapping[str, Any], error: ValidationError, context: dict[str, Any]
 ) -> dict[str, Any]:
-    """Return the tables without an error; of the loading, the steps before the first error."""
+    """Return the valid tables of an invalid scene document, as models.
+
+    Used to check their consistency in spite of errors in other tables. Of the load steps, those
+    before the first invalid one are returned. Absent tables have their default values.
+
+    document  tables by their keys
+    error     validation errors of the document
+    context   context of pydantic's validators
+    """
     places = [detail["loc"] for detail in error.errors(include_url=False)]
     bad = {place[0] for place in places if place[0] != "loading" or len(place) == 1}
     given = dict(document)

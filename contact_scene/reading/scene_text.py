@@ -1,4 +1,4 @@
-"""Description of a scene as text: every key with its value in a readable unit."""
+"""Description of a scene as text for the user: every key with its value in a readable unit."""
 
 from collections.abc import Container, Iterable, Iterator
 from typing import get_args
@@ -24,9 +24,12 @@ def describe(
     discretisation: SurfaceDiscretisation,
     elements: FiniteElementDiscretisation | None = None,
 ) -> Iterator[Line]:
-    """Yield names and texts of the tables of a scene, its load steps and its discretisation.
+    """Yield lines that describe a scene: its tables, its load steps and its discretisation.
 
-    elements  shown if not default
+    discretisation  settings of the semi-analytical solver
+    elements        settings of the finite-element solvers; only values other than the default are
+                    shown
+    yields          name and text of each line
     """
     if scene.title:
         yield "title", scene.title
@@ -47,18 +50,27 @@ def describe(
 
 
 def shape_text(indenter: Body) -> str:
-    """Return the shape of an indenter and its parameters."""
+    """Describe the shape of an indenter and its parameters in words, such as "sphere, radius 18
+    mm"."""
     return _joined(indenter, Body.model_fields)
 
 
 def _texts(model: BaseModel) -> Iterator[Line]:
-    """Yield names and texts of all keys; the text is empty for a key without a value."""
+    """Yield the name of each key of a table of the scene, and its value as text.
+
+    The text is empty for a key without a value.
+    """
     for name, field in type(model).model_fields.items():
         yield name, _text(getattr(model, name), _unit(field))
 
 
 def _joined(model: BaseModel, left_out: Container[str] = ()) -> str:
-    """Join names and texts of the keys with values; the shape is first, without its name."""
+    """Join the keys of a table of the scene and their values to one text.
+
+    The shape of an indenter comes first, without its key. Keys without a value are left out.
+
+    left_out  names of other keys to leave out
+    """
     texts = {name: text for name, text in _texts(model) if text and name not in left_out}
     shape = [texts.pop("shape").replace("_", " ")] if "shape" in texts else []
     own = sorted(texts, key=lambda name: name in Body.model_fields)
@@ -83,7 +95,7 @@ def _text(value: object, unit: str = "") -> str:
 
 
 def _unit(field: FieldInfo) -> str:
-    """Return the SI unit of a quantity or pair of quantities; empty for pure numbers and others."""
+    """Return the SI unit of a key of the scene; empty for pure numbers and for other types."""
     unit = next(_units((*field.metadata, field.annotation)), "")
     return unit if unit != "1" else ""
 

@@ -1,6 +1,6 @@
-"""Reading of a TOML file of limited size, with the lines of its keys.
+"""Reading of a TOML file of limited size, with the line of each of its keys.
 
-`tomllib` does not report these lines.
+The lines are for error messages; Python's `tomllib` does not report them.
 """
 
 import re
@@ -35,7 +35,12 @@ _TOKEN = re.compile(
 
 
 def read_toml(file: FilePath) -> tuple[dict[str, Any], dict[Path, int]]:
-    """Read a TOML file; return its contents and the line of every key. Raises `SceneError`."""
+    """Read a TOML file.
+
+    returns  contents of the file, line of every key and array entry
+
+    Raises `SceneError` for a file that is missing, too large or not valid.
+    """
     text = _text(file)
     try:
         lines = locate(text)  # first, since its limits let tomllib read in linear time
@@ -85,7 +90,8 @@ def _refused(
 
 
 class NestedTooDeep(ValueError):
-    """More than `MAX_DEPTH` nested tables, arrays or dotted keys, on `line`."""
+    """Error for more than `MAX_DEPTH` nested tables, arrays or dotted keys, with the line in
+    `line`."""
 
     def __init__(self, line: int) -> None:
         self.line = line
@@ -93,11 +99,12 @@ class NestedTooDeep(ValueError):
 
 
 def locate(document: str) -> dict[Path, int]:
-    """Determine the line of every key and array entry of a valid document.
+    """Determine the line of every key and array entry of a valid TOML document.
 
     Lines count from 1, array entries from 0. The line of a table is that of its header, else that
-    of its first key. The time is linear in the length of the document. Raises `NestedTooDeep`, also
-    for invalid documents.
+    of its first key. The time is linear in the length of the document.
+
+    Raises `NestedTooDeep`, also for invalid documents.
     """
     lines: dict[Path, int] = {}
     entries: dict[Path, int] = {}  # number of [[tables]] so far
@@ -136,7 +143,10 @@ def locate(document: str) -> dict[Path, int]:
 
 
 def _tokens(document: str) -> Iterator[tuple[str, bool, int]]:
-    """Yield tokens, with True for a possible key, and their lines; the last token ends a line."""
+    """Yield the tokens of a TOML document: keys, values, marks and ends of lines.
+
+    yields  text of the token; True if it may be a key; its line. The last token ends a line
+    """
     line = 1
     for match in _TOKEN.finditer(document):
         if match.lastgroup != "blank":
@@ -148,7 +158,14 @@ def _tokens(document: str) -> Iterator[tuple[str, bool, int]]:
 def _opened(
     keys: list[str], is_entry: bool, line: int, lines: dict[Path, int], entries: dict[Path, int]
 ) -> Path:
-    """Record the line of a header `[a.b]` or `[[a.b]]`; return the path of its table."""
+    """Record the line of a TOML header `[a.b]` or `[[a.b]]`; return the path of its table.
+
+    keys      keys of the header
+    is_entry  True for a header in double brackets, which adds an entry to an array of tables
+    line      line of the header
+    lines     line of each path, which is changed in place
+    entries   number of entries so far of each array of tables, which is changed in place
+    """
     table: Path = ()
     for depth, key in enumerate(keys, start=1):
         table = (*table, key)

@@ -1,4 +1,4 @@
-"""Units of quantities: a table with exact decimal factors, and pint for all other units."""
+"""Units of physical quantities: tables with exact decimal factors, and pint for all other units."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -9,12 +9,12 @@ from typing import Any
 
 
 class UnknownUnit(ValueError):
-    """Unit that is unknown or measures another quantity."""
+    """Error for a unit that is unknown or belongs to another physical quantity."""
 
 
 @dataclass(frozen=True, eq=False)
 class Kind:
-    """Kind of quantity, with its units.
+    """Physical quantity, such as a length, with its units.
 
     si       SI unit; empty for a pure number
     example  example of a value in a scene file
@@ -26,7 +26,12 @@ class Kind:
     units: Mapping[str, Decimal]
 
     def to_si(self, number: Decimal, unit: str, context: Context) -> float:
-        """Convert a number with a unit to SI; raises `UnknownUnit` for units of another kind."""
+        """Convert a number with a unit to SI.
+
+        context  decimal context of the multiplication
+
+        Raises `UnknownUnit` for an unknown unit and for a unit of another physical quantity.
+        """
         factor = self.units.get(unit)
         if factor is not None:
             return float(context.multiply(number, factor))

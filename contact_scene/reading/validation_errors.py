@@ -1,4 +1,5 @@
-"""Problems of a scene file, from pydantic's validation errors, by the keys of the file."""
+"""Conversion of pydantic's validation errors into problems of a scene, by the keys of the scene
+file."""
 
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
@@ -25,10 +26,10 @@ _NO_ARRAY = ("tuple_type", "list_type")
 
 
 def problems_of(document: Mapping[str, Any], error: ValidationError) -> list[Problem]:
-    """Convert the validation error of a document to problems without duplicates.
+    """Convert the validation errors of a scene document to problems without duplicates.
 
-    An array of invalid entries is not too short as well, and a key that is present under a misspelt
-    name is not missing as well.
+    Consequences of another mistake are left out: an array of invalid entries that is therefore too
+    short, and a missing key that is present under a misspelt name.
     """
     details = error.errors(include_url=False)
     found = [_problem(document, d) for d in details if d["type"] != "too_short" or not d["input"]]
@@ -82,9 +83,12 @@ def _problem(document: Mapping[str, Any], detail: ErrorDetails) -> Problem:
 
 
 def _as_written(document: Mapping[str, Any], detail: ErrorDetails) -> Path:
-    """Convert an error location to a path in the document, without branches of unions.
+    """Convert the location of a validation error to the path of the key in the scene document.
 
-    The path ends at the deepest part that the document contains.
+    The location contains branches of unions, which the document lacks. The path ends at the deepest
+    part that the document contains.
+
+    detail  one validation error of pydantic
     """
     path: list[str | int] = []
     value: Any = document
@@ -106,7 +110,11 @@ def _did_you_mean(key: str) -> str:
 
 
 def _unknown_shape(path: Path, given: Any) -> Problem:
-    """Return the problem of a shape; `given` is its name, or the table of an indenter."""
+    """Return the problem of an unknown or missing shape of the indenter.
+
+    path   path of the key `shape`
+    given  name of the shape, or table of the indenter
+    """
     expected = "one of " + ", ".join(f'"{shape}"' for shape in SHAPES)
     if isinstance(given, dict) and "shape" not in given:
         return Problem(path, _MISSING, expected)
@@ -117,7 +125,12 @@ def _unknown_shape(path: Path, given: Any) -> Problem:
 
 
 def _brackets(path: Path, given: Any) -> str:
-    """Return a hint where single and double brackets may have been confused."""
+    """Return a hint if single and double brackets of a table header may have been confused.
+
+    path     path of the table in the scene document
+    given    value at the path
+    returns  hint; empty without such a confusion
+    """
     if path[-1:] != ("layers",) and len(path) != 1:
         return ""
     header = ".".join(str(part) for part in path if isinstance(part, str))
@@ -139,12 +152,13 @@ _MODEL_IN_BRANCH: dict[str, type[BaseModel]] = {
 
 
 def _is_branch(part: str | int) -> bool:
-    """Determine if a part of a location names a branch of a union instead of a key."""
+    """Determine if a part of a pydantic error location names a branch of a union instead of a
+    key."""
     return isinstance(part, str) and part.startswith("<")
 
 
 def _model_at(location: Iterable[str | int]) -> type[BaseModel] | None:
-    """Return the model of the table at a location; None if there is none."""
+    """Return the model class of the table at a pydantic error location; None if there is none."""
     model: type[BaseModel] | None = SceneFile
     for part in location:
         if isinstance(part, int):
@@ -157,7 +171,11 @@ def _model_at(location: Iterable[str | int]) -> type[BaseModel] | None:
 
 
 def _expected_value(location: Location) -> str:
-    """Return the expected value of a key in words."""
+    """Describe the expected value of a key in words, for a message.
+
+    location  pydantic error location of the key
+    returns   description; empty for an unknown key
+    """
     model, key = _model_at(location[:-1]), location[-1]
     if model is None or str(key) not in model.model_fields:
         return ""
@@ -170,7 +188,10 @@ def _expected_value(location: Location) -> str:
 
 
 def _expected_table(location: Location) -> str:
-    """Return the expected table at a location, with its required keys."""
+    """Describe the expected table in words, with its required keys, for a message.
+
+    location  pydantic error location of the table
+    """
     if location and location[-1] in _IN_BRANCH:
         return _IN_BRANCH[str(location[-1])]
     model = _model_at(location)
