@@ -1,9 +1,15 @@
-"""Requested accuracy: refine until stated errors meet it, or a limit on time or memory is reached.
+"""Adaptive refinement of the discretisation of a contact solve, to a requested accuracy.
 
-The first level determines the numbers that the request applies to, and refuses a request that
-cannot be met. A parameter is refined by (part / allowed)^(1/(0.6 p)), at most 4 times per level.
-Each part of an error may use an equal share of the request. If a number has not converged the cells
-are doubled.
+Used by the option `--accuracy` of the commands and by the table [accuracy] of a scene. A scene is
+solved on finer and finer levels, until the stated errors meet the request or a limit on time or
+memory is reached. The result of the first level determines the scalars that the request applies to.
+A request that cannot be met is refused after the first level.
+
+Each part of an error may use an equal share of the requested error. A parameter of the
+discretisation is refined by the factor (part of the error / allowed part)^(1/(0.6 p)), where p is
+its convergence order. The factor of the cells and of the increments is at most 4 per level, that of
+other parameters at most 16. If an error estimate has not converged, the cells are refined by at
+least 2.
 """
 
 import time
@@ -65,19 +71,25 @@ ROUND_OFF = 1e-7
 
 
 def _no_context(fineness: object) -> AbstractContextManager[None]:
-    """Context of a solve without observer or checkpoint store."""
+    """Return an empty context for a solve without progress display or checkpoint store.
+
+    fineness  discretisation of the solve, which is not used
+    """
     return nullcontext()
 
 
 @dataclass(frozen=True)
 class RefinementLevel:
-    """A result with its error estimates.
+    """Result of one discretisation of a refinement sequence, with error estimates and solve times.
 
-    values, stated  numbers and their errors at the ends of the steps
-    run             the result with its coarse solves
-    seconds         elapsed time of the solve with its coarse solves
-    processor_seconds
-                    CPU time of the same solves
+    fineness           discretisation: cells, elements or rings, increments and tolerance
+    result             result of the solver
+    values             scalars at the end of each load step, by name
+    stated             error estimates of these scalars at the end of each load step
+    run                the scalars with those of the coarse solves, from which the errors are
+                       computed
+    seconds            elapsed time of the solve and its coarse solves [s]
+    processor_seconds  CPU time of the same solves [s]
     """
 
     fineness: Fineness
@@ -89,30 +101,47 @@ class RefinementLevel:
     processor_seconds: float
 
     def largest(self, name: str) -> float:
-        """Return the largest size of a number in the history; 0 for an absent number."""
+        """Return the largest absolute value of a scalar or vector at the ends of all load steps.
+
+        The value is 0 if the result does not contain the name. Relative errors refer to this value.
+        """
         return float(np.max(largest_so_far(self.values)[-1].get(name, 0.0)))
 
     def errors(self, name: str) -> Iterator[StatedError]:
-        """Return the errors of a number at the ends of all steps that have it."""
+        """Return the error estimates of one scalar, one for each load step that has the scalar."""
         return (step[name] for step in self.stated.steps if name in step)
 
     def reached(self, name: str) -> float | None:
-        """Return the largest error of a number over its largest size; None if any has not
-        converged."""
+        """Compute the relative error of one scalar: its largest error over its largest value.
+
+        Error and value are the largest at the ends of all load steps. The result is None if any of
+        these errors is unknown or has not converged.
+        """
         errors = list(self.errors(name))
         if any(e.error is None or e.status is ErrorStatus.NOT_CONVERGED for e in errors):
             return None
         return float(max(np.max(e.error or 0.0) for e in errors)) / self.largest(name)
 
     def meets(self, shares: Mapping[str, float]) -> bool:
-        """Return true if all errors meet the request with the margin `SPARE`."""
+        """Return true if the relative errors of all requested scalars meet the request.
+
+        The error times the margin `SPARE` must not exceed the requested error.
+
+        shares  requested relative error by name of the scalar
+        """
         reached = {name: self.reached(name) for name in shares}
         return all(r is not None and SPARE * r <= shares[name] for name, r in reached.items())
 
     def needed(self, shares: Mapping[str, float], believed: float = BELIEVED) -> Refinement:
-        """Determine the refinement of every parameter that meets a request.
+        """Compute the refinement factor of each parameter that the requested errors require.
 
-        believed  fraction of the convergence orders: 1 for the most likely refinement
+        The parameters are cells, increments, tolerance and others of the discretisation. The
+        factors follow from the parts of the errors of this level and the convergence orders.
+        Parameters that need no refinement are absent.
+
+        shares    requested relative error by name of the scalar
+        believed  factor of the theoretical convergence orders: 0.6 for a safe estimate, 1 for the
+                  most likely factor
         """
         factors: dict[Part, float] = {}
         for name, share in shares.items():
@@ -132,17 +161,20 @@ class RefinementLevel:
 
     @property
     def part(self) -> Part:
-        """Part of the error by the cells."""
+        """Error part that the spatial discretisation causes: cells, elements or quadrature."""
         return next(iter(self.run.required))
 
 
 @dataclass(frozen=True)
 class Levels:
-    """Refinement levels of a scene by one solver.
+    """Sequence of refinement levels of one scene, solved by one solver.
 
-    stress_at  load step at whose end the largest tensile stress is requested, or None
-    watching   context of each solve, with its progress
-    keeping    context of each solve, with its checkpoint store
+    solver     solver with the discretisation parameters that are refined
+    stress_at  load step, from 1, at whose end the largest tensile stress of the body is computed;
+               None without a requested accuracy of the stress
+    watching   function that returns the context of a solve; the context yields an observer of
+               increments
+    keeping    function that returns the context of a solve; the context yields a checkpoint store
     """
 
     solver: DiscretisedSolver
@@ -151,7 +183,11 @@ class Levels:
     keeping: InContext = _no_context
 
     def first(self) -> RefinementLevel:
-        """Solve the coarsest level whose cells resolve the contact; raises a SolverError."""
+        """Solve the first level: the coarsest discretisation whose cells resolve the contact.
+
+        The cells are doubled up to `MAX_DOUBLINGS` times while the solver raises
+        ContactNotResolved. Other errors of the solver are raised.
+        """
         plan = self.solver.plan
         fineness = Fineness(
             self.solver.first(), plan.increments, self.solver.discretisation.tolerance
@@ -164,7 +200,11 @@ class Levels:
         return self.solved(fineness)
 
     def solved(self, fineness: Fineness) -> RefinementLevel:
-        """Solve a level with its errors; raises a SolverError."""
+        """Solve the scene with one discretisation, and estimate the errors by coarse solves.
+
+        If `stress_at` is set, the largest tensile stress of the body is added to the scalars of
+        that load step. Raises the SolverError of the solve.
+        """
         began, began_processor = time.perf_counter(), time.process_time()
         with self.keeping(fineness) as store, self.watching(fineness) as progress:
             result = self.solver.solve(fineness, progress, store)
@@ -187,13 +227,18 @@ class Levels:
         )
 
     def following(self, level: RefinementLevel, by: Refinement) -> tuple[Fineness, float]:
-        """Return a finer discretisation, and the expected CPU time of its solves [s]."""
+        """Return a refined discretisation, and the expected CPU time of its solves [s].
+
+        level  solved level, which is refined and whose CPU time is scaled by the work of the solves
+        by     refinement factor of each parameter
+        """
         finer = self.solver.refined(level.fineness, by)
         works = self.solver.work(level.fineness), self.solver.work(finer)
         return finer, estimated_seconds(level.processor_seconds, *works)
 
     def settings(self, fineness: Fineness) -> AccuracySettings:
-        """Return the discretisation for the summary."""
+        """Convert a discretisation to the record for summary.json: cells, increments and
+        tolerance."""
         return AccuracySettings(
             increments=fineness.increments,
             tolerance=fineness.tolerance,
@@ -201,7 +246,11 @@ class Levels:
         )
 
     def too_large(self, fineness: Fineness) -> str | None:
-        """Return the reason if a level exceeds the solver's limits or the memory, else None."""
+        """Return the reason why a discretisation cannot be solved; None if it can.
+
+        A discretisation is too large if it exceeds the solver's limit of cells, elements or rings,
+        or if its estimated memory exceeds the available memory.
+        """
         ((name, size),) = self.solver.shown(fineness.space).items()
         shown = f"{name} = {size}"
         if np.max(size) > self.solver.most:
@@ -216,7 +265,15 @@ class Levels:
 
 
 def bounded(by: Refinement, cells: Part, most: float = MAX_AT_ONCE) -> Refinement:
-    """Limit all refinement factors, and refine at least the cells."""
+    """Limit the refinement factors from one level to the next.
+
+    If no other parameter than cells and increments is refined, and by a factor below
+    `LEAST_AT_ONCE`, the cells are refined by this least factor.
+
+    by     required refinement factor of each parameter
+    cells  name of the parameter of the cells, elements or rings
+    most   limit of the factors of cells and increments; other parameters have the limit most²
+    """
     first = {cells, "increments"}
     found = {part: min(by[part], most if part in first else most**2) for part in by}
     if found.keys() <= first and max(found.values(), default=1.0) < LEAST_AT_ONCE:
@@ -226,7 +283,7 @@ def bounded(by: Refinement, cells: Part, most: float = MAX_AT_ONCE) -> Refinemen
 
 @dataclass(frozen=True)
 class Refined:
-    """The finest level, and its accuracy compared with the request."""
+    """Outcome of a refinement: the last solved level, and its errors next to the requested ones."""
 
     level: RefinementLevel
     accuracy: AccuracyReached
@@ -234,12 +291,12 @@ class Refined:
 
 @dataclass(frozen=True)
 class Price:
-    """Cost of one request.
+    """Estimated cost of a run with a requested accuracy.
 
     settings  discretisation of the last level
-    seconds   CPU time of the first and the last level [s]
-    memory    of the last level [byte]
-    fits      true if the memory is available
+    seconds   CPU time of the first and the last level, with their coarse solves [s]
+    memory    peak memory of the solve of the last level [byte]
+    fits      true if the last level is within the solver's limits and the available memory
     """
 
     settings: AccuracySettings
@@ -254,14 +311,17 @@ def refine(
     most_seconds: float = np.inf,
     estimated: Estimated | None = None,
 ) -> Refined:
-    """Solve finer and finer levels until a request is met.
+    """Solve finer and finer levels of a scene until the errors meet the requested accuracy.
 
-    If a limit is reached, or the next level has no result, the last level is returned with the
-    reason. Raises AccuracyOutOfReach for a request that cannot be met, and the errors of the first
-    level.
+    If a limit is reached, or the solve of the next level fails, the last solved level is returned
+    with the reason. Raises AccuracyOutOfReach for a request that cannot be met, and any SolverError
+    of the first level.
 
-    most_seconds  limit of the total time; no level starts that is expected to exceed it
-    estimated     called with the errors of each level
+    levels        scene and solver
+    request       requested relative errors by name
+    most_seconds  limit of the total time [s]; no level starts that is expected to exceed it
+    estimated     function that is called after each level with its number, the requested errors and
+                  the reached errors
     """
     level = levels.first()
     (shares, left_out), spent, rounds, stopped = targets_of(request, level, levels), 0.0, 0, None
@@ -301,7 +361,11 @@ def refine(
 
 
 def price(levels: Levels, first: RefinementLevel, request: AccuracyRequest) -> Price:
-    """Estimate the cost of a request from the first level; raises AccuracyOutOfReach."""
+    """Estimate CPU time and memory of a run with a requested accuracy, from its solved first level.
+
+    The discretisation that meets the request is extrapolated from the errors of the first level.
+    Raises AccuracyOutOfReach for a request that cannot be met.
+    """
     shares, _ = targets_of(request, first, levels)
     by = bounded(first.needed(shares, believed=1.0), first.part, FURTHEST)
     fineness, seconds = levels.following(first, {} if first.meets(shares) else by)
@@ -312,11 +376,18 @@ def price(levels: Levels, first: RefinementLevel, request: AccuracyRequest) -> P
 def targets_of(
     request: AccuracyRequest, level: RefinementLevel, levels: Levels
 ) -> tuple[dict[str, float], dict[str, str]]:
-    """Determine the numbers that a request applies to with their largest errors relative to their
-    largest values, and the reasons why it does not apply to others, by a first result.
+    """Determine the requested relative error of each scalar that an accuracy request applies to.
 
-    Raises AccuracyOutOfReach for a named number that is absent or infinite, and for a number that
-    the largest possible discretisation will not determine as requested.
+    The first level decides. Scalars that it does not contain, that are infinite or that are zero
+    throughout are excluded.
+
+    Returns the requested relative errors by name, and the reasons of the excluded scalars by name.
+
+    Raises AccuracyOutOfReach in two cases:
+
+    - The request names an excluded scalar.
+    - The extrapolated discretisation exceeds a limit, even if the error of the first level is
+      overestimated by the factor `DOUBT`.
     """
     left_out = {name: why for name in request.shares() if (why := _why_left_out(name, level))}
     for name in request.named:
@@ -332,7 +403,10 @@ def targets_of(
 
 
 def _why_left_out(name: str, level: RefinementLevel) -> str:
-    """Return the reason why a number has no accuracy; empty if it has one."""
+    """Return the reason why a scalar can have no requested accuracy; empty text if it can.
+
+    level  first level of the refinement
+    """
     if not any(name in step for step in level.stated.steps):
         return "the results of this scene by this solver do not contain it"
     if name == "peak_pressure" and any(features.infinite for features in level.run.features):

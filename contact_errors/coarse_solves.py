@@ -1,8 +1,10 @@
-"""Coarse solves of a result, and their comparison with it: one procedure for all solvers.
+"""Coarse solves of a contact result for its error estimate: one procedure for all solvers.
 
-A solver is described by its discretisation parameters, which are coarsened for error estimates and
-refined for a requested accuracy. A difference between levels needs no tolerance below a fraction of
-it, and no more increments than the fewest whose effect is known.
+`DiscretisedSolver` is the interface of a solver whose discretisation parameters can be coarsened,
+for error estimates, or refined, for a requested accuracy. `solved_run` runs the coarse solves of a
+result. To save time, coarse solves have a looser tolerance than the result, where its effect on the
+compared differences is negligible. They also have fewer increments, where the effect of the
+increments is known from a separate comparison.
 """
 
 from abc import ABC, abstractmethod
@@ -52,12 +54,12 @@ Effect: TypeAlias = tuple[Sequence[Values], Sequence[Values]]
 
 @dataclass(frozen=True)
 class Fineness:
-    """Discretisation of a solve.
+    """Discretisation parameters of one solve.
 
-    space       grid of cells, mesh of elements, or multiple of the rings
-    increments  of every load step
-    tolerance   bound of every residual
-    edges       false for cells without edge correction
+    space       grid of cells, mesh of finite elements, or multiple of the default number of rings
+    increments  number of increments of every load step
+    tolerance   bound of every relative residual
+    edges       true for cells with the sub-cell edge correction, if the plan contains it
     """
 
     space: Any
@@ -68,12 +70,14 @@ class Fineness:
 
 @dataclass(frozen=True)
 class CoarseSolve:
-    """A coarse solve in a parameter of a mesh.
+    """Specification of a coarse solve that changes one parameter of a mesh other than its cells.
 
-    part        part of the error
-    differs     description
-    key, value  parameter, and its coarser value
-    ratio       coarsening factor
+    Examples are the size of the meshed section and the number of angular harmonics.
+
+    part        part of the error that the solve measures
+    differs     description for the record
+    key, value  parameter of the discretisation, and its coarser value
+    ratio       coarsening factor of the parameter, above 1
     """
 
     part: Part
@@ -85,10 +89,14 @@ class CoarseSolve:
 
 @dataclass(frozen=True)
 class DiscretisedSolver(ABC):
-    """Solver of one scene with its discretisation parameters.
+    """Interface of a solver for one scene whose discretisation can be coarsened and refined.
 
-    discretisation  parameters that are not changed, and the coarsest values of the others
-    chosen_plan     plan of a result; None for that of the first level of refinement
+    Error estimates coarsen the discretisation, and a requested accuracy refines it.
+
+    scene           scene to solve
+    discretisation  settings of the scene file for this solver; parameters that are neither
+                    coarsened nor refined are taken from it
+    chosen_plan     plan of a solved result; None for the plan that the solver makes of the scene
     """
 
     scene: Scene
@@ -105,84 +113,108 @@ class DiscretisedSolver(ABC):
     @classmethod
     @abstractmethod
     def of(cls, result: Any) -> Self:
-        """Return the solver with the discretisation of a result."""
+        """Return the solver with scene, discretisation and plan of a solved result."""
 
     @classmethod
     def stated_errors(cls, result: Any) -> StatedErrors:
-        """Estimate the errors of all numbers at the ends of all steps, by coarse solves."""
+        """Estimate the errors of all scalars of a result at the ends of its load steps.
+
+        The errors are computed from coarse solves of the scene.
+        """
         run, coarse = solved_run(cls.of(result), result)
         return StatedErrors(tuple(run.errors()), coarse)
 
     @property
     @abstractmethod
     def plan(self) -> Any:
-        """Effects and increments."""
+        """Plan of the solve: the modelled effects, and the number of increments of each load
+        step."""
 
     @abstractmethod
     def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Any:
-        """Solve the scene; raises a SolverError.
+        """Solve the scene with given discretisation parameters; raises a SolverError.
 
-        progress, store   observer of increments, and checkpoint store
+        progress  function that is called after every increment, or None
+        store     checkpoint store of the solve, or None
         """
 
     @abstractmethod
     def space_of(self, result: Any) -> Any:
-        """Return the grid, mesh or multiple of the rings of a result."""
+        """Return the spatial discretisation of a result: grid, mesh or multiple of the rings."""
 
     def fineness_of(self, result: Any) -> Fineness:
-        """Return the discretisation of a result."""
+        """Return the discretisation parameters of a result: space, increments and tolerance."""
         return Fineness(self.space_of(result), result.plan.increments, result.tolerance)
 
     # ---- coarse solves
 
     @abstractmethod
     def coarser(self, result: Any, share: float, more: int) -> Any:
-        """Return a grid, mesh or rings with a fraction of the cells along a side plus `more`
-        cells."""
+        """Return a coarser grid, mesh or ring factor for an error estimate.
+
+        share  fraction of the cells of the result along a side
+        more   number of cells that are added to this fraction
+        """
 
     def of_mesh(self, base: Any, result: Any) -> Iterable[CoarseSolve]:
-        """Return coarse solves in the other parameters of a mesh; `base` is that of a coarse
-        solve."""
+        """Return the coarse solves in other parameters of a mesh: section size, overlap, harmonics.
+
+        Solvers without such parameters return none.
+
+        base    mesh of a coarse solve, in which the parameters are changed
+        result  result whose errors are estimated
+        """
         return ()
 
     def few(self, coarse: Fineness, result: Any) -> Fineness:
-        """Return the discretisation of the solves that compare increments."""
+        """Return the discretisation of the coarse solves that measure the increment error.
+
+        The default is the coarse discretisation itself; a solver may use still fewer cells.
+        """
         return coarse
 
     @abstractmethod
     def sides(self, result: Any) -> tuple[float, ...]:
-        """Return the sides of a cell."""
+        """Return the size of a cell, element or ring of a result, in each direction of refinement.
+
+        The coarsening factor of a coarse solve is the ratio of these sizes.
+        """
 
     @abstractmethod
     def shown(self, space: Any) -> Mapping[str, Any]:
-        """Return the discretisation for the record."""
+        """Return a spatial discretisation for records, by name: cells, elements or ring factor."""
 
     @abstractmethod
     def features(self, result: Any) -> Sequence[Features]:
-        """Return the resolution at the end of each step."""
+        """Measure the size of contact, stick zone and layers in cells at the end of each load
+        step."""
 
     def residuals(self, result: Any) -> Sequence[float]:
-        """Return the tolerance of the residuals, for each load step."""
+        """Return the relative residual of each load step, for the tolerance part of the errors.
+
+        The default is the tolerance of the solve.
+        """
         return [result.tolerance] * len(result.steps)
 
     def neglected(self, result: Any) -> Mapping[str, float]:
-        """Return relative errors of numbers by effects that the solver neglects."""
+        """Return relative errors, by name of the scalar, due to effects that the solver
+        neglects."""
         return {}
 
     # ---- refinement
 
     @abstractmethod
     def first(self) -> Any:
-        """Return the grid, mesh or rings of the coarsest level."""
+        """Return the grid, mesh or ring factor of the coarsest refinement level."""
 
     @abstractmethod
     def finer(self, space: Any, by: Refinement) -> Any:
-        """Return the grid, mesh or rings, refined by at least these factors."""
+        """Refine a grid, mesh or ring factor by at least the given factor of each parameter."""
 
     def refined(self, fineness: Fineness, by: Refinement) -> Fineness:
-        """Return the discretisation, refined by at least these factors.
+        """Refine all discretisation parameters by at least the given factor of each.
 
-        Steps without an increment error keep their increments.
+        Load steps without an increment error keep their number of increments.
         """
         return replace(
             fineness,
@@ -196,21 +228,29 @@ class DiscretisedSolver(ABC):
 
     @abstractmethod
     def work(self, fineness: Fineness) -> Work:
-        """Return the size of a solve."""
+        """Return the size of a solve, from which its CPU time is estimated."""
 
     @abstractmethod
     def memory(self, fineness: Fineness) -> int:
-        """Estimate the largest memory of a solve [byte]."""
+        """Estimate the peak memory of a solve [byte]."""
 
 
 def solved_run(
     solver: DiscretisedSolver, result: Any
 ) -> tuple[SolvedRun, tuple[CoarseSolveRecord, ...]]:
-    """Make the coarse solves of a result, each once.
+    """Run the coarse solves of a result, and collect the comparisons for its error estimate.
 
-    The increments are compared on few cells, and the other parameters of a mesh on its coarsest
-    level. All further coarse solves have the coarsest value of these parameters. Their effects on
-    the numbers are added where a coarse solve is compared with the run.
+    Each discretisation parameter is coarsened in a separate comparison:
+
+    - Increments: two solves with other numbers of increments, compared on few cells.
+    - Cells: two solves with coarser cells, compared with the result.
+    - Other parameters of a mesh: one solve each, compared on the first coarse mesh.
+
+    Once a coarser value of a parameter has been compared, later coarse solves use it, because they
+    are then cheaper. Its measured effect on the scalars is added before a coarse solve is compared
+    with the result.
+
+    Returns the scalars of the result with all comparisons, and the records of the coarse solves.
     """
     values, matters, features = values_of(result), with_error(result.scene), solver.features(result)
     run = solver.fineness_of(result)
@@ -219,7 +259,12 @@ def solved_run(
     made: list[CoarseSolveRecord] = []
 
     def solved(differs: str, coarse: Fineness) -> Solved | None:
-        """Return a coarse solve with its numbers; None for a refused one."""
+        """Solve with a coarse discretisation once, and return the result with its scalars.
+
+        The solve is recorded. The return value is None if the solver raised an error.
+
+        differs  description of the coarse discretisation for the record
+        """
         if coarse not in known:
             shown, increments = solver.shown(coarse.space), coarse.increments
             record = CoarseSolveRecord(differs=differs, increments=increments, **shown)
@@ -281,22 +326,34 @@ def solved_run(
 
 
 def coarse_tolerance(features: Sequence[Features]) -> float:
-    """Return the tolerance of coarse solves.
+    """Choose the tolerance of coarse solves, such that it hardly changes the compared differences.
 
-    The difference between two levels of m cells per contact radius is at least about 1/m² of a
-    number. The error by the tolerance is `NEGLIGIBLE` of it on half of the cells of the run.
+    Two levels with about m cells per contact radius differ by at least about 1/m² of a scalar. The
+    error caused by this tolerance is `NEGLIGIBLE` times the difference for half the cells of the
+    result.
     """
     most = max(step.contact for step in features)
     return NEGLIGIBLE / PER_TOLERANCE * (2 / most) ** 2
 
 
 def changed(space: Any, changes: Mapping[str, Any] | None) -> Any:
-    """Return a mesh with other parameters."""
+    """Return a finite-element discretisation with other values of some parameters.
+
+    changes  new values by name; None for no change
+    """
     return space.model_copy(update=changes) if changes else space
 
 
 def added(found: Sequence[Values], effects: Sequence[Effect]) -> Sequence[Values]:
-    """Add effects to the numbers of a coarse solve."""
+    """Add measured effects of other parameters to the scalars of a coarse solve.
+
+    An effect is the difference between a finer and a coarser solve. The corrected scalars differ
+    from those of the result by the effect of the cells only. Scalars that are absent in one of the
+    solves are omitted.
+
+    found    scalars of the coarse solve at the end of each load step, by name
+    effects  pairs of the scalars of a finer and a coarser solve
+    """
     for effect in effects:
         found = [
             {n: x + fine[n] - coarse[n] for n, x in here.items() if n in fine and n in coarse}
@@ -306,7 +363,12 @@ def added(found: Sequence[Values], effects: Sequence[Effect]) -> Sequence[Values
 
 
 def at_ends(result: Any, resolved: Callable[[Any], Features]) -> Sequence[Features]:
-    """Return the resolution at the end of each step; without contact that of the previous step."""
+    """Return the resolution of the contact at the end of each load step.
+
+    A load step that ends without contact receives the resolution of the previous step.
+
+    resolved  function that measures the resolution of a state in contact
+    """
     found: list[Features] = []
     for end in result.steps:
         found.append(resolved(end) if end.contact_area else found[-1])
@@ -314,8 +376,13 @@ def at_ends(result: Any, resolved: Callable[[Any], Features]) -> Sequence[Featur
 
 
 def slip_zone(end: Any, per_length: float) -> tuple[float | None, float | None]:
-    """Return the stick radius and the width of the slip annulus of a contact of revolution, in
-    cells."""
+    """Return stick radius and width of the slip annulus of an axisymmetric contact, in cells.
+
+    The radius is None without friction, and the width is None in full stick.
+
+    end         state at the end of a load step
+    per_length  number of cells per unit of length [1/length]
+    """
     if end.stick_radius is None:
         return None, None
     slips = end.status is not ContactStatus.FULL_STICK
@@ -324,7 +391,10 @@ def slip_zone(end: Any, per_length: float) -> tuple[float | None, float | None]:
 
 
 def _spent(found: Any) -> Mapping[str, int]:
-    """Return the work of a solve."""
+    """Sum the iterations and the convolutions of all increments of a solve, by name.
+
+    Numbers that the solver does not count are absent.
+    """
     names = ("iterations", "convolutions")
     return {
         name: sum(getattr(increment, name) for increment in found.increments)
@@ -334,7 +404,13 @@ def _spent(found: Any) -> Mapping[str, int]:
 
 
 def recounted(counts: Sequence[int], matters: Sequence[bool]) -> list[tuple[int, ...]]:
-    """Return the increments of two coarse solves; steps without increment error keep theirs."""
+    """Choose the numbers of increments of the two coarse solves that measure the increment error.
+
+    Load steps without an increment error keep their number.
+
+    counts   number of increments of each load step of the result
+    matters  for each load step, true if it has an increment error
+    """
     both = [
         _pair(count) if matter else (count, count)
         for count, matter in zip(counts, matters, strict=True)
@@ -345,10 +421,13 @@ def recounted(counts: Sequence[int], matters: Sequence[bool]) -> list[tuple[int,
 def ratios(
     counts: Sequence[int], others: Sequence[int], matters: Sequence[bool]
 ) -> tuple[float, ...]:
-    """Return the coarsening factor of the increments at the end of each step.
+    """Compute the coarsening factor of the increments at the end of each load step.
 
-    A step that depends on the history has the factor nearest to 1 of the steps so far. The factor
-    is 1 if no step so far has an increment error.
+    A load step whose end state depends on the history receives the factor nearest to 1 of all steps
+    up to it. The factor is 1 if no step up to it has an increment error.
+
+    counts, others  numbers of increments of each load step in the two compared solves
+    matters         for each load step, true if it has an increment error
     """
     found, nearest = [], 1.0
     for count, other, matter in zip(counts, others, matters, strict=True):
@@ -360,6 +439,8 @@ def ratios(
 
 
 def _pair(count: int) -> tuple[int, int]:
+    """Choose two other numbers of increments for a load step: coarser if it has many, finer if
+    few."""
     if count < FEW:
         return MANY
     if count < 2 * FEW:

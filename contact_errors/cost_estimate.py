@@ -1,15 +1,15 @@
-"""CPU time of a solve, from a power law through one coarse solve of the same scene.
+"""CPU time of a contact solve, from a power law through a measured coarse solve.
 
     t = t₀ w/w₀ ((u + o)/(u₀ + o))^1.1
 
-A solve with u unknowns and w repetitions takes the time t. The time t₀ of the coarse solve (u₀, w₀)
-is measured. The exponent is 1 for the transforms of the fields, plus 0.1 because the number of
-iterations doubles with 1000 times the cells. The overhead of each operation is equal to the work of
-o unknowns.
+A solve with u unknowns and w repetitions takes the time t. The time t₀ of a coarse solve of the
+same scene (u₀, w₀) is measured. The exponent is 1 for the transforms of the fields, plus 0.1
+because the number of iterations doubles with 1000 times the cells. The overhead of each operation
+is equal to the work of o unknowns.
 
-The error estimate of a run adds two solves, with 1/4 and 4/25 of its unknowns, and solves for the
-increment error. The latter have equally few cells in the run and in the coarse solve, so their time
-is proportional to the repetitions.
+The error estimate of a run adds two solves, with 1/4 and 4/25 of its unknowns, and the solves for
+the increment error. These last solves have the same small number of cells in the run and in the
+coarse solve, so that their time is proportional to the repetitions.
 """
 
 import time
@@ -35,11 +35,11 @@ MAX_CELLS, MAX_ELEMENTS, MAX_STEPS, MAX_INCREMENTS = 32, 8, 12, 48
 
 
 class Work(NamedTuple):
-    """Size of a solve.
+    """Size of a solve, from which its CPU time is estimated.
 
-    unknowns     components of traction in all cells, or the squared elements over the radius
-    repetitions  increments, or a multiple of them
-    overhead     unknowns whose work equals the overhead of an operation
+    unknowns     traction components in all cells, or square of the elements over the contact radius
+    repetitions  number of increments, or a multiple of this number
+    overhead     number of unknowns whose work equals the overhead of an operation
     """
 
     unknowns: float
@@ -47,55 +47,77 @@ class Work(NamedTuple):
     overhead: float
 
     def cost(self, share: float = 1.0) -> float:
-        """Return the cost with a fraction of the cells along a side, in a unit of the scene."""
+        """Return a number proportional to the CPU time of a solve.
+
+        Only ratios of costs of one scene and solver have a meaning.
+
+        share  fraction of the cells along a side, for the cost of a coarser solve
+        """
         return self.repetitions * (share**2 * self.unknowns + self.overhead) ** EXPONENT
 
 
 def work_on_cells(cells: tuple[int, int], increments: Sequence[int], shear: bool) -> Work:
-    """Determine the size of a solve on cells.
+    """Determine the size of a semi-analytical solve on a grid of cells.
 
-    shear  true for three components of traction, false for one
+    cells       number of cells along x and y
+    increments  number of increments of each load step
+    shear       true for three traction components, false for the pressure alone
     """
     return Work(cells[0] * cells[1] * (3 if shear else 1), sum(increments), CELL_OVERHEAD)
 
 
 def work_on_elements(per_radius: int, increments: Sequence[int], harmonics: int) -> Work:
-    """Determine the size of a solve by elements with a number of angular harmonics."""
+    """Determine the size of a finite-element solve.
+
+    per_radius  number of elements over the contact radius
+    increments  number of increments of each load step
+    harmonics   number of angular harmonics
+    """
     repetitions = harmonics * (SET_UP_INCREMENTS + sum(increments))
     return Work(per_radius**2, repetitions, ELEMENT_OVERHEAD)
 
 
 def work_on_rings(increments: Sequence[int], fineness: float = 1.0) -> Work:
-    """Determine the size of a radial solve with a multiple of its rings and angles."""
+    """Determine the size of a solve by the radial solver.
+
+    fineness  factor of the default numbers of rings and angles
+    """
     return Work(fineness**4, sum(increments), 0.0)
 
 
 def estimated_seconds(measured: float, coarse: Work, solve: Work) -> float:
-    """Estimate the CPU seconds of a solve, within a factor of two.
+    """Estimate the CPU time of a solve [s] from that of a measured solve, within a factor of two.
 
-    measured  CPU seconds of the coarse solve
+    measured  CPU time of the measured solve [s]
+    coarse    size of the measured solve
+    solve     size of the solve whose time is estimated
     """
     return measured * solve.cost() / coarse.cost()
 
 
 def estimated_run_seconds(solved: float, judged: float, coarse: Work, run: Work) -> float:
-    """Estimate the CPU seconds of a solve and its error estimate, within a factor of two.
+    """Estimate the CPU time of a run with its error estimate [s], within a factor of two.
 
-    solved  CPU seconds of the coarse solve
-    judged  CPU seconds of the error estimate of the coarse solve
+    solved       measured CPU time of the coarse solve [s]
+    judged       measured CPU time of the error estimate of the coarse solve [s]
+    coarse, run  sizes of the coarse solve and of the run
     """
     solves = sum(run.cost(share) for share in (1.0, *COARSE))
     return solved * solves / coarse.cost() + judged * run.repetitions / coarse.repetitions
 
 
 def coarse_increments(increments: Sequence[int]) -> tuple[int, ...]:
-    """Reduce the increments of all load steps by one factor to the limit of the coarse solve."""
+    """Reduce the numbers of increments of all load steps, for the coarse solve of a time estimate.
+
+    All numbers are reduced by one factor, such that their sum is about `MAX_INCREMENTS`. Smaller
+    sums are not changed.
+    """
     share = min(1.0, MAX_INCREMENTS / sum(increments))
     return tuple(ceil(share * count) for count in increments)
 
 
 def cpu_seconds(call: Callable[[], T]) -> tuple[T, float]:
-    """Measure the CPU time of a call without the disk cache, and return its result and time [s]."""
+    """Call a function without the disk cache, and return its result and its CPU time [s]."""
     with without_cache():
         began = time.process_time()
         result = call()

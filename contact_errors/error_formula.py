@@ -1,17 +1,19 @@
-"""Error of a number from coarse solves: one formula, three convergence orders, one table of limits.
+"""Error of a scalar from coarse solves: one formula, three convergence orders, one table of limits.
 
 Each discretisation parameter (cells, increments, section, …) is coarsened separately:
 
     part of an error = max over the coarse solves of that part  |Q - Q_coarse| / |r^(0.6 p) - 1|
     error            = sum of the parts
 
-r is the coarsening factor of the parameter and p its theoretical order (Richardson 1911). Zone
-edges lie anywhere within cells, so that the factor of h^p scatters from level to level. The factor
-0.6 is a safety factor of 2.3 for p = 2, 1.9 for p = 1 and 1.8 for p = ½ at r = 2. It is the only
-adjustable constant; no constant belongs to a quantity or to a kind of scene.
+Q is the scalar. The coarsening factor of the parameter is r, and p is its theoretical convergence
+order (Richardson 1911). The edges of contact and stick zone lie at any position within cells, so
+that the coefficient of h^p changes from level to level. The factor 0.6 is therefore a safety
+factor: 2.3 for p = 2, 1.9 for p = 1 and 1.8 for p = ½ at r = 2. It is the only adjustable constant.
+No constant belongs to a quantity or to a kind of scene.
 
 Two coarse solves per parameter prevent chance agreement of one of them with the run. Errors do not
-decrease along a load history: a part is at least the same part at the end of each earlier step.
+decrease along a load history: each part of an error is at least as large as at the end of each
+earlier load step.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -76,24 +78,25 @@ OF_SLIP = frozenset(
 
 @dataclass(frozen=True)
 class Features:
-    """Resolution of the contact at the end of a load step, in cells; None for an absent feature.
+    """Resolution of the contact at the end of a load step, with properties that set error orders.
 
-    contact   smaller semi-axis of the contact
-    layer     thinnest layer
-    wave      mean wavelength of a height map
-    stick     smaller semi-axis of the stick zone
-    annulus   width of the slip zone around it; 0 if a contact with slip in all cells may have a
-              stick zone
-    fitted    true if the edge of the contact is fitted within the cells
-    stick_fitted
-              true if the edge of the stick zone is fitted within the cells
-    sharp     true for an indenter with a rim or a tip; all numbers then have the order 1
-    infinite  true if the exact peak pressure is infinite
-    cusp      true if the pressure has a cusp, because shear changes the pressure or the gap is a
-              power between 1 and 2
-    ridge     true if the largest pressure is nearer to the edge of the contact than to its middle
-    slides    true if all of the contact certainly slips
-    left      relative errors of numbers that the iteration of the edge correction leaves
+    Sizes are in cells; None stands for an absent feature.
+
+    contact       smaller semi-axis of the contact
+    layer         thickness of the thinnest layer
+    wave          mean wavelength of the heights of a rough surface
+    stick         smaller semi-axis of the stick zone
+    annulus       width of the slip zone around the stick zone; 0 if all cells slip, but a stick
+                  zone may be hidden within a cell
+    fitted        true if the contact edge is fitted within the cells
+    stick_fitted  true if the edge of the stick zone is fitted within the cells
+    sharp         true for an indenter with a rim or a tip; all scalars then have the order 1
+    infinite      true if the exact peak pressure is infinite
+    cusp          true if the pressure has a cusp, because shear changes the pressure or the gap is
+                  a power between 1 and 2 of the distance
+    ridge         true if the largest pressure is nearer to the contact edge than to the middle
+    slides        true in gross slip, if no stick zone can be hidden within a cell
+    left          remaining relative errors of the edge-correction iteration, by name of the scalar
     """
 
     contact: float
@@ -111,7 +114,7 @@ class Features:
     left: Mapping[str, float] = field(default_factory=dict)
 
     def order(self, name: str) -> float:
-        """Return the convergence order of a number in the size of a cell."""
+        """Return the convergence order of a scalar in the cell size: 2, 1 or ½."""
         if self.sharp:
             return EDGE
         if name in AT_EDGES or (name == PEAK and self.cusp):
@@ -125,7 +128,10 @@ class Features:
         return EDGE if first else SMOOTH
 
     def resolve(self, name: str) -> bool:
-        """Return true if the cells resolve the features on which a number depends."""
+        """Return true if the cells resolve all features of the contact on which a scalar depends.
+
+        Each feature, such as the stick zone, must be at least as large as its limit in `LIMITS`.
+        """
         sizes = {"contact": self.contact, "layer": self.layer, "wave": self.wave}
         if name in STICK_EDGE:
             sizes["stick"] = self.stick
@@ -140,7 +146,10 @@ PHYSICAL = tuple(name for name, mark in reported(State).items() if mark.physical
 
 
 def values_of(result: Any) -> tuple[Values, ...]:
-    """Return the scalars that are defined at the end of each load step, by name."""
+    """Return the scalars of a result at the end of each load step, by name.
+
+    At the end of a load cycle the scalars of the cycle are included. Undefined scalars are absent.
+    """
     closed = {
         cycle.cycle.end: {name: cycle.numbers.get(name) for name in OF_CYCLES}
         for cycle in fretting_cycles(result)
@@ -158,8 +167,10 @@ def values_of(result: Any) -> tuple[Values, ...]:
 
 
 def prescribed(ramp: LoadRamp, rig: Rig | None) -> frozenset[str]:
-    """Return the names of the scalars that the load step prescribes at its end: with a rig the
-    motions of the actuator."""
+    """Return the names of the scalars that a load step prescribes, which therefore have no error.
+
+    With a test rig, the prescribed motions are those of its actuator.
+    """
     approach, shift = prescribed_motions(rig)
     controls = (
         (ramp.normal.kind, "normal_force", approach),
@@ -178,7 +189,14 @@ def prescribed(ramp: LoadRamp, rig: Rig | None) -> frozenset[str]:
 
 
 def scale(name: str, values: Values) -> float:
-    """Return the characteristic magnitude of a scalar in the history; 0 if it has none."""
+    """Return the characteristic magnitude of a scalar at the end of a load step, in its unit.
+
+    The magnitude is composed of approach, normal force, contact radius and peak pressure; for
+    example normal force times approach for an energy. It is 0 for a unit without such a product.
+
+    name    name of the scalar
+    values  all scalars at the end of the load step, by name
+    """
     sizes = {key: float(np.max(np.abs(value))) for key, value in values.items()}
     length, force = sizes["approach"], sizes["normal_force"]
     radius = sizes["contact_radius"]
@@ -195,21 +213,26 @@ def scale(name: str, values: Values) -> float:
 
 
 def is_singular(indenter: ShapedBody) -> bool:
-    """Return true if the exact pressure is infinite below a rim or a tip."""
+    """Return true if the exact pressure is infinite below a rim or a tip of the indenter."""
     return indenter.rim is not None or indenter.gap_exponent == 1
 
 
 def has_cusp(indenter: ShapedBody) -> bool:
-    """Return true if the pressure of a smooth contact has a cusp at the point of first contact."""
+    """Return true if the pressure below a smooth indenter has a cusp at the point of first contact.
+
+    The gap is then a power between 1 and 2 of the distance.
+    """
     return indenter.gap_exponent is not None and 1 < indenter.gap_exponent < 2
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """Two solves that differ in one discretisation parameter.
+    """Scalars of two solves that differ in one discretisation parameter.
 
-    part    of the error, to which the parameter contributes
-    ratios  coarsening factor of the parameter at the end of each step; 1 for no effect
+    part          part of the error to which the parameter contributes
+    base, coarse  scalars of the finer and of the coarser solve at the end of each load step
+    ratios        coarsening factor of the parameter at the end of each load step; 1 if the
+                  parameter has no effect up to this step
     """
 
     part: Part
@@ -218,11 +241,15 @@ class Comparison:
     ratios: Sequence[float]
 
     def part_of(self, step: int, name: str, order: float) -> Numbers | None:
-        """Return one part of the error of a number at the end of a step; None if the solves have
-        none.
+        """Compute the part of the error of a scalar that one discretisation parameter causes.
 
-        step   from 0
-        order  of the number in the cells
+        The result is None if the parameter has no effect, or if one of the two solves lacks the
+        scalar.
+
+        step   load step, from 0
+        name   name of the scalar
+        order  convergence order of the scalar in the cells; other parameters have an order of their
+               own in `ORDERS`
         """
         here, there = self.base[step].get(name), self.coarse[step].get(name)
         if self.ratios[step] == 1 or here is None or there is None:
@@ -233,13 +260,16 @@ class Comparison:
 
 @dataclass(frozen=True)
 class SolvedRun:
-    """A result with its coarse solves.
+    """Scalars of a result with those of its coarse solves, from which the errors are computed.
 
-    tolerance    residual of each step
-    features     of each step
-    comparisons  of all parameters
-    required     parts without which no error is known; each with the steps that need it
-    neglected    relative error of numbers by effects that the solver neglects
+    scene        solved scene
+    values       scalars of the result at the end of each load step
+    tolerance    relative residual of each load step
+    features     resolution of the contact at the end of each load step
+    comparisons  pairs of solves that differ in one parameter, for all parameters
+    required     error parts without which an error is unknown; for each part, the load steps that
+                 need it
+    neglected    relative error of scalars due to effects that the solver neglects
     """
 
     scene: Scene
@@ -251,7 +281,7 @@ class SolvedRun:
     neglected: Mapping[str, float]
 
     def errors(self) -> Iterator[Mapping[str, StatedError]]:
-        """Yield the stated errors at the end of each step."""
+        """Yield the stated errors of all scalars, by name, at the end of each load step."""
         before: dict[str, dict[Part, Numbers]] = {}
         for step, ramp in enumerate(self.scene.load_path()):
             exact = prescribed(ramp, self.scene.rig)
@@ -261,7 +291,14 @@ class SolvedRun:
             }
 
     def _error(self, step: int, name: str, before: dict[str, dict[Part, Numbers]]) -> StatedError:
-        """Return the error of a number; `before` has its parts at earlier steps."""
+        """Compute the stated error of one scalar at the end of a load step.
+
+        The error is not converged if it is large compared with the scalar, if the cells do not
+        resolve the contact, or for slip close to gross slip.
+
+        before  parts of the errors at earlier load steps, by scalar and part; updated by this
+                function
+        """
         features, value = self.features[step], self.values[step][name]
         apart = not np.any(self.values[step]["contact_area"])
         if not np.any(value) and (apart or name in STICK_EDGE):
@@ -283,18 +320,27 @@ class SolvedRun:
 
     @cached_property
     def _largest(self) -> Sequence[Values]:
+        """Largest absolute value of each scalar up to the end of each load step."""
         return largest_so_far(self.values)
 
     @cached_property
     def _nearly(self) -> Sequence[bool]:
+        """For each load step, true if the tangential force has come close to the friction limit."""
         return near_gross_slip(self.scene)
 
     def order(self, name: str) -> float:
-        """Return the smallest convergence order of a number in the cells."""
+        """Return the smallest convergence order of a scalar in the cell size over all load
+        steps."""
         return min(features.order(name) for features in self.features)
 
     def _parts(self, step: int, name: str, largest: Numbers) -> dict[Part, Numbers] | None:
-        """Return the parts of the error of a number; None if one is unknown."""
+        """Compute all parts of the error of a scalar at the end of a load step.
+
+        The parts are those of the cells, the increments, the tolerance and others. The result is
+        None if a required part is unknown or the exact value is infinite.
+
+        largest  largest absolute value of the scalar up to this load step
+        """
         features = self.features[step]
         if name == PEAK and features.infinite:
             return None
@@ -315,7 +361,10 @@ class SolvedRun:
 
 
 def largest_so_far(values: Sequence[Values]) -> tuple[Values, ...]:
-    """Return the largest size of each number in the history up to each step, one per vector."""
+    """Return the largest absolute value of each scalar up to the end of each load step.
+
+    All components of a vector receive the value of the largest component.
+    """
     seen: dict[str, Numbers] = {}
     found = []
     for step in values:
@@ -327,7 +376,10 @@ def largest_so_far(values: Sequence[Values]) -> tuple[Values, ...]:
 
 
 def stated(parts: Mapping[Part, Numbers], converged: bool) -> StatedError:
-    """Return an error as the sum of its parts."""
+    """Sum the parts of an error to a stated error.
+
+    converged  false for an error that is an order of magnitude at best
+    """
     status = ErrorStatus.ESTIMATED if converged else ErrorStatus.NOT_CONVERGED
     total = np.sum(list(parts.values()), axis=0)
     amounts = {part: _amount(size, len(total)) for part, size in parts.items()}
@@ -338,5 +390,6 @@ UNKNOWN = StatedError(error=None, parts={}, status=ErrorStatus.NOT_CONVERGED)
 
 
 def _amount(size: Numbers, count: int) -> Amount:
+    """Convert an error size to a float for a scalar, or to two floats for a vector."""
     parts = np.broadcast_to(size, count)
     return float(parts[0]) if count == 1 else (float(parts[0]), float(parts[1]))

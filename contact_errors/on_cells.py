@@ -1,4 +1,7 @@
-"""The semi-analytical solver for error estimates and refinement: cells, increments, tolerance."""
+"""Semi-analytical solver with variable discretisation, for error estimates and refinement.
+
+The variable parameters are the grid of cells, the increments and the tolerance.
+"""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -51,10 +54,12 @@ ROOM, MAX_ENLARGEMENTS = 1.25, 5
 
 @dataclass(frozen=True)
 class CellSolver(DiscretisedSolver):
-    """Semi-analytical solver. Its discretisation in space is a grid.
+    """Semi-analytical solver of one scene with variable grid, increments and tolerance.
 
-    discretisation  window if given, ratio of the cells along the sides, largest tolerance
-    stress          true if the stress in the body is computed as well
+    discretisation  settings of the scene file: window if prescribed, ratio of the cells along the
+                    sides, tolerance of the first level
+    chosen_plan     plan of a solved result; None for the plan made of the scene
+    stress          true if the memory estimate includes the stress in the body
     """
 
     discretisation: SurfaceDiscretisation
@@ -71,13 +76,18 @@ class CellSolver(DiscretisedSolver):
 
     @property
     def plan(self) -> Plan:
-        """Effects, and at least the increments that the scene prescribes."""
+        """Plan of the solve: that of the result, or the effects and increments of the first
+        level."""
         return self.chosen_plan or semi_analytical.plan(
             self.scene, FIRST_PATH_ACCURACY, self.discretisation.edge
         )
 
     def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Result:
-        """Solve on a larger window with equal cells if a fitted window is too small."""
+        """Solve the scene on a grid.
+
+        If the window was fitted by the program and the contact reaches its edge, the scene is
+        solved on a larger window with cells of equal size.
+        """
         grids, plan = [fineness.space], self.plan.cut_into(fineness.increments)
         plan = plan if fineness.edges else replace(plan, edge="off")
         for _ in range(MAX_ENLARGEMENTS if self._can_grow else 0):
@@ -89,8 +99,14 @@ class CellSolver(DiscretisedSolver):
         return result.grid
 
     def coarser(self, result: Result, share: float, more: int) -> SurfaceGrid:
-        """Return a grid with more cells around it if the contact, by the result, lies less than a
-        cell inside its border."""
+        """Return a grid with fewer cells on the window of the result, for an error estimate.
+
+        If the contact comes within a coarse cell of the edge of a fitted window, cells are added
+        around the grid.
+
+        share  fraction of the cells of the result along a side
+        more   number of cells added along each side
+        """
         grid, touched = result.grid, np.any([end.in_contact for end in result.steps], axis=0)
         counts, sides = list(_part(grid.cells, share, more)), list(grid.window)
         for axis in (0, 1) if self._can_grow else ():
@@ -103,12 +119,18 @@ class CellSolver(DiscretisedSolver):
 
     @property
     def _can_grow(self) -> bool:
-        """True if the window is neither prescribed nor that of a height map."""
+        """True if the window may be enlarged.
+
+        The window may be neither prescribed nor the extent of a height map.
+        """
         return self.discretisation.window is None and self.scene.indenter.extent is None
 
     def few(self, coarse: Fineness, result: Result) -> Fineness:
-        """Return at most 11 cells per radius without edge correction, which has no effect on the
-        shear of later increments."""
+        """Return the discretisation of the coarse solves that measure the increment error.
+
+        The grid has at most about 11 cells per contact radius. The edge correction is off, because
+        it has no effect on the shear of later increments.
+        """
         most = max(step.contact for step in resolution(result))
         few = self.coarser(result, min(PER_RADIUS / max(most, 1.0), 1 / 2), 0)
         return replace(coarse, space=few, edges=False)
@@ -173,7 +195,10 @@ class CellSolver(DiscretisedSolver):
 
 
 def _left(report: EdgeReport) -> Mapping[str, float]:
-    """Return relative errors of numbers that the iteration of the edge correction leaves."""
+    """Return the relative errors of scalars that remain when the edge-correction iteration stops.
+
+    report  outcome of the edge correction at the end of a load step
+    """
     motions = dict.fromkeys(MOTIONS, report.response)
     radii = {"contact_radius": report.radius, "contact_area": 2 * report.radius}
     stick = {"stick_radius": report.stick or 0.0, "stick_area": 2 * (report.stick or 0.0)}
@@ -181,15 +206,16 @@ def _left(report: EdgeReport) -> Mapping[str, float]:
 
 
 def _to_edge(end: Increment) -> float:
-    """Return the distance of the largest pressure from the edge of the contact, in cells."""
+    """Return the distance in cells between the largest pressure and the edge of the contact."""
     place = np.unravel_index(np.argmax(end.pressure), end.pressure.shape)
     return float(distance_transform_edt(end.in_contact)[place])
 
 
 def _may_hide_stick(end: Increment) -> bool:
-    """Return true if a contact with slip in all cells may have a stick zone smaller than a cell.
+    """Return true if a contact whose cells all slip may have a stick zone smaller than a cell.
 
-    The least slip of a cell is then not larger than its differences from the adjacent cells.
+    A stick zone is possible if the smallest slip of a cell is at most half of the largest slip of
+    the adjacent cells.
     """
     slip = np.hypot(*np.asarray(end.slip_increment)) * end.in_contact
     i, j = np.unravel_index(np.argmin(np.where(end.in_contact, slip, np.inf)), slip.shape)
@@ -198,15 +224,22 @@ def _may_hide_stick(end: Increment) -> bool:
 
 
 def _part(cells: tuple[int, int], share: float, more: int = 0) -> tuple[int, int]:
-    """Return a fraction of the cells along each side, rounded up to an even number, plus `more`."""
+    """Reduce the numbers of cells along x and y by a factor, for a coarse solve.
+
+    The reduced numbers are rounded up to even numbers.
+
+    share  factor, below 1
+    more   number of cells that are then added along each side
+    """
     nx, ny = (2 * ceil(share * n / 2) + more for n in cells)
     return nx, ny
 
 
 def scaled(cells: tuple[int, int], factor: float) -> tuple[int, int]:
-    """Return a multiple of the cells, increased to even numbers without prime factors above 5.
+    """Multiply the numbers of cells along x and y by a factor, for a finer or coarser grid.
 
-    Fourier transforms of these numbers are fast.
+    The result is increased to even numbers whose halves have no prime factor above 5, for which
+    Fourier transforms are fast.
     """
     nx, ny = (2 * next_fast_len(ceil(round(factor * n, 6) / 2), real=True) for n in cells)
     return nx, ny

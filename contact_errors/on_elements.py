@@ -1,6 +1,7 @@
-"""Finite element solver for error estimates and refinement.
+"""Finite-element solver with variable discretisation, for error estimates and refinement.
 
-Parameters: elements, increments, section, overlap, harmonics.
+The variable parameters are the elements over the contact radius, the increments, the tolerance, the
+size of the meshed section, the overlap of the penalty method and the angular harmonics.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -45,9 +46,11 @@ ACROSS = ("tangential_shift", "tangential_force", "stick_radius", "stick_area",
 
 @dataclass(frozen=True)
 class ElementSolver(DiscretisedSolver):
-    """Finite element solver. Its discretisation in space is a mesh.
+    """Finite-element solver of one scene with variable mesh, increments and tolerance.
 
-    method  for the contact and friction laws
+    discretisation  settings of the scene file or of a result
+    chosen_plan     plan of a solved result; None for the plan made of the scene
+    method          contact method: complementarity or penalty
     """
 
     discretisation: FiniteElementDiscretisation
@@ -67,7 +70,11 @@ class ElementSolver(DiscretisedSolver):
         return self.chosen_plan or fem_reference.plan(self.scene)
 
     def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Result:
-        """Solve the scene, with a larger overlap if coarse elements exceed that of the run."""
+        """Solve the scene on a mesh.
+
+        If the penalty method cannot reduce the overlap of the surfaces to its limit on coarse
+        elements, the scene is solved with the largest allowed overlap.
+        """
         scene = self.scene.with_increments(fineness.increments)
         mesh = _with(fineness.space, tolerance=fineness.tolerance)
         try:
@@ -111,6 +118,11 @@ class ElementSolver(DiscretisedSolver):
         return at_ends(result, lambda end: self._resolved(result, end))
 
     def _resolved(self, result: Result, end: Increment) -> Features:
+        """Measure contact, stick zone and layers in half elements at the end of a load step.
+
+        Half elements are counted, because linear elements resolve a feature as well as twice their
+        number of cells.
+        """
         indenter, (side,) = self.scene.indenter, self.sides(result)
         thinnest = min(self.scene.body.thinnest, indenter.thinnest)
         per_length = LINEAR / side
@@ -128,10 +140,11 @@ class ElementSolver(DiscretisedSolver):
         )
 
     def neglected(self, result: Result) -> Mapping[str, float]:
-        """Return errors by slip across the load, which the path with shear along the load neglects.
+        """Return relative errors of tangential scalars due to neglected slip across the load.
 
-        In Mindlin's solution the slip is inclined to the load by at most α = ν/(4 - 2ν) (Johnson
-        1985, section 7.2). Shear of this inclination carries 1 - α²/2 of the load. Layers respond
+        The solution path with shear along the load only (Path.SHEARING) neglects this slip. In
+        Mindlin's solution the slip is inclined to the load by at most α = ν/(4 - 2ν) (Johnson 1985,
+        section 7.2). Shear of this inclination carries 1 - α²/2 of the load. Layers respond
         differently along and across a wave for any ν, so the largest α, that of ν = ½, applies to
         them.
         """
@@ -174,10 +187,11 @@ class ElementSolver(DiscretisedSolver):
 
 
 def _with(mesh: FiniteElementDiscretisation, **update: object) -> FiniteElementDiscretisation:
+    """Return a finite-element discretisation with other values of some parameters."""
     return mesh.model_copy(update=update)
 
 
 def _peak_radius(end: Increment) -> float:
-    """Return the radius of the largest pressure [length]."""
+    """Return the radius of the ring with the largest pressure [length]."""
     largest = end.pressure.reshape(len(end.radii), -1).max(axis=1)
     return float(end.radii[np.argmax(largest)])

@@ -1,4 +1,8 @@
-"""The radial solver for error estimates and refinement: rings or orders, increments, tolerance."""
+"""Radial solver with variable discretisation, for error estimates and refinement.
+
+The variable parameters are the increments, the tolerance, and the rings; without friction, the
+Legendre orders and quadrature points.
+"""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -33,8 +37,13 @@ FIRST_FINENESS, MAX_FINENESS = 0.5, 4.0
 
 @dataclass(frozen=True)
 class RingSolver(DiscretisedSolver):
-    """Radial solver. Its discretisation in space is a multiple of its rings, or orders and
-    points."""
+    """Radial solver of one scene with a variable factor of its numbers of rings and angles.
+
+    Without friction, the factor multiplies the numbers of Legendre orders and quadrature points.
+
+    discretisation  settings of the scene file or of a result
+    chosen_plan     plan of a solved result; None for the plan made of the scene
+    """
 
     discretisation: RadialDiscretisation
     chosen_plan: Plan | None = None
@@ -54,12 +63,15 @@ class RingSolver(DiscretisedSolver):
 
     @property
     def plan(self) -> Plan:
-        """Effects, and increments of the first level."""
+        """Plan of the solve: the effects, and the number of increments of each load step."""
         return self.chosen_plan or radial.plan(self.scene)
 
     @property
     def counted(self) -> bool:
-        """True if numbers depend on rings; without friction they depend on orders and points."""
+        """True if the accuracy depends on rings; false without friction.
+
+        Without friction, the accuracy depends on Legendre orders and quadrature points.
+        """
         return self.plan.coupled or self.plan.circle is not None
 
     def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Result:
@@ -71,7 +83,11 @@ class RingSolver(DiscretisedSolver):
         return result.plan.fineness
 
     def coarser(self, result: Result, share: float, more: int) -> float:
-        """Return the fraction of the rings, or twice the orders and points without friction."""
+        """Return the factor of the rings for a coarse solve, as a fraction of that of the result.
+
+        Results that depend on orders and points are compared with a solve with twice their number
+        instead.
+        """
         return result.plan.fineness * (share if self.counted else 2.0)
 
     def sides(self, result: Result) -> tuple[float, ...]:
@@ -87,7 +103,12 @@ class RingSolver(DiscretisedSolver):
         return at_ends(result, lambda end: self._resolved(result, end))
 
     def _resolved(self, result: Result, end: Increment) -> Features:
-        """Return the contact in widest rings and its zones in mean rings."""
+        """Measure contact and stick zone in rings at the end of a load step.
+
+        The contact radius is divided by the width of the widest ring, and stick zone and slip
+        annulus by the mean width. Half rings are counted, because of the linear interpolation
+        between rings. Without friction, the contact counts as infinitely resolved.
+        """
         indenter, plan = self.scene.indenter, result.plan
         within = end.radii[end.radii <= end.contact_radius]
         widest = float(np.max(np.diff([0.0, *within, end.contact_radius])))

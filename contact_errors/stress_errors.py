@@ -1,18 +1,21 @@
-"""Errors of the largest stresses, from two sets of coarse tractions.
+"""Errors of the largest stresses in a body, from two subsurface solutions for coarse tractions.
 
-Coarse cells are twice as wide, in two positions. Coarse elements are twice as wide, with all rings
-and with every second one. Each stress of a region has up to two places where it may be largest:
+The coarse tractions on cells are means over four cells, in two positions of the coarse grid. With
+finite elements, a mesh of half the elements per radius receives the tractions of all rings, and
+those of every second ring. Each stress of a region has up to two places where it may be largest:
 inside, and at the surface adjacent to the edge of the contact. The error of the largest stress is
 
     max over these places (value + its error) - largest stress found
 
-Inside the body the stress has the order 2. Twice the excess of a parabola through three depth
-levels is added for a largest value between levels. Adjacent to a fitted edge the stress has the
-order 1, adjacent to another edge the order ½. Half a cell inside the edge of tractions that end in
-a square root, the tensile stress is too small by m^-½ of its value on m cells per contact radius.
-At a fitted edge the error is at least that of another fit. If an edge that is not fitted may have
-the largest stress, the stress has not converged. The von Mises stress is not largest at an edge
-without shear, and is only compared there if it is found there.
+- Inside the body the stress has the convergence order 2. For a maximum between the depth levels,
+  twice the excess of a parabola through three levels is added.
+- Adjacent to a fitted contact edge the stress has the order 1, adjacent to another edge the order
+  ½.
+- The tensile stress half a cell inside an edge, at which the tractions end like a square root, is
+  too small by m^-½ of its true value, for m cells per contact radius.
+- At a fitted edge the error is at least that of another fit. If an edge that is not fitted may have
+  the largest tensile stress, the error has not converged.
+- Other stresses are compared at the edge only if their maximum was found there.
 """
 
 from collections.abc import Collection, Mapping, Sequence
@@ -66,12 +69,14 @@ PRECISION = 1e-13
 def largest_stresses(
     result: object, errors: StatedErrors | None, names: Collection[str], step: int | None = None
 ) -> Mapping[str, tuple[float, StatedError | None]]:
-    """Compute largest stresses of the body at the end of a load step, the last if absent.
+    """Compute the largest stresses in the regions of the lower body at the end of a load step.
 
-    Returns values [force/length^2] and errors; empty for a rigid body.
+    Returns values [force/length^2] and their stated errors by name; empty for a rigid body.
 
-    errors  of the result; None without error estimates
-    names   MEASURE@REGION; an interface by its number, for the side with the larger value
+    errors  error estimates of the result; None to omit the errors of the stresses
+    names   requested stresses as MEASURE@REGION, such as "max_principal@body"; an interface is
+            named by its number, and the side with the larger value is returned
+    step    load step, from 1; None for the last
     """
     state = state_of_result(result, step, errors)  # type: ignore[arg-type]
     if not state.body.deforms:
@@ -92,9 +97,14 @@ def largest_stresses(
 def stress_at(
     state: LoadedBodies, x: Field, y: Field, levels: Sequence[Any], *, indenter: bool = False
 ) -> tuple[StressPoints, Field]:
-    """Compute the stress at points (n,) of levels with the error of its components (n,).
+    """Compute the stress at points in a body, with the error of its components.
 
-    Raises UnsupportedScene for finite elements.
+    Returns the points, and the largest error of the stress components at each point (n,)
+    [force/length^2]. Raises UnsupportedScene for finite elements.
+
+    x, y      coordinates of the points (n,) [length]
+    levels    depth and material of each of the n points
+    indenter  true for points in the indenter, false for points in the lower body
     """
     if state.pressed is not None:
         here, other = (
@@ -119,7 +129,11 @@ def stress_at(
 
 
 def _field(state: LoadedBodies, *, indenter: bool = False, depths: Any = None) -> StressField:
-    """Return the stress below tractions on cells, on rings, or of a disc."""
+    """Compute the stress field in a body below the tractions of any solver.
+
+    indenter  true for the indenter, false for the lower body
+    depths    depths of the field [length]; None for those of the solver
+    """
     if state.pressed is not None:
         return stress_on_disc(state, indenter=indenter, depths=depths)
     if state.on_rings:
@@ -128,7 +142,7 @@ def _field(state: LoadedBodies, *, indenter: bool = False, depths: Any = None) -
 
 
 def _is_fitted(field: StressField) -> bool:
-    """Return true if the edge of the contact is fitted within the cells or elements."""
+    """Return true if the contact edge of a stress field is fitted within the cells or elements."""
     edge = field.edge
     return bool(field.how.get("edges")) if edge is None else edge.determined
 
@@ -136,10 +150,14 @@ def _is_fitted(field: StressField) -> bool:
 def stress_errors(
     state: LoadedBodies, field: StressField, found: Sequence[Extreme], *, indenter: bool = False
 ) -> tuple[StatedError, ...]:
-    """Estimate the errors of the largest stresses found in a field.
+    """Estimate the errors of the largest stresses found in a stress field.
 
-    The error of the tractions enters only with its part by increments. The part by cells is far
-    smaller than the effect of coarse tractions on the stress.
+    The increment error of the tractions is included. Their error by the cells is not, because it is
+    far smaller than the effect of the coarse tractions on the stress.
+
+    state     bodies and tractions
+    found     largest stress of each region and measure
+    indenter  true for the indenter, false for the lower body
     """
     if state.pressed is not None:
         return _on_disc(state, found, indenter)
@@ -183,8 +201,14 @@ def stress_errors(
 
 
 def _places(field: StressField, body: Body, near: float) -> Mapping[bool, Mapping[Key, float]]:
-    """Return the largest stresses by region and measure: at the surface, with the edge, and
-    below."""
+    """Find the largest stress of each region and measure, separately near the surface and below.
+
+    Points near the surface include the fitted contact edge.
+
+    near  depth that divides the points [length]
+
+    Returns the stresses by region and measure; the key is true near the surface, false below.
+    """
     shallow, found = field.points.depth < near, {}
     for at_edge, chosen in ((True, shallow), (False, ~shallow)):
         points, edge = field.points.chosen(chosen), field.edge if at_edge else None
@@ -196,12 +220,14 @@ def _places(field: StressField, body: Body, near: float) -> Mapping[bool, Mappin
 
 
 def _between_levels(points: StressPoints, values: Field, extreme: Extreme) -> float:
-    """Return twice the excess of the parabola through the largest values on three depth levels.
+    """Estimate the error of a largest stress because its maximum lies between two depth levels.
 
-    A parabola omits terms of third order, hence twice. Return 0 on an interface and at the end of a
-    material.
+    The error is twice the excess of a parabola through the largest values on three depth levels
+    over the largest stress. The factor 2 accounts for the third-order terms that a parabola omits.
+    The error is 0 on an interface and at the end of a material.
 
-    values  of the measure at the points (…)
+    values   stress measure at the points (…) [force/length^2]
+    extreme  largest stress found
     """
     here = (points.depth == extreme.depth) & (values == extreme.value)
     inside = points.material == points.material.flat[int(np.argmax(here))]
@@ -218,19 +244,24 @@ def _between_levels(points: StressPoints, values: Field, extreme: Extreme) -> fl
 
 
 def _growth(order: float) -> float:
+    """Return the divisor r^(0.6 p) - 1 of the error formula, for r = 2 and the convergence order
+    p."""
     return float(COARSE ** (BELIEVED * order) - 1)
 
 
 def _side(state: LoadedBodies) -> float:
-    """Return the side of a cell along x, or of a ring [length]."""
+    """Return the side of a cell along x, or the mean width of a ring [length]."""
     places = next(iter(state.axes.values()))
     return float(places[-1] - places[0]) / (len(places) - 1)
 
 
 def on_wide_cells(state: LoadedBodies, shift: int = 0) -> LoadedBodies:
-    """Return equal forces on cells twice as wide, as means of the tractions of four cells.
+    """Average the tractions of cells over cells twice as wide, with the same total force.
 
-    shift  number of empty cells, 0 or 1, before the first pair along each side
+    The stress below these coarse tractions is compared with that of the fine tractions.
+
+    shift  0 or 1, number of empty cells before the first pair of cells along each side; it selects
+           the position of the coarse cells
     """
     sides = [state.axes[axis] for axis in ("x", "y")]
     pads = [(shift, (len(side) + shift) % 2) for side in sides]
@@ -247,7 +278,10 @@ def on_wide_cells(state: LoadedBodies, shift: int = 0) -> LoadedBodies:
 
 
 def on_half_the_elements(state: LoadedBodies, every: int = 1) -> LoadedBodies:
-    """Return the tractions of each or of every second ring, for half of the elements."""
+    """Coarsen a finite-element state: half the elements per radius, and fewer rings of tractions.
+
+    every  1 to keep the tractions of all rings, 2 to keep those of every second ring
+    """
     asked, radii = state.discretisation, state.axes["radii"]
     assert asked is not None
     half = max(2, asked.elements_per_radius // 2)
@@ -269,7 +303,13 @@ def on_half_the_elements(state: LoadedBodies, every: int = 1) -> LoadedBodies:
 def _on_disc(
     state: LoadedBodies, found: Sequence[Extreme], indenter: bool
 ) -> tuple[StatedError, ...]:
-    """Return errors below the tractions of `radial`, from twice the orders and points."""
+    """Estimate the errors of largest stresses below the tractions of the radial solver.
+
+    The stresses are computed again with twice the numbers of Legendre orders and quadrature points.
+
+    found     largest stress of each region and measure
+    indenter  true for the indenter, false for the lower body
+    """
     from contact_results.stress.radial_body import RadialBody, is_sheared
 
     sheared = is_sheared(state)
@@ -287,4 +327,5 @@ def _on_disc(
 
 
 def _place(e: Extreme) -> tuple[str, float, float, float, float]:
+    """Return measure, value and position of a largest stress, as a key that regions share."""
     return e.measure, e.value, e.x, e.y, e.depth
