@@ -1,4 +1,4 @@
-"""`python -m slipstick` is the command `slipstick`."""
+"""Entry point of `python -m slipstick`, which runs the command line `slipstick`."""
 
 from slipstick.cli import main
 

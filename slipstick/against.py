@@ -1,8 +1,11 @@
-"""Comparison of a run with a measured loop or profile.
+"""Comparison of a stored run with a measured loop or profile, for the command `slipstick against`.
 
-A loop of force over shift is compared by its centre, by its slope, which is the ratio of the ranges
-of force and shift, and by its area, the energy per cycle. The forces are then compared at the
-places of the loop with fewer points, after both loops were moved to a common centre.
+A loop of tangential force over shift is compared in three steps:
+
+- centre: mean of the largest and the smallest shift, and of the largest and the smallest force
+- slope (ratio of the ranges of force and shift) and area (energy per cycle)
+- forces at equal shifts, after both loops were moved to a common centre; the shifts are those of
+  the loop with fewer points
 """
 
 from __future__ import annotations
@@ -25,15 +28,18 @@ GAP = 0.75
 
 
 class NothingToCompare(ValueError):
-    """A table that has no counterpart in the run."""
+    """Error raised for a measured table that has no counterpart in the run."""
 
 
 @dataclass(frozen=True)
 class Compared:
-    """A number of the measured table and of the run.
+    """Comparison of one number of the measured table with that of the run, in the unit `unit`.
 
-    error  stated error of the computed number; None where it is unknown
-    gap    difference, or root of the mean square of the differences at all places
+    name                description of the number, such as "energy per cycle"
+    measured, computed  numbers of the table and of the run
+    error               stated error of the computed number; None if unknown
+    gap                 absolute difference; for curves, the root mean square of the differences at
+                        all points
     """
 
     name: str
@@ -45,12 +51,18 @@ class Compared:
 
     @property
     def ratio(self) -> float | None:
-        """Measured over computed; None if the computed number is zero within its error."""
+        """Ratio of the measured to the computed number.
+
+        The ratio is None if the computed number is zero within its error.
+        """
         return self.measured / self.computed if abs(self.computed) > (self.error or 0.0) else None
 
     @property
     def ours(self) -> float | None:
-        """Largest part of the difference that the stated error explains."""
+        """Largest fraction of the difference that the error of the computation explains.
+
+        The fraction is 1 if the error exceeds the difference, and None if the error is unknown.
+        """
         if self.error is None:
             return None
         return self.error / self.gap if self.error < self.gap else 1.0
@@ -59,11 +71,13 @@ class Compared:
 def comparison(
     table: Mapping[str, Numbers], run: StoredRun, step: int | None = None
 ) -> tuple[Compared, ...]:
-    """Compare a table of shift and T, or of x with p or q, in SI.
+    """Compare a measured table with a stored run, and return one comparison per number.
 
-    step  load step at whose end profiles are compared, from 1; the last if absent
+    Raises NothingToCompare if the columns of the table or the run do not allow a comparison.
 
-    Raises NothingToCompare.
+    table  columns by name in SI units: shift and T of a loop, or x with p, q or both of a profile
+    run    stored run
+    step   load step at whose end profiles are compared, from 1; the last if None
     """
     for motion in (ACTUATOR, SHIFT):
         if {motion, LOAD} <= table.keys():
@@ -82,24 +96,34 @@ def comparison(
 
 @dataclass(frozen=True, eq=False)
 class _Loop:
-    """Shift and force (n,) of one closed loop."""
+    """Closed loop of tangential force over shift, with n points.
+
+    shift  tangential shift at each point (n,) [length]
+    force  tangential force at each point (n,) [force]
+    """
 
     shift: Numbers
     force: Numbers
 
     @property
     def slope(self) -> float:
-        """Ratio of the ranges [force/length]."""
+        """Ratio of the range of the force to the range of the shift [force/length]."""
         return float(np.ptp(self.force) / np.ptp(self.shift))
 
     @property
     def area(self) -> float:
-        """Energy per cycle, of the polygon [force length]. Negative in reversed order."""
+        """Area of the polygon through the points: energy per cycle [force length].
+
+        The area is negative if the points are in reversed order.
+        """
         turn = np.roll(self.shift, -1) * self.force - self.shift * np.roll(self.force, -1)
         return 0.5 * float(np.sum(turn))
 
     def refuse_unless_one_cycle(self) -> None:
-        """Raise NothingToCompare for one branch, several cycles, or no range."""
+        """Raise NothingToCompare unless the points make up one closed cycle.
+
+        One branch, several cycles, and a loop without a range of shift are refused.
+        """
         apart = self.shift - _centre(self.shift)
         length = float(np.ptp(self.shift))
         outer = np.sign(apart[np.abs(apart) > length / 4])
@@ -114,7 +138,11 @@ class _Loop:
 
     @property
     def branches(self) -> tuple[tuple[Numbers, Numbers], ...]:
-        """Shift and force about the centre, from the smallest shift to the largest and back."""
+        """The two branches of the loop: pairs of shift and force, both relative to the centre.
+
+        One branch has the points from the smallest to the largest shift, the other the points of
+        the way back. The shifts of each branch are in ascending order.
+        """
         begin = int(np.argmin(self.shift))
         shift, force = (np.roll(each, -begin) - _centre(each) for each in (self.shift, self.force))
         turn = int(np.argmax(shift))
@@ -123,13 +151,18 @@ class _Loop:
 
 
 def _centre(values: Numbers) -> float:
+    """Return the mean of the largest and the smallest value."""
     return float(np.max(values) + np.min(values)) / 2
 
 
 def _loops(theirs: _Loop, run: StoredRun, motion: str) -> Iterator[Compared]:
-    """Compare centre, slope and area, then the forces along the loop.
+    """Compare a measured loop with the last load cycle of a run.
 
-    motion  name of the shift of the actuator or of the contact; they are equal without a spring
+    Yields the comparisons of centre, slope and area, and then of the forces along the loop. Raises
+    NothingToCompare if no load cycle of the run closes with slip.
+
+    theirs  measured loop
+    motion  name of the compared shift: that of the actuator of a test rig, or of the contact
     """
     numbered = [(n, end) for n, end in enumerate(run.summary.steps, 1) if end.energy_per_cycle]
     if not numbered:
@@ -172,7 +205,14 @@ def _loops(theirs: _Loop, run: StoredRun, motion: str) -> Iterator[Compared]:
 
 
 def _profiles(table: Mapping[str, Numbers], run: StoredRun, step: int) -> Iterator[Compared]:
-    """Compare pressure and shear at the places of the table; both are 0 outside the window."""
+    """Compare measured profiles of pressure and shear with those of a run.
+
+    Yields the comparisons of the largest values, and of the values at the positions x of the table.
+    The tractions of the run are 0 outside its window.
+
+    table  x with pressure, shear or both, in SI units
+    step   load step at whose end the profiles are compared, from 1
+    """
     end, profiles = run.summary.steps[step - 1], run.tables["profiles"]
     here = profiles["step"].array == step
 
@@ -201,13 +241,19 @@ def _profiles(table: Mapping[str, Numbers], run: StoredRun, step: int) -> Iterat
 
 
 def _error(end: StepSummary, name: str) -> float | None:
-    """Return the stated error of a scalar, or the larger one of a vector; None if unknown."""
+    """Return the stated error of a scalar at the end of a load step; None if unknown.
+
+    For a vector, the larger error of its components is returned.
+    """
     stated = (end.errors or {}).get(name)
     return None if stated is None or stated.error is None else float(np.max(stated.error))
 
 
 def _share(end: StepSummary, name: str) -> float | None:
-    """Return the stated error relative to the number."""
+    """Return the stated error of a scalar relative to its largest component; None if unknown.
+
+    end  scalars at the end of a load step
+    """
     error, value = _error(end, name), np.max(np.abs(getattr(end, name) or 0.0))
     return error / float(value) if error and value else error
 
@@ -215,8 +261,10 @@ def _share(end: StepSummary, name: str) -> float | None:
 def _number(
     name: str, unit: str, measured: float, computed: float, error: float | None
 ) -> Compared:
+    """Build the comparison of one measured and one computed number."""
     return Compared(name, unit, measured, computed, error, abs(measured - computed))
 
 
 def _rms(values: Numbers) -> float:
+    """Return the root mean square of an array."""
     return float(np.sqrt(np.mean(values**2)))

@@ -1,4 +1,4 @@
-"""Plan, solve and save a scene from Python, by any solver."""
+"""Functions to plan, solve and save a scene from Python, by any of the solvers."""
 
 from __future__ import annotations
 
@@ -59,9 +59,9 @@ def plan(
     solver: str = "semi-analytical",
     discretisation: Discretisation | None = None,
 ) -> Any:
-    """Return the plan of a solver: the effects with reasons, and the increments.
+    """Return the plan of a solve: modelled effects with reasons, and increments of each load step.
 
-    Parameters are those of `solve`. Raises UnsupportedScene.
+    The parameters are those of `solve`. Raises UnsupportedScene.
     """
     chosen, solved, fineness = _resolved(scene, solver, discretisation)
     return chosen.plan(solved, fineness)
@@ -210,6 +210,13 @@ def _solved_to(
     fineness: Discretisation,
     progress: Progress | None,
 ) -> Any:
+    """Solve a scene with refined discretisations until its errors meet an accuracy request.
+
+    Returns the result of the last level. Raises AccuracyOutOfReach if the request is not met.
+
+    chosen    solver
+    fineness  discretisation of the scene file
+    """
     from contact_errors.adaptive_refinement import refine
 
     stress = request.binds_stress
@@ -223,6 +230,10 @@ def _solved_to(
 def _resolved(
     scene: Scene | SceneFile, solver: str, discretisation: Discretisation | None
 ) -> tuple[Solver, Scene, Discretisation]:
+    """Check the arguments of `plan` and `solve`; return solver, scene and discretisation.
+
+    A given discretisation replaces that of a scene file. Raises TypeError or ValueError.
+    """
     if not isinstance(scene, Scene | SceneFile):
         raise TypeError(
             f"got a {type(scene).__name__}, expected a Scene; load_scene reads one from a file"

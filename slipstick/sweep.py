@@ -1,8 +1,9 @@
-"""Parameter sweeps: solutions of a scene for every combination of values of its keys.
+"""Parameter sweeps: solutions of a scene for every combination of values of some of its keys.
 
-The values of a key are evenly spaced, linearly or logarithmically, or a sample of a normal
-distribution. The sample is a Latin hypercube: the midpoints of N strata of equal probability, in a
-random order for each key. A percentile of N results has an error of order 1/N^2 for one key.
+The values of a key are either spaced evenly, on a linear or logarithmic scale, or a sample of a
+normal distribution. The sample is a Latin hypercube: the midpoints of N strata of equal
+probability, in a random order for each key. A percentile of N results has an error of order 1/N^2
+for one key.
 """
 
 from __future__ import annotations
@@ -60,17 +61,18 @@ SCALARS = {
 
 
 class SweepError(ValueError):
-    """A sweep that cannot be made."""
+    """Error raised for options that do not define a parameter sweep."""
 
 
 @dataclass(frozen=True)
 class Variation:
-    """Values of one key of a scene.
+    """Values of one key of a scene in a parameter sweep.
 
-    label      key and unit, as a column has them
-    values     in the unit; of a distribution in ascending order
-    is_log     whether the values are spaced by a factor
-    is_sample  whether the values are a sample of a distribution
+    key        key of the scene file, such as "body.layers[1].thickness"
+    unit       unit of the values; empty for a dimensionless key
+    values     values in this unit, in ascending order for a sample
+    is_log     true for values spaced by a constant factor
+    is_sample  true for a sample of a normal distribution
     """
 
     key: str
@@ -81,7 +83,10 @@ class Variation:
 
     @classmethod
     def of(cls, text: str) -> Variation:
-        """Read an option; raises SweepError."""
+        """Read the variation of a key from the text of the option `--vary`; raises SweepError.
+
+        text  for example "indenter.radius=5..20 mm log 4"
+        """
         key, _, given = text.partition("=")
         match = _VALUES.fullmatch(given.strip())
         if match is None or (match[6] and not (match[1] and float(match[1]) > 0 < float(match[2]))):
@@ -98,16 +103,20 @@ class Variation:
 
     @property
     def label(self) -> str:
-        """The key with its unit, as the head of a column."""
+        """Key with unit in brackets, as the header of a column."""
         return f"{self.key} [{self.unit or '1'}]"
 
     def override(self, value: float) -> str:
-        """The option of a run that sets a value."""
+        """Return the argument of the option `--set` that gives the key a value."""
         return f"{self.key}={value:.{DIGITS}g} {self.unit}".strip()
 
 
 def quantities(body: Body) -> tuple[str, ...]:
-    """Return the names of all quantities: scalars, and largest stresses as MEASURE@REGION."""
+    """Return the names of all quantities that a sweep can write for a scene.
+
+    The quantities are the scalars of summary.json, with vectors by component, and the largest
+    stresses of the body as MEASURE@REGION.
+    """
     layers = len(body.layers)
     interfaces = [str(number) for number, side, _, _ in interface_sides(body) if side == "above"]
     regions = ["body"]
@@ -123,15 +132,16 @@ def quantities(body: Body) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class SweepPoint:
-    """One scene of a sweep, solved by a worker process.
+    """One combination of values in a parameter sweep; a worker process solves its scene.
 
-    file        scene file, which every worker can read
-    overrides   options that override its keys
-    content     digest of the scene, so that a record of another content is not used
-    invalid     message of a scene that the values make invalid
-    values      of the varied keys, by label
-    wanted      names of the quantities
-    with_error  whether errors are stated
+    file        path of the scene file, which every worker can read
+    overrides   arguments of `--set` that override keys of the file
+    content     digest of the scene; a stored record with another digest is not used
+    values      varied keys with their values, by label
+    wanted      names of the requested quantities
+    solver      name of the solver
+    with_error  true if errors are estimated
+    invalid     message about values that make the scene invalid; empty for a valid scene
     """
 
     file: str
@@ -145,13 +155,18 @@ class SweepPoint:
 
     @property
     def name(self) -> str:
-        """Values of the keys, and a digest that distinguishes points."""
+        """File name of the point: values of the keys, and a digest that distinguishes points."""
         shown = " ".join(self.overrides[-len(self.values) :])
         digest = hashlib.sha256(repr(self).encode()).hexdigest()[:8]
         return f"{re.sub('[^A-Za-z0-9.]+', '-', shown)[:99]}-{digest}"
 
     def record(self, refused: str = "") -> CaseRecord:
-        """The record without numbers, with the arguments of a run that solves the point."""
+        """Return the record of the point without results: values of the keys, and a command line.
+
+        The command line solves the scene of the point by `slipstick run`.
+
+        refused  message of an error, if the scene has no solution; else empty
+        """
         options = (word for change in self.overrides for word in ("--set", change))
         words = {
             "refused": refused,
@@ -160,7 +175,11 @@ class SweepPoint:
         return CaseRecord(parameters=dict(self.values), words={"not converged": "", **words})
 
     def compute(self) -> CaseRecord:
-        """Solve the scene and state errors; a refusal is recorded by its text."""
+        """Solve the scene of the point, and return the record with quantities and errors.
+
+        If the scene is invalid or the solver raises an error, the record contains the message
+        instead.
+        """
         if self.invalid:
             return self.record(self.invalid)
         try:
@@ -180,7 +199,10 @@ class SweepPoint:
         return record
 
     def _numbers(self, result: Any) -> Iterator[tuple[str, tuple[Any, ...]]]:
-        """Yield the name of every number, with its value, stated error, axis and unit."""
+        """Yield name and data of each quantity at the end of the last load step.
+
+        The data are value, stated error, component of a vector ("x", "y" or empty) and unit.
+        """
         stated = stated_errors(result) if self.with_error else None
         end = summary_of(result, fretting_cycles(result), stated).steps[-1]
         for name, (stem, axis, unit) in SCALARS.items():
@@ -205,9 +227,15 @@ def points(
     *,
     with_error: bool = True,
 ) -> tuple[SweepPoint, ...]:
-    """Every combination of the spaced values, each with the whole sample of the distributions.
+    """Return the points of a parameter sweep: all combinations of the spaced values.
 
-    Raises SceneError if no scene is valid, and SweepError.
+    If keys have normal distributions, each combination is made with the whole sample. Raises
+    SweepError for repeated keys, samples of different length and too many points, and SceneError if
+    no point has a valid scene.
+
+    overrides   arguments of `--set` that apply to all points
+    wanted      names of the requested quantities
+    with_error  true to estimate errors
     """
     samples = [each for each in variations if each.is_sample]
     spaced = [each for each in variations if not each.is_sample]

@@ -1,4 +1,4 @@
-"""Chart of a parameter sweep: curves with error bars, or maps of two keys."""
+"""Chart of a parameter sweep: curves with error bars for one key, maps for two keys."""
 
 from __future__ import annotations
 
@@ -25,9 +25,10 @@ MAX_KEYS, MAX_TICKS = 2, 8
 
 @dataclass(frozen=True, eq=False)
 class SweptQuantity:
-    """A number at every point of a sweep; NaN where there is none.
+    """One quantity at all points of a parameter sweep; NaN where the scene has no solution.
 
-    values, errors  (..., sample), an index for every key and one for the sample [unit]
+    values, errors  values and stated errors (..., sample), with one index for each spaced key and
+                    the last index for the sample of distributed keys [unit]
     """
 
     name: str
@@ -37,22 +38,23 @@ class SweptQuantity:
 
     @property
     def suited(self) -> EngineeringUnit:
-        """The unit that suits the values."""
+        """Engineering unit that suits the largest value, such as µm or MPa."""
         known = np.abs(self.values[np.isfinite(self.values)])
         return engineering_unit(float(np.max(known, initial=0.0)), self.unit)
 
     @property
     def in_order(self) -> SweptQuantity:
-        """The values of a sample (n, 1) from the smallest to the largest."""
+        """The quantity with the values of a sample sorted in ascending order, as columns (n, 1)."""
         order = np.argsort(self.values)[:, None]
         return replace(self, values=self.values[order], errors=self.errors[order])
 
     @property
     def percentiles(self) -> NDArray[np.float64]:
-        """Percentiles of the sample, their lower and their upper bounds (3, percentile, ...).
+        """Percentiles of the sample with lower and upper bounds (3, percentile, ...) [suited unit].
 
-        A percentile is monotonic in every value. The percentiles of value - error and
-        value + error therefore bound it. Unknown errors give NaN. The unit is the suited one.
+        The first index selects percentile, lower bound and upper bound. A percentile is monotonic
+        in every value, so that the percentiles of value - error and value + error are bounds.
+        Unknown errors give NaN.
         """
         values, errors = self.values / self.suited.size, self.errors / self.suited.size
         shifted, known = np.stack([values, values - errors, values + errors]), np.isfinite(values)
@@ -67,7 +69,11 @@ class SweptQuantity:
 def write_sweep_chart(
     keys: Sequence[Variation], quantities: Sequence[SweptQuantity], path: Path, title: str
 ) -> None:
-    """Draw one panel per quantity: a curve for one key, a map for two, a distribution for none."""
+    """Draw the chart of a parameter sweep to a file, with one panel per quantity.
+
+    A panel is a curve for one spaced key, a map for two keys, and a cumulative distribution without
+    spaced keys.
+    """
     if not keys:
         quantities = [quantity.in_order for quantity in quantities]
         shares = 100 * (np.arange(len(quantities[0].values)) + 0.5) / len(quantities[0].values)
@@ -84,7 +90,10 @@ def write_sweep_chart(
 
 
 def _draw_curve(ax: Any, quantity: SweptQuantity, key: Variation) -> None:
-    """Draw values, or medians and ranges of samples, with numerical errors."""
+    """Draw a quantity over one key, with error bars of the numerical errors.
+
+    For distributed keys, the curve shows medians, and a band shows the range of percentiles.
+    """
     (lower, middle, upper), (_, low, _), (_, high, _) = quantity.percentiles
     bars = np.nan_to_num([middle - low, high - middle])
     ax.errorbar(key.values, middle, bars, marker=".", capsize=3, **style.line(0))
@@ -96,7 +105,10 @@ def _draw_curve(ax: Any, quantity: SweptQuantity, key: Variation) -> None:
 
 
 def _draw_map(ax: Any, quantity: SweptQuantity, across: Variation, upward: Variation) -> None:
-    """Draw a map of values, or of medians of samples."""
+    """Draw a colour map of a quantity, or of its medians, over two keys.
+
+    The title states the largest numerical error.
+    """
     middle, low, high = quantity.percentiles[:, 1]
     image = ax.pcolormesh(
         across.values, upward.values, middle.T, shading="nearest", cmap=style.MAGNITUDE_MAP
@@ -107,7 +119,12 @@ def _draw_map(ax: Any, quantity: SweptQuantity, across: Variation, upward: Varia
 
 
 def _label(ax: Any, key: Variation, axis: str) -> None:
-    """Label an axis; the ticks of a logarithmic axis are values of the key."""
+    """Label one axis of a panel with its key.
+
+    The ticks of a logarithmic axis are values of the key.
+
+    axis  "x" or "y"
+    """
     ax.set(**{f"{axis}label": key.label})
     if key.is_log:
         ax.set(**{f"{axis}scale": "log"})

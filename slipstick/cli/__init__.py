@@ -1,6 +1,6 @@
-"""The command `slipstick`, one file per command.
+"""Command line `slipstick`, with one module per command.
 
-Solvers are imported by the commands that need them, so that `--help` and `check` start fast.
+The commands import the solvers that they need, so that `--help` and `check` start fast.
 """
 
 from slipstick.cli.application import main

@@ -1,4 +1,4 @@
-"""Requested accuracy of the command line or the scene, and the refinement to it."""
+"""Options for a requested accuracy, and the refinement of a solve that meets it."""
 
 from __future__ import annotations
 
@@ -53,9 +53,14 @@ OF_LEVEL = "checkpoint-"
 def requested_accuracy(
     contents: SceneFile, option: str | None, most_seconds: float | None, *, error: bool
 ) -> AccuracyRequest | None:
-    """Return the request of the option or else of the scene.
+    """Return the accuracy request of the option `--accuracy`, or else of the scene file.
 
-    Raises BadParameter for a time limit without a request, and for a request without errors.
+    The result is None without a request. Raises BadParameter for `--most-seconds` without a
+    request, and for a request with `--no-error`.
+
+    option        text of `--accuracy`, or None
+    most_seconds  value of `--most-seconds` [s], or None
+    error         false for `--no-error`
     """
     request = contents.accuracy if option is None else read_accuracy(option, "--accuracy")
     if most_seconds is not None and request is None:
@@ -71,14 +76,18 @@ def requested_accuracy(
 
 
 def leave_unless_met(accuracy: AccuracyReached | None) -> None:
-    """Exit with code 4 if the requested accuracy was not reached."""
+    """Exit with code 4 if a requested accuracy was not reached; None for a run without a
+    request."""
     if accuracy is not None and not accuracy.met:
         tell(f"error: the accuracy was not reached: {accuracy.stopped}; the best result is stored")
         raise typer.Exit(ExitCode.RESOURCES_REFUSED)
 
 
 def forget_levels(output: Path) -> None:
-    """Remove the files that a killed run with an accuracy left for these results."""
+    """Remove the checkpoints of refinement levels next to an output directory.
+
+    A run with a requested accuracy leaves such checkpoints if it is killed.
+    """
     target = output.resolve()
     of_levels = f".{target.name}.{OF_LEVEL}*"
     left = [path for place in (target, target.parent) for path in place.glob(of_levels)]
@@ -97,13 +106,16 @@ def refined_to(
     *,
     step: int | None = None,
 ) -> Iterator[Refined]:
-    """Yield the scene solved with the requested accuracy, by refinement.
+    """Solve a scene with refined discretisations, and yield the outcome of the refinement.
 
-    Checkpoints of the current solve are stored next to the results. They are removed at the end of
-    the block, which writes the results. A killed run solves the earlier levels, which take a
-    fraction of the time, again.
+    Checkpoints of the current solve are stored next to the output directory. They are removed after
+    the block of the `with` statement, which writes the results. A run that is resumed after it was
+    killed solves the levels before the current one again; they take a small fraction of the time.
 
-    step  load step at whose end the stress is required; None for the last
+    request       requested relative errors
+    output        output directory
+    most_seconds  limit of the total time [s]; None for no limit
+    step          load step at whose end the stress is required, from 1; None for the last
     """
     from contact_errors.adaptive_refinement import refine
 
@@ -111,6 +123,10 @@ def refined_to(
 
     @contextmanager
     def keeping(fineness: Any) -> Iterator[CheckpointDirectory]:
+        """Yield the checkpoint store of the solve of one level.
+
+        The store of the previous level is closed, which removes its checkpoint.
+        """
         nonlocal tried
         tried += 1
         of_level.close()
@@ -119,6 +135,7 @@ def refined_to(
 
     @contextmanager
     def watching(fineness: Any) -> Iterator[Progress]:
+        """Yield a function that shows the progress of the solve of one level."""
         with solve_progress(fineness.increments) as observe:
             yield observe
 

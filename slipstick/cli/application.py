@@ -1,4 +1,4 @@
-"""Entry point of the command line: commands, imported when called, and handling of exceptions."""
+"""Entry point of the command line: table of commands, lazy imports and handling of exceptions."""
 
 import sys
 from collections.abc import Sequence
@@ -17,10 +17,11 @@ LONGEST = 600  # characters of a message
 
 
 class WordedCommand(TyperCommand):
-    """Command that replaces messages of validators by messages of slipstick."""
+    """Command of the command line that words invalid values of options in the style of
+    slipstick."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Parse the command line; raises BadParameter."""
+        """Parse the arguments of the command; raises BadParameter with a reworded message."""
         try:
             return super().parse_args(ctx, args)
         except typer.BadParameter as error:
@@ -28,7 +29,7 @@ class WordedCommand(TyperCommand):
             raise
 
     def invoke(self, ctx: Any) -> Any:
-        """Call the function; raises BadParameter."""
+        """Call the function of the command; raises BadParameter with a shortened message."""
         try:
             return super().invoke(ctx)
         except typer.BadParameter as error:
@@ -37,7 +38,7 @@ class WordedCommand(TyperCommand):
 
 
 def _in_short(message: str) -> str:
-    """Shorten a long message to its start and its end."""
+    """Shorten a message above `LONGEST` characters to its start and its end."""
     left_out = len(message) - LONGEST
     if left_out <= 0:
         return message
@@ -46,7 +47,10 @@ def _in_short(message: str) -> str:
 
 
 def _in_our_words(error: typer.BadParameter) -> str:
-    """Return the message of a validator error in plain words; other messages are unchanged."""
+    """Return the message of an invalid option value, with pydantic's wording replaced.
+
+    Messages that do not come from pydantic are unchanged.
+    """
     find: Any = getattr(error.__cause__, "errors", None)
     if find is None:
         return error.message
@@ -65,20 +69,31 @@ def _in_our_words(error: typer.BadParameter) -> str:
 
 @dataclass(frozen=True)
 class LazyCommand:
-    """Module and function of a command, and its line in `--help`."""
+    """Command of the command line that is imported when it is called.
+
+    module, function  module and function of the command
+    summary           line in `--help`
+    """
 
     module: str
     function: str
     summary: str
 
     def load(self, name: str) -> Any:
-        """Import the module and build the command from its function."""
+        """Import the module of the command, and build the typer command from its function.
+
+        name  name of the command on the command line
+        """
         single = typer.Typer(add_completion=False, rich_markup_mode="markdown")
         single.command(name, cls=WordedCommand)(getattr(import_module(self.module), self.function))
         return typer.main.get_command(single)
 
 
 def _commands(summaries: dict[str, str]) -> dict[str, LazyCommand]:
+    """Return the lazy commands of the modules in `slipstick.cli.commands`, by name.
+
+    summaries  lines in `--help` by name of the command
+    """
     return {
         name: LazyCommand(f"slipstick.cli.commands.{name}", name, summary)
         for name, summary in summaries.items()
@@ -121,7 +136,7 @@ ALL_COMMANDS = COMMANDS | {f"{MAINTAIN} {name}": each for name, each in MAINTENA
 
 
 class LazyCommands(TyperGroup):
-    """Group of commands from a table; it imports only the called command."""
+    """Group of commands from a table, of which only the called command is imported."""
 
     table = COMMANDS
 
@@ -136,7 +151,7 @@ class LazyCommands(TyperGroup):
 
 
 class MaintenanceCommands(LazyCommands):
-    """Commands for the maintenance of the program."""
+    """Group of the commands `slipstick maintain ...` for the maintenance of the program."""
 
     table = MAINTENANCE
 
@@ -168,6 +183,7 @@ def maintain() -> None:
 
 
 def _print_version(wanted: bool) -> None:
+    """Print the version of the program and exit, if the option `--version` is given."""
     if wanted:
         from contact_results.directory.machine import program_version
 
@@ -193,7 +209,7 @@ def slipstick(
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and exit with a code of `errors.ExitCode`.
 
-    arguments  without the name of the program; None for those of this process
+    arguments  arguments without the name of the program; None for those of this process
     """
     one_thread()
     command = typer.main.get_command(application)

@@ -1,4 +1,4 @@
-"""Messages and exit codes of exceptions."""
+"""Messages and exit codes of the exceptions that a command may raise."""
 
 import errno
 import os
@@ -8,7 +8,7 @@ from importlib.util import find_spec
 
 
 class ExitCode(IntEnum):
-    """Exit codes of the commands."""
+    """Exit codes of the commands of slipstick."""
 
     PASS = 0
     ACCURACY = 1
@@ -26,7 +26,7 @@ DISK_FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 
 
 def exit_code(error: Exception) -> ExitCode:
-    """Return the exit code of an exception."""
+    """Return the exit code of a command that an exception has ended."""
     from contact_results.directory.atomic_file import Refused
     from contact_scene import SceneError, solver_errors
 
@@ -46,7 +46,7 @@ def exit_code(error: Exception) -> ExitCode:
 
 
 def message(error: Exception) -> str:
-    """Return the message of an exception for the user."""
+    """Return the text that is printed for an exception that has ended a command."""
     from contact_scene import SceneError
 
     if isinstance(error, SceneError) and len(error.problems) > 1:
@@ -69,15 +69,15 @@ def message(error: Exception) -> str:
 
 
 def _missing_package(error: Exception) -> str:
-    """Return the name of the package whose import failed; empty for other errors."""
+    """Return the name of the package that could not be imported; empty for other exceptions."""
     package = ((isinstance(error, ModuleNotFoundError) and error.name) or "").partition(".")[0]
     return package if package and find_spec(package) is None else ""
 
 
 def explain(error: Exception) -> ExitCode:
-    """Print the message of an exception and return its exit code.
+    """Print the message of an exception to stderr, and return the exit code.
 
-    With SLIPSTICK_DEBUG=1, print the traceback as well.
+    If the environment variable SLIPSTICK_DEBUG is set, the traceback is printed as well.
     """
     from rich.console import Console
     from rich.text import Text

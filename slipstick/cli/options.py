@@ -1,4 +1,4 @@
-"""Arguments and options that several commands share."""
+"""Arguments and options of the command line that several commands share."""
 
 from __future__ import annotations
 
@@ -19,15 +19,17 @@ if TYPE_CHECKING:
 
 
 def optional(*flags: str, help: str, **more: Any) -> OptionInfo:
-    """Return an option whose help text states the default.
+    """Return a typer option whose help text states the default.
 
-    more  arguments of `typer.Option`
+    flags  names of the option
+    help   help text
+    more   further arguments of `typer.Option`
     """
     return typer.Option(*flags, show_default=False, help=help, **more)
 
 
 def directory(help: str) -> OptionInfo:
-    """Return the option for the output directory; the help text states the default."""
+    """Return the option `--output` for a directory with a default, which the help text states."""
     return optional("--output", "-o", metavar="DIR", help=help)
 
 
@@ -55,7 +57,7 @@ SetOption: TypeAlias = Annotated[
 
 
 def odd_numbers(contents: SceneFile) -> tuple[str, ...]:
-    """Return warnings about implausible numbers in a scene file."""
+    """Return warnings about implausible numbers in a scene file, such as a radius of 18 m."""
     from contact_scene.checks.plausibility import implausible
 
     fineness = {name: getattr(contents, name) for name in ("semi_analytical", "fem_reference")}
@@ -63,7 +65,7 @@ def odd_numbers(contents: SceneFile) -> tuple[str, ...]:
 
 
 def warn_of_odd_numbers(contents: SceneFile) -> tuple[str, ...]:
-    """Print the warnings of `odd_numbers` and return them."""
+    """Print warnings about implausible numbers in a scene file to stderr, and return them."""
     from slipstick.cli.terminal import tell
 
     warnings = odd_numbers(contents)
@@ -99,7 +101,13 @@ SchedulerOption: TypeAlias = Annotated[
 
 
 def workers_at(scheduler: str | None, processes: int) -> int | Workers:
-    """Return the workers of a cluster, or the number of processes on this machine."""
+    """Return the workers of a dask cluster, or the number of processes on this machine.
+
+    Raises BadParameter if the cluster cannot be reached.
+
+    scheduler  address of the cluster; None for this machine
+    processes  number of processes without a cluster
+    """
     if scheduler is None:
         return processes
     from verification.running.cluster import ClusterUnavailable, ClusterWorkers
@@ -111,7 +119,7 @@ def workers_at(scheduler: str | None, processes: int) -> int | Workers:
 
 
 class LevelName(StrEnum):
-    """Level of a verification or a study."""
+    """Level of a verification or a study: number and fineness of its cases."""
 
     QUICK = "quick"
     STANDARD = "standard"
@@ -122,23 +130,25 @@ ALMOST, ALIKE = 0.85, 0.5  # similarity of two names, from 0 to 1
 
 
 def unknown_names(kind: str, given: Iterable[str], known: Collection[str], listing: str) -> str:
-    """Return a message about unknown names with suggestions; empty if all names are known.
+    """Return a message about names that do not exist, with similar names; empty if all names exist.
 
-    kind     noun for a name, such as "case"
-    listing  command that lists all names
+    kind          noun for a name, such as "case"
+    given, known  names to check, and all existing names
+    listing       command that lists all names
     """
     messages = [_unknown_name(kind, name, known) for name in given if name not in known]
     return "; ".join([*messages, f"'{listing}' lists all"] if messages else [])
 
 
 def _unknown_name(kind: str, name: str, known: Collection[str]) -> str:
+    """Return the message about one name that does not exist, with similar names."""
     near = _near(name[:100].lower(), known)
     meant = f", did you mean {' or '.join(near)}?" if near else ""
     return f"no {kind} is called '{name}'{meant}"
 
 
 def _near(name: str, known: Collection[str]) -> list[str]:
-    """Return the known name with the highest similarity; else up to three similar names."""
+    """Return the most similar existing name; without a very similar one, up to three names."""
     spelt = {one.replace("-", "_"): one for one in known}
     name = name.replace("-", "_")
     found = get_close_matches(name, spelt, 1, ALMOST) or get_close_matches(name, spelt, 3, ALIKE)
@@ -146,7 +156,12 @@ def _near(name: str, known: Collection[str]) -> list[str]:
 
 
 def refuse_with_run(given: dict[str, object]) -> None:
-    """Refuse options of a solve beside the directory of a run."""
+    """Refuse options of a solve when a command is given the output directory of a run.
+
+    Raises BadParameter for the first option that has a value.
+
+    given  values of the options by name
+    """
     for option, value in given.items():
         if value:
             raise typer.BadParameter(

@@ -1,4 +1,4 @@
-"""Progress and outcome of solves and of the cases of a verification, study or sweep."""
+"""Texts of progress and outcome, of solves and of the cases of a verification, study or sweep."""
 
 from __future__ import annotations
 
@@ -33,7 +33,9 @@ SECONDS_BETWEEN_LINES = 10.0
 
 @contextmanager
 def solve_progress(increments: Sequence[int]) -> Iterator[Observer]:
-    """Yield a function to call after every increment: a bar on a terminal, lines in a log.
+    """Show the progress of a solve: a bar on a terminal, lines in a log file.
+
+    Yields the function that the solver calls after every increment.
 
     increments  number of increments of every load step
     """
@@ -62,11 +64,17 @@ def solve_progress(increments: Sequence[int]) -> Iterator[Observer]:
 
 
 def _stderr() -> Console:
+    """Return a console that prints to stderr."""
     return Console(stderr=True, highlight=False, soft_wrap=True)
 
 
 def _log(console: Console, steps: int) -> Observer:
-    """Return a function that prints one line at the end of every load step, and every 10 s."""
+    """Return a function that prints the progress of a solve to a log.
+
+    The function prints a line at the end of every load step, and after 10 s without a line.
+
+    steps  number of load steps
+    """
     started = last_line = time.monotonic()
 
     def observe(increment: ReportedIncrement) -> None:
@@ -85,14 +93,20 @@ def _log(console: Console, steps: int) -> Observer:
 
 
 def coarse_solves_shown() -> AbstractContextManager[object]:
-    """Show a status line during the coarse solves of the error estimate."""
+    """Show a status line in a terminal during the coarse solves of an error estimate."""
     return _stderr().status("coarse solves for the error estimates")
 
 
 def print_level(
     number: int, requested: Mapping[str, float], reached: Mapping[str, float | None]
 ) -> None:
-    """Print, after a refinement, the quantity with the largest ratio of error to request."""
+    """Print requested and reached error of one scalar after a refinement level.
+
+    The scalar is that with the largest ratio of reached to requested error.
+
+    number              number of the level, from 1
+    requested, reached  relative errors by name; None for an error that has not converged
+    """
 
     def ratio(name: str) -> float:
         size = reached[name]
@@ -105,14 +119,20 @@ def print_level(
 
 
 def solved_in(result: Result, seconds: float) -> Iterator[tuple[str, str]]:
-    """Yield the tolerance with the largest residual, and the increments with the time."""
+    """Yield two lines about a solve: tolerance with largest residual, and increments with time.
+
+    seconds  elapsed time [s]
+    """
     worst = np.max([increment.worst_residual for increment in result.increments])
     yield "tolerance", f"{result.tolerance:.3g} (largest residual {worst:.1e})"
     yield "increments", f"{len(result.increments)} in {seconds:.2f} s"
 
 
 def how_stated(stated: StatedErrors, seconds: float | None) -> Iterator[tuple[str, str]]:
-    """Yield the lines that describe the error estimate: coarse solves, their time, failures."""
+    """Yield lines about an error estimate: its coarse solves, their time, and failed coarse solves.
+
+    seconds  elapsed time of the coarse solves [s]; None if it was not measured
+    """
     made = "; ".join(dict.fromkeys(solve.differs for solve in stated.coarse_solves))
     taken = "" if seconds is None else f", in {seconds:.2f} s"
     yield "errors", f"by coarse solves ({made}){taken}"
@@ -122,7 +142,10 @@ def how_stated(stated: StatedErrors, seconds: float | None) -> Iterator[tuple[st
 
 
 def how_accurate(accuracy: AccuracyReached) -> Iterator[tuple[str, str]]:
-    """Yield the requested and reached accuracy by quantity."""
+    """Yield lines about a requested accuracy: requested and reached error of each scalar.
+
+    The last lines state scalars that the request does not apply to, and the outcome.
+    """
     for name, share in accuracy.asked.items():
         outcome = _request_text(share, accuracy.reached[name])
         yield ("accuracy" if name == next(iter(accuracy.asked)) else ""), f"{name} {outcome}"
@@ -134,6 +157,7 @@ def how_accurate(accuracy: AccuracyReached) -> Iterator[tuple[str, str]]:
 
 
 def _request_text(requested: float, reached: float | None) -> str:
+    """Return the text of a requested and a reached relative error, in per cent."""
     found = "not converged" if reached is None else f"reached {100 * reached:.2g} %"
     return f"requested {100 * requested:.3g} %, {found}"
 
@@ -147,12 +171,16 @@ def run_shown(
     *,
     fresh: bool = False,
 ) -> Sequence[CaseEnd]:
-    """Compute cases and print a line at the end of each; on a stop signal, print how to resume.
+    """Compute cases of a verification, study or sweep, and print a line at the end of each case.
 
-    text   function that describes the end of a case
-    work   work of every case by name, for example its number of solves; the remaining time is
-           estimated in proportion to it. Default: 1 each
-    fresh  True to ignore stored cases of earlier runs
+    After a stop signal, a command that resumes the computation is printed.
+
+    store    records of the finished cases
+    workers  number of processes, or workers of a cluster
+    text     function that describes the end of a case
+    work     work of every case by name, for example its number of solves, to which the remaining
+             time is proportional. Default: 1 each
+    fresh    true to ignore stored cases of earlier runs
     """
     from verification.running.case_pool import run_cases
 
@@ -186,7 +214,7 @@ def run_shown(
 
 
 def how_it_ended(end: CaseEnd) -> str:
-    """Return the text of a case that is done, lost or already stored."""
+    """Return the text of a case that is computed, already stored, or lost with its worker."""
     if end.lost is not None:
         return f"LOST           {end.case.name:24} {end.lost.reason}"
     return f"{'already there' if end.stored else 'done'}: {end.case.name}"

@@ -1,4 +1,7 @@
-"""Pairs and tables as text, without colours, and without line breaks in a pipe."""
+"""Output of pairs and tables as plain text on a terminal or in a pipe.
+
+In a pipe, the text has no colours and no line breaks.
+"""
 
 from collections.abc import Iterable, Sequence
 
@@ -11,7 +14,7 @@ WIDE = 200  # width of a table that is not printed to a terminal
 
 
 def print_pairs(pairs: Iterable[tuple[str, str]]) -> None:
-    """Print names and texts, one pair per line."""
+    """Print pairs of a name and a text in two columns, one pair per line."""
     pairs = list(pairs)
     width = max(len(word) for word, _ in pairs)
     for word, meaning in pairs:
@@ -19,22 +22,22 @@ def print_pairs(pairs: Iterable[tuple[str, str]]) -> None:
 
 
 def tell(text: str) -> None:
-    """Print a line to stderr."""
+    """Print a line to stderr, with control characters escaped."""
     typer.echo(harmless(text), err=True)
 
 
 def harmless(text: str) -> str:
-    """Escape control characters, so that a scene file cannot control the terminal."""
+    """Escape control characters in a text, so that a scene file cannot control the terminal."""
     return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
 
 
 def print_table(
     columns: Iterable[str], rows: Iterable[Sequence[str]], *, numbers: bool = False
 ) -> None:
-    """Print a table.
+    """Print a table with column headings to stdout.
 
-    numbers  right-align all columns but the first, and divide a table that is wider than the
-             terminal into blocks
+    numbers  true to right-align all columns but the first, and to divide a table that is wider than
+             the terminal into blocks of columns
     """
     # Imported here, because `slipstick check` prints no table and should start fast.
     from rich.box import SIMPLE_HEAD
@@ -66,7 +69,12 @@ def print_table(
 
 
 def _blocks(headings: Sequence[str], rows: Sequence[Sequence[str]], width: int) -> list[list[int]]:
-    """Return the positions of the columns of each block; each begins with the first column."""
+    """Divide the columns of a wide table into blocks that fit the width of the terminal.
+
+    Returns the column indices of each block. Each block begins with the first column of the table.
+
+    width  width of the terminal in characters
+    """
     lines = [
         [*heading.split("\n"), *(row[k] for row in rows)] for k, heading in enumerate(headings)
     ]

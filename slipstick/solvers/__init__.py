@@ -1,1 +1,1 @@
-"""Solvers by name, with one interface for commands and scripts."""
+"""Solvers by name, with one interface for the commands and for scripts."""

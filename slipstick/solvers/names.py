@@ -1,4 +1,4 @@
-"""Names of the solvers on the command line."""
+"""Names of the solvers on the command line, and the solver that belongs to each name."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class SolverName(StrEnum):
-    """Name of a solver."""
+    """Name of a solver, as the option `--solver` takes it."""
 
     SEMI_ANALYTICAL = "semi-analytical"
     FEM = "fem"
@@ -21,12 +21,14 @@ class SolverName(StrEnum):
 
     @property
     def is_fem(self) -> bool:
-        """Whether the solver uses finite elements."""
+        """True for the two finite-element solvers."""
         return self in (SolverName.FEM, SolverName.FEM_COMPLEMENTARITY)
 
     @property
     def method(self) -> Method | None:
-        """Contact method of finite elements; None for other solvers."""
+        """Contact method of the finite elements, penalty or complementarity; None for other
+        solvers.
+        """
         if not self.is_fem:
             return None
         from fem_reference import Method
@@ -35,7 +37,7 @@ class SolverName(StrEnum):
 
     @property
     def solver(self) -> Solver:
-        """The solver, imported on access."""
+        """Solver of this name. Its package is imported on access."""
         if self is SolverName.RADIAL:
             from slipstick.solvers.on_radii import OnRadii
 
@@ -50,7 +52,7 @@ class SolverName(StrEnum):
 
 
 def solver_of(result: Result) -> Solver:
-    """Return the solver of a result; raise TypeError for other objects."""
+    """Return the solver that computed a result; raises TypeError for other objects."""
     if not all(hasattr(result, name) for name in ("solver", "plan", "increments")):
         kind = type(result).__name__
         raise TypeError(f"got a {kind}, expected the result that slipstick.solve returns")

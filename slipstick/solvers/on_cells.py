@@ -1,4 +1,4 @@
-"""Semi-analytical solver on the cells of a surface grid."""
+"""Adapter of the semi-analytical solver to the solver interface of the commands."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ FEWEST = 8  # smallest number of cells along a side of the coarse solve for the 
 
 
 class OnCells(Solver):
-    """Implementation of `solver.Solver`."""
+    """Semi-analytical solver on a grid of surface cells, with the interface `solver.Solver`."""
 
     table = "semi_analytical"
     discretisation = SurfaceDiscretisation
@@ -59,7 +59,10 @@ class OnCells(Solver):
         return CellSolver(scene, fineness, stress=stress)
 
     def work(self, scene: Scene, fineness: SurfaceDiscretisation, plan: Plan) -> Pairs:
-        """Yield grid, tolerance, increments, time and memory; chosen values are marked."""
+        """Yield names and texts of grid, tolerance, increments, time and memory of a planned solve.
+
+        The text marks a grid that the program has chosen. The time is estimated by a coarse solve.
+        """
         grid = semi_analytical.discretise(scene, fineness)
         left_open = [name for name in ("cells", "window") if getattr(fineness, name) is None]
         chosen = f" ({' and '.join(left_open)} chosen)" if left_open else ""
@@ -81,6 +84,13 @@ class OnCells(Solver):
         plan: Plan,
         most: int = MAX_CELLS,
     ) -> tuple[str, str]:
+        """Estimate the CPU time of a run from a coarse solve of its first load steps.
+
+        The cells are doubled while the coarse solve does not resolve the contact. Returns the word
+        "time" and the text of the estimate.
+
+        most  largest number of cells of the coarse solve along a side
+        """
         path = plan.path[:MAX_STEPS]
         cut = replace(plan, path=path).cut_into(coarse_increments([s.count for s in path]))
         begin = scene.model_copy(update={"loading": scene.loading[:MAX_STEPS]})
@@ -100,7 +110,10 @@ class OnCells(Solver):
             return self._time(scene, fineness, grid, plan, 2 * most)
 
     def reasons(self, plan: Plan) -> Sequence[tuple[str, str, str]]:
-        """Return the reasons of the first load steps; empty if the result is path-independent."""
+        """Return number, increments and reason of the increments of the first load steps, as texts.
+
+        The sequence is empty if no load step has an increment error.
+        """
         if not any(step.path_matters for step in plan.path):
             return ()
         shown = [
@@ -114,7 +127,11 @@ class OnCells(Solver):
 
 
 def _saving(scene: Scene, fineness: SurfaceDiscretisation, grid: SurfaceGrid, plan: Plan) -> Pairs:
-    """Measure the convolutions that the plan saves, by coarse solves of the first load steps."""
+    """Yield the factor of convolutions that the plan saves by leaving out effects.
+
+    The factor is measured by two coarse solves of the first load steps: one with the planned
+    effects, one with all effects. A factor below `LEAST_SAVING` is not reported.
+    """
     forced = all_effects(plan)
     if not any(was.on < now.on for was, now in zip(plan.effects, forced.effects, strict=True)):
         return
@@ -136,7 +153,8 @@ def _saving(scene: Scene, fineness: SurfaceDiscretisation, grid: SurfaceGrid, pl
 
 
 def _grid_text(grid: SurfaceGrid) -> str:
-    """Return the text of the cells and the window of a grid."""
+    """Return the text of the cells and the window of a grid, such as "64 x 64 cells on 2 x 2
+    mm"."""
     (nx, ny), (Lx, Ly) = grid.cells, grid.window
     length = engineering_unit(max(Lx, Ly), "m")
     return f"{nx} x {ny} cells on {Lx / length.size:.4g} x {length.text(Ly)}"

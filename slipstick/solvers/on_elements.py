@@ -1,4 +1,7 @@
-"""Finite-element solvers on the section of bodies of revolution."""
+"""Adapter of the finite-element solvers to the solver interface of the commands.
+
+The solvers compute bodies of revolution on their section.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +29,7 @@ from slipstick.solvers.solver import Pairs, Progress, Solver, increments_text, t
 
 @dataclass(frozen=True)
 class OnElements(Solver):
-    """Implementation of `solver.Solver`.
+    """Finite-element solver of bodies of revolution, with the interface `solver.Solver`.
 
     method  contact method: complementarity or penalty
     """
@@ -54,7 +57,11 @@ class OnElements(Solver):
         return ElementSolver(scene, fineness, method=self.method)
 
     def work(self, scene: Scene, fineness: FiniteElementDiscretisation, plan: Plan) -> Pairs:
-        """Yield method, mesh, tolerance, increments, factorisations, time and memory."""
+        """Yield names and texts of mesh, increments, factorisations, time and memory of a planned
+        solve.
+
+        The time is estimated by a coarse solve.
+        """
         radius = meshed_radius(scene, fineness.contact_radius)
         sections = sections_of(scene, fineness)
         chosen = "" if fineness.contact_radius else ", estimated without friction"
@@ -75,6 +82,10 @@ class OnElements(Solver):
     def _time(
         self, scene: Scene, fineness: FiniteElementDiscretisation, plan: Plan
     ) -> tuple[str, str]:
+        """Estimate the CPU time of a run from a coarse solve of its first load steps.
+
+        Returns the word "time" and the text of the estimate.
+        """
         increments = coarse_increments(plan.increments[:MAX_STEPS])
         begin = scene.model_copy(update={"loading": scene.loading[:MAX_STEPS]})
         elements = min(MAX_ELEMENTS, fineness.elements_per_radius)
@@ -94,6 +105,7 @@ class OnElements(Solver):
 
 
 def _method_text(method: Method, fineness: FiniteElementDiscretisation) -> str:
+    """Return the text of the contact method with its penalty parameters."""
     if method is Method.COMPLEMENTARITY:
         return "finite elements, complementarity: no penalty"
     return (
@@ -103,6 +115,7 @@ def _method_text(method: Method, fineness: FiniteElementDiscretisation) -> str:
 
 
 def _mesh_text(sections: Iterable[SectionMesh], fineness: FiniteElementDiscretisation) -> str:
+    """Return the text of the number of elements and of the size of the meshed sections."""
     parts = []
     for section in sections:
         outline = section.outline
@@ -111,7 +124,7 @@ def _mesh_text(sections: Iterable[SectionMesh], fineness: FiniteElementDiscretis
 
 
 def _motions(plan: Plan, fineness: FiniteElementDiscretisation) -> int:
-    """Return the number of angular harmonics with a factored stiffness."""
+    """Return the number of angular harmonics whose stiffness matrix is factorised."""
     if plan.path is Path.HARMONICS:
         return fineness.harmonics + 1
     return 2 if plan.path in (Path.TWISTING, Path.SHEARING) else 1

@@ -1,4 +1,5 @@
-"""Radial solver for bodies of revolution."""
+"""Adapter of the radial solver, for bodies of revolution, to the solver interface of the
+commands."""
 
 from __future__ import annotations
 
@@ -16,7 +17,7 @@ from slipstick.solvers.solver import Pairs, Progress, Solver, increments_text, t
 
 
 class OnRadii(Solver):
-    """Implementation of `solver.Solver`."""
+    """Radial solver of bodies of revolution, with the interface `solver.Solver`."""
 
     table = "radial"
     discretisation = RadialDiscretisation
@@ -39,7 +40,11 @@ class OnRadii(Solver):
         return RingSolver(scene, fineness)
 
     def work(self, scene: Scene, fineness: RadialDiscretisation, plan: Plan) -> Pairs:
-        """Yield rings, tolerance, increments, time and memory."""
+        """Yield names and texts of rings, tolerance, increments, time and memory of a planned
+        solve.
+
+        The time is estimated by a solve of the first load steps.
+        """
         from radial.memory import estimated_bytes
 
         yield "rings", _rings_text(fineness, plan)
@@ -49,6 +54,11 @@ class OnRadii(Solver):
         yield "memory", f"about {estimated_bytes(scene, plan) / 2**20:.0f} MiB"
 
     def _time(self, scene: Scene, fineness: RadialDiscretisation, plan: Plan) -> tuple[str, str]:
+        """Estimate the CPU time of a run from a solve of its first load steps.
+
+        That solve has equal rings and fewer increments. Returns the word "time" and the text of the
+        estimate.
+        """
         begin = scene.model_copy(update={"loading": scene.loading[:MAX_STEPS]})
         cut = replace(plan, increments=coarse_increments(plan.increments[:MAX_STEPS]))
         return time_of_run(
@@ -63,6 +73,10 @@ class OnRadii(Solver):
 
 
 def _rings_text(fineness: RadialDiscretisation, plan: Plan) -> str:
+    """Return the text of the number of rings and angles.
+
+    Without friction, the rings are only points of output.
+    """
     if plan.circle:
         angles = "" if plan.circle is Circle.ONE else f", times {plan.angles} angles"
         return f"{plan.rings} over the contact, denser at its edge{angles}"

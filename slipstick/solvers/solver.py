@@ -1,4 +1,4 @@
-"""Interface of the solvers for commands and scripts."""
+"""Common interface of the solvers for the commands and for scripts, and texts of time estimates."""
 
 from __future__ import annotations
 
@@ -35,11 +35,13 @@ MAX_STEPS_SHOWN = 12
 
 
 class Solver(ABC):
-    """Interface of a solver. The plans of all solvers have `effects` and `increments`.
+    """Interface of a solver for the commands and for scripts.
 
-    table           name of its table in a scene file
-    discretisation  class of this table
-    refinable       class of the solver with a refinable discretisation, for error estimates
+    The plans of all solvers have the attributes `effects` and `increments`.
+
+    table           name of the solver's table in a scene file
+    discretisation  class of the settings in this table
+    refinable       class of the same solver with variable discretisation, for error estimates
     """
 
     table: str
@@ -47,12 +49,17 @@ class Solver(ABC):
     refinable: type[DiscretisedSolver]
 
     def fineness(self, contents: SceneFile) -> Any:
-        """Return the discretisation that a scene file contains for this solver."""
+        """Return the discretisation settings for this solver in a scene file."""
         return getattr(contents, self.table)
 
     @abstractmethod
     def plan(self, scene: Scene, fineness: Any) -> Any:
-        """Return the plan of a solve; raise UnsupportedScene."""
+        """Return the plan of a solve: modelled effects, and increments of each load step.
+
+        Raises UnsupportedScene if the solver cannot solve the scene.
+
+        fineness  discretisation settings
+        """
 
     @abstractmethod
     def solve(
@@ -63,26 +70,33 @@ class Solver(ABC):
         progress: Progress | None = None,
         store: CheckpointStore | None = None,
     ) -> Result:
-        """Return the result of a plan; raise a SolverError."""
+        """Solve a scene with a plan, and return the result; raises a SolverError.
+
+        fineness  discretisation settings
+        progress  function that is called after every increment, or None
+        store     checkpoint store, or None
+        """
 
     def errors(self, result: Any) -> StatedErrors:
-        """Estimate the errors of a result by coarse solves."""
+        """Estimate the errors of all scalars of a result by coarse solves."""
         return self.refinable.stated_errors(result)
 
     @abstractmethod
     def refined(self, scene: Scene, fineness: Any, stress: bool = False) -> DiscretisedSolver:
-        """Return the solver of a scene with a refinable discretisation.
+        """Return this solver for one scene with variable discretisation, for refinement.
 
-        stress  true if a stress in the body is required
+        fineness  discretisation settings of the scene file
+        stress    true if a requested accuracy applies to a stress in the body
         """
 
     def levels(
         self, scene: Scene, fineness: Any, stress: bool, *hooks: Any, step: int | None = None
     ) -> Levels:
-        """Return the refinement levels of a scene.
+        """Return the sequence of refinement levels of a scene, for a requested accuracy.
 
-        stress  true if the stress at the end of a load step is required, of the last by default
-        hooks   arguments of `Levels`: progress and checkpoints of its solves
+        stress  true if the accuracy applies to the largest tensile stress in the body
+        hooks   further arguments of `Levels`: contexts for progress and checkpoints of each solve
+        step    load step at whose end this stress is computed, from 1; None for the last
         """
         from contact_errors.adaptive_refinement import Levels
 
@@ -91,10 +105,13 @@ class Solver(ABC):
 
     @abstractmethod
     def work(self, scene: Scene, fineness: Any, plan: Any) -> Pairs:
-        """Yield names and texts of the discretisation, time and memory of a solve."""
+        """Yield names and texts of discretisation, time and memory of a planned solve."""
 
     def reasons(self, plan: Any) -> Sequence[tuple[str, str, str]]:
-        """Return number, increments and reason of load steps; empty if none has a reason."""
+        """Return number, increments and reason of the increments of each load step, as texts.
+
+        The sequence is empty if the solver states no reasons.
+        """
         return ()
 
     @abstractmethod
@@ -103,7 +120,10 @@ class Solver(ABC):
 
 
 def increments_text(counts: tuple[int, ...]) -> str:
-    """Return the text of the number of increments: total and, for the first steps, by step."""
+    """Return the text of the numbers of increments, such as "30 = 10 + 20 in 2 steps".
+
+    counts  number of increments of each load step
+    """
     if len(counts) == 1:
         return str(counts[0])
     shown = " + ".join(map(str, counts[:MAX_STEPS_SHOWN]))
@@ -114,9 +134,14 @@ def increments_text(counts: tuple[int, ...]) -> str:
 def time_of_run(
     solve: Callable[[], T], judge: Callable[[T], object], coarse: Work, run: Work
 ) -> tuple[str, str]:
-    """Estimate the CPU time of a run from those of a coarse solve and of its error estimate.
+    """Estimate the CPU time of a run with its error estimate, from a measured coarse solve.
 
-    Raises ContactNotResolved if the coarse solve has too few cells.
+    Returns the word "time" and the text of the estimate. Raises ContactNotResolved if the coarse
+    solve has too few cells.
+
+    solve        function that makes the coarse solve
+    judge        function that estimates the errors of the coarse solve
+    coarse, run  sizes of the coarse solve and of the run
     """
     try:
         result, solved = cpu_seconds(solve)
@@ -130,7 +155,7 @@ def time_of_run(
 
 
 def time_text(seconds: float) -> str:
-    """Write seconds, minutes or hours."""
+    """Return the text of a time in seconds, minutes or hours."""
     if seconds < 1:
         return "less than 1 s"
     if seconds < 120:

@@ -1,1 +1,1 @@
-"""Tables of reference numbers with uncertainties."""
+"""Tables of reference numbers for contact problems, for the command `slipstick table`."""

@@ -1,4 +1,7 @@
-"""Catalogue of the tables by name."""
+"""Catalogue of the tables of reference numbers, by name.
+
+The numbers are computed by the radial solver in dimensionless form.
+"""
 
 from __future__ import annotations
 
@@ -67,6 +70,11 @@ FIGURE = {
 
 
 def _punch(place: Sequence[float], fineness: int) -> Found:
+    """Compute the stiffness of a rigid flat punch on a bonded layer over that on a half-space.
+
+    place     punch radius over layer thickness, and Poisson's ratio of the layer
+    fineness  factor of the numbers of orders and quadrature points
+    """
     over, ratio = place
     shear = (1 - ratio) / 2  # E* = 2G/(1-ν) = 1
     layer = Bodies([Stack([(shear, ratio, 1 / over)])], 1.0)
@@ -74,6 +82,14 @@ def _punch(place: Sequence[float], fineness: int) -> Found:
 
 
 def _ball(place: Sequence[float], fineness: int) -> Found:
+    """Compute contact radius, pressure on the axis and approach of a ball on a coated half-space.
+
+    The results are relative to the Hertz contact of the same force on the bare substrate.
+
+    place     E1/E2, h/a_H and ν: modulus of the layer over that of the substrate, layer thickness
+              over Hertz's contact radius, Poisson's ratio
+    fineness  factor of the numbers of orders and quadrature points
+    """
     moduli, thickness, ratio = place
     shear = MODULUS * (1 - ratio) / 2
     film, base = (moduli * shear, ratio, thickness), (shear, ratio)
@@ -84,6 +100,16 @@ def _ball(place: Sequence[float], fineness: int) -> Found:
 
 
 def _torsion(place: Sequence[float], fineness: int) -> Found:
+    """Compute gross-slip torque, stick radius and twist of two equal coated balls in torsion.
+
+    The results are dimensionless: torque over µ W a_H, stick radius over the contact radius, and
+    twist times G a_H²/(µ W). W is the normal force, a_H Hertz's contact radius on the substrate,
+    and G the shear modulus with 1/G summed over both substrates.
+
+    place     E1/E2, h/a_H, ν, and torque over the torque of gross slip. E1/E2 is the modulus of the
+              layer over that of the substrate, and h is the layer thickness
+    fineness  factor of the numbers of orders and quadrature points
+    """
     moduli, thickness, ratio, part = place
     base = MODULUS * (1 - ratio)  # shear modulus; the E* of two equal bodies is G/(1-ν)
     stacks = [Stack([(moduli * base, ratio, thickness)], (base, ratio))] * 2

@@ -1,6 +1,6 @@
-"""Rigid paraboloid on a coated body with friction, in units of the Hertz contact on the substrate.
+"""Rigid paraboloid pressed with friction on a coated half-space, for tables of reference numbers.
 
-The Hertz contact has the same force on the bare substrate.
+Numbers are in units of the Hertz contact with the same force on the bare substrate.
 """
 
 from __future__ import annotations
@@ -39,9 +39,11 @@ OF_RING = 2e-5  # smallest discretisation error of a traction, in p_H
 
 
 def scene(place: Sequence[float]) -> Scene:
-    """Build the scene of a table row.
+    """Build the scene of one row: a rigid paraboloid pressed on a coated half-space with friction.
 
-    place  E1/E2, h/a_H, ν and µ
+    place  E1/E2, h/a_H, ν and µ: modulus of the layer over that of the substrate, layer thickness
+           over Hertz's contact radius on the substrate, Poisson's ratio of both, coefficient of
+           friction
     """
     moduli, thickness, ratio, friction = place
     young = MODULUS * (1 - ratio**2)
@@ -59,7 +61,12 @@ def scene(place: Sequence[float]) -> Scene:
 
 @lru_cache(maxsize=CACHED)
 def pressed(place: tuple[float, ...], increments: int, fineness: int) -> FrictionalState:
-    """Solve a contact; `fineness` multiplies the number of rings."""
+    """Solve the contact of one row, and return its state at the full normal force.
+
+    place       E1/E2, h/a_H, ν and µ, as in `scene`
+    increments  number of increments of the normal force
+    fineness    factor of the number of rings
+    """
     contact = scene(place)
     solver = FrictionalSteps.of(contact, RadialDiscretisation(), fineness)
     *_, (_, point) = resumable_increments(contact, (increments,), solver, None)
@@ -68,7 +75,13 @@ def pressed(place: tuple[float, ...], increments: int, fineness: int) -> Frictio
 
 
 def scalars(place: Sequence[float], fineness: int) -> Found:
-    """Compute contact radius, approach, and stick radius over contact radius."""
+    """Compute contact radius and approach in Hertz units, and stick radius over contact radius.
+
+    The additional uncertainty of the stick radius is the resolution of the rings.
+
+    place     E1/E2, h/a_H, ν and µ, as in `scene`
+    fineness  factor of the numbers of rings and increments
+    """
     found = pressed(tuple(place), PATH_INCREMENTS * fineness, fineness)
     end = found.end
     values = (end.radius, end.approach, found.front / end.radius)
@@ -76,12 +89,21 @@ def scalars(place: Sequence[float], fineness: int) -> Found:
 
 
 def tractions(place: Sequence[float], fineness: int) -> Found:
-    """Compute p and q/µ at a distance from the axis that is given in contact radii."""
+    """Compute pressure p and radial shear over friction, q/µ, at one radius of the contact.
+
+    Tractions are in units of Hertz's pressure on the bare substrate. Near the stick radius, the
+    change of the tractions over a distance of `FRONT` contact radii is stated as additional
+    uncertainty.
+
+    place     E1/E2, h/a_H, ν and µ, as in `scene`, and the radius over the contact radius
+    fineness  factor of the numbers of rings and increments
+    """
     *contact, x = place
     found = pressed(tuple(contact), PATH_INCREMENTS * fineness, fineness)
     end, friction = found.end, contact[-1]
 
     def both(at: float) -> tuple[float, float]:
+        """Return p and q/µ at a radius, which is given in contact radii."""
         places = np.array([at])
         p = pressure(end.contact, places) + end.rings.at(end.pressure_change, places)
         return float(p[0]), float(end.rings.at(end.shear, places)[0]) / friction

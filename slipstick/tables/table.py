@@ -1,4 +1,4 @@
-"""Table of numbers with uncertainties over dimensionless parameters."""
+"""Tables of reference numbers with uncertainties, as functions of dimensionless parameters."""
 
 from __future__ import annotations
 
@@ -21,11 +21,12 @@ FARTHEST = 1e12  # default bound of a parameter
 
 @dataclass(frozen=True)
 class Axis:
-    """Parameter of a table.
+    """Dimensionless parameter of a table of reference numbers.
 
-    values  default values
-    least   lower bound, exclusive
-    most    upper bound, inclusive
+    meaning  description of the parameter
+    values   default values at which rows are computed
+    least    lower bound, exclusive
+    most     upper bound, inclusive
     """
 
     meaning: str
@@ -36,9 +37,10 @@ class Axis:
 
 @dataclass(frozen=True)
 class Found:
-    """Quantities at one point, in the order of the table.
+    """Computed quantities of one row of a table, for one fineness of the discretisation.
 
-    missed  relative error of the load
+    values  quantities in the order of the table
+    missed  relative difference of the computed normal force from the prescribed force
     left    additional absolute uncertainty of each quantity; empty for none
     """
 
@@ -49,11 +51,11 @@ class Found:
 
 @dataclass(frozen=True)
 class Dataset:
-    """Rows of a table with their meaning and provenance.
+    """Computed rows of a table, with meanings of the columns and provenance.
 
-    about    name, problem, method, source and uncertainty
-    columns  meanings by name
-    rows     values by column
+    about    name, problem, method, source and uncertainty of the table
+    columns  meaning of each column by name
+    rows     values by column name
     """
 
     about: Mapping[str, str]
@@ -61,27 +63,31 @@ class Dataset:
     rows: Sequence[Mapping[str, Any]]
 
     def csv(self) -> str:
-        """Return CSV text. Its first lines begin with '#' and state provenance and meanings."""
+        """Return the rows as CSV text.
+
+        The first lines begin with '#' and state provenance and meanings of the columns.
+        """
         head = [f"# {key}: {text}" for key, text in {**self.about, **self.columns}.items()]
         lines = [",".join(_digits(key, row[key]) for key in self.columns) for row in self.rows]
         return "\n".join([*head, ",".join(self.columns), *lines, ""])
 
     def json(self) -> str:
-        """Return JSON text."""
+        """Return rows, provenance and meanings as JSON text."""
         document = {**self.about, "columns": self.columns, "rows": self.rows}
         return json.dumps(document, indent=1, allow_nan=False, ensure_ascii=False) + "\n"
 
 
 @dataclass(frozen=True)
 class Table:
-    """Definition of a table.
+    """Definition of a table of reference numbers for one contact problem.
 
-    axes        parameters by name; the first varies slowest
-    quantities  meanings by name
-    problem     description of the contact
-    source      reference of the equations
-    at          function of the parameters and a factor of the discretisation: orders and points, or
-                rings and increments
+    axes         parameters by name; the first varies slowest
+    quantities   meanings of the computed quantities by name
+    problem      description of the contact
+    source       reference of the equations
+    at           function that computes the quantities of a row, from the values of the parameters
+                 and a factor of the discretisation: of orders and points, or of rings and
+                 increments
     uncertainty  description of the uncertainty
     """
 
@@ -95,13 +101,19 @@ class Table:
 
     @property
     def columns(self) -> dict[str, str]:
-        """Meanings by name: parameters, quantities, and uncertainties of the quantities."""
+        """Meanings of all columns by name: parameters, quantities and their uncertainties."""
         parameters = {name: axis.meaning for name, axis in self.axes.items()}
         uncertain = {f"{name}_uncertainty": f"of {name}, absolute" for name in self.quantities}
         return {**parameters, **self.quantities, **uncertain}
 
     def rows(self, chosen: Mapping[str, Sequence[float]]) -> Iterator[dict[str, float]]:
-        """Yield one row, by column, for every combination of the chosen or default values."""
+        """Yield one row for every combination of parameter values, with values by column name.
+
+        The uncertainty of a quantity is twice its change for the doubled discretisation. The error
+        of the normal force, round-off and additional uncertainties are added.
+
+        chosen  values by parameter name, which replace the default values
+        """
         for place in product(*(chosen.get(name, axis.values) for name, axis in self.axes.items())):
             found, finer = self.at(place, 1), self.at(place, 2)
             left = found.left or (0.0,) * len(found.values)
@@ -112,7 +124,10 @@ class Table:
             yield dict(zip(self.columns, (*place, *found.values, *uncertainties), strict=True))
 
     def dataset(self, chosen: Mapping[str, Sequence[float]]) -> Dataset:
-        """Compute the rows at the chosen or default values."""
+        """Compute all rows of the table, and return them with their provenance.
+
+        chosen  values by parameter name, which replace the default values
+        """
         about = {
             "table": self.name,
             "made_by": f"slipstick {program_version()}, radial solver",
@@ -124,6 +139,7 @@ class Table:
 
 
 def _digits(column: str, value: Any) -> str:
+    """Format a value for CSV: uncertainties with 2 digits, other floats with 15."""
     if not isinstance(value, float):
         return str(value)
     return f"{value:.1e}" if column.endswith("uncertainty") else f"{value:.15g}"

@@ -1,1 +1,1 @@
-"""Commands, one per file."""
+"""Commands of the command line, one module per command."""

@@ -15,7 +15,7 @@ from verification.challenge.export import export
 
 
 class Action(StrEnum):
-    """Action of the command."""
+    """Action of the command `slipstick challenge`: list the challenges, or export one."""
 
     LIST = "list"
     EXPORT = "export"

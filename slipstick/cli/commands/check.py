@@ -52,4 +52,5 @@ def check(
 
 
 def _without_path(problem: dict[str, object]) -> dict[str, object]:
+    """Return the data of a mistake in a scene file without the entry "path"."""
     return {name: value for name, value in problem.items() if name != "path"}

@@ -78,7 +78,10 @@ def compare(
 
 
 def exit_code_of(report: Report) -> ExitCode:
-    """Return the exit code of a compared report."""
+    """Return the exit code of `slipstick maintain compare` for a report with changes.
+
+    report  verification report that was compared with a baseline
+    """
     kinds = {row.kind for row in change_rows(report)}
     if ChangeKind.OUTSIDE in kinds:
         return ExitCode.ACCURACY
@@ -89,12 +92,19 @@ def exit_code_of(report: Report) -> ExitCode:
 
 
 def _baselines(place: Path | None) -> dict[str, Baseline]:
+    """Read the accepted numbers from a folder of baselines, or from another report.
+
+    place  folder of baselines, or path of a report; None for the baselines of slipstick
+    """
     if place is None or (place.is_dir() and not record_in(place).is_file()):
         return read_baselines(place)
     return baselines_of(read_report(place), f"the report {place}")
 
 
 def _print_changes(report: Report) -> None:
+    """Print the changes of a verification report since its baseline, and a command to reproduce
+    them.
+    """
     for case in report.cases:
         for verdict in case.verdicts:
             change = verdict.regression

@@ -49,7 +49,7 @@ def deposit(
 
 
 def datasets() -> Iterator[Dataset]:
-    """Compute or read all tables of the deposit."""
+    """Yield all tables of reference numbers for the deposit, computed or read from stored files."""
     digest = source_digest("radial")
     for table in TABLES.values():
         yield _traced(table.dataset({}), "radial solver", _command(table), digest)
@@ -57,7 +57,7 @@ def datasets() -> Iterator[Dataset]:
 
 
 def _command(table: Table) -> Callable[[Mapping[str, Any]], str]:
-    """Return the function that writes the command of a row."""
+    """Return the function that writes the command line which computes one row of a table."""
     return lambda row: " ".join(
         [f"slipstick table {table.name}", *(f"--over {name}={row[name]!r}" for name in table.axes)]
     )
@@ -66,7 +66,12 @@ def _command(table: Table) -> Callable[[Mapping[str, Any]], str]:
 def _traced(
     found: Dataset, method: str, command: Callable[[Mapping[str, Any]], str], digest: str
 ) -> Dataset:
-    """Add method, command and digest of the sources to each row."""
+    """Add three columns to a table of reference numbers: method, command and digest of the sources.
+
+    found    table without these columns
+    command  function that writes the command line of a row
+    digest   digest of the sources that computed the rows
+    """
     rows = [
         {**row, "method": method, "command": command(row), "digest": digest} for row in found.rows
     ]
@@ -74,7 +79,7 @@ def _traced(
 
 
 def recorded() -> Iterator[Dataset]:
-    """Read the onset of gross slip and the paths of changing loads."""
+    """Yield two stored tables: the onset of gross slip, and the paths of changing loads."""
     onset = load_reference("gross_slip_onset")
     about = onset["about"]
     yield _traced(
@@ -119,9 +124,12 @@ def recorded() -> Iterator[Dataset]:
 
 
 def write(folder: Path, found: Iterable[Dataset], published: Date) -> None:
-    """Write the crate: CSV and JSON of each table and `ro-crate-metadata.json`.
+    """Write tables as CSV and JSON with the metadata of an RO-Crate.
 
     Raises ImportError without the library rocrate.
+
+    folder     new folder of the crate
+    published  date of publication
     """
     from rocrate.model.contextentity import ContextEntity
     from rocrate.rocrate import ROCrate

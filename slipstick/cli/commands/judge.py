@@ -24,7 +24,7 @@ from verification.report.judgement_sheet import COLUMNS, render_sheet, row_texts
 
 
 class GradeName(StrEnum):
-    """Accuracy class; largest error A: 1e-4 of the scale, B: 1e-3, C: 1e-2."""
+    """Accuracy class of a judgement: largest error 1e-4 (A), 1e-3 (B) or 1e-2 (C) of the scale."""
 
     A = "A"
     B = "B"
@@ -110,7 +110,15 @@ def judge(
 def _solved(
     name: str, case: str | None, levels: int, grade: GradeName | None, strict: bool
 ) -> Judgement:
-    """Judge a function; exit if it cannot solve the challenge or raises an exception."""
+    """Call a Python function that solves a challenge, and judge its answers.
+
+    Exits the command if the function cannot solve the challenge or raises an exception.
+
+    name    FILE.py:FUNCTION
+    case    name of the challenge
+    levels  number of refinement levels at which the function is called
+    grade   accuracy class that every error must meet, or None
+    """
     if case is None:
         raise typer.BadParameter(
             "a function needs --case; 'slipstick challenge list' lists the challenges"

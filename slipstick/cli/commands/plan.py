@@ -60,7 +60,8 @@ def plan(
 
 
 def by_radii(scene: Scene) -> str | None:
-    """Return the kind of solution by the radial solver; None for an unsupported scene."""
+    """Describe the solution of a scene by the radial solver; None if it does not support the
+    scene."""
     from radial.angular_grid import Circle
     from radial.plan import plan
 
@@ -78,7 +79,10 @@ def by_radii(scene: Scene) -> str | None:
 
 
 def _print_prices(items: list[str], solver: Solver, contents: SceneFile) -> None:
-    """Print the cost of each accuracy, or the reason why no grid can meet it."""
+    """Print the estimated cost of each requested accuracy, or the reason why no grid can meet it.
+
+    items  arguments of `--accuracy`
+    """
     from contact_errors.adaptive_refinement import price
 
     requests = [read_accuracy(item, "--accuracy") for item in items]
@@ -98,6 +102,7 @@ def _print_prices(items: list[str], solver: Solver, contents: SceneFile) -> None
 
 
 def _price_texts(found: "Price") -> tuple[str, ...]:
+    """Return the texts of one estimated cost: cells, increments, time and memory."""
     cells, rings = found.settings.cells, found.settings.ring_factor
     fineness = f"{rings:.2g} times the rings" if rings else ""
     fineness = fineness or f"{found.settings.elements_per_radius} per radius"

@@ -31,7 +31,10 @@ def report(
 
 
 def read_report(place: Path) -> Report:
-    """Read a report; raises Refused if that is not possible."""
+    """Read the report of a verification; raises Refused if the report is missing or unreadable.
+
+    place  folder of the report, or path of report.json
+    """
     record = record_in(place) if place.is_dir() else place
     if not record.is_file():
         earlier = record.parent / EARLIER

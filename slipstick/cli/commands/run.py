@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 class Figures(StrEnum):
-    """Figures of a run."""
+    """Figures that `slipstick run` draws: none, one overview, or all."""
 
     NONE = "none"
     OVERVIEW = "overview"
@@ -155,6 +155,13 @@ def _print_outcome(
     seconds: dict[str, float],
     cycles: dict[str, list[str]],
 ) -> None:
+    """Print discretisation, errors and scalars of a finished run.
+
+    stated   error estimates, or None
+    reached  outcome of a requested accuracy, or None
+    seconds  elapsed time of each phase of the run [s]
+    cycles   columns of the table of load cycles; empty without cycles
+    """
     from contact_results.key_numbers import outcome_columns
     from slipstick.cli.progress import how_accurate, how_stated, solved_in
     from slipstick.cli.terminal import print_pairs, print_table

@@ -8,7 +8,7 @@ import typer
 
 
 class SchemaOf(StrEnum):
-    """File formats with a JSON Schema."""
+    """File format whose JSON Schema is printed."""
 
     SCENE = "scene"
     SUMMARY = "summary"
@@ -28,6 +28,7 @@ def schema(
 
 
 def _document(of: SchemaOf) -> dict[str, Any]:
+    """Return the JSON Schema of a file format."""
     if of is SchemaOf.SCENE:
         from contact_scene import scene_schema
 

@@ -60,7 +60,7 @@ if TYPE_CHECKING:
 
 
 class Figures(StrEnum):
-    """Figures of a stress."""
+    """Figures that `slipstick stress` draws: none or all."""
 
     NONE = "none"
     ALL = "all"
@@ -218,7 +218,10 @@ def stress(
 def _refuse_in_part(
     request: AccuracyRequest | None, indenter: bool, depths: list[float] | None
 ) -> None:
-    """Refuse an accuracy of the largest stress of the body where only a part is computed."""
+    """Refuse a requested accuracy of the largest stress if only a part of the body is computed.
+
+    Raises BadParameter for the indenter and for chosen depths.
+    """
     if request is None or not request.binds_stress:
         return
     if indenter:
@@ -233,6 +236,11 @@ def _refuse_in_part(
 
 
 def _refuse_with_points(at: list[str] | None, given: dict[str, object]) -> None:
+    """Refuse options that exclude `--at`, and `--history` without `--at`; raises BadParameter.
+
+    at     arguments of `--at`, or None
+    given  values of the excluded options by name
+    """
     if not at:
         raise typer.BadParameter("--history needs points; add --at X,Y,Z")
     for option, value in given.items():
@@ -250,7 +258,20 @@ def _write_points(
     history: bool,
     indenter: bool,
 ) -> None:
-    """Write the stress at points, at the end of a load step or over all increments."""
+    """Compute the stress at points in a body, and write it as table and figure.
+
+    The stress is computed at the end of one load step, or for all increments. A state that the
+    solver cannot evaluate is omitted with a message.
+
+    source    output directory of a run, or scene file
+    contents  contents of the scene file, which is solved first; None for a run
+    at        arguments of `--at`
+    step      load step, from 1; None for the last
+    chosen    solver of the scene
+    output    output directory
+    history   true for all increments
+    indenter  true for points in the indenter, false for points in the lower body
+    """
     from contact_results.stress_history import StressIncrement, write_history
 
     made = []
@@ -280,7 +301,12 @@ def _write_points(
 
 
 def _points_of(at: list[str], body: Body) -> tuple[Any, Any, list[Any]]:
-    """Return the coordinates x and y of the points (n,), and their levels."""
+    """Read the points of the option `--at`: coordinates x and y (n,), and the depth levels.
+
+    A point at an interface gives two points, one on each side.
+
+    at  texts such as "0.3 mm,0,20 um" or "0,0,interface 1"
+    """
     if not body.deforms:
         raise typer.BadParameter("the body is rigid and has no stress")
     sides = {f"interface {k}": pair for k, pair in enumerate(interfaces(body), 1)}
@@ -303,6 +329,10 @@ def _points_of(at: list[str], body: Body) -> tuple[Any, Any, list[Any]]:
 def _solved(
     contents: SceneFile, name: SolverName, error: bool
 ) -> tuple[Result, StatedErrors | None]:
+    """Solve the scene of a scene file, and estimate the errors of its scalars.
+
+    error  false to omit the error estimates; the second return value is then None
+    """
     chosen = name.solver
     fineness = chosen.fineness(contents)
     decided: Any = chosen.plan(contents.scene, fineness)
@@ -323,6 +353,10 @@ def _solved(
 
 
 def _refuse_beside_section(solver: SolverName, depths: list[float] | None, volume: bool) -> None:
+    """Refuse `--depths` and `--volume` for solvers that compute the stress in one plane only.
+
+    Finite elements allow neither option. The radial solver does not allow `--volume`.
+    """
     if solver.is_fem and (depths is not None or volume):
         raise typer.BadParameter(
             "finite elements compute the stress at their nodes in one plane: omit --depths and "
@@ -337,6 +371,14 @@ def _refuse_beside_section(solver: SolverName, depths: list[float] | None, volum
 def _below(
     state: LoadedBodies, depths: list[float] | None, *, indenter: bool, volume: bool
 ) -> StressField:
+    """Compute the stress field in a body below the contact.
+
+    Raises BadParameter for depths or a volume that the solver cannot compute.
+
+    depths    depths of the field [length]; None for those of the solver
+    indenter  true for the indenter, false for the lower body
+    volume    true for the field in the volume as well
+    """
     if state.pressed is not None:
         _refuse_beside_section(SolverName.RADIAL, depths, volume)
     elif state.on_rings:
@@ -353,7 +395,10 @@ def _below(
 
 
 def _length(text: str, option: str = "--depths") -> float:
-    """Convert a number in metres, or a number with a unit, to metres."""
+    """Convert a number in metres, or a number with a unit, to metres; raises BadParameter.
+
+    option  name of the option, for the message
+    """
     try:
         return float(text)
     except ValueError:

@@ -155,6 +155,14 @@ def study(
 def _studied(
     study: Study, settings: Settings, command: str, directory: Path, workers: int | Workers
 ) -> StudyRecord:
+    """Compute the cases of a study, draw its conclusions, and write its page.
+
+    Returns the record of the study.
+
+    command    command line of the study, for the record
+    directory  output directory
+    workers    number of processes, or workers of a cluster
+    """
     refuse_if_unwritable(directory)
     with in_sole_use(directory):
         cases = study.cases(settings)
@@ -178,6 +186,7 @@ def _studied(
 
 
 def _refuse_odd(cells: int | None) -> None:
+    """Raise BadParameter for an odd number of cells, because half the number is used as well."""
     if cells is not None and cells % 2:
         raise typer.BadParameter(
             f"got --cells {cells}, expected an even number; half of the cells are used as well"
@@ -192,7 +201,10 @@ def _scene_study(
     solver: SolverName | None,
     settings: Settings,
 ) -> Study:
-    """Return the study of a scene; raise BadParameter if the options do not fit."""
+    """Return the refinement study of a scene file.
+
+    Raises BadParameter if the options do not fit the study, or if the scene cannot be refined.
+    """
     known = SCENE_STUDIES[name]
     chosen = known.solvers[0] if solver is None else solver.value
     if chosen not in known.solvers:

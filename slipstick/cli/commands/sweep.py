@@ -123,7 +123,12 @@ def _write(
     directory: Path,
     title: str,
 ) -> None:
-    """Write the table and the chart; print percentiles of a sample."""
+    """Write table and chart of a parameter sweep, and print percentiles of distributed keys.
+
+    records     solved points of the sweep
+    variations  varied keys
+    names       requested quantities
+    """
     with atomic_file(directory / TABLE) as path:
         numbered = {str(number): record for number, record in enumerate(records, 1)}
         path.write_text(row_files(numbered)[ROWS], encoding="utf-8")
@@ -146,7 +151,10 @@ def _write(
 
 
 def _print_percentiles(spaced: Sequence[Variation], swept: Sequence[SweptQuantity]) -> None:
-    """Print a row for every quantity at every combination of the spaced values."""
+    """Print a table of percentiles of quantities, for keys with a normal distribution.
+
+    The table has a row for every quantity at every combination of the spaced keys.
+    """
     heads = [*(each.label for each in spaced), "quantity", *(f"{p:g} %" for p in PERCENTILES)]
     rows = []
     for each in swept:

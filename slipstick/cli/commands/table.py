@@ -49,13 +49,18 @@ def table(
 
 
 def _list(tables: Mapping[str, Table]) -> None:
+    """Print names, parameters and problems of all tables of reference numbers."""
     for name, one in tables.items():
         typer.echo(f"{name}: {', '.join(one.quantities)} over {', '.join(one.axes)}")
         typer.echo(f"  {one.problem}.")
 
 
 def _values(chosen: Table, given: Sequence[str]) -> dict[str, list[float]]:
-    """Return the values of the given parameters; raise BadParameter."""
+    """Read the parameter values of the option `--over`, by parameter name; raises BadParameter.
+
+    chosen  table whose parameters are allowed
+    given   arguments such as "nu=0.2,0.3"
+    """
     found: dict[str, list[float]] = {}
     for text in given:
         name, _, numbers = text.partition("=")

@@ -122,6 +122,14 @@ def _verified(
     *,
     fresh: bool,
 ) -> Report:
+    """Run the cases of a verification, compare them with the baseline, and write the report.
+
+    level      name of the level
+    names      names of chosen cases; empty for all
+    directory  directory of the report
+    places     folders of the studies in the report; None for the default folders
+    fresh      true to ignore stored cases of earlier runs
+    """
     refuse_if_unwritable(directory)
     with in_sole_use(directory):
         baselines = read_baselines()  # refuse a damaged baseline before the work
@@ -159,14 +167,15 @@ def _verified(
 def judged(
     cases: tuple[Case, ...], level: str, directory: Path, workers: int | Workers, *, fresh: bool
 ) -> tuple[tuple[CaseOutcome, ...], dict[str, float]]:
-    """Return the outcomes in the order of the cases, and the wall seconds of cases with a record.
+    """Run the cases of a verification on a pool of processes, and return their outcomes.
 
-    level      name in capitals
+    Returns the outcomes in the order of the cases, and the elapsed seconds by case name. Raises
+    OutputRefused, before any solve, if the directory cannot be written.
+
+    level      name of the level in capitals
     directory  directory of the report
     workers    number of processes, or workers of a cluster
-    fresh      ignore stored cases of earlier runs
-
-    Raises OutputRefused, before any work, if the directory cannot be written.
+    fresh      true to ignore stored cases of earlier runs
     """
     tolerances = read_tolerances(level.lower())
     requested = [CaseToJudge(case.name, level) for case in cases]
@@ -186,7 +195,8 @@ def judged(
 
 
 def _verdict(end: CaseEnd) -> str:
-    """Return the text of the verdict of a case, with counts and seconds."""
+    """Return the line for a finished case: status, name, numbers of verdicts and solves,
+    seconds."""
     if not isinstance(end.record, JudgedCase):
         return how_it_ended(end)
     outcome, seconds = end.record.outcome, f"{end.record.seconds:6.1f} s"
@@ -198,10 +208,12 @@ def _verdict(end: CaseEnd) -> str:
 
 
 def _left_out(problem: str) -> None:
+    """Print a warning about a study that the report omits."""
     typer.echo(f"WARN {problem}: left out; use --studies for another folder", err=True)
 
 
 def _print_outcome(report: Report, directory: Path) -> None:
+    """Print failures, changes since the baseline, and the status of a verification report."""
     for line in failure_lines(report):
         typer.echo(line)
     if not report.errors_too_small:
