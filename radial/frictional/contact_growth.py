@@ -1,4 +1,7 @@
-"""Slip and the stick zone of a contact that grows or shrinks within an increment."""
+"""Contact fraction and stick radius of an increment in which the contact grows or shrinks.
+
+The contact area is a disc.
+"""
 
 from __future__ import annotations
 
@@ -8,11 +11,14 @@ from contact_scene.array_types import Array
 
 
 def contact_fraction(r: Array, start_radius: float, radius: float) -> Array:
-    """Return the fraction of an increment in which points at these radii are in contact.
+    """Return the fraction of an increment during which points at given radii are in contact (n,).
 
-    Particles that a growing contact reaches slip from the passage of the edge on.
+    The contact radius changes linearly in the increment. Points that a growing contact reaches slip
+    only after the passage of its edge, so their slip is multiplied by this fraction. The fraction
+    is 1 in a shrinking contact.
 
-    start_radius, radius  of the contact at start and end of the increment [length]
+    r                     radii of the points (n,) [length]
+    start_radius, radius  contact radius at the start and at the end of the increment [length]
     """
     share = np.ones_like(r)
     if radius > start_radius:
@@ -24,16 +30,18 @@ def contact_fraction(r: Array, start_radius: float, radius: float) -> Array:
 def front(
     radius: float, start_radius: float, stick_through: float, first: float, before: float
 ) -> float:
-    """Return the stick radius at the end of an increment [length].
+    """Extrapolate the stick radius to the end of an increment [length].
 
-    The disc that sticks throughout an increment is that of its middle. The radius half an increment
-    later is extrapolated linearly from this disc and the preceding one. After a load reversal it is
-    the radius of this disc.
+    The zone that sticks throughout an increment is the stick zone at the middle of the increment.
+    The stick radius half an increment later is extrapolated linearly in the contact radius, from
+    the middles of this and the preceding increment. After a reversal of the load the radius of the
+    middle is returned.
 
-    stick_through, before  of the discs that stick throughout this and the preceding increment
-                           [length]
-    first, start_radius    radius of the contact at the start of the preceding and of this one
-                           [length]
+    radius         contact radius at the end of this increment [length]
+    start_radius   contact radius at the start of this increment [length]
+    stick_through  radius of the zone that sticks throughout this increment [length]
+    first          contact radius at the start of the preceding increment [length]
+    before         radius of the zone that sticks throughout the preceding increment [length]
     """
     half, last = 0.5 * (radius - start_radius), 0.5 * (start_radius - first)
     if half * last <= 0:

@@ -1,4 +1,4 @@
-"""Response of both bodies to pressure and radial shear, for any contact radius."""
+"""Surface displacements of both bodies by pressure and radial shear, for any contact radius."""
 
 from __future__ import annotations
 
@@ -24,11 +24,14 @@ POINTS = 40
 
 
 class Response(NamedTuple):
-    """Compliance between rings: displacement at the rows by tractions at the columns
-    [length^3/force].
+    """Compliance matrices between rings, of both bodies [length³/force].
 
-    zz, zr  displacement into the body, by pressure and by radial shear
-    rz, rr  radial displacement, by pressure and by radial shear
+    Rows are the positions of displacements, columns the nodes of tractions (see `Rings`).
+
+    zz  normal displacement into the body, by pressure
+    zr  normal displacement into the body, by radial shear
+    rz  radial displacement, by pressure
+    rr  radial displacement, by radial shear
     """
 
     zz: Array
@@ -39,13 +42,17 @@ class Response(NamedTuple):
 
 @dataclass(frozen=True)
 class Coupling:
-    """Lower body and indenter. Direct responses add, coupling responses subtract.
+    """Elastic response of the lower body and the indenter to normal and tangential tractions.
 
-    bodies   their normal response
-    stacks   of the lower body and the indenter, with the sign of their coupling response
+    Direct responses (normal by normal, tangential by tangential) of both bodies add. Coupling
+    responses subtract.
+
+    bodies   normal response of both bodies
+    stacks   layers and base of each body, with the sign of its coupling response: 1 for the lower
+             body, -1 for the indenter
     direct   Σ (1-ν)/G of the outermost materials [length²/force]
     across   Σ 1/G [length²/force]
-    crossed  Σ ± (1-2ν)/2G [length²/force]
+    crossed  Σ ± (1-2ν)/2G, plus for the lower body, minus for the indenter [length²/force]
     """
 
     bodies: Bodies
@@ -56,7 +63,7 @@ class Coupling:
 
     @classmethod
     def of(cls, scene: Scene) -> Coupling:
-        """Return the response of a scene."""
+        """Create the elastic response of both bodies of a scene."""
         stacks = ((stack_of(scene.body), 1.0), (stack_of(scene.indenter), -1.0))
         outer = [(stack.outer, sign) for stack, sign in stacks if not stack.is_rigid]
         return cls(
@@ -68,9 +75,14 @@ class Coupling:
         )
 
     def response(self, rings: Rings, radius: float, fineness: int = 1) -> Response:
-        """Compute the response to tractions on rings in a contact of this radius [length].
+        """Compute the compliance matrices between rings of a contact.
 
-        The outermost materials have closed forms; layers add u = ∫ k F t~ J dk.
+        The outermost materials have closed forms or quadratures. Layers add u = ∫ k F t~ J dk, with
+        the frequency response F, the transform t~ of the traction and a Bessel function J.
+
+        rings     nodes over the contact
+        radius    contact radius [length]
+        fineness  multiple of the number of wavenumbers
         """
         by_pressure, by_shear = rings.logarithmic
         shear_lifts, pressure_draws = rings.sideways
@@ -86,7 +98,11 @@ class Coupling:
         return Response(zz, zr, rz, rr)
 
     def frictionless_displacement(self, contact: Disc, rings: Rings, fineness: int = 1) -> Array:
-        """Return u_r by the pressure of a frictionless contact, at the rows [length]."""
+        """Return the radial displacement of the surface by the pressure without friction [length].
+
+        The pressure is that of the contact without friction. The displacement is that of the lower
+        body relative to the indenter, at the rows of the rings.
+        """
         a, x = contact.radius, rings.places
         found = -self.crossed * a * np.divide(_carried(contact, x), x, where=x > 0, out=0 * x)
         if self.bodies.layered:
@@ -97,8 +113,13 @@ class Coupling:
         return np.asarray(found)
 
     def added(self, waves: Waves, radius: float) -> Array:
-        """Return k times c11, c12, c22 and csh that layers add to half-spaces (4, κ)
-        [length²/force]."""
+        """Return the contribution of layers to k times the frequency responses [length²/force].
+
+        The shape is (4, κ). The four responses are c11 (along the wave vector), c12 (coupling), c22
+        (normal) and csh (transverse), summed over both bodies. k = κ/radius is the wavenumber.
+
+        radius  contact radius [length]
+        """
         k = waves.rule[0] / radius
         total = np.zeros((4, len(k)))
         for stack, sign in self.stacks:
@@ -109,10 +130,11 @@ class Coupling:
 
 
 def _carried(contact: Disc, x: Array) -> Array:
-    """Return ∫₀ˣ p x dx [force/length²].
+    """Return the pressure integrated from the axis, ∫₀ˣ p x dx, at x = r/a (n,) [force/length²].
 
-    It is the load over 2πa² minus the part outside of x: (E*/π a) [G(1) √(1-x²) - ∫ₓ¹ G'(t)
-    √(t²-x²) dt].
+    The contact has no friction. The integral is the load over 2πa² minus the part outside x, (E*/π
+    a) [G(1) √(1-x²) - ∫ₓ¹ G'(t) √(t²-x²) dt]. G is the function of the contact equation, see
+    `disc`.
     """
     inside = np.minimum(x, 1.0)[:, None]
     chord = np.sqrt((1 - inside) * (1 + inside))

@@ -19,21 +19,24 @@ from radial.normal.pressing import Target
 
 @dataclass(frozen=True)
 class FrictionalState:
-    """Contact with friction at the end of an increment.
+    """State of a contact with friction at the end of an increment of normal loading.
 
-    end               the contact, with the slip of the increment
+    end               solved contact, with the slip of the increment
     target            prescribed normal force or approach
-    slip              since first contact of two particles, at the output radii, which are equal in
-                      all increments: sticking particles keep their slip exactly [length]
-    start_radius      contact radius at the start of the increment; 0 for the first one [length]
-    mid_stick_radius  stick radius of the increment as a whole, which is that in its middle [length]
+    slip              radial slip at the output rings since first contact of two particles (n,)
+                      [length]; the rings are equal in all increments, so sticking particles keep
+                      their slip exactly
+    start_radius      contact radius at the start of the increment; 0 for the first increment
+                      [length]
+    mid_stick_radius  radius of the zone that sticks throughout the increment, which is the stick
+                      radius at its middle [length]
     front             stick radius at the end [length]
     work              work of the load since the start of the history [force length]
     dissipated        energy dissipated since the start of the history [force length]
     uncertainty       uncertainty of `dissipated` by finite increments [force length]
     power             exponent of the prescribed quantity as a power of the contact radius
-    iterations        number of contact radii
-    strain            of the lower body since first contact, equal in all directions
+    iterations        number of contact radii tried
+    strain            bulk strain of the lower body since first contact, equal in all directions
     """
 
     end: FrictionalContact
@@ -51,17 +54,21 @@ class FrictionalState:
 
     @property
     def normal_force(self) -> float:
-        """Prescribed or computed normal force [force]."""
+        """Return the normal force: the prescribed value, or that of the solved contact [force]."""
         return self.end.load if self.target.force is None else self.target.force
 
     @property
     def approach(self) -> float:
-        """Prescribed or computed approach [length]."""
+        """Return the approach, prescribed or computed, of the far end of the rig's spring."""
         prescribed = self.target.approach
         return self.target.actuator_approach(self.end) if prescribed is None else prescribed
 
     def at(self, field: Array, r: Array) -> Array:
-        """Interpolate a field of the nodes to radii r, zero outside of the contact."""
+        """Interpolate a field from the nodes of the rings to given radii; zero outside the contact.
+
+        field  values at the nodes (nodes,)
+        r      radii (n,) [length]
+        """
         return np.asarray(np.interp(r, self.end.radius * self.end.rings.x, field, right=0.0))
 
 
@@ -75,10 +82,14 @@ def frictional_state(
     iterations: int,
     strain: float,
 ) -> FrictionalState:
-    """Compute slip, stick radius and energies of an increment.
+    """Compute slip, stick radius and energies of an increment of normal loading with friction.
 
-    radii              of the output [length]
-    power, iterations  see `FrictionalState`
+    friction                   friction law
+    end                        solved contact at the end of the increment
+    target                     prescribed normal force or approach
+    radii                      radii of the output rings (n,) [length]
+    before                     state at the start of the increment; None before first contact
+    power, iterations, strain  see `FrictionalState`
     """
     x, a = end.rings.x, end.radius
     start_radius, force, depth = 0.0, 0.0, 0.0
@@ -116,9 +127,11 @@ def frictional_state(
 
 
 def stick_share(end: FrictionalContact) -> float:
-    """Return the radius of the circle of the stick area over the contact radius [1].
+    """Return the stick radius over the contact radius [1].
 
-    Slip is proportional to the power 3/2 of the distance from the border of the stick zone.
+    The stick radius is that of a circle with the area of the stick zone. Near the border of the
+    stick zone, slip is proportional to the power 3/2 of the distance. This law determines the
+    border between two nodes.
     """
     x, slides = end.rings.x, end.sliding != 0
     slides[0] = False
@@ -137,6 +150,10 @@ def stick_share(end: FrictionalContact) -> float:
 
 
 def finite_pressure(end: FrictionalContact) -> Array:
-    """Return the pressure, at an apex that of the next node."""
+    """Return the pressure at the nodes, with a finite value at the axis (n + 1,) [force/length²].
+
+    Below a tip the pressure at the axis is infinite. It is replaced by the pressure at the adjacent
+    node.
+    """
     p = end.pressure
     return p if np.isfinite(p[0]) else np.concatenate([p[1:2], p[1:]])

@@ -1,5 +1,7 @@
-"""Load stepping of a contact with friction under normal load. Each increment needs the previous
-one."""
+"""Solver of load steps of a contact with friction under normal load.
+
+Friction is path-dependent, so each increment starts from the state of the previous one.
+"""
 
 from __future__ import annotations
 
@@ -68,7 +70,13 @@ MIDDLE = 0.5  # first guess of the front over the contact radius
 class FrictionalSteps(StepsOnRings):
     """Solver of the increments of normal loading with friction.
 
-    largest  contacts without friction, solved to place the output rings
+    coupling   elastic response of both bodies
+    friction   friction law
+    tolerance  upper bound of every residual
+    fineness   multiple of the number of rings, and of the number of solves within an increment
+    radii      radii of the output rings (n,) [length]
+    largest    frictionless contacts at the largest prescribed loads, solved to place the output
+               rings
     """
 
     coupling: Coupling
@@ -82,9 +90,9 @@ class FrictionalSteps(StepsOnRings):
     def of(
         cls, scene: Scene, discretisation: RadialDiscretisation, fineness: float
     ) -> FrictionalSteps:
-        """Return the solver of a scene.
+        """Create the solver of a scene, with its output rings over the largest contact.
 
-        fineness  multiple of the number of rings, and of the solves within an increment
+        fineness  multiple of the number of rings, and of the number of solves within an increment
         """
         coupling = Coupling.of(scene)
         largest = tuple(
@@ -104,7 +112,14 @@ class FrictionalSteps(StepsOnRings):
         before: FrictionalState | None,
         fraction: float,
     ) -> FrictionalState:
-        """Return the contact at a fraction of the ramp; raise NotConverged."""
+        """Solve the contact at a fraction of a load step, through contacts of intermediate radii.
+
+        ramp      load step
+        start     state at the start of the load step; None without contact
+        before    state at the end of the previous increment; None without contact
+        fraction  fraction of the linear change of the load, 0 to 1
+        raises    NotConverged
+        """
         reached = (start.normal_force, start.approach) if start else (0.0, 0.0)
         target = target_of(self.scene, *ramp.normal.prescribed(fraction, reached))
         radius, iterations = self._first_radius(target, before)
@@ -128,12 +143,20 @@ class FrictionalSteps(StepsOnRings):
 
     @property
     def _count(self) -> int:
+        """Return the number of rings over the contact, without those of dense regions."""
         return round(COUNT * self.fineness)
 
     def _intermediate(
         self, radius: float, before: FrictionalState | None, strain: float
     ) -> FrictionalState:
-        """Solve an intermediate contact of an increment, at this radius."""
+        """Solve the contact at an intermediate radius within an increment.
+
+        The stick zone depends on the sequence of contact radii.
+
+        radius  contact radius [length]
+        before  state of the preceding contact; None before first contact
+        strain  bulk strain of the lower body
+        """
         share = before.mid_stick_radius / before.end.radius if before else MIDDLE
         like = before.end if before else None
         end = self._at(
@@ -150,10 +173,14 @@ class FrictionalSteps(StepsOnRings):
         radial_displacement: Callable[[Array], Array],
         like: FrictionalContact | None,
     ) -> FrictionalContact:
-        """Solve the contact of this radius.
+        """Solve the contact with friction of a prescribed radius.
 
-        radial_displacement  u_r of the preceding state, as a function of the radius
-        like                 contact with a similar slip zone, as an initial guess
+        radius               contact radius [length]
+        rings                nodes over the contact
+        radial_displacement  radial displacement [length] that stick requires, as a function of the
+                             radius
+        like                 contact with a similar slip zone, as an initial guess; None if there is
+                             none
         """
         return frictional_contact(
             self.coupling, self.scene.indenter, radius, rings, self.friction,
@@ -161,10 +188,13 @@ class FrictionalSteps(StepsOnRings):
         )  # fmt: skip
 
     def _first_radius(self, target: Target, before: FrictionalState | None) -> tuple[float, int]:
-        """Estimate the radius of the target, and return the number of radii tried.
+        """Estimate the contact radius under a prescribed load, and count the radii tried for it.
 
-        The estimate is extrapolated from the previous contact, or it is the radius without
-        friction.
+        The estimate is extrapolated from the previous contact by a power law. Before first contact
+        it is the radius without friction.
+
+        target  prescribed normal force or approach
+        before  state of the previous contact; None before first contact
         """
         if before is None:
             found = normal_contact(self.coupling.bodies, self.scene.indenter, target)
@@ -174,7 +204,11 @@ class FrictionalSteps(StepsOnRings):
 
     @staticmethod
     def _power(target: Target, before: FrictionalState | None) -> float:
-        """Return the exponent of force or approach as a power of the radius."""
+        """Return the exponent of the prescribed force or approach as a power of the contact radius.
+
+        It is that of the previous state if this state prescribes the same quantity. Otherwise it is
+        3 for a force and 2 for an approach.
+        """
         if before is not None and (before.target.force is None) == (target.force is None):
             return before.power
         return 3.0 if target.approach is None else 2.0
@@ -187,16 +221,23 @@ class FrictionalSteps(StepsOnRings):
         before: FrictionalState | None,
         strain: float,
     ) -> tuple[FrictionalContact, int, float]:
-        """Find the contact at the target by the secant method for the radius.
+        """Find the contact radius at which the contact with friction has the prescribed load.
 
-        Return the contact, the number of radii tried, and the exponent of the power law in the
-        radius.
+        The secant method returns the contact, the number of radii tried, and the exponent of the
+        load as a power of the radius.
+
+        target  prescribed normal force or approach
+        radius  initial guess [length]
+        rings   nodes over the contact
+        before  state of the preceding contact; None before first contact
+        strain  bulk strain of the lower body
         """
         radial_displacement = _reference_displacement(before, strain)
         like = before.end if before else None
 
         def solve(a: float) -> FrictionalContact:
-            """Solve the contact of a radius, from the slip zone of the last one."""
+            """Solve the contact of a radius, with the slip zone of the last solve as an initial
+            guess."""
             nonlocal like
             like = self._at(a, rings, radial_displacement, like)
             return like
@@ -205,9 +246,13 @@ class FrictionalSteps(StepsOnRings):
         return contact_at_target(solve, target, radius, power, 10 * ROUND_OFF)
 
     def report(self, reached: Reached[FrictionalState], last: Increment | None) -> Increment:
-        """Return the increment with its fields at the rings.
+        """Compute the output of an increment: fields at the rings, energies and residuals.
 
-        Raises UnsupportedScene if the contact area is no disc, NotConverged above the tolerance.
+        Raises UnsupportedScene if the contact area is not a disc, and NotConverged if a residual
+        exceeds the tolerance.
+
+        reached  solved state at the end of the increment
+        last     output of the previous increment (not used)
         """
         state = reached.state
         end, indenter, r = state.end, self.scene.indenter, self.radii
@@ -270,9 +315,13 @@ class FrictionalSteps(StepsOnRings):
         return of_contact(increment, self.scene.rig)
 
     def _shear(self, state: FrictionalState, p: Array, r: Array) -> Array:
-        """Return the shear at the rings. In the slip zone it is the limit of the pressure there.
+        """Return the radial shear at the output rings (n,) [force/length²].
 
-        Interpolation of the shear itself would be less accurate.
+        The ratio of shear to friction limit is interpolated from the nodes and multiplied by the
+        friction limit at the rings. Interpolation of the shear would be less accurate.
+
+        p  pressure at the rings (n,) [force/length²]
+        r  radii of the rings (n,) [length]
         """
         end = state.end
         share = end.shear[1:-1] / self.friction.limit(end.pressure[1:-1])
@@ -283,8 +332,14 @@ class FrictionalSteps(StepsOnRings):
 def _reference_displacement(
     before: FrictionalState | None, strain: float
 ) -> Callable[[Array], Array]:
-    """Return u_r without slip, as a function of the radius: that of the state before, minus the
-    strain."""
+    """Return the radial displacement that stick requires, as a function of the radius [length].
+
+    It is the displacement of the preceding state minus the displacement of the lower body by the
+    bulk strain since then.
+
+    before  preceding state; None before first contact
+    strain  bulk strain at the end
+    """
     if before is None:
         return lambda radii: -strain * radii
     end, more = before.end, strain - before.strain
@@ -293,10 +348,17 @@ def _reference_displacement(
 
 
 def _beyond(r: Array, field: Array, limit: float) -> Callable[[Array], Array]:
-    """Return a function of the radius for a field of the rows. It decays to `limit` as 1/r."""
+    """Return a function of the radius that interpolates a field and continues it outwards.
+
+    Beyond the last position the field decays to `limit` as 1/r.
+
+    r      positions [length]
+    field  values at these positions
+    """
     spline, last = CubicSpline(r, field), r[-1]
 
     def at(radii: Array) -> Array:
+        """Evaluate the interpolated field at given radii [length]."""
         near = spline(np.minimum(radii, last))
         return np.asarray(limit + (near - limit) * last / np.maximum(radii, last))
 
@@ -304,23 +366,38 @@ def _beyond(r: Array, field: Array, limit: float) -> Callable[[Array], Array]:
 
 
 def _intermediate_radii(start_radius: float, end: float, growth: float) -> Array:
-    """Return radii between the start and the end of an increment. The stick zone depends on them.
+    """Return contact radii between the start and the end of an increment, in equal ratios.
 
-    growth  largest ratio of adjacent radii
+    The contact is solved at each of these radii, because the stick zone depends on the path.
+
+    start_radius, end  contact radius at the start and at the end of the increment [length]
+    growth             largest ratio of adjacent radii
     """
     steps = max(ceil(abs(log(end / start_radius)) / log(growth)), 1)
     return np.geomspace(start_radius, end, steps + 1)[1:-1]
 
 
 def _sliding(was: FrictionalContact | None, rings: Rings) -> Signs:
-    """Return the signs of slip at the same fractions of the radius."""
+    """Return the signs of the shear of slipping nodes, taken from another contact (n + 1,).
+
+    They are the initial guess of the slip zone. Nodes correspond by their fraction of the contact
+    radius. The value 0 means stick.
+
+    was    other contact; None for full stick
+    rings  nodes of the new contact
+    """
     if was is None:
         return np.zeros(len(rings.x), dtype=np.int64)
     return np.rint(np.interp(rings.x, was.rings.x, was.sliding)).astype(np.int64)
 
 
 def _against(end: FrictionalContact, friction: CoulombFriction) -> float:
-    """Return ∫(b|Δs| + q Δs) dA / ∫b|Δs| dA, b the limit, for slip above round-off."""
+    """Return the residual of the direction of slip in an increment [1].
+
+    The residual is |∫ (b|Δs| + q Δs) dA| / ∫ b|Δs| dA, with the friction limit b, the shear q and
+    the slip Δs of the increment. It is zero where slip opposes a shear at the limit. Slip below
+    round-off is omitted.
+    """
     slip_increment = (
         end.slip_increment * (end.sliding != 0) * (np.abs(end.slip_increment) > REST * end.approach)
     )
@@ -329,6 +406,7 @@ def _against(end: FrictionalContact, friction: CoulombFriction) -> float:
 
 
 def _status(state: FrictionalState) -> ContactStatus:
+    """Return the contact status: full stick, partial slip, or no stick area left."""
     sticks = state.end.sliding[1:-1] == 0
     if np.all(sticks):
         return ContactStatus.FULL_STICK

@@ -1,8 +1,9 @@
-"""Tractions on rings and the response of half-spaces: hat functions in x = r/a times √(1-x²).
+"""Tractions on rings, and the response of half-spaces to them.
 
-The factor is the behaviour of tractions at the edge. Rings are dense where tractions have kinks: at
-the border of the stick zone, at the edge and at the axis. The response of half-spaces to a hat has
-a closed form or uses Gauss quadrature. Lengths are in units of the contact radius.
+Tractions are hat functions (linear between nodes) in x = r/a, times the factor √(1-x²), which is
+the behaviour of tractions at the edge. The nodes are dense where tractions have kinks: at the
+border of the stick zone, at the edge and at the axis. The response of half-spaces to a hat has a
+closed form or uses Gauss quadrature. Lengths are in units of the contact radius a.
 """
 
 from __future__ import annotations
@@ -38,43 +39,45 @@ OUTSIDE = 1 + np.array([0.01, 0.03, 0.08, 0.2, 0.4, 0.7, 1.1, 1.6, 2.5, 4.0])
 
 @dataclass(frozen=True, eq=False)
 class Rings:
-    """Rings and the response of half-spaces to hats on them; created by `rings_about`.
-
-    x  of the n + 1 nodes, from 0 to 1
+    """Nodes over a contact, and the response of half-spaces to hat functions φ on these nodes.
 
     Rows are positions: the nodes, then points outside of the contact. Columns are nodal values: of
     the pressure 0 to n - 1, because it ends with zero, and of the radial shear 1 to n - 1. In the
-    last element tractions are multiples of √(1-x²).
+    last element tractions are multiples of √(1-x²). Objects are created by `rings_about`.
+
+    x  radii of the n + 1 nodes over the contact radius, from 0 to 1
     """
 
     x: Array
 
     @property
     def count(self) -> int:
-        """Number n of elements."""
+        """Return the number n of elements between the nodes."""
         return len(self.x) - 1
 
     @cached_property
     def places(self) -> Array:
-        """Positions of the rows (n + 1 + outside,)."""
+        """Return the positions of the rows over the contact radius: nodes, then points outside."""
         return np.concatenate([self.x, OUTSIDE])
 
     @cached_property
     def weights(self) -> Array:
-        """∫ φ x dx of every node (n + 1,)."""
+        """Return the weights ∫ φ x dx of nodal values in integrals over the contact (n + 1,)."""
         return self._on_nodes(*self._integrals(1))
 
     def at(self, field: Array, x: Array) -> Array:
-        """Interpolate nodal tractions (n + 1,) to positions x, zero outside."""
+        """Interpolate nodal tractions (n + 1,) to positions x = r/a; zero outside the contact."""
         share = field[:-1] / _root(self.x[:-1])
         return np.asarray(np.interp(x, self.x[:-1], share) * _root(np.minimum(x, 1.0)))
 
     @cached_property
     def logarithmic(self) -> tuple[Array, Array]:
-        """∫ G₀ φ s ds for the pressure and ∫ G₁ φ s ds for the shear (rows, columns).
+        """Return the direct responses to hats φ of pressure and of radial shear (rows, columns).
 
-        G_m = ∫₀^∞ J_m(kx) J_m(ks) dk has complete elliptic integrals (Gradshteyn and Ryzhik
-        6.512.1, 8.1).
+            ∫ G₀ φ s ds for the pressure,    ∫ G₁ φ s ds for the shear
+
+        G_m = ∫₀^∞ J_m(kx) J_m(ks) dk is logarithmic at s = x and has complete elliptic integrals
+        (Gradshteyn and Ryzhik 6.512.1, 8.1).
         """
         inner, length = self.x[:-1], np.diff(self.x)
         v, weights = unit_gauss(POINTS)
@@ -101,9 +104,11 @@ class Rings:
 
     @cached_property
     def sideways(self) -> tuple[Array, Array]:
-        """∫ₓ¹ φ ds for the shear and (1/x) ∫₀ˣ φ s ds for the pressure (rows, columns).
+        """Return the coupling responses to hats φ of radial shear and of pressure (rows, columns).
 
-        ∫₀^∞ J₀(kr) J₁(ks) dk is 1/s for r < s, else 0 (Gradshteyn and Ryzhik 6.512.3).
+            ∫ₓ¹ φ ds for the shear,    (1/x) ∫₀ˣ φ s ds for the pressure
+
+        The kernel ∫₀^∞ J₀(kr) J₁(ks) dk is 1/s for r < s, else 0 (Gradshteyn and Ryzhik 6.512.3).
         """
         inner, outer = self.x[:-1], self.x[1:]
         x = self.places[:, None]
@@ -116,7 +121,10 @@ class Rings:
         return by_shear[:, 1:-1], (by_pressure / reach)[:, :-1]
 
     def _integrals(self, power: int) -> tuple[Array, Array]:
-        """Return ∫ φ xᵐ dx over every element, for the hats of its inner and outer end."""
+        """Return ∫ φ xᵐ dx over every element, for the hats φ of its inner and outer node (n,).
+
+        power  m
+        """
         v, weights = unit_gauss(POINTS)
         inner, length = self.x[:-1, None], np.diff(self.x)[:, None]
         s = inner + length * v
@@ -124,10 +132,14 @@ class Rings:
         return left.sum(-1), right.sum(-1)
 
     def _shapes(self, s: Array, share: Array, weights: Array) -> tuple[Array, Array]:
-        """Return the hats of the inner and outer ends of elements at points s (…, n, points),
-        weighted.
+        """Evaluate the hats of the inner and the outer node of elements at points, times weights.
 
-        share  fraction of the element inside of a point
+        The hats contain the factor √(1-x²). In the last element the hat of the inner node is the
+        whole field.
+
+        s        points (…, n, points)
+        share    fraction of the element between its inner node and the point
+        weights  factors of the result
         """
         root = _root(self.x)
         known = _root(s) * weights
@@ -139,22 +151,28 @@ class Rings:
 
     @staticmethod
     def _on_nodes(left: Array, right: Array) -> Array:
-        """Add contributions of the ends of the elements (…, n) at the nodes (…, n + 1)."""
+        """Add the contributions of all elements at their nodes (…, n + 1).
+
+        left, right  contributions at the inner and at the outer node of every element (…, n)
+        """
         total = np.zeros((*left.shape[:-1], left.shape[-1] + 1))
         total[..., :-1] += left
         total[..., 1:] += right
         return total
 
     def transforms(self, waves: Waves) -> tuple[Array, Array, Array, Array]:
-        """Return transforms of the hats and Bessel functions at the rows.
+        """Return the Hankel transforms of the hats φ, and Bessel functions at the rows.
 
-        ∫ φ J₀(κs) s ds for the pressure and ∫ φ J₁(κs) s ds for the shear (κ, columns); J₀(κx) and
-        J₁(κx) (rows, κ).
+            ∫ φ J₀(κs) s ds for the pressure,    ∫ φ J₁(κs) s ds for the shear    (κ, columns)
+            J₀(κx),    J₁(κx)    (rows, κ)
+
+        Layers add displacements that are integrals of these products over the wavenumber κ.
         """
         return _transforms(self, waves)
 
 
 def _root(x: Array) -> Array:
+    """Return √(1 - x²), the factor of tractions at the edge."""
     return np.asarray(np.sqrt((1 - x) * (1 + x)))
 
 
@@ -163,6 +181,7 @@ Transforms: TypeAlias = tuple[Array, Array, Array, Array]
 
 @cached_within(MAX_CACHED)
 def _transforms(rings: Rings, waves: Waves) -> Transforms:
+    """Compute the Hankel transforms of `Rings.transforms`, with a cache."""
     kappa = waves.rule[0]
     length = np.diff(rings.x)[:, None]
     v, weights = unit_gauss(WAVE_POINTS)
@@ -181,22 +200,32 @@ def _transforms(rings: Rings, waves: Waves) -> Transforms:
 
 
 def place_of(front: float) -> int:
-    """Return the number of the layout of rings for a front at this fraction of the contact
-    radius."""
+    """Return the index of the layout of rings for a given stick radius.
+
+    Stick radii with equal index share their rings.
+
+    front  stick radius over the contact radius
+    """
     c = min(max(front, 1e-9), 1 - 1e-9)
     return round(min(max(log(c / (1 - c)), -NEAREST), NEAREST) / SHARED)
 
 
 def rings_about(front: float, count: int) -> Rings:
-    """Return rings for a border of the stick zone at this fraction of the contact radius.
+    """Return rings that are dense at the border of the stick zone.
 
-    count  approximate number, without the rings of dense regions
+    front  stick radius over the contact radius
+    count  approximate number of rings, without those of dense regions
     """
     return _rings(place_of(front), count)
 
 
 @lru_cache(maxsize=CACHED)
 def _rings(place: int, count: int) -> Rings:
+    """Create the rings of a layout.
+
+    place  index of the layout, see `place_of`
+    count  approximate number of rings, without those of dense regions
+    """
     c = 1 / (1 + exp(-place * SHARED))
     share = 1 / (1 + ((1 - c) / c) ** 0.5)
     inside = max(round(count * share), 8)

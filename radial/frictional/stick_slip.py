@@ -2,8 +2,8 @@
 
 The pressure is that of the frictionless contact, which is exact, plus a change Δp on rings by the
 shear. The gap is closed at every node and the pressure is zero at the edge. A sticking node keeps
-u_r. A slipping node has q = ∓b(p) with the friction limit b. The condition |q - γ Δu_r| < b
-determines the sticking nodes, by semismooth Newton (Alart and Curnier 1991).
+its radial displacement u_r. A slipping node has q = ∓b(p) with the friction limit b. The condition
+|q - γ Δu_r| < b determines the sticking nodes, by semismooth Newton (Alart and Curnier 1991).
 """
 
 from __future__ import annotations
@@ -47,16 +47,20 @@ ALL_AT_ONCE = 8
 
 @dataclass(frozen=True)
 class FrictionalContact:
-    """Contact with friction. Fields are (n + 1,) at the nodes of the rings unless stated otherwise.
+    """Solution of a contact with friction, of a given contact radius.
+
+    Fields are (n + 1,) at the nodes of the rings unless stated otherwise. Rows are the nodes and
+    points outside the contact.
 
     contact              frictionless contact of the same radius
-    rings                nodes
-    pressure_change      Δp [force/length²]
-    shear                q, outward on the lower body [force/length²]
+    rings                nodes over the contact
+    pressure_change      Δp, pressure minus that of `contact` [force/length²]
+    shear                q, radial shear on the lower body, positive outward [force/length²]
     approach_change      approach minus that of `contact` [length]
     normal_displacement  u_z by Δp and q, at the rows [length]
-    radial_displacement  u_r, at the rows [length]
-    slip_increment       Δu_r since the previous state [length]
+    radial_displacement  u_r by all tractions, at the rows [length]
+    slip_increment       u_r minus the displacement that stick requires: the slip of the increment
+                         [length]
     sliding              0 at a sticking node, else the sign of q
     residual             residual of the gap over the approach [1]
     """
@@ -74,32 +78,37 @@ class FrictionalContact:
 
     @property
     def radius(self) -> float:
-        """Radius a [length]."""
+        """Return the contact radius a [length]."""
         return self.contact.radius
 
     @property
     def approach(self) -> float:
-        """Approach δ since first contact [length]."""
+        """Return the approach δ of the indenter since first contact [length]."""
         return self.contact.approach + self.approach_change
 
     @property
     def load(self) -> float:
-        """Load W [force]."""
+        """Return the normal force W: the integral of the pressure [force]."""
         return self.contact.load + self.over(self.pressure_change)
 
     @cached_property
     def pressure(self) -> Array:
-        """Pressure p, infinite at an apex [force/length²]."""
+        """Return the pressure p at the nodes, infinite at an apex (n + 1,) [force/length²]."""
         return pressure(self.contact, self.rings.x) + self.pressure_change
 
     def over(self, field: Array) -> float:
-        """Return ∫ f dA of a field given at the nodes."""
+        """Integrate a field over the contact area, ∫ f dA.
+
+        field  f at the nodes (n + 1,)
+        """
         return float(2 * pi * self.radius**2 * (self.rings.weights @ field))
 
     def elastic_energy(self, gap: Array) -> float:
-        """Return ½ ∫ (p u_z + q u_r) dA, with u_z = δ - f within the contact [force length].
+        """Return the elastic energy of both bodies, ½ ∫ (p u_z + q u_r) dA [force length].
 
-        gap  f at the nodes [length]
+        Within the contact u_z = δ - f, with the approach δ and the undeformed gap f.
+
+        gap  f at the nodes (n + 1,) [length]
         """
         by_change = self.over(self.pressure_change * (self.approach - gap))
         by_shear = self.over(self.shear * self.radial_displacement[: len(self.shear)])
@@ -117,11 +126,17 @@ def frictional_contact(
     guess: Signs,
     fineness: int = 1,
 ) -> FrictionalContact:
-    """Solve the contact of this radius [length].
+    """Solve pressure, shear and stick zone of a contact of given radius.
 
-    before  u_r of the previous state, at the rows [length]
-    guess   signs of the shear of slipping nodes, 0 for sticking nodes (n + 1,)
-    raises  NotConverged if the sticking nodes cannot be determined, and errors of `disc`
+    coupling  elastic response of both bodies
+    radius    contact radius [length]
+    rings     nodes over the contact
+    friction  friction law
+    before    radial displacement that stick requires, at the rows [length]
+    guess     initial guess of `sliding`: signs of the shear of slipping nodes, 0 for sticking nodes
+              (n + 1,)
+    fineness  multiple of the numbers of polynomials and wavenumbers
+    raises    NotConverged if the sticking nodes cannot be determined, and errors of `disc`
     """
     contact = disc(coupling.bodies, indenter, radius, fineness=fineness)
     response = coupling.response(rings, radius, fineness)
@@ -154,10 +169,18 @@ def _newton(
     response: Response, n: int, friction: CoulombFriction, smooth: Array,
     stick_displacement: Array, guess: Signs, places: Array,
 ) -> tuple[Array, Signs]:  # fmt: skip
-    """Return Δp, q and the change of the approach, and the signs of slipping nodes.
+    """Solve for the pressure change, the shear and the sticking nodes by semismooth Newton.
 
-    smooth              pressure without friction, at the nodes between axis and edge
-    stick_displacement  u_r by Δp and q that stick requires, at the same nodes
+    The result is the vector of Δp, q and the change of the approach, and the signs of the shear of
+    slipping nodes.
+
+    response            compliance matrices between rings
+    n                   number of elements
+    friction            friction law
+    smooth              pressure without friction, at the nodes between axis and edge (n - 1,)
+    stick_displacement  u_r by Δp and q that stick requires, at these nodes (n - 1,)
+    guess               initial guess of the signs of the shear, 0 for sticking nodes (n - 1,)
+    places              radii of these nodes over the contact radius (n - 1,)
     """
     own = np.abs(np.diag(response.rr[1:n]))
     size = 2 * n

@@ -1,11 +1,12 @@
 """Transform of the friction limit µp of a contact, for torsion.
 
-Circumferential shear q with the Hankel transform ∫₀ᵃ h(s) sin ks ds of order 1 and its h are
-related by Abel transforms, with s = a t and r = a x,
+Circumferential shear q has the Hankel transform of order 1 ∫₀ᵃ h(s) sin ks ds. The shear and the
+function h are related by Abel transforms, with s = a t and r = a x,
 
     h = (2/π) s ∫ₛᵃ q/√(r²-s²) dr,    q = -d/dr ∫ᵣᵃ h/√(s²-r²) ds.
 
-For µp, p = (E*/πa) [G(1)/√(1-x²) - ∫ₓ¹ G'(t)/√(t²-x²) dt], the inner integral is Legendre's K:
+For q = µp with p = (E*/πa) [G(1)/√(1-x²) - ∫ₓ¹ G'(t)/√(t²-x²) dt] (see `disc`), the inner integral
+is Legendre's K:
 
     h = (2µE*/π²) t m,    m = G(1) K'(t) - ∫ₜ¹ G'(τ) K'(t/τ) dτ/τ,    K'(t) = K(√(1-t²)).
 
@@ -33,10 +34,12 @@ PANELS, NODES = 26, 26
 
 @dataclass(frozen=True)
 class FrictionLimit:
-    """Transform h/t of a contact's pressure at 2^-26 < t <= 1.
+    """Transform h/t of the shear q = p, on panels 2^-(n+1) < t < 2^-n of the range 2^-26 < t <= 1.
 
-    slopes  Chebyshev coefficients on 2^-(n+1) < t < 2^-n (panels, nodes) [force/length]
-    rates   those of its derivative, times 2^-n
+    p is the pressure of a contact. The coefficient of friction is 1. The module defines h.
+
+    slopes  Chebyshev coefficients of h/t on each panel (panels, nodes) [force/length]
+    rates   Chebyshev coefficients of d(h/t)/dt, times 2^-n
     """
 
     slopes: Array
@@ -44,7 +47,10 @@ class FrictionLimit:
 
     @classmethod
     def of(cls, contact: Disc) -> FrictionLimit:
-        """Compute the transform for a coefficient of friction of 1."""
+        """Compute the transform of the friction limit for a coefficient of friction of 1.
+
+        contact  frictionless contact
+        """
         count = NODES + len(contact.layers)
         points = chebyshev.chebpts1(count)
         t = (3 + points) / 4 * 0.5 ** np.arange(PANELS)[:, None]
@@ -55,23 +61,30 @@ class FrictionLimit:
         return cls(slopes, rates)
 
     def slope(self, t: Array) -> Array:
-        """Return h/t (…)."""
+        """Return the transform h/t of the friction limit at points t, any shape [force/length]."""
         panel, place = _place(t)
         return _summed(self.slopes, panel, place)
 
     def slope_rate(self, t: Array) -> Array:
-        """Return d(h/t)/dt (…)."""
+        """Return the derivative of the transform h/t of the friction limit at points t
+        [force/length]."""
         panel, place = _place(t)
         return np.asarray(_summed(self.rates, panel, place) * 2.0**panel)
 
 
 def _place(t: Array) -> tuple[NDArray[np.int64], Array]:
-    """Return the panel and the position in it, from -1 to 1."""
+    """Return the index of the panel that contains t, and the position of t in it, from -1 to 1."""
     panel = np.clip(np.floor(-np.log2(t)), 0, PANELS - 1).astype(np.int64)
     return panel, np.asarray(4 * t * 2.0**panel - 3)
 
 
 def _summed(coefficients: Array, panel: NDArray[np.int64], place: Array) -> Array:
+    """Evaluate Chebyshev series, each with the coefficients of its panel (Clenshaw's recurrence).
+
+    coefficients  (panels, nodes)
+    panel         index of the panel of every point
+    place         position of every point in its panel, from -1 to 1
+    """
     last, now = np.zeros_like(place), np.zeros_like(place)
     for column in coefficients.T[:0:-1]:
         last, now = now, column[panel] + 2 * place * now - last
@@ -79,7 +92,10 @@ def _summed(coefficients: Array, panel: NDArray[np.int64], place: Array) -> Arra
 
 
 def _slope(contact: Disc, t: Array) -> Array:
-    """Return 2E*/π² times m (…), integrated with τ = t exp(y)."""
+    """Compute h/t, the transform of the friction limit for µ = 1, at points t [force/length].
+
+    The result is 2E*/π² times the integral m of the module, with the substitution τ = t exp(y).
+    """
     v, weights = unit_gauss(POINTS + len(contact.profile.abel) + 2 * len(contact.layers))
     furthest = -np.log(t)[..., None]
     y = furthest * v
@@ -89,5 +105,5 @@ def _slope(contact: Disc, t: Array) -> Array:
 
 
 def _complete(t: Array) -> Array:
-    """Return K'(t)."""
+    """Return the complementary complete elliptic integral K'(t) = K(√(1-t²))."""
     return np.asarray(ellipkm1(t**2))

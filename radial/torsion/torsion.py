@@ -1,13 +1,16 @@
 """Monotonic torsion of a contact: the stick disc r < c rotates with the indenter, the rest slips.
 
-With h of `friction_limit` and the torsional modulus G, N(t) = h/(G a) is that of µp for t > c. In
-the stick disc it is (Lubkin 1951; with layers analogous to the pressure, see `disc`)
+The shear q_θ is represented by the function h of `friction_limit`, or N(t) = h/(G a) with the
+torsional modulus G. In the slip annulus t > c/a the shear is the friction limit µp, so N is the
+transform of µp. In the stick disc, with the twist φ (Lubkin 1951; with layers analogous to the
+pressure, see `disc`),
 
     N = (4/π) φ t - D(t),    D = (2/π) ∫₀^∞ (Y - 1) sin κt N~ dκ,    N~ = ∫₀¹ N sin κt dt,
 
-with Y = k G F and F the displacement per unit shear perpendicular to the wave vector. D is zero
-without layers. It is odd and entire, and is expanded in Legendre polynomials P_2n+1(t/c) by
-Galerkin's method. The shear is finite at c if N is continuous; this condition gives the twist φ.
+with Y = k G F and F the displacement per unit shear perpendicular to the wave vector. D is the
+contribution of the layers and zero without layers. It is odd and entire, and is expanded in
+Legendre polynomials P_2n+1(t a/c) by Galerkin's method. The shear is finite at c if N is
+continuous; this condition gives the twist φ.
 """
 
 from __future__ import annotations
@@ -43,13 +46,14 @@ AXIS = 1e-7  # smallest radius over the contact radius in integrals, without eff
 
 @dataclass(frozen=True)
 class Torsion:
-    """Contact for torsion.
+    """Contact under torsion, with a constant pressure.
 
-    contact   frictionless contact
+    contact   frictionless contact, which gives the pressure
     layered   bodies with layers
-    modulus   G: reciprocal of the sum of 1/G of the outermost materials [force/length²]
-    friction  µ
-    fineness  multiple of the numbers of orders and points
+    modulus   torsional modulus G: reciprocal of the sum of 1/G of the outermost materials
+              [force/length²]
+    friction  coefficient of friction µ
+    fineness  multiple of the numbers of polynomials and quadrature points
     """
 
     contact: Disc
@@ -60,7 +64,11 @@ class Torsion:
 
     @classmethod
     def of(cls, scene: Scene, contact: Disc, friction: float, fineness: int = 1) -> Torsion:
-        """Return the contact between the bodies of a scene."""
+        """Create the contact under torsion between the bodies of a scene.
+
+        contact   frictionless contact
+        friction  coefficient of friction µ
+        """
         stacks = [stack_of(body) for body in (scene.body, scene.indenter)]
         outer = [stack.outer.shear_modulus for stack in stacks if not stack.is_rigid]
         modulus = 1 / sum(1 / shear for shear in outer)
@@ -68,45 +76,57 @@ class Torsion:
         return cls(contact, layered, modulus, friction, fineness)
 
     def points(self, width: float) -> int:
-        """Return the number of points that resolve N and its waves over a part of 0 < t < 1."""
+        """Return the number of Gauss points of integrals over a part of the interval 0 < t < 1.
+
+        The integrands are N, the transform of the shear, and its products with the waves of
+        `waves`.
+
+        width  length of the part
+        """
         places, _ = self.waves
         waves = ceil(places[-1] * width / 2) if len(places) else 0
         return self.fineness * (POINTS + len(self.contact.layers) + waves)
 
     def limit(self, t: Array) -> Array:
-        """Return N/t of µp."""
+        """Return N/t at points t, where N is the transform of the friction limit µp [1]."""
         return np.asarray(self._scale * self._limit.slope(t))
 
     def limit_rate(self, t: Array) -> Array:
-        """Return d(N/t)/dt of µp."""
+        """Return d(N/t)/dt at points t, where N is the transform of the friction limit µp [1]."""
         return np.asarray(self._scale * self._limit.slope_rate(t))
 
     @cached_property
     def _limit(self) -> FrictionLimit:
+        """Return the transform of the friction limit for a coefficient of friction of 1."""
         return FrictionLimit.of(self.contact)
 
     @property
     def _scale(self) -> float:
+        """Return µ/(G a), the ratio of N to the transform h for µ = 1 [length/force]."""
         return self.friction / (self.modulus * self.contact.radius)
 
     @cached_property
     def whole(self) -> PartialSlip:
-        """State of incipient slip at the edge: the contact sticks."""
+        """Return the state of incipient slip: the whole contact still sticks."""
         return self.partial_slip(1.0)
 
     @cached_property
     def none(self) -> PartialSlip:
-        """State with the smallest stick radius considered."""
+        """Return the state with the smallest stick radius that is considered, near gross slip."""
         return self.partial_slip(NO_STICK)
 
     @cached_property
     def largest(self) -> float:
-        """Torque of gross slip [force length]."""
+        """Return the torque of gross slip, the friction limit [force length]."""
         return self.partial_slip(0.0).torque
 
     @cached_property
     def waves(self) -> tuple[Array, Array]:
-        """κ, and weights times Y - 1; empty without layers."""
+        """Return the wavenumbers κ, and their quadrature weights times Y - 1 (κ,).
+
+        Y - 1 is the relative contribution of the layers to the torsional compliance. Both arrays
+        are empty without layers.
+        """
         if not self.layered:
             return np.zeros(0), np.zeros(0)
         a = self.contact.radius
@@ -117,8 +137,10 @@ class Torsion:
         return places, np.asarray(weights * self.modulus * places / a * added)
 
     def partial_slip(self, stick: float) -> PartialSlip:
-        """Return the state whose stick disc has a radius of `stick` contact radii, 0 <= stick <=
-        1."""
+        """Solve the state of monotonic torsion with a given stick radius.
+
+        stick  stick radius over the contact radius, 0 to 1
+        """
         panels = self._panels(max(stick, AXIS))
         if stick == 0:
             return PartialSlip(self, 0.0, np.inf, np.zeros(1), panels)
@@ -143,7 +165,12 @@ class Torsion:
         return PartialSlip(self, stick, float(twist), layers, panels)
 
     def _panels(self, stick: float) -> list[Panel]:
-        """Return panels of the slip annulus, not wider than their distance from the axis."""
+        """Return panels that cover the slip annulus, with the transform N of µp at their points.
+
+        A panel is not wider than its distance from the axis.
+
+        stick  stick radius over the contact radius
+        """
         if stick >= 1:
             return []
         edges = np.geomspace(stick, 1.0, ceil(log2(1 / stick)) + 1)
@@ -157,21 +184,27 @@ class Torsion:
 
 @dataclass(frozen=True)
 class Panel:
-    """N on low < t < high by its values at Gauss points."""
+    """Interval low < t < high with the transform N of the shear at its Gauss points.
+
+    values  N at the points (n,)
+    """
 
     low: float
     high: float
     values: Array
 
     def integral(self, power: int, factor: int = 1) -> float:
-        """Return ∫ N^factor t^power dt."""
+        """Return the integral ∫ N^factor t^power dt over the panel."""
         v, weights = unit_gauss(len(self.values))
         width = self.high - self.low
         t = self.low + width * v
         return float(width * np.sum(weights * self.values**factor * t**power))
 
     def transform(self, places: Array) -> Array:
-        """Return ∫ N sin κt dt."""
+        """Return the sine transform ∫ N sin κt dt over the panel, at all wavenumbers κ.
+
+        places  κ
+        """
         v, weights = unit_gauss(len(self.values))
         width = self.high - self.low
         waves = np.sin(np.multiply.outer(self.low + width * v, places))
@@ -180,13 +213,13 @@ class Panel:
 
 @dataclass(frozen=True)
 class PartialSlip:
-    """State of partial slip.
+    """State of monotonic torsion with a stick disc and a slip annulus.
 
-    of      the contact
-    stick   c/a
-    twist   φ [radian]
-    layers  coefficients of D
-    panels  N of the slip annulus
+    of      contact under torsion
+    stick   stick radius over the contact radius, c/a
+    twist   twist φ [radian]
+    layers  Legendre coefficients of the contribution D of the layers in the stick disc
+    panels  transform N of the shear in the slip annulus
     """
 
     of: Torsion
@@ -196,13 +229,17 @@ class PartialSlip:
     panels: Sequence[Panel]
 
     def inside(self, t: Array) -> Array:
-        """Return N in the stick disc."""
+        """Return the transform N of the shear at points t in the stick disc."""
         every = np.zeros(2 * len(self.layers))
         every[1::2] = self.layers
         return np.asarray(4 / pi * self.twist * t - legendre.legval(t / self.stick, every))
 
     @property
     def _disc(self) -> list[Panel]:
+        """Return the transform N of the shear in the stick disc, as a list with one panel.
+
+        The list is empty without a stick disc.
+        """
         if self.stick == 0:
             return []
         v, _ = unit_gauss(self.of.points(self.stick) + 2 * len(self.layers))
@@ -210,20 +247,25 @@ class PartialSlip:
 
     @cached_property
     def torque(self) -> float:
-        """Torque 4π G a³ ∫ N t dt [force length]."""
+        """Return the torque 4π G a³ ∫ N t dt of the shear [force length]."""
         total = sum(panel.integral(1) for panel in (*self._disc, *self.panels))
         return 4 * pi * self.of.modulus * self.of.contact.radius**3 * total
 
     @cached_property
     def transform(self) -> Array:
-        """N~ at all κ."""
+        """Return the sine transform N~ of the function N of the shear, at all wavenumbers (κ,)."""
         places, _ = self.of.waves
         parts = [panel.transform(places) for panel in (*self._disc, *self.panels)]
         return np.asarray(np.sum(parts, axis=0))
 
     @cached_property
     def elastic_energy(self) -> float:
-        """½ ∫ q u dA = π G a³ [(π/2) ∫ N² dt + ∫ (Y - 1) N~² dκ] [force length]."""
+        """Return the elastic energy ½ ∫ q u dA of the shear, of both bodies [force length].
+
+            ½ ∫ q u dA = π G a³ [(π/2) ∫ N² dt + ∫ (Y - 1) N~² dκ]
+
+        Y - 1 is the relative contribution of the layers to the torsional compliance.
+        """
         squares = sum(panel.integral(0, 2) for panel in (*self._disc, *self.panels))
         _, wave_weights = self.of.waves
         by_layers = float(np.sum(wave_weights * self.transform**2)) if len(wave_weights) else 0.0
@@ -232,17 +274,24 @@ class PartialSlip:
 
     @property
     def work(self) -> float:
-        """∫ M dφ since the start of the twist [force length]."""
+        """Return the work ∫ M dφ of the torque since the start of the twist [force length]."""
         return self.twist * self.torque - self.elastic_energy
 
     @property
     def dissipated(self) -> float:
-        """2π ∫ µp |s| r dr: points of the annulus carry µp from the start of their slip [force
-        length]."""
+        """Return the energy dissipated since the start of the twist [force length].
+
+        It is 2π ∫ µp |s| r dr: points of the slip annulus carry the shear µp from the start of
+        their slip s.
+        """
         return self.twist * self.torque - 2 * self.elastic_energy
 
     def shear(self, x: Array, limit: Array) -> Array:
-        """Return q_θ at r = a x (n,) [force/length²], with `limit` = µp."""
+        """Return the circumferential shear q_θ at r = a x within the contact (n,) [force/length²].
+
+        x      radii over the contact radius (n,)
+        limit  friction limit µp at these radii (n,) [force/length²]
+        """
         found = limit.copy()
         sticks = x < min(self.stick, 1.0)
         if not np.any(sticks):
@@ -266,7 +315,10 @@ class PartialSlip:
         return found
 
     def _layers_rate(self, t: Array) -> Array:
-        """Return d(-D/t)/dt."""
+        """Return d(-D/t)/dt at points t in the stick disc.
+
+        D is the contribution of the layers to the transform N of the shear.
+        """
         every = np.zeros(2 * len(self.layers))
         every[1::2] = self.layers
         x = t / self.stick
@@ -274,7 +326,12 @@ class PartialSlip:
         return np.asarray((changed / x - rate) / (x * self.stick**2))
 
     def slip(self, x: Array) -> Array:
-        """Return u_θ - φ r at r = a x (n,) within the contact, 0 in the stick disc [length]."""
+        """Return the circumferential slip u_θ - φ r at r = a x (n,) [length].
+
+        The slip is 0 in the stick disc and outside the contact.
+
+        x  radii over the contact radius (n,)
+        """
         found = np.zeros_like(x)
         slips = (x > self.stick) & (x <= 1)
         if not np.any(slips):

@@ -1,4 +1,7 @@
-"""Load stepping of normal load and torsion. The normal load is constant during torsion."""
+"""Solver of load steps with normal load and torsion in closed form.
+
+The normal load is constant from the first torsion on.
+"""
 
 from __future__ import annotations
 
@@ -27,11 +30,11 @@ NO_ANNULUS = 1e-9
 
 @dataclass(frozen=True)
 class TorsionState:
-    """Contact at the end of an increment.
+    """State of a contact with torsion at the end of an increment.
 
-    normal_contact  frictionless contact
-    path            state of torsion
-    prescribed      kind of control, with the prescribed torque [force length] or twist [radian]
+    normal_contact  frictionless contact under the normal load
+    path            state of torsion after its history
+    prescribed      kind of control, and the prescribed torque [force length] or twist [radian]
     """
 
     normal_contact: NormalContact
@@ -40,13 +43,13 @@ class TorsionState:
 
     @property
     def torque(self) -> float:
-        """Prescribed or computed torque [force length]."""
+        """Return the torque: the prescribed value, or that of the shear [force length]."""
         kind, value = self.prescribed
         return value if kind is ControlKind.FORCE else self.path.torque
 
     @property
     def twist(self) -> float:
-        """Prescribed or computed twist [radian]."""
+        """Return the twist of the indenter: the prescribed value, or the computed one [radian]."""
         kind, value = self.prescribed
         return self.path.twist if kind is ControlKind.FORCE else value
 
@@ -55,10 +58,10 @@ class TorsionState:
 class TorsionSteps(StepsOnRings):
     """Solver of the increments of normal load and torsion.
 
-    pressing   solver of the normal problem, which does not depend on the twist
-    friction   µ
-    fineness   multiple of the numbers of orders and points
-    tolerance  of every residual
+    pressing   solver of the frictionless normal problem, which does not depend on the twist
+    friction   coefficient of friction µ
+    fineness   multiple of the numbers of polynomials and quadrature points
+    tolerance  upper bound of every residual
     """
 
     pressing: Solver[NormalContact, Increment]
@@ -73,7 +76,14 @@ class TorsionSteps(StepsOnRings):
         before: TorsionState | None,
         fraction: float,
     ) -> TorsionState:
-        """Return the contact at a fraction of the ramp; raise GrossSliding."""
+        """Solve the contact with torsion at a fraction of a load step.
+
+        ramp      load step
+        start     state at the start of the load step; None without contact
+        before    state at the end of the previous increment; None without contact
+        fraction  fraction of the linear change of the loads, 0 to 1
+        raises    GrossSliding if the torque is not below its friction limit
+        """
         start_contact = start.normal_contact if start else None
         constant = before is not None and ramp.normal.start == ramp.normal.end
         if constant and before is not None:
@@ -93,10 +103,13 @@ class TorsionSteps(StepsOnRings):
         return TorsionState(normal_contact, path.to_twist(twist), (ControlKind.DISPLACEMENT, twist))
 
     def report(self, reached: Reached[TorsionState], last: Increment | None) -> Increment:
-        """Return the increment with its fields at the rings.
+        """Compute the output of an increment: fields at the rings, energies and residuals.
 
-        Raises UnsupportedScene if slip does not begin at the edge, NotConverged above the
-        tolerance.
+        Raises UnsupportedScene if slip does not begin at the edge, and NotConverged if a residual
+        exceeds the tolerance.
+
+        reached  solved state at the end of the increment
+        last     output of the previous increment, for the work of the loads
         """
         state, before = reached.state, reached.before
         normal_contact = Reached(
@@ -150,7 +163,14 @@ class TorsionSteps(StepsOnRings):
         )
 
     def _fields(self, path: TwistPath, x: Array, pressure: Array) -> tuple[Array, Array]:
-        """Return q_θ [force/length²] and slip [length] at r = a x."""
+        """Return the circumferential shear [force/length²] and slip [length] at the rings (n,).
+
+        They are the sum of the changes of all branches of the torsion path. Both are zero outside
+        the contact.
+
+        x         radii of the rings over the contact radius (n,)
+        pressure  pressure at the rings (n,) [force/length²]
+        """
         shear, slip = np.zeros_like(x), np.zeros_like(x)
         inside = x < 1
         for branch in path.branches:
@@ -163,6 +183,10 @@ class TorsionSteps(StepsOnRings):
 
 
 def _status(stick: float) -> ContactStatus:
+    """Return the contact status (full stick, partial slip or gross slip) for a stick radius.
+
+    stick  stick radius over the contact radius
+    """
     if stick >= 1:
         return ContactStatus.FULL_STICK
     return ContactStatus.PARTIAL_SLIP if stick else ContactStatus.GROSS_SLIDING

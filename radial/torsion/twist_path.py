@@ -1,9 +1,10 @@
 """Load cycles of torsion under a constant normal load.
 
-After a reversal the change of the shear is that of a first twist with 2µ instead of µ. With the
-torque f of the first twist, M - M_r = ± 2 f(|φ - φ_r|/2) (Mindlin and Deresiewicz 1953; for torsion
-Deresiewicz 1954). A branch as long as the preceding one closes a loop with it, and the branch
-before both continues. Layers change f only.
+After a reversal of the twist, the change of the shear is that of a first twist with 2µ instead of
+µ. With the torque M = f(φ) of the first twist and the values M_r, φ_r at the reversal, M - M_r = ±
+2 f(|φ - φ_r|/2) (Mindlin and Deresiewicz 1953; for torsion Deresiewicz 1954). A branch that reaches
+the length of the preceding one closes a loop with it, and the branch before the two continues.
+Layers change f only.
 """
 
 from __future__ import annotations
@@ -28,11 +29,14 @@ Named = Literal["twist", "torque"]
 
 @dataclass(frozen=True)
 class Branch:
-    """Change of the twist since a load reversal, or since the first twist.
+    """Change of the twist since a load reversal, or since the first twist, in one direction.
 
-    sense   +1 or -1
+    The equivalent first twist is a monotonic twist of the virgin contact. The change is `sense`
+    times `weight` times that twist.
+
+    sense   direction, +1 or -1
     weight  1 for the first twist, 2 after a reversal
-    state   of the equivalent first twist; None at the start of the branch
+    state   state of the equivalent first twist; None at the start of the branch
     """
 
     sense: float
@@ -40,7 +44,10 @@ class Branch:
     state: PartialSlip | None = None
 
     def size(self, of: str) -> float:
-        """Return twist, torque, work or dissipated energy of the equivalent first twist."""
+        """Return a quantity of the equivalent first twist; 0 at the start of the branch.
+
+        of  "twist", "torque", "work" or "dissipated", the name of the quantity
+        """
         return 0.0 if self.state is None else float(getattr(self.state, of))
 
 
@@ -48,10 +55,11 @@ class Branch:
 class TwistPath:
     """State of torsion after a history of twists.
 
-    of          the contact
-    branches    that are not closed, the current one last; empty before the first twist
-    dissipated  energy since the start [force length]
-    work        of the torque since the start [force length]
+    of          contact under torsion
+    branches    branches of the path that are not closed loops, the current branch last; empty
+                before the first twist
+    dissipated  energy dissipated since the start [force length]
+    work        work of the torque since the start [force length]
     """
 
     of: Torsion
@@ -61,26 +69,29 @@ class TwistPath:
 
     @property
     def twist(self) -> float:
-        """Twist φ [radian]."""
+        """Return the twist φ of the indenter [radian]."""
         return _sum(self.branches, "twist")
 
     @property
     def torque(self) -> float:
-        """Torque M [force length]."""
+        """Return the torque M [force length]."""
         return _sum(self.branches, "torque")
 
     @property
     def stick(self) -> float:
-        """Stick radius of the current branch over the contact radius."""
+        """Return the stick radius of the current branch over the contact radius."""
         last = self.branches[-1].state if self.branches else None
         return 1.0 if last is None else last.stick
 
     def to_twist(self, twist: float) -> TwistPath:
-        """Continue to a twist [radian]."""
+        """Continue the path to a given twist [radian], and return the new state."""
         return self._on("twist", twist)
 
     def to_torque(self, torque: float) -> TwistPath:
-        """Continue to a torque [force length]; raise GrossSliding above the friction limit."""
+        """Continue the path to a given torque [force length], and return the new state.
+
+        Raises GrossSliding if the torque is not below its friction limit.
+        """
         if abs(torque) >= self.of.largest * (1 - AT_LIMIT):
             raise GrossSliding(
                 f"torque {torque:.6g} N m, but friction carries less than {self.of.largest:.6g} "
@@ -89,6 +100,14 @@ class TwistPath:
         return self._on("torque", torque)
 
     def _on(self, of: Named, target: float) -> TwistPath:
+        """Continue the path until the twist or the torque has a given value.
+
+        A change of direction begins a new branch. A branch that reaches the length of the preceding
+        one closes a loop with it.
+
+        of      "twist" or "torque", the prescribed quantity
+        target  value of this quantity [radian or force length]
+        """
         if target == getattr(self, of):
             return self
         sense = 1.0 if target > getattr(self, of) else -1.0
@@ -111,11 +130,19 @@ class TwistPath:
 
 
 def _sum(branches: list[Branch] | tuple[Branch, ...], of: str) -> float:
+    """Return the sum of a quantity over branches of the path, with directions and weights.
+
+    of  "twist" or "torque"
+    """
     return sum((branch.sense * branch.weight * branch.size(of) for branch in branches), 0.0)
 
 
 def _work(others: list[Branch], branch: Branch) -> float:
-    """Return ∫ M dφ along a branch [force length]."""
+    """Return the work ∫ M dφ of the torque along one branch of the path [force length].
+
+    others  preceding branches, whose torque acts throughout
+    branch  the branch
+    """
     linear = branch.sense * branch.weight * branch.size("twist") * _sum(others, "torque")
     return linear + branch.weight**2 * branch.size("work")
 
@@ -123,11 +150,13 @@ def _work(others: list[Branch], branch: Branch) -> float:
 def reached(
     torsion: Torsion, of: Named, needed: float, since: PartialSlip | None = None
 ) -> PartialSlip:
-    """Return the state of the first twist whose twist [radian] or torque [force length] is
-    `needed`.
+    """Find the state of a monotonic first twist that has a given twist or torque.
 
-    needed  > 0
-    since   an earlier state as a bound of the stick radius; None if there is none
+    The unknown is the stick radius.
+
+    of      "twist" or "torque", the prescribed quantity
+    needed  its value, above 0 [radian or force length]
+    since   earlier state, whose stick radius is an upper bound; None if there is none
     """
     whole, none = torsion.whole, torsion.none
     if needed <= getattr(whole, of):
@@ -138,6 +167,10 @@ def reached(
     most = 1.0 if since is None or since.stick == 0 else min(1.0, since.stick * (1 + NO_STICK))
 
     def missing(stick: float) -> float:
+        """Return the twist or torque at a given stick radius, minus the prescribed value.
+
+        stick  stick radius over the contact radius
+        """
         return float(getattr(torsion.partial_slip(stick), of)) - needed
 
     return torsion.partial_slip(float(brentq(missing, NO_STICK, most, xtol=1e-15, rtol=1e-15)))
