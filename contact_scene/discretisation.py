@@ -12,6 +12,7 @@ from contact_scene.reading.quantity import (
 )
 from contact_scene.reading.units import PURE_NUMBER
 
+# Default of `SurfaceDiscretisation.path_accuracy`: allowed relative increment error of the shear.
 PATH_ACCURACY = 1e-2
 
 Cells = Annotated[int, WholeNumber(8, 16384)]

@@ -136,7 +136,7 @@ def _header(key: str, body: bytes) -> bytes:
 
 
 def _make_room(newest: Path) -> None:
-    """Delete the least recently used entries of the disk cache beyond its size LARGEST_CACHE.
+    """Delete the least recently used entries of the disk cache above its size LARGEST_CACHE.
 
     Files without the suffix of the cache remain.
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from contact_scene.scene import Scene
 
-# Name of the effect that couples the two problems.
+# Name of the effect that couples the normal and the tangential problem.
 COUPLING = "normal-tangential coupling"
 
 
@@ -71,7 +71,7 @@ def coupled(scene: Scene, on: bool, why: str) -> Effect:
     """Create the effect of the coupling of the normal and the tangential problem.
 
     on   True if the problems are coupled
-    why  reason; without friction, a missing shear is the reason instead
+    why  reason; replaced by the absence of shear in a scene without friction
     """
     if scene.friction is None:
         why = "without friction there is no shear"

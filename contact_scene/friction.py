@@ -206,12 +206,13 @@ FRICTIONLESS = CoulombFriction(coefficient=0.0)
 
 
 def sliding_friction(start: Field, end: Field, passed: Field, before: Field, after: Field) -> Field:
-    """Compute the mean shear over an increment for the dissipation by its slip.
+    """Compute the mean shear during an increment, which dissipates energy along the slip.
 
     The shear has the direction of the shear at the end and the mean of both friction limits as its
-    magnitude. This is exact for constant pressure, and for tractions and slip that grow in
-    proportion. Points that lose contact have no shear at the end: there the direction is that of
-    the slip and the magnitude half the shear at the start, since they may stick until they part.
+    magnitude. This mean is exact for constant pressure, and for tractions and slip that grow in
+    proportion. Points that lose contact have no shear at the end: there the mean shear has the
+    direction of the slip and half the magnitude of the shear at the start, since the points may
+    stick until they part.
 
     Parameters
     ----------

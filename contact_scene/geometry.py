@@ -99,7 +99,8 @@ class ShapedBody(Body):
         """
         return None
 
-    # Estimates to an order of magnitude, for grids and meshes. Callers take the roots.
+    # Estimates to an order of magnitude, for grids and meshes. Callers take the root of degree k or
+    # k + 1.
 
     def contact_at(self, approach: float) -> Pair | None:
         """Estimate the size of the contact at an approach, to an order of magnitude.
@@ -139,7 +140,7 @@ class SmoothTip(ShapedBody):
     @property
     def gap_exponent(self) -> float:
         """Exponent of the gap as a power of the distance from the tip: 2, since the tip is a
-        parabola."""
+        parabola to second order."""
         return 2
 
     @property

@@ -45,13 +45,13 @@ def _is_name(value: Any) -> bool:
 
 
 def filled(heights: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Replace the missing heights of a map (NaN) by a solution of Laplace's equation between the
-    others.
+    """Replace the missing heights of a map (NaN) by interpolated heights that solve Laplace's
+    equation.
 
-    The solution has an error of about 1 % of the adjacent heights. The method is cascadic
-    multigrid: a Jacobi iteration that starts from the solution on half the points along each side
-    (Bornemann and Deuflhard 1996, Numer. Math. 75, 135). Every iterate is a mean of measured
-    heights and not below the lowest of them.
+    The measured heights are the boundary values; the error is about 1 % of the adjacent heights.
+    The method is cascadic multigrid: a Jacobi iteration that starts from the solution on half the
+    points along each side (Bornemann and Deuflhard 1996, Numer. Math. 75, 135). Every iterate is a
+    mean of measured heights and not below the lowest of them.
     """
     known = np.isfinite(heights)
     if np.all(known):
@@ -147,10 +147,10 @@ def _with_neighbours(heights: NDArray[np.float64], begin: int, end: int) -> NDAr
 def _lowest_between(padded: NDArray[np.float64], limit: float) -> tuple[float, tuple[float, float]]:
     """Find the minimum of the interpolated surface of a padded map, if it is below a limit.
 
-    A patch is the surface between four adjacent points, interpolated from 16 values. It is lower
-    than these values by at most `_NEGATIVE_WEIGHTS` times their range. This bound selects the
-    patches that can be below the limit. The minimum of these patches is located on grids that
-    shrink around it.
+    A patch is the surface between four adjacent points, interpolated from 16 values. The surface
+    undershoots the lowest of these values by at most `_NEGATIVE_WEIGHTS` times their range. This
+    bound selects the patches that can be below the limit. The minimum of these patches is located
+    on grids that shrink around it.
 
     padded   map with one more value beyond the outermost points on every side [length]
     limit    value above which a minimum is ignored [length]

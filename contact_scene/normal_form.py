@@ -19,7 +19,7 @@ from contact_scene.stepping.load_path import (
 )
 
 B = TypeVar("B", bound=Body)
-# Controls without effect, each with the default control of its coordinate and the value 0.
+# Controls without effect by name, each with the default control of its coordinate and the value 0.
 Unnamed = dict[str, tuple[str, object]]
 
 

@@ -20,7 +20,8 @@ from contact_scene.reading.scene_error import refusal
 Reported = TypeVar("Reported")
 Pair = tuple[float, float]
 
-# Displacements of the contact in a result, each with that of the actuator and the force.
+# Names of the displacements of the contact in a result, each with the names of the displacement of
+# the actuator and of the force.
 MOTIONS = {
     "approach": ("actuator_approach", "normal_force"),
     "tangential_shift": ("actuator_shift", "tangential_force"),

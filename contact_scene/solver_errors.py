@@ -48,7 +48,7 @@ class ContactAtZoneEdge(SolverError):
 
 
 class ContactNotResolved(SolverError):
-    """Error for a contact that covers too few cells or rings for a reliable result, or none."""
+    """Error for a contact that covers no cell or ring, or too few for a reliable result."""
 
 
 class NothingTouches(ContactNotResolved):

@@ -27,7 +27,7 @@ from contact_scene.stepping.load_path import (
 # Relative round-off of mu W, within which |T| is at the friction limit.
 _ROUND_OFF = 1e-12
 # Relative distance from the friction limit below which the shift is undefined: the stick zone
-# vanishes, and no further step can start.
+# vanishes, and no further load step can start.
 _AT_THE_LIMIT = 1e-6
 
 _SHEARING = {

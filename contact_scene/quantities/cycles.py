@@ -10,7 +10,7 @@ from contact_scene.stepping.load_path import (
     LoadRamp,
 )
 
-# Decimals of loads, relative to the largest of their kind, that equal loads have in common.
+# Decimals to which equal loads agree, relative to the largest load of their kind.
 DIGITS = 9
 
 # Increments of a step within a cycle for which the work of the cycle, a trapezoidal sum, agrees
@@ -63,7 +63,7 @@ def loop_increments(path: Iterable[LoadRamp]) -> tuple[int, ...]:
     cycles.
 
     The work of a cycle is a trapezoidal sum over the increments. The number is 1 outside of cycles
-    and in load steps with constant tangential load.
+    and in load steps with constant tangential load, torsion and bulk strain.
 
     path  load ramps of all load steps
     """

@@ -226,7 +226,8 @@ class State:
 
 @dataclass(frozen=True, kw_only=True)
 class Quality:
-    """Numerical quality of an increment: largest residual, and change by the edge correction."""
+    """Numerical quality of an increment: largest residual, and last change by the edge
+    correction."""
 
     edge_change: Annotated[
         float | None,

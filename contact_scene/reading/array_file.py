@@ -203,10 +203,7 @@ def _checked(values: NDArray[Any], name: str) -> ArrayFile:
 
 
 def refuse_missing(array: ArrayFile) -> None:
-    """Raise a validation error with the position of the first missing value (NaN) of an array.
-
-    Without a missing value, no error is raised.
-    """
+    """Raise a validation error if a value of an array is missing (NaN), with its position."""
     _refuse(np.isnan(array.values), array.values, array.name)
 
 

@@ -71,7 +71,8 @@ def read_scene_file(path: str | PathLike[str], overrides: Iterable[str] = ()) ->
 def _placed(
     problem: Problem, file: str, lines: Mapping[Key, int], options: Mapping[Key, str]
 ) -> Problem:
-    """Add its place to a problem: file and line of its key, or the option that set the key.
+    """Return a problem of a scene with its place: file and line of its key, or the option that set
+    the key.
 
     problem  problem without a place
     file     name of the scene file

@@ -29,7 +29,7 @@ class ResumePoint(Generic[S]):
     last: Any = None
 
     def within(self, before: int, count: int) -> int:
-        """Return the number of completed increments of one load step.
+        """Return the number of increments of one load step that are completed at the resume point.
 
         before  number of increments of all earlier load steps
         count   number of increments of the load step
