@@ -26,12 +26,12 @@ SETTLED = 1e-3
 
 
 def mean_power(f: Field, f_x: Field, f_y: Field, exponent: Exponent) -> Field:
-    """Compute the mean of (f + f_x x + f_y y)_+^exponent over a cell, shape of f.
+    """Compute the mean of (f + f_x x + f_y y)_+^exponent over a unit cell, shape of f.
 
-    The derivative with respect to f is exponent * mean_power(…, exponent - 1).
-
-    f         value at the centre
-    f_x, f_y  slopes per cell
+    The subscript + sets negative values to zero. The derivative with respect to f is exponent *
+    mean_power(…, exponent - 1).
+    f         value of the linear function at the cell centre
+    f_x, f_y  slopes: change of the function across a cell
     exponent  above -1; with 0 the mean is the fraction of the cell with a positive function
     """
     f, f_x, f_y, _ = np.broadcast_arrays(f, f_x, f_y, exponent)
@@ -48,7 +48,11 @@ def mean_power(f: Field, f_x: Field, f_y: Field, exponent: Exponent) -> Field:
 
 
 def power(base: Field, exponent: Exponent) -> Field:
-    """Compute base^exponent, shape of base; roots make multiples of 1/2 ten times faster."""
+    """Compute base^exponent, shape of base.
+
+    Square roots replace the general power if the exponent is a multiple of 1/2, which is ten times
+    faster.
+    """
     if isinstance(exponent, np.ndarray) or exponent < 0 or 2 * exponent % 1:
         return np.asarray(base**exponent)
     whole = int(exponent)
@@ -58,21 +62,28 @@ def power(base: Field, exponent: Exponent) -> Field:
 
 
 def _among(exponent: Exponent, shape: tuple[int, ...], where: NDArray[Any]) -> Exponent:
-    """Select the exponents at some of the places; a number remains a number."""
+    """Select the exponents at some places; a single number remains a single number.
+
+    exponent  a number, or an array that broadcasts to `shape`
+    where     selected places (shape)
+    """
     return np.broadcast_to(exponent, shape)[where] if np.ndim(exponent) else exponent
 
 
 def mean_of_smooth(f: Field, f_x: Field, f_y: Field, a: Exponent) -> Field:
-    """Compute `mean_power` for f >= 1.5 times the sum of the slopes, with an error of 3e-7."""
+    """Compute `mean_power` by a binomial series where the function is positive in the whole cell.
+
+    The error is 3e-7 if f is at least 1.5 times the sum of the slopes.
+    """
     mean = _series(1 / f**2, *_series_terms(f_x, f_y, a))
     mean *= power(f, a)
     return mean
 
 
 def mean_of_cut(f: Field, f_x: Field, f_y: Field, a: Exponent) -> Field:
-    """Compute `mean_power` for f between -1/2 and a few times the sum of the slopes, shape (n,).
+    """Compute `mean_power` in cells that the zero line of the function may cut, shape (n,).
 
-    The slopes must not be negative.
+    f lies between -1/2 and a few times the sum of the slopes. The slopes must not be negative.
     """
     return _cut_with_slope(f, np.maximum(f_x, f_y), np.minimum(f_x, f_y), a)[0]
 
@@ -80,7 +91,8 @@ def mean_of_cut(f: Field, f_x: Field, f_y: Field, a: Exponent) -> Field:
 def _series_terms(b: Field, c: Field, a: Exponent) -> tuple[Field, Field, Field]:
     """Return the coefficients of 1/f², 1/f⁴ and 1/f⁶ in the mean of (f + b x + c y)^a over f^a.
 
-    They are those of the binomial series with the means of powers of b x + c y.
+    The mean is taken over the unit cell. The coefficients are those of the binomial series with the
+    means of powers of b x + c y.
     """
     b, c = b**2, c**2
     second = a * (a - 1) / 2
@@ -94,7 +106,7 @@ def _series_terms(b: Field, c: Field, a: Exponent) -> tuple[Field, Field, Field]
 
 
 def _series(inverse: Field, second: Field, fourth: Field, sixth: Field) -> Field:
-    """Sum the binomial series; `inverse` is 1/f²."""
+    """Sum the binomial series 1 + second/f² + fourth/f⁴ + sixth/f⁶; `inverse` is 1/f²."""
     total = inverse * sixth
     for term in (fourth, second):
         total += term
@@ -104,9 +116,11 @@ def _series(inverse: Field, second: Field, fourth: Field, sixth: Field) -> Field
 
 
 def _cut_with_slope(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
-    """Compute the mean and its derivative with respect to f in cells that may be cut, shape (n,).
+    """Compute the mean of (f + b x + c y)_+^a over a cell and its derivative with respect to f.
 
+    All arrays have the shape (n,). The zero line of the function may cut the cells.
     b, c  larger and smaller slope, not negative
+    a     exponent
     """
     straight = c < STRAIGHT * b
     if not np.any(straight):
@@ -118,7 +132,10 @@ def _cut_with_slope(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, F
 
 
 def _straight(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
-    """Integrate in closed form along the larger slope and by Gauss points along the smaller one."""
+    """Compute the mean of (f + b x + c y)_+^a over a cell and its f-derivative for a small slope c.
+
+    The integral along the larger slope b has a closed form. Gauss points are used along c.
+    """
     mean, slope = np.zeros(f.shape), np.zeros(f.shape)
     for y, weight in zip(POINTS, WEIGHTS, strict=True):
         for side in (1, -1):
@@ -130,7 +147,12 @@ def _straight(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
 
 
 def _oblique(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
-    """Compute the second differences over the corners."""
+    """Compute the mean of (f + b x + c y)_+^a over a cell and its f-derivative from the four
+    corners.
+
+    The results are second differences of the closed integral. They need a slope c that is not
+    small.
+    """
     outer, inner = (b + c) / 2, (b - c) / 2
     corners = np.maximum(np.array([f + outer, f - outer, f + inner, f - inner]), 0.0)
     of_corners = power(corners, a + 1)
@@ -146,12 +168,13 @@ def _differences(corners: Field) -> Field:
 def centre_value(
     mean: Field, f_x: Field, f_y: Field, exponent: Exponent, near: Field | None = None
 ) -> Field:
-    """Compute the f with a given `mean_power`, all of one shape (n,).
+    """Compute the centre value f of a linear function from the cell mean of its power, shape (n,).
 
-    The result lies within half the sum of the slopes of mean^(1/exponent).
-
-    mean  mean of the power over the cell, positive
-    near  initial guess of f for cells that may be cut
+    This function is the inverse of `mean_power`. The result lies within half the sum of the slopes
+    of mean^(1/exponent).
+    mean      mean of the power over the cell, positive
+    f_x, f_y  slopes: change of the function across a cell
+    near      initial guess of f for cells that the zero line may cut
     """
     f_x, f_y = np.abs(f_x), np.abs(f_y)
     b, c = np.maximum(f_x, f_y), np.minimum(f_x, f_y)
@@ -165,7 +188,14 @@ def centre_value(
 
 
 def _smooth_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
-    """Solve for f by fixed-point iteration; a step divides the error by 200."""
+    """Solve for the centre value f by fixed-point iteration where the function is positive in the
+    cell.
+
+    Each iteration divides the error by 200.
+    target  mean^(1/a)
+    b, c    larger and smaller slope, not negative
+    a       exponent
+    """
     f, terms = target, _series_terms(b, c, a)
     for _ in range(FIXED_POINT_STEPS):
         f = target / power(_series(1 / f**2, *terms), np.divide(1, a))
@@ -173,10 +203,12 @@ def _smooth_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
 
 
 def _initial_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
-    """Return an initial guess of f.
+    """Return an initial guess of the centre value f in cells that the zero line may cut.
 
-    The guess is exact if only one corner of the cell is positive. If two corners are, the smaller
-    slope is neglected. Otherwise both slopes are neglected.
+    The guess is exact if only one corner of the cell is positive. If two corners are positive, the
+    smaller slope is neglected. Otherwise both slopes are neglected.
+    target  mean^(1/a)
+    b, c    larger and smaller slope, not negative
     """
     mean = (a + 1) * b * power(target, a)
     corner, side = power((a + 2) * c * mean, 1 / (a + 2)), power(mean, 1 / (a + 1))
@@ -185,7 +217,12 @@ def _initial_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
 
 
 def _cut_centre(target: Field, b: Field, c: Field, a: Exponent, near: Field | None) -> Field:
-    """Solve mean^(1/a) = target, which is almost linear in f, by Newton's method with bisection."""
+    """Solve mean^(1/a) = target for the centre value f in cells that the zero line may cut.
+
+    The equation is almost linear in f. Newton's method is safeguarded by bisection.
+    b, c  larger and smaller slope, not negative
+    near  initial guess of f; None if unknown
+    """
     half = (b + c) / 2
     low, high = -half, target + half
     f = _initial_centre(target, b, c, a) if near is None else np.clip(near, low, high)

@@ -1,11 +1,11 @@
-"""Areas of contact and stick zone with sub-cell accuracy.
+"""Areas of contact and stick zone with sub-cell accuracy, from fits to p² or to the shear deficit.
 
 Towards the edge of a smooth contact the pressure falls like the square root of the distance, so
-that p^2 passes through zero with a finite slope. A quadratic is fitted to p^2 in interior cells and
+that p² passes through zero with a finite slope. A quadratic is fitted to p² in interior cells and
 extrapolated over the edge cells. The covered fraction of an edge cell is the part where the fit is
-positive. At the edge of the stick zone the difference between friction limit and shear behaves
-equally: it is the pressure of a smaller contact (Cattaneo 1938; after a load reversal Mindlin and
-Deresiewicz 1953).
+positive. At the border of the stick zone the difference between friction limit and shear is the
+pressure of a smaller contact and has the same behaviour (Cattaneo 1938; after a load reversal
+Mindlin and Deresiewicz 1953).
 """
 
 import numpy as np
@@ -22,11 +22,12 @@ LEAST_FALL = 0.9
 
 
 def covered_cells(values: Field, inside: Mask, domain: ReducedDomain = WINDOW) -> float:
-    """Compute the area of a region in cells, with the covered fractions of its edge cells.
+    """Compute the area of a region as a number of cells, with the covered fractions of its edge
+    cells.
 
-    values  (nx, ny), positive inside, falling like a square root towards the edge
-    inside  cells whose centre is in the region
-    domain  domain of both; the area excludes the mirror images
+    values  (nx, ny), positive inside the region, falling like a square root towards the edge
+    inside  cells whose centre is in the region (nx, ny)
+    domain  domain of `values` and `inside`; the area excludes the mirror images
     An edge cell counts as 1 or 0 by its centre where the region is too thin for a fit, or where the
     values do not fall towards the edge (flat punch).
     """
@@ -49,13 +50,14 @@ def covered_cells(values: Field, inside: Mask, domain: ReducedDomain = WINDOW) -
 
 
 def stuck_cells(shear: Field, bound: Field, in_stick: Mask) -> float:
-    """Compute the area of the stick zone in cells.
+    """Compute the area of the stick zone as a number of cells, from fits to the shear deficit.
 
-    shear     q (2, nx, ny)
-    bound     friction limit µp (nx, ny), zero outside the contact
-    in_stick  cells that stick
-    The difference to full slip is formed with the slip direction of the nearest slipping cell:
-    after a load reversal the shear just inside the stick zone has the former direction.
+    The deficit is the shear of gross slip minus the actual shear. Its direction of slip is that of
+    the nearest slipping cell, because after a load reversal the shear just inside the stick zone
+    still has the former direction.
+    shear     shear q (2, nx, ny)
+    bound     friction limit µp (nx, ny), zero outside the contact area
+    in_stick  sticking cells (nx, ny)
     """
     inside = _box_with_edge(bound > 0)
     shear, bound, in_stick = shear[(slice(None), *inside)], bound[inside], in_stick[inside]
@@ -70,13 +72,17 @@ def stuck_cells(shear: Field, bound: Field, in_stick: Mask) -> float:
 
 
 def _box_with_edge(marked: Mask) -> tuple[slice, ...]:
-    """Return the smallest rectangle that contains the marked cells and their neighbours."""
+    """Return the slices of the smallest rectangle that contains the marked cells and their
+    neighbours.
+    """
     at = (np.flatnonzero(np.any(marked, axis=axis)) for axis in (1, 0))
     return tuple(slice(max(0, i[0] - 1), i[-1] + 2) if len(i) else slice(0) for i in at)
 
 
 def near(marked: Mask) -> Mask:
-    """Return the cells that are marked or adjacent to a marked cell, without the border (nx - 2, ny
-    - 2)."""
+    """Select the cells that are marked or have a marked neighbour (8 neighbours).
+
+    The result has the shape (nx - 2, ny - 2), because the outermost layer of cells is omitted.
+    """
     along = marked[:-2] | marked[1:-1] | marked[2:]
     return np.asarray(along[:, :-2] | along[:, 1:-1] | along[:, 2:])

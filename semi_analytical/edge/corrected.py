@@ -1,4 +1,5 @@
-"""Results of the edge correction of a state."""
+"""Results of the edge correction of a state: corrected pressure, corrected shear and their errors.
+"""
 
 from dataclasses import dataclass
 
@@ -35,15 +36,17 @@ class CorrectedShear:
 
 @dataclass(frozen=True)
 class EdgeReport:
-    """Outcome of the edge correction of a state: relative errors that its iteration leaves.
+    """Outcome of the edge correction of a state: cause of a failure, or errors of the iteration.
 
+    All errors are relative and are caused by the finite number of iterations.
     cause     reason why the state is not corrected; None for a corrected state
     response  error of the approach, or of the normal force at a prescribed approach
     peak      error of the largest pressure
     radius    error of the contact radius
     stick     error of the stick radius; None if the stick border of uncoupled bodies remains
               uncorrected
-    ridge     True if the peak lies on a ridge, False on a cap
+    ridge     True if the largest pressure lies on a ridge, False if the pressure falls in all
+              directions
     """
 
     cause: str | None = None

@@ -1,4 +1,8 @@
-"""Displacements by tractions that vary within their cells."""
+"""Surface displacements by the variation of tractions within their cells.
+
+`Within` holds this variation. `EdgeOperator` maps it to displacements at the cell centres. The edge
+correction adds these displacements to those of tractions that are uniform in each cell.
+"""
 
 from __future__ import annotations
 
@@ -27,11 +31,13 @@ LINEAR = np.stack([np.ones(PARTS**2), X, Y], axis=-1)
 
 @dataclass(frozen=True)
 class Within:
-    """Variation of a traction about its cell means: slopes, and a remainder in edge cells.
+    """Variation of one traction component about its cell means: slopes, and a remainder in edge
+    cells.
 
-    slopes  (2, nx, ny) change across a cell along x and y [force/length^2]
-    i, j    edge cells (n,)
-    rest    (n, PARTS, PARTS) subcell values there minus mean and slopes [force/length^2]
+    slopes  (2, nx, ny) change of the traction across a cell along x and y [force/length^2]
+    i, j    indices of the edge cells (n,)
+    rest    (n, PARTS, PARTS) subcell tractions of the edge cells minus cell mean and slopes
+            [force/length^2]
     """
 
     slopes: Field
@@ -48,11 +54,15 @@ class Within:
         parts: Field,
         domain: ReducedDomain = WINDOW,
     ) -> Within:
-        """Compute slopes by central differences of means, in edge cells from their subcells.
+        """Compute the variation of a traction from its cell means and its subcell values in edge
+        cells.
 
+        Slopes are central differences of the means. In edge cells they are fitted to the subcell
+        values.
         means   (nx, ny) cell means on the domain
-        i, j    edge cells (n,)
+        i, j    indices of the edge cells (n,)
         parts   (n, PARTS, PARTS) subcell values of the edge cells
+        domain  domain of `means`
         """
         slopes = domain.differences(means) * (means != 0)
         values = parts.reshape(-1, PARTS**2)
@@ -62,9 +72,10 @@ class Within:
         return cls(slopes, i, j, rest.reshape(parts.shape))
 
     def along(self, n: Field, component: Field) -> Within:
-        """Return the variation of a component n v of a vector with the magnitude v.
+        """Return the variation of one component n v of a vector field whose magnitude v has this
+        variation.
 
-        n          direction cosine (nx, ny)
+        n          direction cosine of the component (nx, ny)
         component  cell means of the component (nx, ny)
         """
         slopes = np.stack(list(np.gradient(component)))
@@ -74,12 +85,16 @@ class Within:
 
     @classmethod
     def zero(cls, cells: tuple[int, ...]) -> Within:
-        """Return the variation of a zero traction."""
+        """Return the variation of a zero traction on `cells` (nx, ny)."""
         none = np.zeros(0, dtype=int)
         return cls(np.zeros((2, *cells)), none, none, np.zeros((0, PARTS, PARTS)))
 
     def extended(self, domain: ReducedDomain) -> Within:
-        """Extend the variation of an even traction from a domain to the window."""
+        """Extend the variation of a traction that is even about the mirror planes to the full
+        window.
+
+        domain  reduced domain of the present variation
+        """
         at, rest = np.stack([self.i, self.j]), self.rest
         for axis in domain.planes:
             count = self.slopes.shape[1 + axis]
@@ -92,9 +107,13 @@ class Within:
 
     @classmethod
     def summed(cls, slopes: Field, terms: Sequence[tuple[Field, Within]]) -> Within:
-        """Combine given slopes with the sum of remainders times smooth fields (nx, ny).
+        """Combine given slopes with the sum of the remainders of several variations times smooth
+        fields.
 
-        Remainders of the same cell are added, so that load cycles do not accumulate cells.
+        Remainders of the same cell are added, so that the number of cells does not grow over load
+        cycles.
+        slopes  slopes of the result (2, nx, ny)
+        terms   pairs of a smooth factor (nx, ny) and a variation
         """
         ny = slopes.shape[2]
         some = [factor[w.i, w.j] != 0 for factor, w in terms]
@@ -108,9 +127,10 @@ class Within:
 
 
 class EdgeOperator:
-    """Operator from variations of tractions within cells to displacements at the cell centres.
+    """Operator from variations of tractions within cells to surface displacements at the cell
+    centres.
 
-    A call costs one half of a convolution per displacement and one convolution per traction.
+    A call costs half a convolution per displacement component and one per traction component.
     """
 
     def __init__(
@@ -121,10 +141,15 @@ class EdgeOperator:
         known: Mapping[str, KernelSpectrum] | None = None,
         domain: ReducedDomain = WINDOW,
     ) -> None:
-        """Prepare the spectra.
+        """Compute the Fourier spectra of the slope kernels and the displacement tables of the edge
+        cells.
 
-        shape    cells of the domain
-        known    spectra of components of the coefficients that are even along both axes
+        kernels  sign and kernels; one row per displacement component, one column per traction
+                 component
+        shape    number of cells of the domain along x and y
+        counter  counter of convolutions, which a call increases
+        known    spectra of even components of the influence coefficients, which need no new
+                 transform
         domain   domain of all fields; a reduced domain is for pressures only
         """
         self._transforms = Transforms(shape, ReducedDomain(domain.mirrors), counter)
@@ -152,7 +177,8 @@ class EdgeOperator:
         ]
 
     def __call__(self, *within: Within) -> Field:
-        """Compute displacements (rows, nx, ny) by one `Within` per column [length]."""
+        """Compute displacements (rows, nx, ny) [length] from one variation per traction component.
+        """
         slopes = np.concatenate([w.slopes for w in within])
         self._counter.count += 0.5 * (len(self._matrix) + len(slopes))
         u = self._transforms.filtered(slopes, *self._sides, self._multiplied)
@@ -175,10 +201,12 @@ class EdgeOperator:
 
 
 def around(within: Within, near: Field, count: int) -> Field:
-    """Sum displacements by the remainders of edge cells at the cells within REACH.
+    """Sum the displacements that the remainders of edge cells cause in cells at most REACH away.
 
-    The result has the shape (count, nx + 2 REACH, ny + 2 REACH).
-    near  (count * offsets, PARTS²) displacement by unit traction on each subcell
+    The result (count, nx + 2 REACH, ny + 2 REACH) includes a margin of REACH cells on each side.
+    within  variation of one traction component
+    near    (count * offsets, PARTS²) displacement by unit traction on each subcell
+    count   number of displacement components
     """
     shape = np.array(within.slopes.shape[1:]) + 2 * REACH
     moved = near @ within.rest.reshape(-1, PARTS**2).T

@@ -1,4 +1,6 @@
-"""Edge of a region as a set of points with normals and curvatures, and distances from the edge."""
+"""Contact edge as a set of points with normals and curvatures, and distances of places from the
+edge.
+"""
 
 from __future__ import annotations
 
@@ -20,8 +22,9 @@ MIN_SLOPE_RATIO, MIN_JACOBIAN = 0.1, 0.3
 
 @dataclass(frozen=True)
 class LocalEdge:
-    """Geometry of the edge relative to given places, all of one shape.
+    """Geometry of the contact edge near given places, all arrays of one shape.
 
+    φ is the function that vanishes at the edge (see `semi_analytical.edge`).
     distance   distance s of the places from the edge, negative outside
     normal     (2, …) inward unit normal of the edge
     slope      slope of φ along the normal at the edge
@@ -37,24 +40,26 @@ class LocalEdge:
 
     @property
     def slope_at_place(self) -> Field:
-        """Slope of φ along the normal at the places."""
+        """Slope of φ along the edge normal at the places, at least MIN_SLOPE_RATIO of that at the
+        edge.
+        """
         inside = self.slope + self.bend * self.distance
         return np.maximum(inside, MIN_SLOPE_RATIO * self.slope)
 
     @property
     def foot(self) -> Field:
-        """Vectors from the places to the nearest points of the edge (2, …)."""
+        """Vectors (2, …) from the places to their nearest points of the edge."""
         return -self.distance * self.normal
 
 
 @dataclass(frozen=True)
 class EdgeLine:
-    """Points of the edge, one per cell along it, shape (n,), in index coordinates.
+    """Points of the contact edge in index coordinates, one per cell along the edge, shape (n,).
 
-    at           (2, n) indices of the cells
-    x, y         points of the edge nearest to the cells
-    normal       (2, n); slope, bend and curvature as in `LocalEdge`
-    stretched    sides of a cell along x and y in the unit of distances
+    at         (2, n) indices of the cells
+    x, y       point of the edge nearest to each cell
+    normal     (2, n) inward unit normal; `slope`, `bend` and `curvature` as in `LocalEdge`
+    stretched  sides of a cell along x and y in the unit of distances
     """
 
     at: Field
@@ -68,7 +73,11 @@ class EdgeLine:
 
     @classmethod
     def of(cls, phi: Quadratic, stretched: tuple[float, float]) -> EdgeLine:
-        """Compute the edge points nearest to the origins of quadratics."""
+        """Compute the edge points nearest to the expansion points of quadratics in φ.
+
+        phi        quadratic fits of φ about cells (n,)
+        stretched  sides of a cell along x and y in the unit of distances
+        """
         q = phi.scaled(*stretched)
         steep = np.maximum(q.slope, np.finfo(float).tiny)
         n_x, n_y = q.f_x / steep, q.f_y / steep
@@ -88,13 +97,15 @@ class EdgeLine:
         )
 
     def with_medians(self) -> EdgeLine:
-        """Replace the curvature and the ratio of bend to slope by their medians along the edge."""
+        """Replace the curvature and the ratio bend/slope of each edge point by their medians over
+        the edge.
+        """
         bend = self.slope * np.median(self.bend / self.slope)
         curvature = np.full_like(bend, np.median(self.curvature))
         return replace(self, bend=bend, curvature=curvature)
 
     def with_images(self, domain: ReducedDomain) -> EdgeLine:
-        """Append the mirror images of the points beyond the mirror planes of a domain."""
+        """Append the images of the edge points beyond the mirror planes of a reduced domain."""
         line = self
         for axis in domain.planes:
             one, image = vars(line), vars(line._mirrored(axis))
@@ -106,13 +117,20 @@ class EdgeLine:
         return line
 
     def _mirrored(self, axis: int) -> EdgeLine:
-        """Mirror the points at a plane half a cell before the first cell."""
+        """Return the mirror images of the edge points about a plane half a cell before the first
+        cell.
+
+        axis  axis normal to the plane: 0 for x, 1 for y
+        """
         at, normal, places = self.at.copy(), self.normal.copy(), [self.x, self.y]
         at[axis], normal[axis], places[axis] = -1 - at[axis], -normal[axis], -1 - places[axis]
         return replace(self, at=at, x=places[0], y=places[1], normal=normal)
 
     def at_cells(self, i: Indices, j: Indices) -> LocalEdge:
-        """Compute the geometry at cells (n,) as a weighted mean over the nearest edge points."""
+        """Compute distance and geometry of the edge for cells (i, j), shape (n,).
+
+        The result is a weighted mean over the nearest edge points.
+        """
         from scipy.spatial import KDTree  # its import takes as long as a small contact
 
         count = min(NEIGHBOURS, len(self.x))
@@ -129,9 +147,12 @@ class EdgeLine:
     def at_places(
         self, which: Indices | slice, x: Field | Indices, y: Field | Indices
     ) -> LocalEdge:
-        """Compute the geometry at places (x, y) from the edge points `which`, by broadcasting.
+        """Compute distance and geometry of the edge for places (x, y), from one edge point per
+        place.
 
-        The edge near a point is a circular arc; distances are of first order in its curvature.
+        The edge near a point is a circular arc. Distances are of first order in its curvature.
+        which  indices of the edge points; broadcast with x and y
+        x, y   index coordinates of the places
         """
         dx, dy = (
             (at - of[which]) * side

@@ -59,12 +59,11 @@ SAMPLED = np.geomspace(1e-3, 10.0, 41)
 
 @dataclass(frozen=True)
 class FilmLaw:
-    """Edge pressure Φ1 + c (Φ2 - ⅔ s Φ1), which replaces √s.
+    """Law of the pressure near the contact edge of layered bodies: Φ1 + c (Φ2 - ⅔ s Φ1).
 
-    Without layers the law is √s for all c: a factor 1 + ⅔ c s is fitted with φ instead.
-    Distances s are in units of the thickness.
-
-    response   X
+    The law replaces √s of homogeneous bodies. Without layers the law is √s for all c: a factor 1 +
+    ⅔ c s is fitted with φ instead. Distances s from the edge are in units of the layer thickness.
+    response   X as a function of wavenumber times thickness; X is defined in the module
     stretched  sides of a cell along x and y over the thickness
     """
 
@@ -73,7 +72,7 @@ class FilmLaw:
 
     @cached_property
     def _ratios(self) -> CubicSpline:
-        """Φ1, Φ2, Φ3 over their values without layers, as functions of ln s."""
+        """Φ1, Φ2 and Φ3 over their values without layers, as functions of ln s."""
         from scipy.interpolate import CubicSpline  # its import takes as long as a small contact
 
         t, u = (np.arange(low, high, STEP) for low, high in (WAVES, DISTANCES))
@@ -95,23 +94,31 @@ class FilmLaw:
         return CubicSpline(u, np.stack(ratios, axis=-1))
 
     def holds_within(self, radius: float) -> bool:
-        """Return True if the law applies to a contact with this inscribed radius in cells."""
+        """Return True if the contact is wide enough for the law.
+
+        radius  radius of the inscribed circle of the contact, in cells
+        """
         return radius * min(self.stretched) >= NARROW
 
     def over_root(self, s: Field, c: Field) -> Field:
-        """Compute the law over √s at distances s > 0, any shape."""
+        """Compute the ratio of the pressure law to √s at distances s > 0 from the edge, any shape.
+
+        c  coefficient of the second term of the law, shape of s
+        """
         first, second, _ = self._at(s)
         return np.asarray(first + c * s / 1.5 * (second - first))
 
     def means_over_root(
         self, s: Field, along: Field, across: Field, c: Field
     ) -> tuple[Field, Field]:
-        """Compute the ratio of the means of the law and of √s over rectangles, shape (n,).
+        """Compute the ratio of the mean of the pressure law to the mean of √s over rectangles,
+        shape (n,).
 
-        The second result is d ln(ratio) / d ln(mean of √s). Outside, the results are 1 and 0.
-
-        s              distance of the centre of each rectangle; negative outside
-        along, across  change of the distance along its sides
+        The second result is d ln(ratio) / d ln(mean of √s). For rectangles outside the edge the
+        results are 1 and 0.
+        s              distance of the centre of each rectangle from the edge; negative outside
+        along, across  change of the distance along the two sides of each rectangle
+        c              coefficient of the second term of the law
         """
         b, a = np.maximum(np.abs(along), np.abs(across)), np.minimum(np.abs(along), np.abs(across))
         means = np.zeros((4, len(s)))
@@ -128,13 +135,16 @@ class FilmLaw:
         return law / root, law_rate * root / (law * root_rate) - 1
 
     def _at(self, s: Field) -> Field:
-        """Interpolate the ratios of Φ1, Φ2, Φ3 (3, …)."""
+        """Interpolate Φ1, Φ2 and Φ3 over their values without layers at distances s; shape (3, …).
+        """
         u = np.log(np.maximum(s, 1e-300))
         found = self._ratios(np.clip(u, self._ratios.x[0], self._ratios.x[-1]))
         return np.asarray(np.moveaxis(found, -1, 0))
 
     def _values(self, s: Field, c: Field) -> Field:
-        """Compute the law and its derivative, √s and its derivative (4, n) at s > 0."""
+        """Compute the pressure law, its derivative, √s and its derivative at distances s > 0; shape
+        (4, n).
+        """
         root, step = np.sqrt(s), 0.02
         here, after, before = (self.over_root(s * f, c) for f in (1.0, 1 + step, 1 - step))
         return np.stack([
@@ -142,7 +152,7 @@ class FilmLaw:
         ])  # fmt: skip
 
     def _integrals(self, s: Field, c: Field) -> Field:
-        """Compute the integrals of `_values` from 0 to s (4, n)."""
+        """Compute the integrals of the four functions of `_values` from 0 to s; shape (4, n)."""
         root = np.sqrt(s)
         first, second, third = self._at(s)
         bent = c * s / 1.5
@@ -156,16 +166,16 @@ class FilmLaw:
 
 
 def _euler_weights() -> Field:
-    """Return the weights of Euler summation of the alternating series."""
+    """Return the weights of Euler summation of the alternating series of the Laplace inversion."""
     tail = np.cumsum([comb(TERMS, k) for k in range(TERMS)]) / 2**TERMS
     return np.concatenate([[0.5], np.ones(TERMS), tail[::-1]])
 
 
 def film_law(lower: Body, upper: Body, spacing: tuple[float, float]) -> FilmLaw | None:
-    """Return the edge pressure law of two bodies; None if the pressure is a root over the cells.
+    """Return the law of the pressure near the contact edge of two bodies with layers.
 
-    The result is also None for a layer on a rigid base, where X(0) = 0.
-
+    None is returned if the pressure follows √s over the edge cells, and for a layer on a rigid
+    base, where X(0) = 0.
     spacing  cell sides [length]
     """
     stacks = [stack_of(body) for body in (lower, upper) if body.deforms]
@@ -189,7 +199,9 @@ def film_law(lower: Body, upper: Body, spacing: tuple[float, float]) -> FilmLaw 
 
 
 def _uniform_depth(stack: Stack) -> float:
-    """Return the depth of the outermost layers of equal material [length]."""
+    """Return the total thickness [length] of the outermost layers that have equal elastic
+    constants.
+    """
     depth, outer = 0.0, stack.outer
     for layer in stack.layers:
         stiffer = abs(layer.shear_modulus / outer.shear_modulus - 1)
@@ -200,6 +212,6 @@ def _uniform_depth(stack: Stack) -> float:
 
 
 def _compliance(stack: Stack) -> float:
-    """Return k F_zz of the outermost material [length²/force]."""
+    """Return k F_zz = (1 - ν)/G of the outermost material of a body [length²/force]."""
     outer = stack.outer
     return (1 - outer.poisson_ratio) / outer.shear_modulus

@@ -1,8 +1,9 @@
-"""Edge shape of contacts of layered bodies: `shape` with the pressure law of `film`.
+"""Edge shape of contacts of layered bodies: the fits of `shape` with the pressure law of `film`.
 
-Cell means divided by the ratio of the law to the root are fitted like those of a root. The ratio
-depends on the distance from the edge, hence on the fit. Newton's method solves for both: the fits
-include the derivative of the data with respect to φ at the edge.
+Cell means of the pressure are divided by the ratio of the law to √s and then fitted like those of a
+root. The ratio depends on the distance s from the edge, hence on the fit. Newton's method solves
+for the ratio and the fit: the fits include the derivative of the data with respect to φ at the
+edge.
 """
 
 from dataclasses import dataclass
@@ -41,11 +42,11 @@ FAR = 5.0
 
 @dataclass(frozen=True, kw_only=True)
 class FilmShape(EdgeShape):
-    """Edge shape of a layered contact.
+    """Edge shape of a contact of layered bodies: cell means of φ and fits near the edge.
 
-    sensitivity  (nx, ny) derivative of `phi` with respect to φ at the edge
-    line         edge that `phi` was computed with
-    law          pressure law
+    sensitivity  (nx, ny) derivative of the data `phi` with respect to φ at the nearest edge point
+    line         contact edge from which `phi` was computed
+    law          law of the pressure near the edge
     """
 
     sensitivity: Field
@@ -53,7 +54,10 @@ class FilmShape(EdgeShape):
     law: FilmLaw
 
     def fits(self, i: Indices, j: Indices) -> Fits:
-        """Fit φ(x) + sensitivity φ(edge) to the data about cells of the region, shape (n,)."""
+        """Fit φ near cells (i, j) of the region, shape (n,), with the derivative of the data.
+
+        The model of the data is φ at the cell plus `sensitivity` times φ at the nearest edge point.
+        """
         foot = self.line.at_cells(i, j).foot / np.array(self.line.stretched)[:, None]
         return fit_about(
             self.phi,
@@ -66,9 +70,9 @@ class FilmShape(EdgeShape):
         )
 
     def parts_over_root(self, phi: Quadratic) -> Field:
-        """Compute the ratios of the law to the root in subcells (n, PARTS, PARTS).
+        """Compute the ratios of the pressure law to √s in the subcells of cells (n, PARTS, PARTS).
 
-        phi  quadratics about the cells
+        phi  quadratic fits of φ about the cells
         """
         x, law = part_centres(), self.law
         at_x = phi.x[:, None] + np.repeat(x, PARTS)
@@ -96,13 +100,16 @@ def film_shape(
     exponent: Exponent = 0.5,
     before: EdgeLine | None = None,
 ) -> FilmShape:
-    """Determine the edge shape of a region by Newton's method.
+    """Determine the edge shape of a contact region of layered bodies by Newton's method.
 
-    means     (nx, ny) cell means of p, positive in the region
+    means     (nx, ny) cell means of the pressure, positive in the region
+    region    (nx, ny) cells of the region
+    stencil   window and weights of the fits
+    law       law of the pressure near the edge
     depth     depth of the region, see `shape.depth_of`
     domain    domain of all fields
     exponent  α in p = (ratio of the law to the root) φ^α
-    before    edge of the previous iteration
+    before    edge of the previous iteration; None in the first one
     """
     problem = _Problem(np.where(region, means, 0.0), region, stencil, law, depth, domain, exponent)
     along = np.nonzero(region & (depth < ALONG))
@@ -128,21 +135,28 @@ class _Problem:
 
     @property
     def by_depth(self) -> Field:
-        """φ of all cells with the distance from their depth."""
+        """Cell means of φ, with the depth of each cell as its distance from the edge (nx, ny).
+
+        Initial guess of φ, and φ of the cells far from the edge.
+        """
         size = np.sqrt(np.prod(self.law.stretched))
         s = np.maximum(self.depth - 0.5, 0.5) * size
         curved = np.full(s.shape, -9 / 8 / (np.max(self.depth) * size))  # Hertz contact
         return power(self.means / self.law.over_root(s, curved), np.divide(1, self.exponent))
 
     def first(self, i: Indices, j: Indices) -> EdgeLine:
-        """Return the initial guess of the edge from cells inside the edge cells."""
+        """Return the initial guess of the edge, from fits to cells that are not adjacent to the
+        edge.
+
+        i, j  indices of the cells along the edge (n,)
+        """
         inner = (self.region & (self.depth >= ALONG)).astype(float)
         fits = fit_about(self.by_depth, inner, i, j, self.stencil, domain=self.domain)
         line = EdgeLine.of(fits.quadratic, self.law.stretched)
         return line.with_medians().with_images(self.domain)
 
     def about(self, line: EdgeLine) -> FilmShape:
-        """Compute φ and its sensitivity with distances from a given edge."""
+        """Compute the cell means of φ and their sensitivity, with distances from a given edge."""
         phi, weight = self.by_depth, self.region.astype(float)
         sensitivity = np.zeros_like(phi)
         i, j = np.nonzero(self.region & (self.depth < MAX_FIT_DEPTH + 1.5 * self.stencil.reach))
@@ -172,9 +186,11 @@ class _Problem:
 
 
 def _coefficient(local: LocalEdge, depth: Field, law: FilmLaw) -> Field:
-    """Return c of the law, ¾ (b - κ) for φ = g s (1 + b s) along an edge of curvature κ.
+    """Return the coefficient c of the pressure law at cells near the edge of curvature κ.
 
-    depth  depth of the region in cells (nx, ny)
+    c = ¾ (b - κ) for φ = g s (1 + b s) at the distance s from the edge.
+    local  geometry of the edge near the cells
+    depth  depth of the region in cells (nx, ny); the inscribed radius limits c
     """
     limit = MAX_COEFFICIENT / (np.max(depth) * min(law.stretched))
     return np.clip(0.75 * (local.bend / (2 * local.slope) - local.curvature), -limit, limit)

@@ -1,4 +1,7 @@
-"""Weighted quadratic fits to cell means on square windows."""
+"""Weighted least-squares fits of quadratics to cell means on square windows of cells.
+
+The edge correction uses these fits to determine φ near the contact edge, and the peak pressure.
+"""
 
 from dataclasses import dataclass
 from functools import cache
@@ -34,9 +37,9 @@ NARROW, WIDE, WIDER = Stencil(3, 1.7), Stencil(5, 2.5), Stencil(6, 3.0)
 
 @dataclass(frozen=True)
 class Fits:
-    """Fits about cells, one per cell, all of one shape.
+    """Polynomial fits about cells, one fit per cell, all arrays of one shape.
 
-    quadratic  quadratics about the cell centres
+    quadratic  fitted quadratics about the cell centres
     rms        weighted root mean square of the residuals
     mean       weighted mean of the data
     count      number of data with a positive weight
@@ -62,10 +65,12 @@ def fit_about(
 
     data         (nx, ny) cell means
     weight       (nx, ny) weights, multiplied by those of the stencil
-    degree       1 or 2
+    stencil      window and weights of the fits
+    degree       degree of the polynomials, 1 or 2
     domain       domain of all fields
-    sensitivity  factor (nx, ny) and vectors from the cells (2, n): the model of the data is the
-                 polynomial plus the factor times its value at the end of the vector
+    sensitivity  factor (nx, ny) and vectors from the cells (2, n); the model of the data is the
+                 polynomial plus the factor times the value of the polynomial at the end of the
+                 vector
     """
     data, weight = (domain.framed(field, stencil.reach) for field in (data, weight))
     fade, basis = stencil_weights(stencil), monomials(stencil)[: 3 * degree]
@@ -101,7 +106,11 @@ def fit_about(
 
 
 def in_windows(padded: Field, i: Indices, j: Indices, stencil: Stencil) -> Field:
-    """Return the values of a field, padded by the reach, in windows about cells (n, window)."""
+    """Return the values of a field in the windows of a stencil about cells (i, j); shape (n,
+    window).
+
+    padded  field with a margin of `stencil.reach` cells on each side
+    """
     dx, dy = _offsets(stencil)
     across = padded.shape[1]
     at = ((i + stencil.reach) * across + j + stencil.reach)[:, None] + (dx * across + dy)
@@ -110,14 +119,15 @@ def in_windows(padded: Field, i: Indices, j: Indices, stencil: Stencil) -> Field
 
 @cache
 def stencil_weights(stencil: Stencil) -> Field:
-    """Return the weights of a window (window,)."""
+    """Return the Gaussian weights of the cells in the window of a stencil (window,)."""
     dx, dy = _offsets(stencil)
     return _read_only(np.exp(-(dx**2 + dy**2) / (2 * stencil.width**2)))
 
 
 @cache
 def monomials(stencil: Stencil) -> Field:
-    """Compute the means of 1, x, y, x²/2, xy, y²/2 over the cells of a window (6, window)."""
+    """Compute the means of 1, x, y, x²/2, xy, y²/2 over the cells of a stencil window (6, window).
+    """
     dx, dy = _offsets(stencil)
     rows = (np.ones(len(dx)), dx, dy, dx**2 / 2 + 1 / 24, dx * dy, dy**2 / 2 + 1 / 24)
     return _read_only(np.stack(rows))
@@ -125,7 +135,9 @@ def monomials(stencil: Stencil) -> Field:
 
 @cache
 def _products(stencil: Stencil, degree: int) -> Field:
-    """Compute the products of all pairs of monomials (9 degree², window)."""
+    """Compute the products of all pairs of monomials in the window of a stencil (9 degree²,
+    window).
+    """
     basis = monomials(stencil)[: 3 * degree]
     return _read_only((basis[:, None] * basis).reshape(len(basis) ** 2, -1))
 
@@ -143,7 +155,11 @@ def _read_only(values: Field) -> Field:
 
 
 def solution(normal: Field, right: Field) -> Field:
-    """Regularise normal equations (n, m, m) in place, and solve them for right sides (n, m)."""
+    """Solve regularised normal equations of least-squares fits; return the coefficients (n, m).
+
+    normal  matrices of n fits (n, m, m); their diagonals are regularised in place
+    right   right-hand sides (n, m)
+    """
     diagonal = np.einsum("nkk->nk", normal)
     diagonal += RIDGE * (np.sum(diagonal, axis=1, keepdims=True) + LEAST_TOTAL)
     return np.asarray(np.linalg.solve(normal, right[..., None])[..., 0])
@@ -158,9 +174,11 @@ FIT = np.linalg.pinv(monomials(NEXT).T * _ROOTS[:, None]) * _ROOTS
 
 
 class Peak(NamedTuple):
-    """Largest pressure at a point [force/length^2].
+    """Largest pressure at a point.
 
-    ridge  True without curvature in both directions; the error along a ridge is of second order
+    value  largest pressure [force/length^2]
+    ridge  True if the pressure is curved in at most one direction there; the error along a ridge is
+           of second order
     """
 
     value: float
@@ -168,13 +186,13 @@ class Peak(NamedTuple):
 
 
 def peak_of(means: Field) -> Peak:
-    """Determine the largest pressure at a point from corrected cell means (nx, ny).
+    """Determine the largest pressure at a point from corrected cell means of the pressure (nx, ny).
 
-    A quadratic is fitted to the means of p² over the cell with the largest mean and its neighbours
-    (Hertz: p² is quadratic). The mean of p² is the square of the mean plus 1/12 of the square of
-    the slope. On a ridge (ring-shaped contacts) the maximum is taken across the ridge. If a
-    neighbour is out of contact or the maximum is not between the neighbours, the largest mean is
-    returned.
+    A quadratic is fitted to the cell means of p² in the cell with the largest mean and its
+    neighbours. In a Hertz contact p² is quadratic. The cell mean of p² is the square of the mean
+    plus 1/12 of the square of the slope. On a ridge (ring-shaped contacts) the maximum is taken
+    across the ridge. The largest mean is returned if a neighbour is out of contact or the maximum
+    is not between the neighbours.
     """
     i, j = (int(at) for at in np.unravel_index(np.argmax(means), means.shape))
     largest = Peak(float(means[i, j]), ridge=True)

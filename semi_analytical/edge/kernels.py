@@ -1,9 +1,10 @@
-"""Kernels of displacements by tractions that vary within cells.
+"""Displacement kernels of tractions that vary within cells.
 
-Within a cell a traction is the sum of its mean, a slope, and a remainder that moves near cells
-only. Slopes act through the first moments of the influence coefficients, remainders through a table
-of PARTS x PARTS subcells of a cell. Both follow from influence coefficients at the spacing of the
-subcells, for all bodies. PARTS is odd, so that cell centres are subcell centres.
+Within a cell a traction is the sum of its mean, a slope, and a remainder. The remainder displaces
+only cells at most REACH away. Slopes act through the first moments of the influence coefficients.
+Remainders act through a table of PARTS x PARTS subcells of a cell. Both kernels follow from
+influence coefficients at the spacing of the subcells, for all bodies. PARTS is odd, so that cell
+centres are subcell centres.
 """
 
 from dataclasses import dataclass
@@ -47,11 +48,12 @@ def part_centres() -> Field:
 
 @dataclass(frozen=True)
 class EdgeKernels:
-    """Kernels of one component of the influence coefficients.
+    """Displacement kernels of slopes and remainders for one component of the influence
+    coefficients.
 
-    component  name as in `InfluenceCoefficients`
+    component  name of the component, e.g. "zz", as in `InfluenceCoefficients`
     cells      influence coefficients of the cells
-    parts      influence coefficients at PART_OFFSETS of the subcells
+    parts      influence coefficients at PART_OFFSETS offsets of the subcells
     """
 
     component: str
@@ -60,7 +62,7 @@ class EdgeKernels:
 
     @property
     def parity(self) -> tuple[int, int]:
-        """Parity of the coefficients along x and y."""
+        """Parity of the influence coefficients along x and y: 1 for even, -1 for odd."""
         return PARITY[self.component]
 
     @property
@@ -70,9 +72,10 @@ class EdgeKernels:
 
     @cached_property
     def moments(self) -> Field:
-        """Displacement by tractions x and y on the cell at the origin (2, nx, ny) [length^3/force].
+        """Displacement by linear tractions x and y on the cell at the origin (2, nx, ny)
+        [length^3/force].
 
-        The offsets are i, j >= 0; x and y are in cells.
+        Entry (i, j) belongs to the offset (i, j) >= 0. The tractions x and y are in cells.
         """
         A = getattr(self.cells, self.component)
         moments = np.stack([-_slope(A, axis, self.parity[axis]) / 12 for axis in (0, 1)])
@@ -82,7 +85,11 @@ class EdgeKernels:
 
     @cached_property
     def near_moments(self) -> Field:
-        """Moments at NEAR + 1 offsets along each side."""
+        """Displacement by linear tractions x and y at NEAR + 1 offsets along each axis, from
+        subcell sums.
+
+        The shape is (2, NEAR + 1, NEAR + 1).
+        """
         K = getattr(self.parts, self.component)[:PART_OFFSETS, :PART_OFFSETS]
         x, one = part_centres(), np.ones(PARTS)
         along_x, along_y = (_subcell_sums(x, parity) for parity in self.parity)
@@ -93,9 +100,9 @@ class EdgeKernels:
 
     @cached_property
     def near(self) -> Field:
-        """Displacement by unit traction on a subcell of the cell at the origin [length^3/force].
+        """Displacement by unit traction on each subcell of the cell at the origin [length^3/force].
 
-        The shape is (2 REACH + 1, 2 REACH + 1, PARTS, PARTS), for offsets -REACH … REACH.
+        The shape is (2 REACH + 1, 2 REACH + 1, PARTS, PARTS), for cell offsets -REACH … REACH.
         """
         K = getattr(self.parts, self.component)
         i = PARTS * np.arange(-REACH, REACH + 1)[:, None] - np.arange(PARTS) + PARTS // 2
@@ -105,9 +112,12 @@ class EdgeKernels:
 
 
 def _subcell_sums(weights: Field, parity: int) -> Field:
-    """Return the matrix of weighted sums over the subcells of a cell (NEAR + 1, PART_OFFSETS).
+    """Return the matrix that sums weighted subcell coefficients over a cell (NEAR + 1,
+    PART_OFFSETS).
 
-    It maps values at subcell offsets >= 0, with a parity, to sums at cell offsets.
+    The matrix maps values at subcell offsets >= 0 to sums at cell offsets >= 0. Negative offsets
+    use the parity.
+    weights  weight of each subcell along one side of the cell (PARTS,)
     """
     offsets = PARTS * np.arange(NEAR + 1)[:, None] - np.arange(PARTS) + PARTS // 2
     sums = np.zeros((NEAR + 1, PART_OFFSETS))
@@ -117,9 +127,11 @@ def _subcell_sums(weights: Field, parity: int) -> Field:
 
 
 def _slope(values: Field, axis: int, parity: int) -> Field:
-    """Compute the derivative per cell along an axis of values at offsets >= 0.
+    """Compute the derivative per cell, along one axis, of influence coefficients at offsets >= 0.
 
     The differences are of fourth order, at the far end of lower order.
+    values  coefficients (nx, ny)
+    parity  parity of the coefficients along the axis
     """
     v = np.moveaxis(values, axis, 0)
     v = np.concatenate([parity * v[2:0:-1], v])
@@ -131,11 +143,12 @@ def _slope(values: Field, axis: int, parity: int) -> Field:
 def spectra_of(
     of: EdgeKernels, reach: tuple[slice, slice], known: KernelSpectrum | None = None
 ) -> tuple[KernelSpectrum, KernelSpectrum]:
-    """Compute the spectra of the moments along x and y.
+    """Compute the Fourier spectra of the displacement kernels (moments) of slopes along x and y.
 
-    They are -i times the real result if the component has the same parity along x and y.
-
-    known  spectrum of the coefficients of an even component, which saves the transforms
+    The spectra are -i times the real result if the component has the same parity along x and y.
+    of     kernels of one component
+    reach  slices of the offsets that are transformed
+    known  spectrum of the influence coefficients of an even component; saves the transforms
     """
     if known is not None:
         return _by_differences(of, known, 0), _by_differences(of, known, 1)
@@ -145,7 +158,10 @@ def spectra_of(
 
 
 def _spectrum(moment: Field, parity: tuple[int, int]) -> KernelSpectrum:
-    """Transform a moment; the spectrum is -i times the result if the parities differ."""
+    """Compute the Fourier spectrum of one moment with a given parity along x and y.
+
+    The spectrum is -i times the result if the two parities differ.
+    """
     if parity == (1, 1):
         return even_transform(moment)
     if parity == (-1, -1):
@@ -154,10 +170,11 @@ def _spectrum(moment: Field, parity: tuple[int, int]) -> KernelSpectrum:
 
 
 def _by_differences(of: EdgeKernels, known: KernelSpectrum, axis: int) -> KernelSpectrum:
-    """Compute the spectrum of a moment from the known spectrum of the coefficients.
+    """Compute the spectrum of a moment from the known spectrum of the influence coefficients.
 
     Far moments are differences of the periodic coefficients: the spectrum times a symbol. The
     transform of the near moments minus these differences is added.
+    axis  direction of the slope: 0 for x, 1 for y
     """
     periods = known.quarter.shape[1] - 1, known.quarter.shape[0] - 1
     near = of.near_moments[axis][tuple(slice(m + 1) for m in periods)]
@@ -177,7 +194,13 @@ def _by_differences(of: EdgeKernels, known: KernelSpectrum, axis: int) -> Kernel
 
 
 def _differences(values: Field, m: int, count: int) -> Field:
-    """Approximate moments along the first axis by fourth-order differences (count, …)."""
+    """Approximate moments by fourth-order differences of periodic coefficients, along the first
+    axis.
+
+    values  influence coefficients at offsets >= 0 along the first axis
+    m       half the period
+    count   number of offsets of the result (count, …)
+    """
     far = np.zeros((count, *values.shape[1:]))
     for step, weight in ((1, 8), (-1, -8), (2, -1), (-2, 1)):
         far -= weight / 144 * values[m - np.abs(m - np.abs(np.arange(count) + step))]
@@ -185,9 +208,11 @@ def _differences(values: Field, m: int, count: int) -> Field:
 
 
 def _waves(wave: np.ufunc, m: int, count: int) -> Field:
-    """Return the matrix of Fourier sums over the first offsets of 0 … m (m + 1, count).
+    """Return the matrix of Fourier sums over the first `count` offsets of 0 … m; shape (m + 1,
+    count).
 
-    Offsets between 0 and m have the factor 2.
+    Offsets strictly between 0 and m have the factor 2, because they occur with both signs.
+    wave  sine or cosine
     """
     values = wave(np.pi / m * np.arange(2 * m))
     waves = values[np.outer(np.arange(m + 1), np.arange(count)) % (2 * m)]

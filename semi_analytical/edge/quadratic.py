@@ -1,4 +1,4 @@
-"""Quadratic functions of the position, one per place."""
+"""Quadratic functions of the position in index coordinates, one function per place."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ from semi_analytical.edge.clipped_power_means import mean_power
 class Quadratic:
     """Quadratics f + f_x dx + f_y dy + (f_xx dx² + 2 f_xy dx dy + f_yy dy²)/2 about places (x, y).
 
-    All arrays have one shape; lengths are in cells.
+    All arrays have one shape. Lengths are in cells. The edge correction represents φ by such
+    quadratics.
     """
 
     x: Field
@@ -28,19 +29,22 @@ class Quadratic:
 
     @property
     def slope(self) -> Field:
-        """Magnitude of the gradient at the places."""
+        """Magnitude of the gradient of the quadratics at their places."""
         return np.hypot(self.f_x, self.f_y)
 
     def chosen(self, which: Mask | Indices | slice) -> Quadratic:
-        """Select some of the places."""
+        """Select the quadratics of some places.
+
+        which  mask, indices or slice of the places
+        """
         return Quadratic(*(part[which] for part in vars(self).values()))
 
     def reshaped(self, shape: tuple[int, ...]) -> Quadratic:
-        """Change the shape of all arrays."""
+        """Return the quadratics with all arrays in another shape."""
         return Quadratic(*(part.reshape(shape) for part in vars(self).values()))
 
     def scaled(self, dx: float, dy: float) -> Quadratic:
-        """Scale slopes to a unit of length in which a cell has the sides dx and dy.
+        """Convert derivatives to a unit of length in which a cell has the sides dx and dy.
 
         The places remain index coordinates.
         """
@@ -50,12 +54,15 @@ class Quadratic:
         )
 
     def at(self, dx: Field, dy: Field) -> Field:
-        """Evaluate at (dx, dy) from the places; further axes of dx, dy come first."""
+        """Evaluate the quadratics at offsets (dx, dy) from their places.
+
+        Further axes of dx and dy come first.
+        """
         bend = (self.f_xx * dx + 2 * self.f_xy * dy) * dx + self.f_yy * dy * dy
         return np.asarray(self.f + self.f_x * dx + self.f_y * dy + bend / 2)
 
     def about(self, x: Field, y: Field) -> Quadratic:
-        """Expand the same functions about other places."""
+        """Expand the same quadratic functions about other places (x, y)."""
         dx, dy = x - self.x, y - self.y
         return Quadratic(
             *np.broadcast_arrays(
@@ -71,18 +78,21 @@ class Quadratic:
         )
 
     def cell_mean(self, exponent: float | Field) -> Field:
-        """Compute the mean of phi_+^exponent over the unit cell about every place.
+        """Compute the mean of φ_+^exponent over the unit cell about each place.
 
-        The linear part represents phi in the cell; exponent 0 yields the covered fraction.
+        The linear part of the quadratic represents φ in the cell. Negative φ counts as zero. The
+        exponent 0 yields the fraction of the cell with positive φ.
         """
         return mean_power(self.mean, self.f_x, self.f_y, exponent)
 
     @property
     def cut(self) -> Mask:
-        """True if the linear part about the mean vanishes somewhere in the unit cell."""
+        """True if the linear part of the quadratic vanishes somewhere in the unit cell about its
+        place.
+        """
         return np.asarray(np.abs(self.mean) < (np.abs(self.f_x) + np.abs(self.f_y)) / 2)
 
     @property
     def mean(self) -> Field:
-        """Mean of phi over the unit cell about every place."""
+        """Mean of the quadratics over the unit cell about each place."""
         return np.asarray(self.f + (self.f_xx + self.f_yy) / 24)

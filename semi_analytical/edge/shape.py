@@ -1,4 +1,7 @@
-"""Edge shape of a region from fits of φ = p^(1/α) to the cell means of p."""
+"""Shape of φ = p^(1/α) near the edge of a region, from fits to the cell means of p.
+
+The region is a contact area or a stick zone. φ passes smoothly through zero at the edge.
+"""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -34,15 +37,15 @@ SIDES = 4
 
 @dataclass(frozen=True)
 class EdgeShape:
-    """Cell means of φ in a region, and fits to them near its edge.
+    """Cell means of φ = p^(1/α) in a region, and fits to these means near the edge of the region.
 
-    means      (nx, ny) cell means of p
-    phi        (nx, ny) cell means of φ; valid for positive weights
-    weight     (nx, ny) weights of the cells in fits
-    exponent   α, a number or (nx, ny)
-    stencil    stencil of the fits
-    depth      (nx, ny) distance to the nearest cell outside the region, zero outside
-    domain     domain of all fields
+    means     (nx, ny) cell means of p
+    phi       (nx, ny) cell means of φ; valid for positive weights
+    weight    (nx, ny) weights of the cells in fits
+    exponent  α, a number or (nx, ny)
+    stencil   window and weights of the fits
+    depth     (nx, ny) distance to the nearest cell outside the region in cells, zero outside
+    domain    domain of all fields
     """
 
     means: Field
@@ -55,36 +58,39 @@ class EdgeShape:
 
     @cached_property
     def nearest(self) -> Indices:
-        """Indices (2, nx, ny) of the nearest cell of the region."""
+        """Indices (2, nx, ny) of the cell of the region that is nearest to each cell."""
         found = distance_transform_edt(self.depth == 0, return_distances=False, return_indices=True)
         return np.asarray(found)
 
     def fits(self, i: Indices, j: Indices) -> Fits:
-        """Fit φ about cells of the region, shape (n,)."""
+        """Fit quadratics to φ about cells (i, j) of the region, shape (n,)."""
         return fit_about(self.phi, self.weight, i, j, self.stencil, domain=self.domain)
 
     def nearest_to(self, x: Field, y: Field) -> Indices:
-        """Return the indices (2, n) of the cells of the region nearest to places (n,)."""
+        """Return the indices (2, n) of the cells of the region that are nearest to places (x, y),
+        shape (n,).
+        """
         last = np.array(self.means.shape) - 1
         i, j = (np.clip(np.rint(at), 0, n).astype(int) for at, n in zip((x, y), last, strict=True))
         return self.nearest[:, i, j]
 
     def about(self, x: Field, y: Field) -> tuple[Quadratic, Mask]:
-        """Expand φ about places near the edge, shape (n,); the mask marks reliable fits.
+        """Expand φ about places (x, y) near the edge, shape (n,); the second result marks reliable
+        fits.
 
-        At places outside the region the fit about its nearest cell is used. A fit centred outside
-        has one-sided data and a hundredfold error.
+        At places outside the region the fit about the nearest cell of the region is used. A fit
+        centred outside has one-sided data and a hundredfold error.
         """
         fits = self.fits(*self.nearest_to(x, y))
         return fits.quadratic.about(x, y), reliable(fits)
 
     def about_cells(self, adjacent: "AdjacentCells", fits: Fits) -> tuple[Quadratic, Field]:
-        """Expand φ about cells of the region and adjacent cells, shape (n,).
+        """Expand φ about cells of the region and cells adjacent to the region, shape (n,).
 
-        The second result is the rms of the fits over the change of φ across a cell. It is infinite
-        for fits with few data.
-
-        fits  fits about `adjacent.fitted`
+        The second result is the rms residual of the fits over the change of φ across a cell. It is
+        infinite for fits with few data.
+        adjacent  cells, and the fits that determine φ there
+        fits      fits about `adjacent.fitted`
         """
         error = np.where(fits.count < LEAST_DATA, np.inf, fits.rms)
         error /= np.maximum(fits.quadratic.slope, np.finfo(float).tiny)
@@ -96,9 +102,11 @@ class EdgeShape:
         return Quadratic(*means[:-1]), means[-1]
 
     def edge_points(self, x: Field | Indices, y: Field | Indices) -> tuple[Quadratic, Mask]:
-        """Expand φ about the edge points nearest to places (n,); the mask marks reliable fits.
+        """Expand φ about the edge points nearest to places (x, y), shape (n,).
 
-        Newton steps along the gradient, with a new fit at every place; f is zero up to rounding.
+        The second result marks reliable fits. The edge points are found by Newton steps along the
+        gradient, with new fits in the first REFITS steps. At the edge points φ is zero up to
+        rounding.
         """
         at_x, at_y = x.astype(float), y.astype(float)
         for _ in range(REFITS):
@@ -126,7 +134,10 @@ class AdjacentCells:
     """
 
     def __init__(self, depth: Field, i: Indices, j: Indices) -> None:
-        """Find the fits for cells (i, j) in or next to a region of given depth, see `depth_of`."""
+        """Find the fits that determine φ at cells (i, j) in a region or next to its edge.
+
+        depth  depth of the region (nx, ny), see `depth_of`
+        """
         last = np.array(depth.shape)[:, None, None] - 1
         at = np.stack([i, j])[:, None] + STEPS
         inside = np.all((at >= 0) & (at <= last), axis=0)
@@ -143,7 +154,11 @@ class AdjacentCells:
 
 
 def _downhill(here: Quadratic) -> tuple[Field, Field]:
-    """Return the nearest places where the linear part of φ vanishes, at most one cell away."""
+    """Return the places nearest to given places where the linear part of φ vanishes.
+
+    The distance is at most one cell.
+    here  quadratic fits of φ about the given places
+    """
     squared = np.maximum(here.slope**2, np.finfo(float).tiny)
     step = here.f / squared
     step = step * np.minimum(1.0, LONGEST_STEP / np.maximum(np.abs(step) * here.slope, 1e-30))
@@ -151,7 +166,7 @@ def _downhill(here: Quadratic) -> tuple[Field, Field]:
 
 
 def reliable(fits: Fits) -> Mask:
-    """Select fits with enough data and small residuals."""
+    """Select the fits of φ that have enough data and small residuals."""
     few = fits.count < LEAST_DATA
     return np.asarray(~few & (fits.rms < LARGEST_RMS * fits.quadratic.slope))
 
@@ -169,8 +184,10 @@ def edge_shape(
     domain: ReducedDomain = WINDOW,
     before: tuple[Field, Quadratic] | None = None,
 ) -> EdgeShape:
-    """Determine φ in a region from cell means, with the slopes of preceding fits in cut cells.
+    """Determine the cell means of φ = p^(1/α) in a region from the cell means of p.
 
+    Cells that the edge cuts use the slopes of preceding fits, because there φ is not a power of the
+    mean.
     means     (nx, ny) cell means of p, positive in the region
     region    (nx, ny) cells of the region
     stencil   stencil of the fits: `NARROW` for one ring, `WIDE` for two
@@ -182,9 +199,8 @@ def edge_shape(
     rounds    number of computations of φ: the first is means^(1/α) without cut cells; the others
               use `centre_value` with the slopes of the preceding fits
     depth     depth of the region if known, see `depth_of`
-    before    φ of a previous iteration and fits along the edge; they replace the first fits
     domain    domain of all fields
-
+    before    φ of a previous iteration and fits along the edge; they replace the first fits
     Raises ValueError if no cell remains as data.
     """
     means = np.where(region, means, 0.0)
@@ -221,8 +237,9 @@ def edge_shape(
 
 
 def depth_of(region: Mask, domain: ReducedDomain = WINDOW) -> Field:
-    """Compute the distance of the cells of a region from the nearest cell outside (nx, ny).
+    """Compute the distance of each cell of a region from the nearest cell outside (nx, ny), in
+    cells.
 
-    Cells beyond the window count as outside. The distance of cells outside is zero.
+    Cells beyond the window count as outside. The result is zero at cells outside the region.
     """
     return np.asarray(distance_transform_edt(domain.framed(region, 1))[1:-1, 1:-1])

@@ -1,4 +1,8 @@
-"""Tractions in subcells along the edge of a region, from fits of φ = p^(1/α)."""
+"""Tractions in the subcells of cells along the edge of a region, from fits of φ = p^(1/α).
+
+The region is a contact area, or a stick zone with the shear deficit as traction. The edge
+correction computes displacements from these subcell tractions.
+"""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -46,51 +50,61 @@ HALF_SQUARE = np.mean(X**2) / 2
 
 @dataclass(frozen=True)
 class EdgeCells:
-    """Cells along the edge of a region (nx, ny) of a domain."""
+    """Cells along the edge of a region.
+
+    region  cells of the region (nx, ny)
+    domain  domain of the region: full window or reduced domain
+    """
 
     region: Mask
     domain: ReducedDomain
 
     def __getstate__(self) -> dict[str, object]:
-        """Omit fields computed from the region from checkpoints."""
+        """Return the state for a checkpoint, without the fields that can be computed from the
+        region.
+        """
         return {"region": self.region, "domain": self.domain}
 
     @cached_property
     def depth(self) -> Field:
-        """Depth of the region (nx, ny), see `depth_of`."""
+        """Distance of each cell of the region from the nearest cell outside (nx, ny), see
+        `depth_of`.
+        """
         return depth_of(self.region, self.domain)
 
     @cached_property
     def fitted(self) -> tuple[Indices, Indices]:
-        """Cells with subcells from fits."""
+        """Indices of the cells nearest to the edge, whose subcell tractions come from fits of φ."""
         touched = near(self.domain.framed(self.region, 1))
         i, j = np.nonzero(touched & (self.depth <= FITTED))
         return i, j
 
     @cached_property
     def adjacent(self) -> AdjacentCells:
-        """Fits that determine φ about the fitted cells."""
+        """Assignment of fits of φ to the `fitted` cells."""
         return AdjacentCells(self.depth, *self.fitted)
 
     @cached_property
     def deep(self) -> tuple[Indices, Indices]:
-        """Cells with subcells from second differences."""
+        """Indices of deeper cells, whose subcell tractions come from second differences of the
+        means.
+        """
         i, j = np.nonzero((self.depth > FITTED) & (self.depth <= INSIDE))
         return i, j
 
 
 @dataclass(frozen=True)
 class SubcellTractions:
-    """Tractions in the subcells of cells along an edge with a reliable fit.
+    """Tractions in the subcells of cells along the edge of a region.
 
-    region   (nx, ny) cells whose centre is inside the edge
-    i, j     cells (n,): fitted cells first, then deeper cells
-    parts    (n, PARTS, PARTS) mean of the traction over each subcell
-    phi      φ about the fitted cells
-    unsafe   fraction of the cells along the edge without a reliable fit
-    cells    edge cells of the fitted region
-    line     edge of a contact on a film
-    fits     (nx, ny) cell means of φ and the fits to them; None on a film
+    region  (nx, ny) cells whose centre is inside the edge
+    i, j    indices of the cells (n,): fitted cells first, then deeper cells
+    parts   (n, PARTS, PARTS) mean of the traction over each subcell [force/length^2]
+    phi     quadratics of φ about the fitted cells
+    unsafe  fraction of the cells along the edge without a reliable fit
+    cells   edge cells of the fitted region
+    line    edge of a contact of layered bodies; None for the root law
+    fits    (nx, ny) cell means of φ and the fits to them; None for layered bodies
     """
 
     region: Mask
@@ -105,24 +119,26 @@ class SubcellTractions:
 
     @property
     def domain(self) -> ReducedDomain:
-        """Domain of all fields."""
+        """Domain of all fields: full window or reduced domain."""
         return self.cells.domain
 
     @cached_property
     def area(self) -> float:
-        """Area of the region and its mirror images, in cells."""
+        """Area of the region inside the edge and of its mirror images, as a number of cells."""
         covered, fitted = self.cells.region.astype(float), slice(len(self.phi.f))
         covered[self.i[fitted], self.j[fitted]] = self.phi.cell_mean(0.0)
         return self.domain.images * float(np.sum(covered))
 
     @cached_property
     def outer(self) -> Mask:
-        """Partly covered cells with a centre outside the edge (nx, ny)."""
+        """Partly covered cells whose centre lies outside the edge (nx, ny)."""
         return (self.means > 0) & ~self.region
 
     @cached_property
     def means(self) -> Field:
-        """Mean of the traction over the cells along the edge, zero elsewhere (nx, ny)."""
+        """Mean of the traction over each cell along the edge, zero elsewhere (nx, ny)
+        [force/length^2].
+        """
         means = np.zeros(self.region.shape)
         means[self.i, self.j] = self.parts.mean(axis=(1, 2))
         return means
@@ -136,14 +152,15 @@ def fit_edge(
     domain: ReducedDomain = WINDOW,
     film: FilmLaw | None = None,
 ) -> SubcellTractions | None:
-    """Fit the edge of a region of tractions; return None if the region is too thin.
+    """Fit the edge of a region of tractions and compute the subcell tractions along the edge.
 
+    Return None if the region is too thin.
     means     (nx, ny) mean of the traction over each cell [force/length^2]
     loaded    (nx, ny) cells with a positive traction
-    before    edge of the previous iteration; cells outside are not data
+    before    fitted edge of the previous iteration; cells outside that edge are not data
     exponent  exponent α of the distance from the edge
     domain    domain of all fields
-    film      pressure law on layered bodies
+    film      law of the pressure near the edge of layered bodies; None for a power of the distance
     """
     region = loaded if before is None else loaded & before.region
     same = before is not None and np.array_equal(region, before.cells.region)
@@ -193,7 +210,11 @@ def fit_edge(
 
 
 def means_of_power(phi: Quadratic, exponent: Exponent) -> Field:
-    """Compute the means of phi_+^exponent over the subcells of each cell (n, PARTS, PARTS)."""
+    """Compute the means of φ_+^exponent over the subcells of each cell (n, PARTS, PARTS).
+
+    Negative φ counts as zero. Cells are processed in chunks of CHUNK.
+    phi  quadratics of φ about the cells (n,)
+    """
     parts = np.empty((len(phi.f), PARTS**2))
     for first in range(0, len(parts), CHUNK):
         some = slice(first, first + CHUNK)
@@ -203,7 +224,11 @@ def means_of_power(phi: Quadratic, exponent: Exponent) -> Field:
 
 
 def _means_of_power(phi: Quadratic, a: Exponent) -> Field:
-    """Compute the means over the subcells of some cells (n, PARTS²); a is a number or (n, 1)."""
+    """Compute the means of φ_+^a over the subcells of one chunk of cells (n, PARTS²).
+
+    phi  quadratics of φ about the cells (n,)
+    a    exponent, a number or (n, 1)
+    """
     bent = (phi.f_xx + phi.f_yy) / (24 * PARTS**2)
     factors = np.array([phi.f + bent, phi.f_x, phi.f_y, phi.f_xx, phi.f_xy, phi.f_yy])
     f = factors.T @ MONOMIALS
@@ -224,9 +249,11 @@ def _means_of_power(phi: Quadratic, a: Exponent) -> Field:
 def by_differences(
     means: Field, i: Indices, j: Indices, fade: Field, domain: ReducedDomain
 ) -> Field:
-    """Compute subcell tractions (n, PARTS, PARTS) of cells (i, j) by differences of means (nx, ny).
+    """Compute subcell tractions (n, PARTS, PARTS) of cells (i, j) from differences of cell means.
 
-    fade  weight of the second differences (n,)
+    means   cell means of the traction (nx, ny)
+    fade    weight of the second differences (n,)
+    domain  domain of `means`
     """
     i, j = i + 1, j + 1
     p = domain.framed(means, 1)

@@ -1,1 +1,6 @@
-"""Solved states with their edges put inside the cells (deferred correction)."""
+"""Edge correction of solved states: the edges of contact and stick zone lie inside the cells.
+
+The solver assumes tractions that are uniform in each cell. This package adds the variation of
+pressure and shear within the cells by deferred correction. It uses the fits of
+`semi_analytical.edge`.
+"""

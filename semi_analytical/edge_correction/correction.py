@@ -1,4 +1,8 @@
-"""Edge correction of states: of the pressure, and of the stick border of uncoupled bodies."""
+"""Edge correction of the pressure and shear of a solved state.
+
+The pressure of all bodies is corrected. The shear is corrected with a stick border inside the cells
+for uncoupled bodies only. The load stepping in `semi_analytical.history` calls `EdgeCorrection`.
+"""
 
 from dataclasses import replace
 
@@ -20,9 +24,10 @@ from semi_analytical.model import ContactModel
 
 
 class EdgeCorrection:
-    """Edge correction of the states of a model; the states are not modified.
+    """Edge correction of the solved states of a contact model; the states are not modified.
 
-    coupled  True if pressure and shear of the bodies are coupled
+    model    contact model: scene, grid, operators and symmetry reduction
+    coupled  True if the normal and the tangential problem of the two bodies are coupled
     """
 
     def __init__(self, model: ContactModel, *, coupled: bool) -> None:
@@ -33,11 +38,14 @@ class EdgeCorrection:
     def __call__(
         self, last: State | None, state: State, *, path_known: bool, tolerance: float
     ) -> Corrected | EdgeReport:
-        """Correct a state, or report why it cannot be corrected.
+        """Correct the pressure and the shear of a solved state, or report why this is impossible.
 
-        last        earlier state that determines the stick border of uncoupled bodies; None before
-                    the first contact
-        path_known  True if the path from `last` to the state is one increment, or has no effect
+        last        earlier state, needed for the stick border of uncoupled bodies and for the reuse
+                    of a correction; None before the first contact
+        state       solved state with tractions that are uniform in each cell
+        path_known  True if a single increment leads from `last` to `state`, or if the load path
+                    between the two states has no effect
+        tolerance   residual tolerance of the tangential solves
         """
         extended = self._extended(state)
         try:
@@ -55,13 +63,19 @@ class EdgeCorrection:
         return corrected
 
     def _extended(self, state: State) -> State:
-        """Extend the fields of a state to the window."""
+        """Extend the fields of a state from the reduced domain to the full window."""
         extend, sheared = self._domain.extend_fields, state.sheared
         tangential = None if sheared is None else extend(sheared)
         return replace(state, pressing=extend(state.pressing), sheared=tangential)
 
     def _corrected_pressure(self, last: State | None, state: State, extended: State) -> Corrected:
-        """Correct the pressure; reuse the correction of an equal pressure of uncoupled bodies."""
+        """Correct the pressure of a solved state.
+
+        If the bodies are uncoupled and the previous state has an equal pressure, its correction is
+        reused.
+        last      previous state; None before the first contact
+        extended  `state` with its fields on the full window
+        """
         sheared, law, follows = extended.sheared, self._operators.model.friction, None
         if sheared is not None:
             p = extended.pressing.pressure
@@ -81,7 +95,14 @@ class EdgeCorrection:
         corrected: Corrected,
         tolerance: float,
     ) -> CorrectedShear | None:
-        """Correct the shear at a corrected pressure; None if its stick border cannot be fitted."""
+        """Correct the shear of a solved state at the corrected pressure.
+
+        Return None if the border of the stick zone cannot be fitted.
+        before     earlier state that determines the border of the stick zone; may be None without
+                   shear and in gross slip
+        solved     tangential part of the solved state on the full window
+        corrected  correction of the pressure of the solved state
+        """
         model, edge = self._operators.model, corrected.edge
         bound = model.friction.limit(corrected.pressure)
         if not np.any(solved.shear):
@@ -127,7 +148,11 @@ class EdgeCorrection:
 
 
 def _determines_border(before: State | None, state: State, sheared: TangentialState) -> bool:
-    """Return True if an earlier state determines the stick border of a state."""
+    """Return True if an earlier state determines the border of the stick zone of a later state.
+
+    The earlier state needs a corrected shear and a known tangential shift. It must have the same
+    normal load or no shear.
+    """
     last = before.corrected.sheared if before and before.corrected else None
     if before is None or last is None or last.shift is None or sheared.shift is None:
         return False

@@ -1,4 +1,7 @@
-"""Operators for tractions that vary within the cells of a model."""
+"""Operators from tractions that vary within the cells of a contact model to surface displacements.
+
+The edge correction of pressure and shear adds these displacements to those of uniform tractions.
+"""
 
 from functools import cached_property
 
@@ -22,31 +25,38 @@ APART: Matrix = (((1, "zx"), (1, "zy"), (1, "zz")),)
 
 
 class EdgeOperators:
-    """Operators of a model, built on first use."""
+    """Hold the operators of the edge correction of a contact model; each is built on first use."""
 
     def __init__(self, model: ContactModel) -> None:
         self.model = model
 
     @cached_property
     def by_pressure(self) -> EdgeOperator:
-        """Operator from pressure variations on the domain to u_z."""
+        """Operator from pressure variations within cells to u_z [length], on the reduced domain."""
         return self._operator(PRESSURE, self.model.domain)
 
     @cached_property
     def by_shear(self) -> EdgeOperator:
-        """Operator from shear variations on the window to (u_x, u_y)."""
+        """Operator from shear variations within cells to (u_x, u_y) [length], on the full window.
+        """
         return self._operator(SHEAR, WINDOW)
 
     @cached_property
     def apart(self) -> EdgeOperator:
-        """Operator from variations of shear and pressure (x, y, z) on the window to u_z."""
+        """Operator from variations of (q_x, q_y, p) within cells to u_z [length], on the full
+        window.
+
+        Used for coupled bodies, whose shear causes normal displacements.
+        """
         return self._operator(APART, WINDOW)
 
     def film(self, contact: Mask, domain: ReducedDomain) -> FilmLaw | None:
-        """Return the edge pressure law of a contact (nx, ny) of layered bodies.
+        """Return the law of the pressure near the contact edge of layered bodies.
 
-        None if no layer changes the pressure within a few cells of the edge, or if the contact is
-        narrow compared with the layers.
+        None is returned if no layer changes the pressure within a few cells of the edge, or if the
+        contact is narrow compared with the layers.
+        contact  cells in contact (nx, ny)
+        domain   domain of `contact`: full window or reduced domain
         """
         law = self._film
         return law if law and law.holds_within(np.max(depth_of(contact, domain))) else None

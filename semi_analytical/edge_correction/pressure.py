@@ -1,9 +1,10 @@
-"""Deferred correction of the pressure for the contact edge inside cells.
+"""Deferred correction of the pressure for a contact edge that lies inside cells.
 
-Towards its edge the pressure falls like a power α of the distance. Cell-constant pressure then has
-an error of O(h). Each iteration fits φ = p^(1/α), which passes smoothly through zero, computes the
-displacement by the pressure variation within cells, and solves the normal problem again with this
-displacement. For coupled bodies the shear is updated with the pressure and contributes to u_z.
+Towards the contact edge the pressure falls like a power α of the distance. A pressure that is
+uniform in each cell then has an error of O(h), with h the cell size. Each iteration has three
+steps: fit φ = p^(1/α), which passes smoothly through zero at the edge; compute the displacement by
+the pressure variation within cells; solve the normal problem again with this displacement. For
+coupled bodies the shear is updated with the pressure and contributes to u_z.
 """
 
 from collections.abc import Sequence
@@ -53,17 +54,20 @@ MAX_UNSAFE = 0.03
 
 
 class NotFitted(Exception):
-    """Failure of the edge correction of a state; the message states the cause."""
+    """Raised if the edge correction of a state is impossible; the message states the cause."""
 
 
 def edge_pressure(
     operators: EdgeOperators, state: State, shear: FollowingShear | None, *, coupled: bool
 ) -> Corrected:
-    """Correct the pressure of a solved state by deferred correction.
+    """Correct the pressure of a solved state for a contact edge inside cells, by deferred
+    correction.
 
-    shear    shear as a function of the pressure; None without friction
-    coupled  True if the shear causes normal displacements
-
+    operators  displacement operators of tractions that vary within cells
+    state      solved state with uniform pressure in each cell, on the full window for coupled
+               bodies
+    shear      shear as a function of the pressure; None without friction
+    coupled    True if the shear causes normal displacements
     Raises NotFitted if the contact is too thin, its edge is rough, or the iteration does not
     converge.
     """
@@ -94,19 +98,23 @@ def edge_pressure(
 
 
 def next_change(changes: Sequence[float]) -> float:
-    """Predict the next change from the ratio of the last two changes.
+    """Predict the relative change of a traction in the next iteration of the edge correction.
 
-    The first change is the discretisation error of the cells and is excluded from the ratio.
+    The prediction multiplies the last change by the ratio of the last two changes, at most 1. The
+    first change is excluded from the ratio, because it is the discretisation error of the cells.
+    changes  relative changes of all iterations so far, at least one
     """
     *before, last = changes
     return last * min(1.0, last / before[-1]) if len(before) > 1 else last
 
 
 def left_over(changes: Sequence[float]) -> float:
-    """Return the error after the last iteration over its change: κ/(1-κ) with the contraction κ.
+    """Return the ratio κ/(1-κ) of the remaining error of an iteration to its last change.
 
-    The contraction is the mean ratio of successive changes, except of the first one; 1/2 if they
-    are too few. Ten iterations do not tell a slower contraction than 0.9 from none.
+    The contraction factor κ is the mean ratio of successive changes without the first change. It is
+    1/2 if there are too few changes. It is limited to 0.9, because ten iterations cannot resolve
+    slower convergence.
+    changes  relative changes of all iterations
     """
     _, *later = changes
     contraction = 0.5
@@ -117,23 +125,32 @@ def left_over(changes: Sequence[float]) -> float:
 
 
 def relaxation_factor(factor: float, last: Field, change: Field) -> float:
-    """Compute the relaxation factor of a change by Aitken's method (Irons and Tuck 1969).
+    """Compute the next relaxation factor of an iteration by Aitken's method (Irons and Tuck 1969).
 
-    last, change  two successive changes; the first was multiplied by `factor`
+    factor  relaxation factor that `last` was multiplied by
+    last    change of the traction in the preceding iteration, before relaxation (nx, ny)
+    change  change of the traction in the present iteration, before relaxation (nx, ny)
+    The result lies between LEAST_FACTOR and 1.
     """
     fall = last - change
     return float(np.clip(factor * np.sum(last * fall) / np.sum(fall**2), LEAST_FACTOR, 1.0))
 
 
 def radius_change(before: SubcellTractions, after: SubcellTractions) -> float:
-    """Compute the relative change of the radius of a region between two iterates."""
+    """Compute the relative change of the radius √(area/π) of a region between two iterations.
+
+    before, after  tractions along the edge of the region: contact area or stick zone
+    """
     return abs((after.area / before.area) ** 0.5 - 1)
 
 
 class _Solved(NamedTuple):
-    """Solution of an iteration.
+    """Hold the result of one normal solve of the edge correction.
 
-    by_edge  displacement by variations within cells and by the shear (nx, ny)
+    pressure  mean pressure of each cell (nx, ny) [force/length^2]
+    motion    rigid motion of the indenter
+    by_edge   normal displacement by the pressure variation within cells and by the shear (nx, ny)
+              [length]
     """
 
     pressure: Field
@@ -142,7 +159,12 @@ class _Solved(NamedTuple):
 
 
 class _Last(NamedTuple):
-    """Iterate: pressure (nx, ny), its edge, approach or force."""
+    """Hold one iterate of the edge correction of the pressure.
+
+    pressure  mean pressure of each cell (nx, ny) [force/length^2]
+    edge      pressure in the subcells along the contact edge
+    response  approach [length]; at a prescribed approach the sum of the pressure over the cells
+    """
 
     pressure: Field
     edge: SubcellTractions
@@ -151,7 +173,7 @@ class _Last(NamedTuple):
 
 @dataclass(frozen=True)
 class _Problem:
-    """Deferred correction of one state; see `edge_pressure`."""
+    """Deferred correction of the pressure of one state, with the arguments of `edge_pressure`."""
 
     operators: EdgeOperators
     state: State
@@ -164,12 +186,14 @@ class _Problem:
 
     @cached_property
     def contact(self) -> Mask:
-        """Cells in contact."""
+        """Cells in contact in the solved state (nx, ny)."""
         return self.state.pressing.pressure > 0
 
     @cached_property
     def box(self) -> Box:
-        """Box around the contact."""
+        """Smallest box of cells around the contact area, widened by MARGIN; it bounds the normal
+        solves.
+        """
         return box_around(self.contact, MARGIN, self.model.domain)
 
     @cached_property
@@ -178,7 +202,10 @@ class _Problem:
 
     @cached_property
     def exponent(self) -> Exponent:
-        """Exponent α of the distance from the edge."""
+        """Exponent α of the pressure p ~ s^α at the distance s from the contact edge.
+
+        The exponent is 1/2 unless coupled bodies slip. It is then a field (nx, ny).
+        """
         solved = self.state.sheared
         if not self.coupled or self.shear is None or solved is None:
             return 0.5
@@ -191,7 +218,11 @@ class _Problem:
         return self.operators.film(self.contact, self.model.domain)
 
     def fit_edge(self, p: Field, before: SubcellTractions | None) -> SubcellTractions:
-        """Fit the edge of a pressure; raise NotFitted if this is impossible."""
+        """Fit the pressure near the contact edge; raise NotFitted if the fit fails.
+
+        p       mean pressure of each cell (nx, ny)
+        before  fitted edge of the preceding iteration; None in the first one
+        """
         edge = fit_edge(p, p > 0, before, self.exponent, self.model.domain, self.film)
         if edge is None:
             raise NotFitted("the contact is too thin")
@@ -200,15 +231,23 @@ class _Problem:
         return edge
 
     def response(self, approach: float, p: Field) -> float:
-        """Return the approach, or the sum of the pressure at a prescribed approach."""
+        """Return the approach [length], or at a prescribed approach the sum of the pressure over
+        the cells.
+
+        The change of this quantity between iterations yields the error of the approach or normal
+        force.
+        """
         return approach if self.state.target.approach is None else float(np.sum(p))
 
     def solve(self, p: Field, edge: SubcellTractions) -> _Solved:
-        """Solve the normal problem for the edge of an iterate by conjugate gradients.
+        """Solve the normal problem by conjugate gradients for a fixed contact edge inside the
+        cells.
 
-        The problem is linear, because the edge determines the contact cells. Partly covered cells
-        with a centre outside the edge carry the pressure of the fit. The contact cells carry the
-        rest of the load.
+        The problem is linear, because the edge determines the cells in contact. Partly covered
+        cells whose centre lies outside the edge carry the fitted pressure. The cells in contact
+        carry the rest of the load.
+        p     mean pressure of each cell in the preceding iteration (nx, ny)
+        edge  fitted contact edge of that pressure
         """
         box, operator = self.box.slices, self.model.operator(self.box.shape)
         contact, outer = edge.region[box], np.where(edge.outer, edge.means, 0.0)[box]
@@ -224,10 +263,12 @@ class _Problem:
         return _Solved(pressure, load.motion(inner, u + gap), by_edge)
 
     def by_edge(self, p: Field, edge: SubcellTractions) -> Field:
-        """Compute the normal displacement that the cells' uniform pressure leaves out.
+        """Compute the normal surface displacement that a pressure uniform in each cell leaves out.
 
-        It has two parts: the variation of the pressure within cells and, for coupled bodies, the
-        shear.
+        The result (nx, ny) [length] is the displacement by the variation of the pressure within
+        cells. For coupled bodies the displacement by the shear is added.
+        p     mean pressure of each cell (nx, ny)
+        edge  pressure in the subcells along the contact edge
         """
         by_p = Within.of(p, edge.i, edge.j, edge.parts, edge.domain)
         if not self.coupled or self.shear is None:
@@ -241,7 +282,13 @@ class _Problem:
     def corrected(
         self, last: _Last, before: _Last, solved: _Solved, changes: Sequence[float]
     ) -> Corrected:
-        """Assemble the corrected state on the window from the last iterate."""
+        """Assemble the corrected state on the full window, with estimates of its remaining errors.
+
+        last     last iterate
+        before   iterate before `last`
+        solved   last normal solve
+        changes  relative change of the pressure in each iteration
+        """
         edge = last.edge
         target, extend = self.state.target, self.model.domain.extend
         approach, tilt = target.reached(self.model, solved.motion)

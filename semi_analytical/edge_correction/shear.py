@@ -1,10 +1,11 @@
-"""Deferred correction of the shear of uncoupled bodies for a stick border inside cells.
+"""Deferred correction of the shear of uncoupled bodies for a stick border that lies inside cells.
 
-With n the direction of slip, q = µp n - d. The deficit d vanishes in the slip zone and falls to
-zero towards the stick border like the pressure of a smaller contact (Cattaneo 1938). Fits of p and
-d therefore yield q within the cells. After a reversal from the shear q' with the direction n', the
-change of the shear obeys the same law with twice the friction (Masing's rule, Mindlin and
-Deresiewicz 1953): q = q' + µp (n - n') - d.
+Let n be the direction of slip and p the pressure. The shear is q = µp n - d. The deficit d from
+gross slip vanishes in the slip zone. It falls to zero towards the stick border like the pressure of
+a smaller contact (Cattaneo 1938). Fits of p and d therefore yield the shear within the cells. After
+a load reversal from the shear q' with the direction of slip n', the change of the shear obeys
+Cattaneo's law with twice the friction (Masing's rule, Mindlin and Deresiewicz 1953): q = q' + µp (n
+- n') - d.
 """
 
 from dataclasses import dataclass, replace
@@ -49,12 +50,12 @@ WithinVector = tuple[Within, Within]
 
 @dataclass(frozen=True)
 class Deficit:
-    """Deficit of the shear from gross slip.
+    """Deficit of the shear in the stick zone: shear of gross slip minus actual shear.
 
-    shear  deficit (2, nx, ny)
-    full   shear of gross slip (2, nx, ny)
-    slip   direction of slip (2, nx, ny)
-    stick  cells with a deficit (nx, ny)
+    shear  deficit, zero in the slip zone (2, nx, ny) [force/length^2]
+    full   shear of gross slip (2, nx, ny) [force/length^2]
+    slip   direction of slip, extended to all cells (2, nx, ny)
+    stick  sticking cells, which have a deficit (nx, ny)
     edge   subcell values of the magnitude of the deficit along the stick border
     """
 
@@ -68,9 +69,11 @@ class Deficit:
 def sliding_shear(
     operators: EdgeOperators, bound: Field, limit: Within, solved: TangentialState
 ) -> CorrectedShear:
-    """Return the corrected shear in gross slip: the friction limit along the slip.
+    """Return the corrected shear in gross slip: the friction limit µp in the direction of slip.
 
-    bound, limit  see `ShearProblem`
+    bound   friction limit µp, mean of each cell (nx, ny) [force/length^2]
+    limit   variation of µp within the cells
+    solved  tangential state without a stick zone; supplies the direction of slip and the shift
     """
     slip = direction_of_slip(solved.shear, magnitude(solved.shear) > 0)
     shear, nowhere = bound * slip, np.zeros(bound.shape, dtype=bool)
@@ -94,14 +97,17 @@ def sliding_shear(
 
 @dataclass(frozen=True)
 class ShearProblem:
-    """Tangential problem of an increment at its corrected pressure.
+    """Tangential problem of one increment of uncoupled bodies at the corrected pressure.
 
-    bound          µp (nx, ny) [force/length^2]
+    bound          friction limit µp (nx, ny) [force/length^2]
     limit          variation of µp within the cells
     force          tangential force of the solved state (2,), in force and displacement control
-    target         u_t - rigid motion of the previous state (2, nx, ny) [length]
+    target         u_t minus rigid motion of the previous state, corrected for the change of bulk
+                   strain (2, nx, ny) [length]
     before         shear of the previous state (2, nx, ny), and its variation within the cells
-    reversed_slip  direction of the previous slip n' (2, nx, ny) after a reversal, else None
+    reversed_slip  direction of slip n' of the previous state (2, nx, ny) after a load reversal,
+                   else None
+    tolerance      residual tolerance of the tangential solves
     """
 
     operators: EdgeOperators
@@ -114,7 +120,13 @@ class ShearProblem:
     tolerance: float
 
     def full(self, bound: Field, slip: VectorField, before: VectorField) -> VectorField:
-        """Return the shear of gross slip, µp n, or q' + µp (n - n') after a reversal."""
+        """Return the shear of gross slip µp n, or q' + µp (n - n') after a load reversal (2, nx,
+        ny).
+
+        bound   friction limit µp (nx, ny) [force/length^2]
+        slip    direction of slip n (2, nx, ny)
+        before  shear q' of the previous state (2, nx, ny)
+        """
         last = self.reversed_slip
         return bound * slip if last is None else before + bound * (slip - last)
 
@@ -126,12 +138,14 @@ class ShearProblem:
         stick: Mask,
         edge: SubcellTractions | None,
     ) -> Deficit | None:
-        """Compute the deficit from gross slip; None if no stick border can be fitted.
+        """Compute the deficit of the shear from gross slip; None if no stick border can be fitted.
 
         The direction of slip in the stick zone is that of adjacent slipping cells.
-
+        q       shear (2, nx, ny) [force/length^2]
+        bound   friction limit µp (nx, ny) [force/length^2]
         before  shear of the previous state (2, nx, ny)
-        edge    stick border of the previous iteration
+        stick   cells that may have a deficit (nx, ny)
+        edge    fitted stick border of the preceding iteration; None in the first one
         """
         reached = np.zeros_like(stick) if edge is None else edge.outer
         slips = (bound > 0) & ~(stick & ~reached)
@@ -146,9 +160,13 @@ class ShearProblem:
         return Deficit(shear, full, slip, stick, border)
 
     def within(self, q: VectorField, deficit: Deficit) -> WithinVector:
-        """Compute the variation of a shear within the cells.
+        """Compute the variation of both shear components within the cells.
 
-        Deep in the stick zone it is the previous variation plus central differences of the change.
+        Deep in the stick zone the result is the variation of the previous state plus central
+        differences of the change of the shear. Elsewhere the variations of µp and of the deficit
+        are combined.
+        q        shear (2, nx, ny)
+        deficit  deficit of q from gross slip
         """
         edge = deficit.edge
         d = magnitude(deficit.shear)
@@ -177,9 +195,15 @@ class ShearProblem:
     def solve(
         self, q: VectorField, motion: Field, deficit: Deficit, u: VectorField
     ) -> TangentialSolution:
-        """Solve the tangential problem on the domain for a given stick border.
+        """Solve the tangential problem on the reduced domain for a given stick border inside the
+        cells.
 
-        In partly sticking cells with a slipping centre the deficit of the fit lowers the limit.
+        The fit of the deficit lowers the friction limit of partly sticking cells whose centre
+        slips.
+        q        initial guess of the shear (2, nx, ny)
+        motion   initial guess of the rigid tangential shift (2,) [length]
+        deficit  deficit with the fitted stick border
+        u        displacement by the shear variation within cells (2, nx, ny) [length]
         """
         model = self.operators.model
         domain, operator = model.domain, model.operator(model.grid.cells)
@@ -210,9 +234,12 @@ class ShearProblem:
 def edge_shear(
     problem: ShearProblem, solved: TangentialState, before: VectorField
 ) -> CorrectedShear | None:
-    """Correct a solved shear; None if the border cannot be fitted or the iteration fails.
+    """Correct the shear of a solved state for a stick border inside the cells.
 
-    before  shear of the previous solved state (2, nx, ny)
+    Return None if the stick border cannot be fitted or the iteration does not converge.
+    problem  tangential problem at the corrected pressure
+    solved   tangential state with uniform tractions in each cell
+    before   uncorrected shear of the previous state (2, nx, ny)
     """
     assert solved.shift is not None
     # The deficit at the solved pressure is the initial guess of that at the corrected pressure.

@@ -1,9 +1,11 @@
-"""Shear at a corrected pressure, and the exponent of both tractions at a slipping edge.
+"""Shear as a function of the pressure, and the exponent of both tractions at a slipping contact
+edge.
 
-The shear is q = µp n - d with the direction of slip n and the deficit d from gross slip. The
-correction changes p only; d is that of the uncorrected state, scaled to the same tangential force
-along Σd. If coupled bodies slip at the edge, pressure and shear fall to zero like s^α, with s the
-distance from the edge, m its outward normal, β Dundurs' parameter of the outermost materials and
+The shear is q = µp n - d with the direction of slip n and the deficit d from gross slip. The edge
+correction changes p only. The deficit d is that of the uncorrected state times a factor, so that
+the tangential force along Σd remains unchanged. If coupled bodies slip at the edge, pressure and
+shear fall to zero like s^α. Here s is the distance from the edge, m its outward normal, β Dundurs'
+parameter of the outermost materials, and
 
     α = ½ + arctan(µβ q·m/|q|)/π
 
@@ -33,10 +35,12 @@ SMOOTHED = 2.0
 
 
 def direction_of_slip(q: VectorField, slips: Mask) -> VectorField:
-    """Compute the direction of the shear of slipping cells, extended to all cells (2, nx, ny).
+    """Compute the unit vector of the shear of slipping cells, extended to all cells (2, nx, ny).
 
-    Other cells take the mean direction of adjacent cells, layer by layer. Beyond LAYERS they take
-    the direction of the nearest cell.
+    Other cells take the mean direction of adjacent cells, layer by layer. Beyond LAYERS layers they
+    take the direction of the nearest cell.
+    q      shear (2, nx, ny)
+    slips  slipping cells (nx, ny)
     """
     nx, ny = slips.shape
     framed = np.zeros((nx + 2, ny + 2), bool)  # all neighbours of cells are in the frame
@@ -66,12 +70,13 @@ def direction_of_slip(q: VectorField, slips: Mask) -> VectorField:
 
 @dataclass(frozen=True)
 class FollowingShear:
-    """Shear of a solved state as a function of the pressure; fields on the full window.
+    """Shear of a solved state as a function of the pressure; all fields on the full window.
 
-    friction  law of friction
+    friction  friction law
     slip      direction of slip n (2, nx, ny)
-    deficit   d (2, nx, ny), zero in the slip zone [force/length^2]
-    total     sum of the shear over the cells (2,)
+    deficit   shear of gross slip minus actual shear (2, nx, ny), zero in the slip zone
+              [force/length^2]
+    total     sum of the shear over the cells (2,) [force/length^2]
     """
 
     friction: CoulombFriction
@@ -83,14 +88,26 @@ class FollowingShear:
     def of(
         cls, friction: CoulombFriction, pressure: Field, shear: VectorField, stick: Mask
     ) -> FollowingShear:
-        """Decompose the shear of a state; without slip, n is the direction of the shear."""
+        """Decompose the shear of a solved state into its friction limit and its deficit from gross
+        slip.
+
+        Without slipping cells, n is the direction of the shear.
+        friction  friction law
+        pressure  pressure of the state (nx, ny)
+        shear     shear of the state (2, nx, ny)
+        stick     sticking cells (nx, ny)
+        """
         slips = (pressure > 0) & ~stick
         slip = direction_of_slip(shear, slips if np.any(slips) else magnitude(shear) > 0)
         deficit = np.where(stick, friction.limit(pressure) * slip - shear, 0.0)
         return cls(friction, slip, deficit, np.sum(shear, axis=(1, 2)))
 
     def __call__(self, pressure: Field) -> VectorField:
-        """Compute q (2, nx, ny) at a pressure; its magnitude is at most the friction limit."""
+        """Compute the shear (2, nx, ny) at a given pressure (nx, ny).
+
+        The deficit is scaled so that the force along the sum of the deficit is unchanged. The
+        magnitude of the shear is at most the friction limit.
+        """
         limit = self.friction.limit(pressure)
         full, resultant = limit * self.slip, np.sum(self.deficit, axis=(1, 2))
         scale, squared = 1.0, float(resultant @ resultant)
@@ -101,9 +118,11 @@ class FollowingShear:
         return np.asarray(q * np.where(size > limit, limit / np.where(size > 0, size, 1.0), 1.0))
 
     def exponent(self, contact: Mask, beta: float) -> Field:
-        """Compute α of the nearest edge of a contact (nx, ny).
+        """Compute the exponent α of the tractions at the nearest contact edge of every cell (nx,
+        ny).
 
-        beta  Dundurs' parameter of the outermost materials
+        contact  cells in contact (nx, ny)
+        beta     Dundurs' parameter β of the outermost materials
         """
         depth = distance_transform_edt(contact) - distance_transform_edt(~contact)
         outward = -np.stack(np.gradient(gaussian_filter(depth, SMOOTHED)))

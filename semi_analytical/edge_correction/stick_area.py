@@ -1,10 +1,11 @@
-"""Area of the stick zone of coupled bodies from fits of the shear deficit along its border.
+"""Area of the stick zone of coupled bodies, from fits of the shear deficit along its border.
 
-The deficit from gross slip along the direction of slip n, d = µp - q·n, vanishes at the border.
-Where the slip zone grows, d ~ s^(1/2), like the pressure of a smaller contact (Cattaneo 1938).
-Where the stick zone grows, as in normal loading, d ~ s^(3/2), because newly sticking cells are
-still at the friction limit. Each border cell uses the law with the smaller residual. The shear
-normal to n is smooth across the border and is therefore excluded from d.
+Let n be the direction of slip. The deficit from gross slip d = µp - q·n vanishes at the border of
+the stick zone. With s the distance from the border, d ~ s^(1/2) where the slip zone grows, like the
+pressure of a smaller contact (Cattaneo 1938). Where the stick zone grows, as in normal loading, d ~
+s^(3/2), because newly sticking cells are still at the friction limit. Each border cell uses the law
+with the smaller residual. The shear normal to n is smooth across the border and is therefore
+excluded from d.
 """
 
 from dataclasses import dataclass
@@ -31,11 +32,12 @@ CUT = 1.5
 
 @dataclass(frozen=True)
 class _LawFit:
-    """Fit of one law in the cells along the border (n,).
+    """Fit of one power law of the shear deficit in the cells along the border of the stick zone
+    (n,).
 
     stuck     sticking fraction of each cell
-    residual  rms of the fit over the change across a cell, times the factor of the law; infinite
-              for unreliable fits
+    residual  rms residual of the fit over the change of the fitted function across a cell, times
+              the factor of the law in LAWS; infinite for unreliable fits
     """
 
     stuck: Field
@@ -43,14 +45,15 @@ class _LawFit:
 
 
 def stick_area(shear: VectorField, bound: Field, stick: Mask, *, spreads: bool = True) -> float:
-    """Compute the area of the stick zone in cells.
+    """Compute the area of the stick zone as a number of cells, with sub-cell accuracy.
 
-    A cell counts fully if neither law fits. Zones too thin for fits use `stuck_cells`.
-
+    A cell of the stick zone counts as 1 if neither power law fits there. Zones that are too thin
+    for fits use `stuck_cells`.
     shear    cell means of q (2, nx, ny) at the corrected pressure
-    bound    friction limit µp (nx, ny), zero outside the contact
+    bound    friction limit µp (nx, ny), zero outside the contact area
     stick    sticking cells (nx, ny)
-    spreads  True if the stick zone may have grown; without coupling it grows only with the pressure
+    spreads  True if the stick zone may have grown; without coupling the zone grows only with the
+             pressure
     """
     if not np.any(stick):
         return 0.0
@@ -85,7 +88,15 @@ def _fit(
     stencil: Stencil,
     factor: float,
 ) -> _LawFit:
-    """Fit one law to the deficit in the cells along the border."""
+    """Fit one power law to the shear deficit in the cells along the border of the stick zone.
+
+    deficit                    deficit over its largest value (nx, ny)
+    stick                      sticking cells (nx, ny)
+    depth                      distance of the cells from the nearest cell outside the stick zone
+                               (nx, ny), in cells
+    cells                      border cells and the fits that determine the deficit there
+    exponent, stencil, factor  entry of LAWS
+    """
     shape = edge_shape(deficit, stick, stencil, rings=0, exponent=exponent, rounds=2, depth=depth)
     phi, error = shape.about_cells(cells, shape.fits(*cells.fitted))
     return _LawFit(phi.cell_mean(0.0), np.where(error < LARGEST_RMS, factor * error, np.inf))

@@ -1,4 +1,6 @@
-"""Displacement and stress below the surface."""
+"""Displacement and stress below and at the surface of a body, from tractions on cells of the
+surface.
+"""
 
 from semi_analytical.frf.depth import Level
 from semi_analytical.stress.depths import (

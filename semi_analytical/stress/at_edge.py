@@ -1,7 +1,8 @@
-"""Stress at and near the edge of a contact, by tractions with sub-cell edge.
+"""Stress at the edge of a contact and near it, from tractions that vary within the edge cells.
 
-At the surface a quadratic p² in a box of cells about the observer is integrated along rays. Farther
-cells at the edge are divided into subcells with point forces; other cells act by mean and slope.
+p = √φ near the edge, with a quadratic φ. The place at which the stress is computed is the observer.
+At the surface, √φ in a box of cells about the observer is integrated along rays. Farther cells at
+the edge are divided into subcells with point forces. All other cells act by mean and slope.
 """
 
 import numpy as np
@@ -29,11 +30,14 @@ OBSERVERS, SEEN = 64, 1 << 15
 def stress_at_surface(
     edged: EdgedTractions, phi: Quadratic, plane: Field, material: HalfSpace, spacing: Spacing
 ) -> Field:
-    """Compute the stress (6, n) at z = 0 at the positions of phi, near the edge.
+    """Compute the surface stress (6, n) [force/length^2] near the contact edge.
 
-    phi       quadratics about the positions (n,), index coordinates
-    plane     (6, nx, ny) stress at the cell centres by `edged.cells`
-    material  outermost
+    edged     tractions with their variation within the edge cells
+    phi       quadratics of φ about the n positions, in index coordinates
+    plane     (6, nx, ny) surface stress at the cell centres caused by the uniform tractions
+              `edged.cells`
+    material  outermost material of the body
+    spacing   cell sides [length]
     """
     found = [
         stress_from_beyond(edged.cells, plane, some.x, some.y, material, spacing)
@@ -50,9 +54,15 @@ def stress_at_surface(
 def change_at_depth(
     edged: EdgedTractions, x: Field, y: Field, depth: float, material: HalfSpace, spacing: Spacing
 ) -> Field:
-    """Compute the change of stress (6, n) at positions (n,) due to sub-cell tractions.
+    """Compute the change of the stress (6, n) at a depth caused by the variation of tractions
+    within cells.
 
-    depth  z > 0 [length], within the outermost material; accurate from a quarter of a cell on
+    The stress by tractions that are uniform in each cell is the reference.
+    edged     tractions with their variation within the edge cells
+    x, y      positions (n,) in index coordinates
+    depth     z > 0 [length], within the outermost material; accurate from a quarter of a cell on
+    material  outermost material of the body
+    spacing   cell sides [length]
     """
     cells = depth / max(spacing)
     near = max(PARTS, int(np.ceil(PARTS_AT_A_CELL / cells)))
@@ -68,8 +78,11 @@ def change_at_depth(
 
 
 def _in_box(edged: EdgedTractions, phi: Quadratic, material: HalfSpace, spacing: Spacing) -> Field:
-    """Compute the stress by the box of cells: by rays for √phi, plus the deviation of the cell
-    means."""
+    """Compute the surface stress (6, n) by the tractions in a box of cells about each position.
+
+    The part √φ of the pressure is integrated along rays. The deviation of the cell means from √φ
+    acts uniformly on each cell.
+    """
     i, j = np.rint(phi.x).astype(int), np.rint(phi.y).astype(int)
     x, y = phi.x - i, phi.y - j
     half = BOX + 0.5
@@ -110,9 +123,15 @@ def _by_points(
     *,
     slopes_alone: bool = False,
 ) -> Field:
-    """Compute the stress by mean and slope of cells in the patch beyond the box, at Gauss points.
+    """Compute the stress (6, n) by mean and slope of the cells near each position, from point
+    forces.
 
-    slopes_alone  omit the means, and include the box
+    The point forces lie at Gauss points of the cells at a distance of more than BOX and at most
+    PATCH cells.
+    x, y          positions (n,) in index coordinates
+    depth         z >= 0 [length]
+    points        number of Gauss points along a cell side
+    slopes_alone  omit the means, and include the cells within BOX
     """
     i, j = np.rint(x).astype(int), np.rint(y).astype(int)
     a, b = (
@@ -149,9 +168,13 @@ def _by_parts(
     count: int,
     within: tuple[int, int],
 ) -> Field:
-    """Compute the stress by the deviations of count² subcells from their cells.
+    """Compute the stress (6, n) by the deviations of subcell tractions from the uniform cell
+    tractions.
 
-    within  first and last ring of cells about the observer
+    Each subcell acts as a point force.
+    x, y    positions (n,) in index coordinates
+    count   number of subcells along a cell side
+    within  first and last ring of cells about the position
     """
     i, j = np.rint(x).astype(int), np.rint(y).astype(int)
     pairs = []
@@ -176,5 +199,9 @@ def _by_parts(
 
 
 def _summed(stress: Field, observer: Indices, count: int) -> Field:
-    """Sum (6, pairs) over the pairs of each observer (6, observers)."""
+    """Sum the stress (6, pairs) over all pairs that belong to one position; result (6, positions).
+
+    observer  index of the position of each pair
+    count     number of positions
+    """
     return np.stack([np.bincount(observer, component, count) for component in stress])

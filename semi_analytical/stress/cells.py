@@ -1,8 +1,9 @@
-"""Cell integrals of the tabulated response at depth, by adaptive subdivision and Gauss points.
+"""Cell integrals of the tabulated response of layered bodies at depth.
 
-The response is analytic up to a singularity at a distance above or below the surface, the
-clearance. Cells that are small relative to their distance from it need few points; others are
-divided. The integrals are accurate to round-off for all cell sizes, layers and depths.
+The response to a point force is analytic up to a singularity at a distance above or below the
+surface, the clearance. Cells that are small relative to their distance from the singularity need
+few integration points. Other cells are divided adaptively and integrated by Gauss points. The
+integrals are accurate to round-off for all cell sizes, layers and depths.
 """
 
 from collections.abc import Iterator
@@ -34,11 +35,14 @@ def cell_integrals(
     spacing: tuple[float, float],
     shape: tuple[int, int],
 ) -> Field:
-    """Integrate the fields by unit tractions over the cells at offsets i < nx, j < ny.
+    """Integrate displacement and stress by a unit traction over a cell, for all cell offsets (i, j)
+    >= 0.
 
-    table      up to MARGIN cells beyond the farthest offset
-    level      index in the table
+    table      radial functions, up to MARGIN cells beyond the farthest offset
+    level      index of the depth in the table
     clearance  distance of the nearest singularity [length]
+    spacing    cell sides [length]
+    shape      number of offsets along x and y
     returns    shape (FIELDS, acting tractions, nx, ny)
     """
     result = _averaged(table, level, spacing, shape)
@@ -57,7 +61,7 @@ def cell_integrals(
 
 
 def _with_exact_zeros(result: Field) -> Field:
-    """Set responses on their planes of antisymmetry to exactly zero."""
+    """Set each response to exactly zero on its planes of antisymmetry, in place."""
     for coefficients, (along_x, along_y) in each_response(result):
         if along_x < 0:
             coefficients[0, :] = 0
@@ -67,7 +71,11 @@ def _with_exact_zeros(result: Field) -> Field:
 
 
 def _response(table: DepthTable, level: int, x: Field, y: Field) -> Field:
-    """Compute the fields by unit point forces, shape (FIELDS, acting tractions, *x.shape)."""
+    """Compute displacement and stress by unit point forces; shape (FIELDS, acting tractions,
+    *x.shape).
+
+    x, y  position relative to the force [length]
+    """
     r = np.hypot(x, y)
     away = np.where(r > 0, r, 1.0)  # on the axis functions of the direction vanish
     functions = table.at(level, r.ravel()).reshape(-1, *x.shape)
@@ -77,7 +85,12 @@ def _response(table: DepthTable, level: int, x: Field, y: Field) -> Field:
 def _averaged(
     table: DepthTable, level: int, spacing: tuple[float, float], shape: tuple[int, int]
 ) -> Field:
-    """Average over all cells by nine points along x and y; accurate for far cells only."""
+    """Average displacement and stress over all cells from nine points per cell and direction.
+
+    The result is accurate only for cells far from the singularity.
+    spacing  cell sides [length]
+    shape    number of offsets along x and y
+    """
     x = np.arange(shape[0] + MARGIN) * spacing[0]
     y = np.arange(shape[1] + MARGIN) * spacing[1]
     points = empty_response((len(x), len(y)), sheared=table.sheared)
@@ -95,7 +108,11 @@ def _averaged(
 
 
 def _averaged_along(field: Field, axis: int, sign: int) -> Field:
-    """Average over cells along one axis, from values at offsets >= 0; shorter by MARGIN."""
+    """Average a response over the cells along one axis, from point values at offsets >= 0.
+
+    The result is shorter by MARGIN.
+    sign  parity of the response along the axis
+    """
     mirrored = sign * np.flip(np.take(field, range(1, MARGIN + 1), axis), axis)
     averaged = correlate1d(np.concatenate([mirrored, field], axis), CELL_AVERAGE, axis)
     return np.take(averaged, range(MARGIN, averaged.shape[axis] - MARGIN), axis)
@@ -103,7 +120,10 @@ def _averaged_along(field: Field, axis: int, sign: int) -> Field:
 
 def _near_cells(spacing: tuple[float, float], shape: tuple[int, int], clearance: float) -> Indices:
     """Return the indices (i, j) of cells closer to the singularity than FAR times their longer
-    side."""
+    side.
+
+    clearance  distance of the singularity from the cell at the origin [length]
+    """
     radius = FAR * max(spacing)
     i = np.arange(min(shape[0], int(radius / spacing[0]) + 1))
     j = np.arange(min(shape[1], int(radius / spacing[1]) + 1))
@@ -112,7 +132,12 @@ def _near_cells(spacing: tuple[float, float], shape: tuple[int, int], clearance:
 
 
 def _clear_boxes(spacing: tuple[float, float], cells: Indices, clearance: float) -> Boxes:
-    """Divide cells until every box is small relative to its distance from the singularity."""
+    """Divide cells into boxes until each box is small relative to its distance from the
+    singularity.
+
+    cells      indices (n, 2) of the cells
+    clearance  distance of the singularity from the cell at the origin [length]
+    """
     count = len(cells)
     offsets = cells.astype(np.float64)
     boxes = Boxes(
@@ -150,9 +175,10 @@ def layered_coefficients(
     *,
     sheared: bool,
 ) -> Iterator[Field]:
-    """Iterate over the contributions of the layers to the fields at each level, from a table.
+    """Iterate over the displacements and stresses that the layers of a body contribute at each
+    depth.
 
-    At a level in the outermost layer, the response of a half-space of its material is excluded.
+    At a depth in the outermost layer, the response of a half-space of its material is excluded.
     Arguments and shapes are those of `field.depth_coefficients`.
     """
     reach = hypot((shape[0] + MARGIN) * spacing[0], (shape[1] + MARGIN) * spacing[1])

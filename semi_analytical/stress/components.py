@@ -1,4 +1,4 @@
-"""Order and parity of the fields at depth and of the tractions that cause them."""
+"""Order and parity of displacements and stresses at depth, and of the tractions that cause them."""
 
 from collections.abc import Iterator
 
@@ -17,14 +17,20 @@ PRESSURE = TRACTIONS[2:]
 
 
 def acting(sheared: bool) -> tuple[str, ...]:
-    """Return the tractions that act: the pressure alone, or all of `TRACTIONS`."""
+    """Return the names of the traction components: "z" for pressure alone, or all of `TRACTIONS`.
+
+    sheared  True with shear
+    """
     return TRACTIONS if sheared else PRESSURE
 
 
 def parity(field: str, traction: str) -> tuple[int, int]:
-    """Return the parity of a response along x and along y: +1 if even, -1 if odd.
+    """Return the parity of a field component by a traction component along x and y: +1 even, -1
+    odd.
 
-    By reflection each occurrence of an axis in the field or the traction is one change of sign.
+    Each occurrence of an axis in the two names is one change of sign under reflection.
+    field     entry of FIELDS
+    traction  entry of TRACTIONS
     """
     axes = field + traction
     return (-1) ** axes.count("x"), (-1) ** axes.count("y")
@@ -33,7 +39,10 @@ def parity(field: str, traction: str) -> tuple[int, int]:
 def each_response(
     coefficients: NDArray[np.float64],
 ) -> Iterator[tuple[NDArray[np.float64], tuple[int, int]]]:
-    """Iterate over responses of (FIELDS, acting tractions, nx, ny) with their parity."""
+    """Iterate over each response to a traction component, with its parity along x and y.
+
+    coefficients  responses (FIELDS, acting tractions, nx, ny)
+    """
     tractions = acting(coefficients.shape[1] > 1)
     for responses, field in zip(coefficients, FIELDS, strict=True):
         for response, traction in zip(responses, tractions, strict=True):
@@ -41,5 +50,5 @@ def each_response(
 
 
 def empty_response(shape: tuple[int, ...], *, sheared: bool = True) -> NDArray[np.float64]:
-    """Return an array (FIELDS, acting tractions, *shape)."""
+    """Return an uninitialised array for responses (FIELDS, acting tractions, *shape)."""
     return np.empty((len(FIELDS), len(acting(sheared)), *shape))

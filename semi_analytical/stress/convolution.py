@@ -1,7 +1,8 @@
-"""Linear convolution of tractions with fields at one depth, on planes or on rows of cells.
+"""Linear convolution of tractions with response coefficients at one depth, on planes or rows of
+cells.
 
 Zero padding to at least twice the largest offset avoids periodic images. About a mirror plane of
-the tractions, sines and cosines on half of the window replace the waves.
+the tractions, sine and cosine transforms on half of the window replace the Fourier transform.
 """
 
 from collections.abc import Callable
@@ -20,7 +21,12 @@ ROUND_OFF = 1e-14  # between mirror images, relative to the largest traction
 
 
 def offsets_between(tractions: Field, rows: Indices) -> tuple[int, int]:
-    """Return the number of offsets, from 0, between loaded cells and the cells of some rows."""
+    """Return the number of cell offsets along x and y, from 0, between loaded cells and some rows
+    of cells.
+
+    tractions  (acting tractions, nx, ny)
+    rows       indices of the rows along y
+    """
     loaded = np.any(tractions, axis=0)
     counts = []
     for axis, last in enumerate((np.array([0, loaded.shape[0] - 1]), rows[[0, -1]])):
@@ -33,7 +39,7 @@ def offsets_between(tractions: Field, rows: Indices) -> tuple[int, int]:
 def mirror_planes(tractions: Field) -> tuple[bool, bool]:
     """Determine whether x = 0 and y = 0 are mirror planes of tractions (acting tractions, nx, ny).
 
-    A mirror preserves the vectors.
+    The reflected traction vectors must be equal up to round-off.
     """
     size = ROUND_OFF * float(np.max(np.abs(tractions), initial=0.0))
     found = []
@@ -47,11 +53,12 @@ def mirror_planes(tractions: Field) -> tuple[bool, bool]:
 
 @dataclass(frozen=True)
 class _Side:
-    """Transforms along the last axis; amplitudes have wavenumbers 0 … half, or all of a period.
+    """Fourier, sine or cosine transforms along the last axis of a field.
 
+    Amplitudes have wavenumbers 0 … half, or all of a period.
+    cells     number of cells of the window along the axis
     half      half the period in cells
-    mirrored  whether the middle of the window, between cells, is a mirror plane
-    odd       whether a field changes its sign at the mirror plane
+    mirrored  True if the middle of the window, between cells, is a mirror plane
     """
 
     cells: int
@@ -59,20 +66,30 @@ class _Side:
     mirrored: bool
 
     def forward(self, values: Array, odd: bool) -> Array:
-        """Transform values on the window (…, cells)."""
+        """Transform values on the window (…, cells) to amplitudes.
+
+        odd  True if the field changes its sign at the mirror plane
+        """
         if not self.mirrored:
             return (fft if np.iscomplexobj(values) else rfft)(values, 2 * self.half)
         transformed = (dst if odd else dct)(values[..., self.cells // 2 :], type=2, n=self.half)
         return np.pad(transformed, [(0, 0), (int(odd), int(not odd))])
 
     def factor(self, odd_response: bool, odd_traction: bool) -> complex:
-        """Return the ratio of a response to its sums of sines or cosines."""
+        """Return the ratio of the amplitudes of a response to its sums of sines or cosines.
+
+        odd_response  True if the response coefficient is odd along the axis
+        odd_traction  True if the traction component changes its sign at the mirror plane
+        """
         if self.mirrored:
             return -1.0 if odd_response and odd_traction else 1.0
         return -1j if odd_response else 1.0
 
     def back(self, amplitudes: Array, odd: bool) -> Array:
-        """Transform amplitudes to values on the window."""
+        """Transform amplitudes to values on the window (…, cells).
+
+        odd  True if the field changes its sign at the mirror plane
+        """
         if not self.mirrored:
             inverse = irfft if amplitudes.shape[-1] == self.half + 1 else ifft
             return inverse(amplitudes, 2 * self.half)[..., : self.cells]
@@ -83,9 +100,11 @@ class _Side:
 
 
 def plane_convolution(tractions: Field, offsets: tuple[int, int]) -> Convolution:
-    """Return a convolution with tractions (acting tractions, nx, ny); fields (FIELDS, nx, ny).
+    """Return a function that convolves tractions with response coefficients on the whole plane.
 
-    offsets  number of offsets of the coefficients, at least those of `offsets_between`
+    The function maps coefficients (FIELDS, acting tractions, offsets) to fields (FIELDS, nx, ny).
+    tractions  (acting tractions, nx, ny)
+    offsets    number of offsets of the coefficients, at least those of `offsets_between`
     """
     x, y = (
         _Side(cells, int(next_fast_len(count, real=True)), mirrored and cells % 2 == 0)
@@ -122,16 +141,21 @@ def plane_convolution(tractions: Field, offsets: tuple[int, int]) -> Convolution
 
 
 def _sums(response: Field, parity: int) -> Field:
-    """Sum cosines, or sines if the response is odd, over the offsets of a period (…, half + 1)."""
+    """Sum a response times cosines (even) or sines (odd) over the offsets of a period; (…, half +
+    1).
+    """
     if parity > 0:
         return np.asarray(dct(response, type=1))
     return np.pad(dst(response[:, 1:-1], type=1), [(0, 0), (1, 1)])
 
 
 def row_convolution(tractions: Field, rows: Indices) -> Convolution:
-    """Return a convolution for some rows of cells; fields (FIELDS, nx, len(rows)).
+    """Return a function that convolves tractions with response coefficients on some rows of cells.
 
-    rows  indices along y
+    The function maps coefficients (FIELDS, acting tractions, offsets) to fields (FIELDS, nx,
+    len(rows)).
+    tractions  (acting tractions, nx, ny)
+    rows       indices of the rows along y
     """
     nx = tractions.shape[1]
     columns = np.flatnonzero(tractions.any(axis=(0, 1)))

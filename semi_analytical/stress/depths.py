@@ -1,4 +1,6 @@
-"""Depths of subsurface fields and the material on either side of an interface."""
+"""Depths of the displacements and stresses below the surface, and the layer to which a depth
+belongs.
+"""
 
 from collections.abc import Sequence
 
@@ -20,10 +22,10 @@ ON_SAMPLE = 1e-9  # of the spacing
 
 
 def levels_of(stack: Stack, depths: Sequence[float | Level]) -> tuple[Level, ...]:
-    """Convert depths to levels; a number at an interface means its upper side.
+    """Convert depths [length] to levels; a number at an interface means its upper side.
 
-    Raises ValueError for a depth that is negative, not finite or in a rigid base, and for a level
-    outside of its layer.
+    A level is a depth with the index of its layer. Raises ValueError for a depth that is negative,
+    not finite or in a rigid base, and for a level outside of its layer.
     """
     return tuple(
         _checked(stack, depth) if isinstance(depth, Level) else _level(stack, float(depth))
@@ -32,7 +34,10 @@ def levels_of(stack: Stack, depths: Sequence[float | Level]) -> tuple[Level, ...
 
 
 def interfaces(body: Body | Stack) -> tuple[tuple[Level, ...], ...]:
-    """Return the sides of every interface, upper side first; a rigid base has no lower side."""
+    """Return the levels on both sides of each interface of a body, upper side first.
+
+    A rigid base has no lower side.
+    """
     stack = _stack(body)
     pairs = []
     for k, depth in enumerate(_bottoms(stack)):
@@ -43,8 +48,9 @@ def interfaces(body: Body | Stack) -> tuple[tuple[Level, ...], ...]:
 
 
 def default_depths(body: Body | Stack, contact_radius: float) -> tuple[Level, ...]:
-    """Choose depths from the surface to three contact radii, at interfaces and within layers.
+    """Choose the default depths for stress output, from the surface to three contact radii.
 
+    The depths include both sides of each interface, and three depths within each layer.
     contact_radius  length over which the tractions act [length]
     """
     stack = _stack(body)
@@ -97,9 +103,10 @@ def _checked(stack: Stack, level: Level) -> Level:
 
 
 def line_weights(samples: NDArray[np.float64], at: float) -> NDArray[np.float64]:
-    """Compute the weights of cubic Lagrange interpolation at a position.
+    """Compute the weights of cubic Lagrange interpolation between equally spaced samples.
 
     samples  equally spaced, increasing [length]
+    at       position of the interpolated value [length]
     returns  shape of the samples, at most four not zero; fewer samples give a lower degree
     raises   ValueError outside the samples
     """

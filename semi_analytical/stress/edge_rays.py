@@ -1,9 +1,10 @@
 """Surface stress by tractions that fall like a square root, as integrals along rays.
 
-Near the observer phi = p² is a quadratic. Along a ray of direction e it is Q = f + b r + c r², with
-b = grad·e and c = e·H·e/2. The surface stress of a point force falls with 1/r². The contribution of
-a ray is therefore its angular function times the finite part of the integral of √Q+/r, in closed
-form. The singular parts cancel, as the angular functions have zero mean.
+Near the observer, the place of the stress, φ = p² is a quadratic. Along a ray of direction e at the
+distance r, φ is Q = f + b r + c r², with b = grad·e, c = e·H·e/2 and the Hessian H. The surface
+stress of a point force falls with 1/r². The contribution of a ray is therefore its angular function
+times the finite part of the integral of √Q+/r, which has a closed form. The singular parts cancel,
+because the angular functions have zero mean.
 """
 
 from math import pi
@@ -22,11 +23,13 @@ STRAIGHT = 1e-9
 
 
 def stress_by_root(phi: Quadratic, box: Field, slip: Field, nu: float) -> Field:
-    """Compute the stress (6, n) at z = 0 by p = √phi+ and q = slip p within a box.
+    """Compute the stress (6, n) at z = 0 by the tractions p = √φ+ and q = slip p within a box.
 
-    phi   about the observers; lengths in the unit of the box
+    The box surrounds the position of the stress (observer). Its sides are parallel to x and y.
+    phi   quadratics of φ about the observers (n,); lengths in the unit of the box
     box   (4, n): positive distances of its sides at -x, +x, -y, +y from the observers
     slip  (2, n) shear over pressure
+    nu    Poisson's ratio
     """
     angle, weight = _directions(phi, box)
     cos, sin = np.cos(angle), np.sin(angle)
@@ -53,10 +56,12 @@ def stress_by_root(phi: Quadratic, box: Field, slip: Field, nu: float) -> Field:
 
 
 def _directions(phi: Quadratic, box: Field) -> tuple[Field, Field]:
-    """Choose angles and weights of rays (n, rays).
+    """Choose angles and quadrature weights of the rays from each observer (n, rays).
 
     Gauss points lie between the corners of the box and the directions near which the integral along
     a ray varies rapidly.
+    phi  quadratics of φ about the observers (n,)
+    box  (4, n) distances of the sides of the box from the observers
     """
     left, right, down, up = box
     corners = [np.arctan2(y, x) for x in (-left, right) for y in (-down, up)]
@@ -85,7 +90,10 @@ def _directions(phi: Quadratic, box: Field) -> tuple[Field, Field]:
 
 
 def _along_ray(f: Field, b: Field, c: Field, reach: Field) -> Field:
-    """Integrate √max(Q, 0)/r over 0 < r < reach, with Q = f + b r + c r² (Hadamard finite part)."""
+    """Integrate √max(Q, 0)/r along rays over 0 < r < reach, with Q = f + b r + c r².
+
+    The result is the Hadamard finite part of the integral.
+    """
     root = np.sqrt(np.maximum(b * b - 4 * f * c, 0.0))
     q = -(b + np.where(b < 0, -root, root)) / 2
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -103,7 +111,10 @@ def _along_ray(f: Field, b: Field, c: Field, reach: Field) -> Field:
 
 
 def _between(f: Field, b: Field, c: Field, low: Field, high: Field) -> Field:
-    """Integrate √Q/r where Q >= 0; from r = 0 on without the singular part."""
+    """Integrate √Q/r over low < r < high, where Q = f + b r + c r² >= 0.
+
+    The singular part is omitted if low is 0.
+    """
     at_low, at_high = (np.sqrt(np.maximum(f + (b + c * r) * r, 0.0)) for r in (low, high))
     whole = at_high - at_low + b / 2 * _arc(c, high - low, at_low + at_high)
     from_zero = low == 0
@@ -117,7 +128,7 @@ def _between(f: Field, b: Field, c: Field, low: Field, high: Field) -> Field:
 
 
 def _arc(k: Field, n: Field, d: Field) -> Field:
-    """Compute 2 arctan(√-k n/d)/√-k; with artanh for k > 0."""
+    """Compute 2 arctan(√-k n/d)/√-k for k < 0, and 2 artanh(√k n/d)/√k for k > 0."""
     size = np.sqrt(np.abs(k))
     flat = size * n <= STRAIGHT * d
     size_or_one, d_or_one = np.where(flat, 1.0, size), np.where(d > 0, d, 1.0)

@@ -1,8 +1,8 @@
-"""Tractions within the cells at the edge of a contact: p = √phi+, q = slip p.
+"""Tractions within the cells at the edge of a contact: pressure p = √φ+, shear q = slip p.
 
-Uniform tractions on cells form a staircase along the edge, which affects the stress nearby. A fit
-of phi describes the traction within cells at the edge, as deviations on subcells. Lengths are in
-cells, positions in index coordinates.
+Tractions that are uniform in each cell form a staircase along the edge, which affects the stress
+nearby. A fit of φ yields the traction within cells at the edge, as deviations on subcells. Lengths
+are in cells and positions in index coordinates.
 """
 
 from dataclasses import dataclass
@@ -27,13 +27,14 @@ UNSURE, STUCK = 0.05, 1e-8
 class EdgedTractions:
     """Tractions (q_x, q_y, p) of a contact with their variation within the cells at its edge.
 
-    cells         (3, nx, ny) uniform on the cells, as given
-    means         (3, nx, ny) cell means, replaced by those of the fit in rejected rings
-    shape         of the edge
+    cells         (3, nx, ny) given uniform tractions of the cells [force/length^2]
+    means         (3, nx, ny) cell means; in rejected rings those of the fit
+    shape         cell means of φ and fits near the edge
     ratio         (2, nx, ny) shear over pressure
     ratio_weight  (nx, ny) weight of the ratio in fits
-    i, j          (k,) cells that are divided into subcells
-    here, slip    phi and shear over pressure (2, k) at these cells
+    i, j          (k,) indices of the cells that are divided into subcells
+    here          quadratics of φ about the divided cells
+    slip          (2, k) shear over pressure at the divided cells
     """
 
     cells: Field
@@ -47,13 +48,15 @@ class EdgedTractions:
     slip: Field
 
     def slip_at(self, x: Field, y: Field) -> Field:
-        """Compute shear over pressure (2, n) at positions (n,), by linear fits."""
+        """Compute the ratio of shear to pressure (2, n) at positions (n,) by linear fits."""
         return _slip_at(self.shape, self.ratio, self.ratio_weight, x, y)
 
     def parts(self, count: int) -> Field:
         """Compute the traction of each subcell minus the uniform traction of its cell.
 
-        Shape (3, k, count, count) for k cells along the edge. `cells` plus this is the traction.
+        The shape is (3, k, count, count) for k cells along the edge. The sum of `cells` and the
+        result is the traction.
+        count  number of subcells along a cell side
         """
         at = part_centres(count)
         about = self.here.reshaped((-1, 1, 1))
@@ -67,7 +70,9 @@ class EdgedTractions:
 
     @property
     def slopes(self) -> tuple[Field, Field]:
-        """Slopes of `cells` along x and y (3, nx, ny) per cell: zero if divided or unloaded."""
+        """Slopes of `cells` along x and y, each (3, nx, ny) per cell; zero in divided or unloaded
+        cells.
+        """
         whole = self.cells[2] > 0
         whole[self.i, self.j] = False
         by_x, by_y = (np.asarray(np.gradient(self.cells, axis=axis)) for axis in (1, 2))
@@ -75,19 +80,22 @@ class EdgedTractions:
 
 
 def part_centres(count: int) -> Field:
-    """Compute the centres of subcells along a side, relative to the cell centre (count,)."""
+    """Compute the subcell centres along a cell side, relative to the cell centre (count,), in
+    cells.
+    """
     return (np.arange(count) + 0.5) / count - 0.5
 
 
 def edged_tractions(
     pressure: Field, shear: Field | None, stuck: Mask | None, stencil: Stencil, rings: int
 ) -> EdgedTractions:
-    """Fit the edge of tractions on cells.
+    """Fit the pressure near the contact edge, and divide the edge cells into subcells.
 
-    pressure, shear  (nx, ny) and (2, nx, ny) on the cells [force/length²]
-    stuck            (nx, ny) cells of the contact that stick; None in gross slip
-    stencil, rings   as in `edge_shape`; with two rings or more, the tractions of rejected rings are
-                     replaced by those of the fit
+    pressure        (nx, ny) [force/length²]
+    shear           (2, nx, ny) [force/length²]; None without shear
+    stuck           (nx, ny) cells of the contact that stick; None in gross slip
+    stencil, rings  as in `edge_shape`; with two rings or more, the tractions of rejected rings are
+                    replaced by those of the fit
     Raises ValueError where no cell is available for the fit.
     """
     region = pressure > 0

@@ -1,4 +1,4 @@
-"""Displacement and stress below the surface by tractions on the cells of a grid."""
+"""Displacement and stress in the lower body by tractions on the cells of a surface grid."""
 
 from __future__ import annotations
 
@@ -36,8 +36,10 @@ FIXED = 100 << 20
 
 @dataclass(frozen=True)
 class SubsurfaceField:
-    """Fields in one body, z into it; each side of an interface is a separate level.
+    """Displacement and stress in one body at the cell centres of several levels; z points into the
+    body.
 
+    A level is a depth in one layer. Each side of an interface is a separate level.
     x, y          positions, shapes (nx,) and (ny,) [length]
     levels        depth and layer of each level, in the order of the request
     displacement  (u_x, u_y, u_z), zero far away, shape (nz, 3, nx, ny) [length]
@@ -52,7 +54,7 @@ class SubsurfaceField:
 
     @classmethod
     def joined(cls, parts: Iterable[SubsurfaceField]) -> SubsurfaceField:
-        """Join fields at equal positions and successive levels."""
+        """Join fields at equal positions x, y and successive levels into one field."""
         each = list(parts)
         return cls(
             each[0].x,
@@ -68,14 +70,19 @@ class SubsurfaceField:
         return np.array([level.depth for level in self.levels])
 
     def along_x(self, y: float = 0.0) -> SubsurfaceField:
-        """Interpolate the section at y between rows of cells by cubics; shapes (…, nx, 1)."""
+        """Interpolate displacement and stress to the section at y, by cubics between rows of cells.
+
+        The arrays of the result have the shape (…, nx, 1).
+        """
         weights = line_weights(self.y, y)[:, None]
         return SubsurfaceField(
             self.x, np.array([y]), self.levels, self.displacement @ weights, self.stress @ weights
         )
 
     def below(self, x: float = 0.0, y: float = 0.0) -> tuple[Field, Field]:
-        """Return displacement (nz, 3) and stress (nz, 6) on the vertical line at (x, y)."""
+        """Return displacement (nz, 3) and stress (nz, 6) on the vertical line at (x, y), by cubic
+        interpolation.
+        """
         section = self if len(self.y) == 1 and self.y[0] == y else self.along_x(y)
         weights = line_weights(self.x, x)
         return (
@@ -142,7 +149,7 @@ def fields_by_level(
     depths: Sequence[float | Level],
     rows: Indices | None = None,
 ) -> Iterator[SubsurfaceField]:
-    """Iterate over the fields of each level; other arguments as for `subsurface`.
+    """Iterate over displacement and stress at each depth; other arguments as for `subsurface`.
 
     rows  indices along y of the required rows of cells; None for all
     """
@@ -171,12 +178,12 @@ def depth_coefficients(
     *,
     sheared: bool = True,
 ) -> Iterator[Field]:
-    """Iterate over the fields by unit tractions on a cell at each level.
+    """Iterate over the displacement and stress by unit tractions on one cell, at each depth.
 
-    In the outermost material a closed form is used, to which layers add their contribution. Below
-    it the whole response is tabulated. Offsets are (i dx, j dy) with i, j >= 0; other quadrants
-    follow by `components.parity`. Displacements [length^3/force], stresses dimensionless.
-
+    A closed form is used in the outermost material, to which layers add their contribution. Below
+    the outermost material the whole response is tabulated. Entry (i, j) belongs to the offset (i
+    dx, j dy) with i, j >= 0; other quadrants follow by `components.parity`. Displacements are in
+    [length^3/force], stresses are dimensionless.
     spacing  cell sides [length]
     shape    number of offsets along x and y, including zero
     sheared  include the responses to shear, before those to pressure
@@ -202,7 +209,11 @@ def _closed_form(
     shape: tuple[int, int],
     sheared: bool,
 ) -> Field:
-    """Compute the fields of a half-space of the material at this level."""
+    """Compute displacement and stress by unit tractions on a cell of a homogeneous half-space.
+
+    The half-space has the material of the stack at this level.
+    shape  number of offsets along x and y
+    """
     x = (np.arange(shape[0] + 1, dtype=np.float64) - 0.5) * spacing[0]
     y = (np.arange(shape[1] + 1, dtype=np.float64) - 0.5) * spacing[1]
     return half_space_response(x, y, level.depth, material_at(stack, level), sheared=sheared)
@@ -219,7 +230,9 @@ def _stack(body: Body | Scene | Stack) -> Stack:
 
 
 def _tractions(grid: SurfaceGrid, pressure: Field, shear: Field | None) -> Field:
-    """Validate and collect (q_x, q_y, p) on the cells; p alone without shear."""
+    """Check the shapes of pressure and shear, and return (q_x, q_y, p); p alone if the shear is
+    zero.
+    """
     for name, field, expected in (
         ("pressure", pressure, grid.cells),
         ("shear", shear, (2, *grid.cells)),
@@ -234,8 +247,10 @@ def _tractions(grid: SurfaceGrid, pressure: Field, shear: Field | None) -> Field
 
 
 def required_bytes(cells: tuple[int, int], levels: int, numbers: int = 0) -> int:
-    """Estimate the peak memory of fields on whole planes [byte].
+    """Estimate the peak memory of displacement and stress at several depths on whole planes [byte].
 
+    cells    number of cells along x and y
+    levels   number of depths
     numbers  largest count of numbers per point derived from the fields, fields included
     """
     arrays = max(WORK + len(FIELDS) * levels, numbers * levels)
@@ -243,7 +258,10 @@ def required_bytes(cells: tuple[int, int], levels: int, numbers: int = 0) -> int
 
 
 def refuse_beyond_memory(cells: tuple[int, int], levels: int, numbers: int = 0) -> None:
-    """Raise ResourceRefused if fields at the levels and derived numbers exceed the free memory."""
+    """Raise ResourceRefused if displacement and stress at several depths exceed the free memory.
+
+    Arguments as for `required_bytes`.
+    """
     required, available = required_bytes(cells, levels, numbers), available_bytes()
     if required > available:
         raise ResourceRefused(

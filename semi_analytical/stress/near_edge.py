@@ -1,7 +1,8 @@
-"""Stress near the edge of a contact by fitted tractions, with a test of the fit.
+"""Stress near the edge of a contact from fitted tractions, with a test of the fit.
 
 The tensile stress is largest at the edge and falls with the square root of the distance on both
-sides. Values at the centres of cells with constant tractions are 10 % too low at 128 cells.
+sides. If the tractions are uniform in each cell, the stress at cell centres is 10 % too low at 128
+cells.
 """
 
 from __future__ import annotations
@@ -47,10 +48,10 @@ NOT_SMOOTH = "the square of the pressure is not smooth at {} of the edge"
 
 
 class EdgeNotSeen(Exception):
-    """The tractions do not determine the stress at the edge; the message states the cause.
+    """Raised if the tractions do not determine the stress at the contact edge; the message states
+    the cause.
 
-    candidate  surface with the edge as far as it was fitted: the stress there may still be the
-               maximum; None where the fit failed
+    candidate  fitted edge, where the tensile stress may still be largest; None where the fit failed
     """
 
     def __init__(self, cause: str, candidate: NearEdge | None = None) -> None:
@@ -60,14 +61,18 @@ class EdgeNotSeen(Exception):
 
 @dataclass(frozen=True)
 class NearEdge:
-    """Loaded surface with fitted edge.
+    """Surface of a body with tractions and the fitted edge of the contact.
 
-    tractions  with their edge
-    phi        quadratics about points of the edge (n,)
-    apart      difference of the largest principal stress there between two fits, over `size`
-    size       scale of stress: the larger of that principal stress and the pressure of border cells
-               [force/length²]. It is not small where the stress is nearly zero
-    plane      stress at z = 0 at the cell centres by `tractions.cells` (6, nx, ny)
+    stack      layers and base of the body
+    grid       grid of the tractions
+    tractions  tractions with their variation within the edge cells
+    phi        quadratics of φ about points of the edge (n,)
+    apart      largest difference between two fits of the largest principal stress at the edge, over
+               `size`
+    size       scale of stress [force/length²]: the larger of that principal stress and the pressure
+               of border cells; not small where the stress is nearly zero
+    plane      surface stress at the cell centres by the uniform tractions `tractions.cells` (6, nx,
+               ny)
     """
 
     stack: Stack
@@ -89,11 +94,14 @@ class NearEdge:
         return np.asarray(self.grid.y[0] + self.phi.y * self.grid.spacing[1])
 
     def stress(self) -> Field:
-        """Compute the stress on the edge as the limit from within (6, n) [force/length²]."""
+        """Compute the surface stress at the edge points, as the limit from within the contact (6,
+        n).
+        """
         return _at_surface(self, self.phi)
 
     def at(self, x: Field, y: Field) -> Field:
-        """Compute the stress at positions x, y (n,) [length] near the edge (6, n)."""
+        """Compute the surface stress at positions x, y (n,) [length] near the contact edge (6, n).
+        """
         of_cells = (
             (p - c[0]) / side
             for p, c, side in zip(
@@ -104,7 +112,7 @@ class NearEdge:
 
     @property
     def beside(self) -> Mask:
-        """Cells (nx, ny) of the region in which the stress is corrected."""
+        """Cells (nx, ny) near the contact edge in which the stress is corrected."""
         shape = self.tractions.shape
         away = distance_transform_edt(shape.depth == 0)
         beside = (shape.depth <= BESIDE + 0.5) & (away <= BESIDE)
@@ -113,7 +121,11 @@ class NearEdge:
         return np.asarray(beside & inner)
 
     def corrected(self, field: SubsurfaceField) -> SubsurfaceField:
-        """Return a field, on all or some rows of cells, with the stress near the edge corrected."""
+        """Return displacement and stress with corrected stress near the contact edge.
+
+        field  displacement and stress by tractions uniform in each cell, on all or some rows of
+               cells
+        """
         rows = np.searchsorted(self.grid.y, field.y)
         beside = self.beside[:, rows]
         mirrored, half = mirror_planes(self.tractions.cells)[0], len(field.x) // 2
@@ -134,12 +146,19 @@ class NearEdge:
         return replace(field, stress=stress)
 
     def reaches(self, level: Level) -> bool:
-        """Return whether the stress at a level is corrected."""
+        """Return True if the stress at a level is corrected.
+
+        The level must lie in the outermost layer and near the surface.
+        """
         return level.layer == 0 and near_surface(level.depth, self.grid.spacing)
 
 
 def near_surface(depth: float, spacing: tuple[float, float]) -> bool:
-    """Return whether the edge affects the stress at a depth where the correction is accurate."""
+    """Return True if the stress at a depth is affected by the edge and can be corrected.
+
+    depth    z >= 0 [length]
+    spacing  cell sides [length]
+    """
     cells = depth / max(spacing)
     return depth == 0 or SHALLOWEST <= cells < BELOW
 
@@ -152,12 +171,10 @@ def near_edge(
     *,
     corrected: bool = False,
 ) -> NearEdge:
-    """Fit the edge of a smooth contact; arguments as for `subsurface`.
+    """Fit the contact edge of a smooth contact; arguments as for `subsurface`.
 
     The pressure must fall like a square root towards the edge.
-
-    corrected  whether the tractions are cell means with edge correction
-
+    corrected  True if the tractions are cell means with edge correction
     Raises EdgeNotSeen, and the errors of `subsurface`.
     """
     if shear is not None and np.max(np.abs(shear)) <= NO_SHEAR * np.max(pressure):
@@ -211,7 +228,10 @@ def near_edge(
 
 
 def _stuck(pressure: Field, shear: Field) -> Mask:
-    """Return the cells of the contact that stick."""
+    """Return the cells of the contact that stick, from the ratio of shear to pressure (nx, ny).
+
+    A cell sticks if its ratio is below SLIPPING times the largest ratio.
+    """
     region = pressure > 0
     size = np.hypot(*shear)
     ratio = np.divide(size, pressure, out=np.zeros_like(size), where=region)
@@ -219,7 +239,7 @@ def _stuck(pressure: Field, shear: Field) -> Mask:
 
 
 def _on_edge(phi: Quadratic) -> Quadratic:
-    """Set phi at the edge to exactly zero."""
+    """Set the value of φ at the edge points, which is zero up to rounding, to exactly zero."""
     return replace(phi, f=np.zeros_like(phi.f))
 
 
@@ -230,6 +250,9 @@ def _at_surface(found: NearEdge, phi: Quadratic) -> Field:
 
 
 def _largest(stress: Field) -> Field:
-    """Compute the largest principal stress of the surface at its edge, free of traction (n,)."""
+    """Compute the largest in-plane principal stress of the surface (n,) from the stress (6, n).
+
+    At the contact edge the surface is free of traction.
+    """
     xx, yy, xy = stress[0], stress[1], stress[5]
     return np.asarray((xx + yy) / 2 + np.hypot((xx - yy) / 2, xy))

@@ -1,7 +1,7 @@
-"""Surface stress between cell centres, by the cells beyond a patch about the observer.
+"""Surface stress between cell centres by all cells outside a patch about the place of the stress.
 
-The contribution of the patch is subtracted at the cell centres. The remaining stress, that of the
-layers included, is smooth and is interpolated.
+The contribution of the patch is subtracted at the cell centres. The remaining stress, which
+includes that of the layers, is smooth and is interpolated.
 """
 
 from functools import lru_cache
@@ -25,14 +25,16 @@ def stress_from_beyond(
     material: HalfSpace,
     spacing: tuple[float, float],
 ) -> Field:
-    """Compute the stress (6, n) at z = 0 at positions (n,), index coordinates, without the patch.
+    """Compute the surface stress (6, n) at positions x, y (n,) by the cells outside a patch about
+    each.
 
     The patch is centred at the nearest cell, which is at least NODES cells from the border of the
     plane.
-
     cells     (3, nx, ny) tractions
-    plane     (6, nx, ny) stress at the cell centres by all of them
-    material  outermost
+    plane     (6, nx, ny) stress at the cell centres by all tractions
+    x, y      positions in index coordinates
+    material  outermost material of the body
+    spacing   cell sides [length]
     """
     i, j = np.rint(x).astype(int), np.rint(y).astype(int)
     nodes = np.arange(-NODES, NODES + 1)
@@ -45,7 +47,7 @@ def stress_from_beyond(
 
 
 def _patches(cells: Field, i: Indices, j: Indices) -> Field:
-    """Return the tractions on the patches about cells (n, 3, side, side)."""
+    """Return the tractions on the patches about the cells (i, j), shape (n, 3, side, side)."""
     shift = np.arange(2 * PATCH + 1)
     padded = np.pad(cells, [(0, 0), (PATCH, PATCH), (PATCH, PATCH)])
     found = padded[:, (i[:, None] + shift)[:, :, None], (j[:, None] + shift)[:, None, :]]
@@ -54,7 +56,10 @@ def _patches(cells: Field, i: Indices, j: Indices) -> Field:
 
 @lru_cache(4)
 def _patch_kernel(material: HalfSpace, spacing: tuple[float, float]) -> Field:
-    """Compute the stress at every node by every traction of the patch (3 side², 6 nodes)."""
+    """Compute the stress at each interpolation node by each traction of a patch (3 side², 6 nodes).
+
+    side is the number of cells along a side of the patch.
+    """
     reach = PATCH + NODES
     x, y = ((np.arange(-reach, reach + 2.0) - 0.5) * side for side in spacing)
     response = half_space_response(x, y, 0.0, material)[STRESS]
@@ -69,7 +74,9 @@ def _patch_kernel(material: HalfSpace, spacing: tuple[float, float]) -> Field:
 
 
 def _lagrange(at: Field) -> Field:
-    """Compute the Lagrange weights of the nodes (n, 2 NODES + 1)."""
+    """Compute the Lagrange interpolation weights of the nodes (n, 2 NODES + 1) for positions `at`
+    (n,).
+    """
     nodes = np.arange(-NODES, NODES + 1)
     weights = np.ones((len(at), len(nodes)))
     for column, node in enumerate(nodes):

@@ -12,13 +12,13 @@ from contact_scene.array_types import Field
 
 
 def stress_by_force(x: Field, y: Field, depth: float, nu: float, force: Field) -> Field:
-    """Compute the stress times an area (6, …), order of CONVENTIONS.md, outside the point of
-    action.
+    """Compute stress times area (6, …) in a half-space under point forces on its surface.
 
+    The components are in the order of CONVENTIONS.md. Points of action are excluded.
     x, y   observer minus force (…), not both zero at depth zero [length]
     depth  z >= 0 [length]
     nu     Poisson's ratio
-    force  (q_x, q_y, p), shape (3, …)
+    force  (q_x, q_y, p) as traction times area, shape (3, …)
     """
     q_x, q_y, p = force / (2 * pi)
     sheared = bool(q_x.any() or q_y.any())
@@ -60,7 +60,11 @@ def stress_by_force(x: Field, y: Field, depth: float, nu: float, force: Field) -
 def _at_surface(
     x: Field, y: Field, nu: float, force: tuple[Field, Field, Field], sheared: bool
 ) -> Field:
-    """Compute the stress at depth zero, where xx, yy and xy are not zero."""
+    """Compute stress times area (6, …) at depth zero, where only xx, yy and xy are not zero.
+
+    Arguments as for `stress_by_force`, with the force divided by 2π.
+    sheared  True if q_x or q_y is not zero
+    """
     q_x, q_y, p = force
     g = 1 - 2 * nu
     near = 1 / (x * x + y * y)

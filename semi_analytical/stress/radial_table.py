@@ -1,13 +1,12 @@
-"""Table of the radial functions of the fields at some depths, in panels over the distance.
+"""Table of the radial functions of displacement and stress in a layered body at several depths.
 
-The tabulated functions are smooth. In the outermost layer they are the contribution of the layers
-to a half-space of its material, with image sources at a distance of at least 2h - z. Below it they
-are the whole response, with sources at a distance of at least z. This clearance is the length scale
-near the axis.
-
-With H_n[f] = 1/2pi int f J_n(alpha r) alpha d alpha, the scalars of `frf/depth.py` and the angle
-phi of the observer, seen from the force, isotropy leaves 15 functions: six for pressure and nine
-for shear (transforms along and across the wave, rotated to the axes of the scene).
+The functions are tabulated in panels over the distance r from a point force. They are smooth. In
+the outermost layer they are the contribution of the layers to a half-space of its material, with
+image sources at a distance of at least 2h - z (h: thickness of this layer). Below it they are the
+whole response, with sources at a distance of at least z. This clearance is the length scale near
+the axis. With H_n[f] = 1/2pi int f J_n(alpha r) alpha d alpha, the scalars of `frf/depth.py` and
+the angle phi of the observer, seen from the force, isotropy leaves 15 functions: six for pressure
+and nine for shear (transforms along and across the wave, rotated to the axes of the scene).
 """
 
 from dataclasses import dataclass
@@ -47,7 +46,7 @@ BY_PRESSURE = 6  # number of functions for pressure, which are first
 
 @dataclass(frozen=True)
 class DepthTable:
-    """Radial functions at some levels on 0 <= r <= edges[-1].
+    """Radial functions of displacement and stress at several depths, on 0 <= r <= edges[-1].
 
     edges         panel bounds [length], shape (panels + 1,), edges[0] = 0
     coefficients  Chebyshev coefficients, shape (levels, panels, NODES, functions)
@@ -58,11 +57,14 @@ class DepthTable:
 
     @property
     def sheared(self) -> bool:
-        """Whether the table includes the responses to shear."""
+        """True if the table includes the responses to shear."""
         return self.coefficients.shape[-1] > BY_PRESSURE
 
     def at(self, level: int, r: Array) -> Array:
-        """Interpolate the functions of a level at distances r, shape (functions, len(r))."""
+        """Interpolate the radial functions of one depth at distances r, shape (functions, len(r)).
+
+        level  index of the depth in the table
+        """
         coefficients = self.coefficients[level]
         values = np.empty((coefficients.shape[2], len(r)))
         for panel, inside, place in places_on_panels(self.edges, r):
@@ -71,7 +73,8 @@ class DepthTable:
 
 
 def clearance(stack: Stack, level: Level) -> float:
-    """Return the distance of the nearest source of the tabulated functions at a level [length]."""
+    """Return the distance from a level to the nearest source of the tabulated functions [length].
+    """
     if level.layer == 0:
         return 2 * stack.layers[0].thickness - level.depth
     return level.depth
@@ -80,7 +83,12 @@ def clearance(stack: Stack, level: Level) -> float:
 def depth_table(
     stack: Stack, levels: tuple[Level, ...], reach: float, *, sheared: bool = True
 ) -> DepthTable:
-    """Tabulate the fields of a layered body at some levels up to the distance `reach` [length]."""
+    """Tabulate displacement and stress of a layered body at some depths, up to a distance from the
+    force.
+
+    reach    largest distance [length]
+    sheared  include the responses to shear
+    """
     orders = ORDERS if sheared else ORDERS[:BY_PRESSURE]
     nearest = min(clearance(stack, level) for level in levels)
     edges = panel_edges(min(nearest / 2, reach), reach)
@@ -100,7 +108,12 @@ def _transforms(
     weight: Array,
     orders: tuple[int, ...],
 ) -> Array:
-    """Compute Hankel transforms at distances r, shape (levels, len(r), functions)."""
+    """Compute the Hankel transforms of all radial functions, shape (levels, len(r), functions).
+
+    r              distances from the force [length]
+    alpha, weight  wavenumbers and quadrature weights
+    orders         order of the Bessel function of each radial function
+    """
     descent = Descent(stack, alpha)
     sources = np.stack([_integrands(descent, level)[: len(orders)] for level in levels])
     sources *= alpha * weight / (2 * pi)
@@ -117,14 +130,21 @@ def _integrands(descent: Descent, level: Level) -> Array:
 
 
 def _bessel(x: Array) -> tuple[Array, Array, Array, Array]:
-    """Compute J_0 to J_3. The recurrence cancels at small x, where alpha d alpha vanishes."""
+    """Compute the Bessel functions J_0 to J_3 of x.
+
+    The recurrence cancels at small x, where the weight alpha d alpha of the integral vanishes.
+    """
     first, second = j0(x), j1(x)
     third = 2 * second / x - first
     return first, second, third, 4 * third / x - second
 
 
 def integrands(fields: DepthScalars, plane: PlaneScalars) -> Array:
-    """Compute the integrands of the Hankel transforms, shape (functions, wavenumbers)."""
+    """Compute the integrands of the Hankel transforms, shape (functions, wavenumbers).
+
+    fields  displacement and traction scalars at one depth, in Fourier space
+    plane   stress scalars in the horizontal plane at this depth
+    """
     (U_q, U_p), (W_q, W_p) = fields.displacement
     (s_q, s_p), (n_q, n_p) = fields.traction
     T, t = fields.transverse_displacement, fields.transverse_traction
@@ -141,10 +161,10 @@ def integrands(fields: DepthScalars, plane: PlaneScalars) -> Array:
 
 
 def in_scene_axes(functions: Array, cos: Array, sin: Array) -> Array:
-    """Compute the fields by unit forces, shape (FIELDS, acting tractions, *cos.shape).
+    """Compute displacement and stress by unit forces; shape (FIELDS, acting tractions, *cos.shape).
 
     functions  values of all radial functions, or of those for pressure (functions, *cos.shape)
-    cos, sin   of phi
+    cos, sin   direction cosines of the observer, seen from the force
     """
     ur_p, uz_p, n_p, s_p, mean_p, half_p, *by_shear = functions
     cos2, sin2 = (cos - sin) * (cos + sin), 2 * cos * sin

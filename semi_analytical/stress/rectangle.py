@@ -21,12 +21,12 @@ from semi_analytical.stress.components import empty_response
 
 
 class AxisPotentials:
-    """Integrals over a rectangle of the derivatives of A, B, C along one axis s of the surface.
+    """Integrals over a rectangle of the derivatives of the potentials A, B, C along one surface
+    axis s.
 
+    Each integral has shape (…, nx, ny). The potentials are defined in the module.
     s, o   corner offsets of the observers along this and the other axis, which broadcast [length]
     depth  z >= 0 [length]
-
-    Each integral has shape (…, nx, ny).
     """
 
     def __init__(self, s: Field, o: Field, depth: float) -> None:
@@ -37,12 +37,14 @@ class AxisPotentials:
 
     @cached_property
     def log(self) -> Field:
-        """Primitive of A_s."""
+        """Primitive over the rectangle of the derivative A_s, at the corners."""
         return np.arcsinh(self._o / np.sqrt(self._sz))
 
     @cached_property
     def angle(self) -> Field:
-        """Primitive of -B_ss, with rho - z written without cancellation."""
+        """Primitive over the rectangle of -B_ss at the corners, with rho - z written without
+        cancellation.
+        """
         s, o, z, rho = self._s, self._o, self._z, self._rho
         return np.arctan(s * o * (s**2 + o**2) / (self._deep * (s**2 * rho + o**2 * z)))
 
@@ -90,22 +92,24 @@ class AxisPotentials:
 
 
 def _corners(primitive: Field) -> Field:
-    """Evaluate an integral over 2 pi from its primitive at the corners."""
+    """Evaluate an integral over a rectangle, divided by 2 pi, from its primitive at the corners."""
     return np.diff(np.diff(primitive, axis=-2), axis=-1) / (2 * pi)
 
 
 def half_space_response(
     x: Field, y: Field, depth: float, material: HalfSpace, *, sheared: bool = True
 ) -> Field:
-    """Compute the fields by unit tractions on a rectangle (FIELDS, acting tractions, …, nx, ny).
+    """Compute displacement and stress in a half-space by unit tractions on a rectangle.
 
-    They are in equilibrium and regular at nu = 1/2. The divergence of the displacement is
-    2 (1 - 2 nu) / 2G times A_z under pressure, A_x and A_y under shear. Every normal stress
-    includes 2 nu times these derivatives.
-
-    x, y   corner offsets of the observers from the loaded rectangles, minus and plus half a side,
-           shared by neighbours; shapes (…, nx + 1), (…, ny + 1), none zero at depth zero [length]
-    depth  z >= 0 [length]
+    The shape is (FIELDS, acting tractions, …, nx, ny). The fields are in equilibrium and regular at
+    nu = 1/2. The divergence of the displacement is 2 (1 - 2 nu) / 2G times A_z under pressure, A_x
+    and A_y under shear. Every normal stress includes 2 nu times these derivatives.
+    x, y      corner offsets of the observers from the loaded rectangles, minus and plus half a
+              side, shared by neighbours; shapes (…, nx + 1), (…, ny + 1), none zero at depth zero
+              [length]
+    depth     z >= 0 [length]
+    material  elastic constants (G, nu)
+    sheared   include the responses to shear, before those to pressure
     """
     x, y = x[..., :, None], y[..., None, :]
     along = AxisPotentials(x, y, depth), AxisPotentials(y, x, depth)
