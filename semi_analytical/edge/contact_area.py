@@ -73,8 +73,7 @@ def stuck_cells(shear: Field, bound: Field, in_stick: Mask) -> float:
 
 def _box_with_edge(marked: Mask) -> tuple[slice, ...]:
     """Return the slices of the smallest rectangle that contains the marked cells and their
-    neighbours.
-    """
+    neighbours."""
     at = (np.flatnonzero(np.any(marked, axis=axis)) for axis in (1, 0))
     return tuple(slice(max(0, i[0] - 1), i[-1] + 2) if len(i) else slice(0) for i in at)
 

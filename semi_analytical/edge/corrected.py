@@ -1,5 +1,5 @@
-"""Results of the edge correction of a state: corrected pressure, corrected shear and their errors.
-"""
+"""Results of the edge correction of a state: corrected pressure, corrected shear and their
+errors."""
 
 from dataclasses import dataclass
 

@@ -177,8 +177,8 @@ class EdgeOperator:
         ]
 
     def __call__(self, *within: Within) -> Field:
-        """Compute displacements (rows, nx, ny) [length] from one variation per traction component.
-        """
+        """Compute displacements (rows, nx, ny) [length] from one variation per traction
+        component."""
         slopes = np.concatenate([w.slopes for w in within])
         self._counter.count += 0.5 * (len(self._matrix) + len(slopes))
         u = self._transforms.filtered(slopes, *self._sides, self._multiplied)

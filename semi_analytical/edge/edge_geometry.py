@@ -1,6 +1,5 @@
 """Contact edge as a set of points with normals and curvatures, and distances of places from the
-edge.
-"""
+edge."""
 
 from __future__ import annotations
 
@@ -40,9 +39,8 @@ class LocalEdge:
 
     @property
     def slope_at_place(self) -> Field:
-        """Slope of φ along the edge normal at the places, at least MIN_SLOPE_RATIO of that at the
-        edge.
-        """
+        """Slope of φ along the edge normal at the places, at least MIN_SLOPE_RATIO of that at
+        the edge."""
         inside = self.slope + self.bend * self.distance
         return np.maximum(inside, MIN_SLOPE_RATIO * self.slope)
 
@@ -97,9 +95,8 @@ class EdgeLine:
         )
 
     def with_medians(self) -> EdgeLine:
-        """Replace the curvature and the ratio bend/slope of each edge point by their medians over
-        the edge.
-        """
+        """Replace the curvature and the ratio bend/slope of each edge point by their medians
+        over the edge."""
         bend = self.slope * np.median(self.bend / self.slope)
         curvature = np.full_like(bend, np.median(self.curvature))
         return replace(self, bend=bend, curvature=curvature)

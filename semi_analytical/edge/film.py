@@ -135,16 +135,15 @@ class FilmLaw:
         return law / root, law_rate * root / (law * root_rate) - 1
 
     def _at(self, s: Field) -> Field:
-        """Interpolate Φ1, Φ2 and Φ3 over their values without layers at distances s; shape (3, …).
-        """
+        """Interpolate Φ1, Φ2 and Φ3 over their values without layers at distances s; shape (3,
+        …)."""
         u = np.log(np.maximum(s, 1e-300))
         found = self._ratios(np.clip(u, self._ratios.x[0], self._ratios.x[-1]))
         return np.asarray(np.moveaxis(found, -1, 0))
 
     def _values(self, s: Field, c: Field) -> Field:
-        """Compute the pressure law, its derivative, √s and its derivative at distances s > 0; shape
-        (4, n).
-        """
+        """Compute the pressure law, its derivative, √s and its derivative at distances s > 0;
+        shape (4, n)."""
         root, step = np.sqrt(s), 0.02
         here, after, before = (self.over_root(s * f, c) for f in (1.0, 1 + step, 1 - step))
         return np.stack([
@@ -200,8 +199,7 @@ def film_law(lower: Body, upper: Body, spacing: tuple[float, float]) -> FilmLaw 
 
 def _uniform_depth(stack: Stack) -> float:
     """Return the total thickness [length] of the outermost layers that have equal elastic
-    constants.
-    """
+    constants."""
     depth, outer = 0.0, stack.outer
     for layer in stack.layers:
         stiffer = abs(layer.shear_modulus / outer.shear_modulus - 1)

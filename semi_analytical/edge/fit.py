@@ -126,8 +126,8 @@ def stencil_weights(stencil: Stencil) -> Field:
 
 @cache
 def monomials(stencil: Stencil) -> Field:
-    """Compute the means of 1, x, y, x²/2, xy, y²/2 over the cells of a stencil window (6, window).
-    """
+    """Compute the means of 1, x, y, x²/2, xy, y²/2 over the cells of a stencil window (6,
+    window)."""
     dx, dy = _offsets(stencil)
     rows = (np.ones(len(dx)), dx, dy, dx**2 / 2 + 1 / 24, dx * dy, dy**2 / 2 + 1 / 24)
     return _read_only(np.stack(rows))
@@ -136,8 +136,7 @@ def monomials(stencil: Stencil) -> Field:
 @cache
 def _products(stencil: Stencil, degree: int) -> Field:
     """Compute the products of all pairs of monomials in the window of a stencil (9 degree²,
-    window).
-    """
+    window)."""
     basis = monomials(stencil)[: 3 * degree]
     return _read_only((basis[:, None] * basis).reshape(len(basis) ** 2, -1))
 

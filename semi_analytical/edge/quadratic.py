@@ -88,8 +88,7 @@ class Quadratic:
     @property
     def cut(self) -> Mask:
         """True if the linear part of the quadratic vanishes somewhere in the unit cell about its
-        place.
-        """
+        place."""
         return np.asarray(np.abs(self.mean) < (np.abs(self.f_x) + np.abs(self.f_y)) / 2)
 
     @property

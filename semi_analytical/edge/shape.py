@@ -67,9 +67,8 @@ class EdgeShape:
         return fit_about(self.phi, self.weight, i, j, self.stencil, domain=self.domain)
 
     def nearest_to(self, x: Field, y: Field) -> Indices:
-        """Return the indices (2, n) of the cells of the region that are nearest to places (x, y),
-        shape (n,).
-        """
+        """Return the indices (2, n) of the cells of the region that are nearest to places (x,
+        y), shape (n,)."""
         last = np.array(self.means.shape) - 1
         i, j = (np.clip(np.rint(at), 0, n).astype(int) for at, n in zip((x, y), last, strict=True))
         return self.nearest[:, i, j]

@@ -61,15 +61,13 @@ class EdgeCells:
 
     def __getstate__(self) -> dict[str, object]:
         """Return the state for a checkpoint, without the fields that can be computed from the
-        region.
-        """
+        region."""
         return {"region": self.region, "domain": self.domain}
 
     @cached_property
     def depth(self) -> Field:
         """Distance of each cell of the region from the nearest cell outside (nx, ny), see
-        `depth_of`.
-        """
+        `depth_of`."""
         return depth_of(self.region, self.domain)
 
     @cached_property
@@ -87,8 +85,7 @@ class EdgeCells:
     @cached_property
     def deep(self) -> tuple[Indices, Indices]:
         """Indices of deeper cells, whose subcell tractions come from second differences of the
-        means.
-        """
+        means."""
         i, j = np.nonzero((self.depth > FITTED) & (self.depth <= INSIDE))
         return i, j
 
@@ -137,8 +134,7 @@ class SubcellTractions:
     @cached_property
     def means(self) -> Field:
         """Mean of the traction over each cell along the edge, zero elsewhere (nx, ny)
-        [force/length^2].
-        """
+        [force/length^2]."""
         means = np.zeros(self.region.shape)
         means[self.i, self.j] = self.parts.mean(axis=(1, 2))
         return means

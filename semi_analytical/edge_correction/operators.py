@@ -37,8 +37,8 @@ class EdgeOperators:
 
     @cached_property
     def by_shear(self) -> EdgeOperator:
-        """Operator from shear variations within cells to (u_x, u_y) [length], on the full window.
-        """
+        """Operator from shear variations within cells to (u_x, u_y) [length], on the full
+        window."""
         return self._operator(SHEAR, WINDOW)
 
     @cached_property

@@ -192,8 +192,7 @@ class _Problem:
     @cached_property
     def box(self) -> Box:
         """Smallest box of cells around the contact area, widened by MARGIN; it bounds the normal
-        solves.
-        """
+        solves."""
         return box_around(self.contact, MARGIN, self.model.domain)
 
     @cached_property

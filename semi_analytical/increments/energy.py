@@ -40,18 +40,19 @@ from contact_scene.friction import sliding_friction
 
 @dataclass(frozen=True)
 class Configuration:
-    """Tractions, displacements and loads of a state for the energy balance.
+    """Tractions, displacements and loads of a converged state, as needed by the energy balance.
 
-    Fields are on the domain. Without shear the tangential fields have no cells.
-
-    pressure, normal_displacement       p and u_z (nx, ny)
-    gap                                 g (nx, ny); may be infinite where p is always zero
-    shear, tangential_displacement      q and u (2, nx, ny)
-    friction_limit                      µp (nx, ny)
-    slipped                             u less the rigid motion (2, nx, ny); its change is the slip;
-                                        zero where the motion is undefined
-    contact_fraction                    κ of the increment that ends here (nx, ny)
-    forces, motions                     f and ω in one order; motions None where undefined
+    Fields are on the reduced domain. Without shear the tangential fields have no cells.
+    pressure, normal_displacement   p [force/length^2] and u_z [length], each (nx, ny)
+    gap                             gap g (nx, ny) [length]; may be infinite where p is always zero
+    shear, tangential_displacement  q and u, each (2, nx, ny)
+    friction_limit                  µp (nx, ny)
+    slipped                         u less the rigid motion (2, nx, ny) [length]; its change is the
+                                    slip; zero where the motion is undefined
+    contact_fraction                fraction κ of the increment ending here during which each cell
+                                    is in contact (nx, ny)
+    forces, motions                 forces and moments f, and conjugate motions ω, in one order;
+                                    motions None where undefined
     """
 
     pressure: Field
@@ -68,7 +69,10 @@ class Configuration:
     @classmethod
     def at_rest(cls, gap: Field, after: Configuration) -> Configuration:
         """Return the unloaded configuration before first touch, with fields shaped as those of
-        `after`."""
+        `after`.
+
+        gap  undeformed gap (nx, ny) [length]
+        """
         nothing, unsheared = np.zeros_like(gap), np.zeros_like(after.shear)
         return cls(
             pressure=nothing,
@@ -86,12 +90,12 @@ class Configuration:
 
 @dataclass(frozen=True)
 class Energy:
-    """Energies since the start of the history, where all are zero [force length].
+    """Energies of a load history since its start, where all are zero [force length].
 
-    elastic     stored in both bodies
-    input_work  trapezoidal sum of the forces and moments; None from the first undefined motion on
-                (friction limit under force control), as are the three that follow
-    dissipated  by slip
+    elastic     energy stored in both bodies
+    input_work  trapezoidal sum of the work of forces and moments; None from the first undefined
+                motion on (friction limit under force control), as are the three that follow
+    dissipated  energy lost to friction by slip
     unresolved  unresolved work of finite increments
     uncertain   uncertainty of `dissipated` due to finite increments
     largest     largest magnitude of any energy so far: the scale of the balance
@@ -106,18 +110,23 @@ class Energy:
 
     @property
     def transferred(self) -> float | None:
-        """Energy stored and dissipated [force length]."""
+        """Energy stored in the bodies plus energy dissipated since the start [force length]."""
         return None if self.dissipated is None else self.elastic + self.dissipated
 
     @property
     def left_open(self) -> float | None:
-        """Trapezoidal sum of the loads minus the energy stored and dissipated [force length]."""
+        """Input work minus the energy stored and dissipated [force length]; None where
+        undefined."""
         if self.input_work is None or self.transferred is None:
             return None
         return self.input_work - self.transferred
 
     def imbalance(self, before: Energy) -> float | None:
-        """Compute the relative residual of the energy balance since `before` [1]."""
+        """Compute the relative residual of the energy balance of one increment [1].
+
+        The scale is the largest energy so far. The result is None where the motion is undefined.
+        before  energies at the start of the increment
+        """
         terms = self._terms()
         if terms is None or self.largest == 0:
             return None if terms is None else 0.0
@@ -142,12 +151,14 @@ def after_increment(
     *,
     path_matters: bool,
 ) -> Energy:
-    """Compute the energies at the end of an increment.
+    """Compute the energies since the start of the history at the end of one increment.
 
-    spent         energies at its start
-    dissipated    since the start of the history, None where undefined [force length]
-    cell_area     of a cell and its mirror images
-    path_matters  whether the end state depends on the number of increments of the load step
+    spent          energies at the start of the increment
+    before, after  configurations at the start and the end of the increment
+    dissipated     energy dissipated since the start of the history, None where undefined [force
+                   length]
+    cell_area      area of a cell and its mirror images [length^2]
+    path_matters   True if the end state depends on the number of increments of the load step
     """
     elastic = elastic_energy(after, cell_area)
     work, worked, unresolved = _work(before, after), spent.input_work, spent.unresolved
@@ -166,20 +177,24 @@ def after_increment(
 
 
 def elastic_energy(state: Configuration, cell_area: float) -> float:
-    """Compute ½ Σ (p u_z + q·u) Δ [force length]."""
+    """Compute the elastic energy ½ Σ (p u_z + q·u) Δ of a state [force length].
+
+    cell_area  area Δ of a cell and its mirror images [length^2]
+    """
     normal = float(np.sum(state.pressure * state.normal_displacement))
     tangential = float(np.sum(state.shear * state.tangential_displacement))
     return 0.5 * (normal + tangential) * cell_area
 
 
 def pressed_work(pressure: Field, displacement: Field) -> float:
-    """Compute Σ ∫ p u_z over the contact, over the area of a cell [force/length].
+    """Compute the integral ∫ p u_z over the contact area, divided by the cell area [force/length].
 
     u_z is smooth at the edge of the contact. With its values at the cell centres, and the mean
-    pressure of each cell, Σ p (u_z - Δ²u_z/24) has an error of third order: the cell integral of a
-    smooth p u_z adds Δ²u_z/24 p, and its gradients twice as much of the opposite sign.
-
-    pressure, displacement  (nx, ny), on the window
+    pressure of each cell, Σ p (u_z - Δ²u_z/24) has an error of third order, with Δ² the sum of
+    second differences. The cell integral of a smooth p u_z adds Δ²u_z/24 p, and the gradients of p
+    and u_z contribute twice this amount with the opposite sign.
+    pressure      mean pressure of each cell (nx, ny), on the window
+    displacement  u_z at the cell centres (nx, ny), on the window
     """
     bend = np.zeros_like(displacement)
     bend[1:-1] += np.diff(displacement, 2, axis=0)
@@ -189,10 +204,12 @@ def pressed_work(pressure: Field, displacement: Field) -> float:
 
 
 def unresolved_work(before: Configuration, after: Configuration, cell_area: float) -> float:
-    """Compute ½ Σ (p₁ g₀ - p₀ g₁) Δ + Σ (κf - ½ (q₀ + q₁))·(s₁ - s₀) Δ [force length].
+    """Compute the unresolved work of one increment: the error of linear interpolation [force
+    length].
 
-    The first sum is over cells where contact begins or ends: a gap within lasting contact is a
-    residual of the solution and belongs to the imbalance.
+    The formula is ½ Σ (p₁ g₀ - p₀ g₁) Δ + Σ (κf - ½ (q₀ + q₁))·(s₁ - s₀) Δ, see the module. The
+    first sum is over cells where contact begins or ends. A gap within lasting contact is a residual
+    of the solution and belongs to the imbalance.
     """
     p0, p1 = before.pressure, after.pressure
     begins, ends = (p0 == 0) & (p1 > 0), (p0 > 0) & (p1 == 0)
@@ -209,14 +226,16 @@ def unresolved_work(before: Configuration, after: Configuration, cell_area: floa
 
 
 def friction_changed(before: Configuration, after: Configuration, cell_area: float) -> float:
-    """Compute the uncertainty Σ |q₁ - q₀| κ|s₁ - s₀| Δ of the dissipation [force length]."""
+    """Compute the uncertainty Σ |q₁ - q₀| κ|s₁ - s₀| Δ of the dissipation in one increment
+    [force length]."""
     changed, slipped = after.shear - before.shear, after.slipped - before.slipped
     way = after.contact_fraction * np.hypot(*slipped)
     return float(np.sum(np.hypot(*changed) * way)) * cell_area
 
 
 def _work(before: Configuration, after: Configuration) -> float | None:
-    """Compute the input work Σ ½ (f₀ + f₁)(ω₁ - ω₀)."""
+    """Compute the input work Σ ½ (f₀ + f₁)(ω₁ - ω₀) of one increment; None where a motion is
+    undefined."""
     if before.motions is None or after.motions is None:
         return None
     return float(np.sum(0.5 * (before.forces + after.forces) * (after.motions - before.motions)))

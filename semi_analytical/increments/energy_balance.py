@@ -1,4 +1,4 @@
-"""Energy balance along the load history."""
+"""Energy balance along the load history: adds the energies to each converged state."""
 
 from dataclasses import replace
 
@@ -22,11 +22,11 @@ from semi_analytical.tangential.admissible_shear import everywhere
 def balanced(
     model: ContactModel, before: State | None, after: State, *, path_matters: bool = True
 ) -> State:
-    """Return the state `after` an increment with its energies; `before` is None at the start.
+    """Return the converged state `after` an increment, completed by its energies.
 
-    No convolution is needed: states include their displacements.
-
-    path_matters  whether `after` depends on the number of increments of its load step
+    No convolution is needed, because states include their displacements.
+    before        state at the start of the increment; None at the start of the history
+    path_matters  True if `after` depends on the number of increments of its load step
     """
     end = configuration(model, after)
     if before is None:
@@ -43,7 +43,7 @@ def balanced(
 def configuration(model: ContactModel, state: State) -> Configuration:
     """Collect tractions, displacements and loads of a state for the energy balance.
 
-    Without shear the tangential fields are empty. The springs of a rig store no energy of the
+    Without shear the tangential fields are empty. The springs of a test rig store no energy of the
     bodies: their extension is subtracted from motions and displacements.
     """
     pressing, sheared = state.pressing, state.sheared

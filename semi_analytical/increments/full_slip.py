@@ -1,4 +1,5 @@
-"""Full slip: force control at the friction limit, and contacts without friction."""
+"""Tangential states without a solve: force control at the friction limit, contacts without
+friction."""
 
 from dataclasses import replace
 
@@ -22,7 +23,12 @@ from semi_analytical.tangential.admissible_shear import AT_LIMIT
 
 
 def force_reaches_limit(force: Vector, limit: float) -> bool:
-    """Return whether a force is at the friction limit; raise GrossSliding if it is larger."""
+    """Return True if a tangential force is at the friction limit; raise GrossSliding if it is
+    larger.
+
+    force  tangential force (2,) [force]
+    limit  friction limit Σµp Δ of the contact [force]
+    """
     magnitude = float(np.hypot(*force))
     if magnitude > limit * (1 + AT_LIMIT):
         raise GrossSliding(
@@ -34,7 +40,11 @@ def force_reaches_limit(force: Vector, limit: float) -> bool:
 
 def refuse_excessive_torque(model: ContactModel, bound: Field, load: TangentialTarget) -> None:
     """Raise GrossSliding if friction cannot carry a prescribed torque together with the other
-    loads."""
+    loads.
+
+    bound  friction limit µp (nx, ny)
+    load   tangential load with a prescribed torque
+    """
     assert load.torque is not None
     torque, force = abs(load.torque), load.force
     if torque == 0 and (force is None or not np.any(force)):
@@ -61,7 +71,13 @@ def refuse_excessive_torque(model: ContactModel, bound: Field, load: TangentialT
 def at_limit(
     model: ContactModel, pressure: Field, last: TangentialState, load: TangentialTarget
 ) -> TangentialState:
-    """Return the state of force control at the friction limit: known traction, undefined shift."""
+    """Return the tangential state of force control at the friction limit.
+
+    The shear is µp in the direction of the force. The tangential shift is undefined (None).
+    pressure  p (nx, ny) [force/length^2]
+    last      tangential state of the previous increment
+    load      tangential load with a prescribed force
+    """
     bound, force = model.friction_limit(pressure), load.force
     assert force is not None
     q = bound * (force / np.hypot(*force))[:, None, None]
@@ -97,10 +113,13 @@ def unresisted(
     load: TangentialTarget,
     motion: Vector,
 ) -> TangentialState:
-    """Return the state of a contact in full slip without friction: no shear.
+    """Return the tangential state of a contact that slips everywhere without friction: no shear.
 
-    displacement  u_t (2, nx, ny) by the pressure alone
-    motion        rigid motion of the indenter
+    pressure      p (nx, ny) [force/length^2]
+    displacement  tangential displacement (2, nx, ny) [length] by the pressure alone
+    last          tangential state of the previous increment
+    load          tangential load
+    motion        rigid motion of the indenter: shift, and twist under torsion
     """
     nothing = np.zeros_like(last.shear)
     contact_fraction = touching_share(last.pressure, pressure, model.gap)

@@ -34,7 +34,7 @@ from semi_analytical.tangential.admissible_shear import magnitude
 
 @dataclass(frozen=True)
 class State:
-    """Converged state of an increment, from which the next one starts.
+    """Converged state at the end of an increment, from which the next increment starts.
 
     target        prescribed normal load
     normal_force  Σp times the cell area [force]
@@ -61,8 +61,10 @@ class State:
     behind: PreviousIncrement | None = None
 
     def seen(self) -> PreviousIncrement | None:
-        """Return the data of this state for later predictors; None without shear or with undefined
-        shift."""
+        """Return the data of this state that predictors of later increments use.
+
+        None is returned without shear or with undefined shift.
+        """
         pressing, sheared = self.pressing, self.sheared
         if sheared is None or sheared.shift is None:
             return None
@@ -79,25 +81,32 @@ class State:
 
     @property
     def iterations(self) -> int:
-        """Number of iterations of the normal and tangential solvers in the increment."""
+        """Number of iterations of the normal and the tangential solver in this increment."""
         return self.pressing.iterations + (self.sheared.iterations if self.sheared else 0)
 
 
 def moment_of(model: ContactModel, pressure: Field) -> Pair:
-    """Compute the moment (Σp y, Σp x) times the cell area [force length]."""
+    """Compute the moment (Σp y, Σp x) of a pressure times the cell area [force length].
+
+    pressure  p (nx, ny) [force/length^2]
+    """
     M_x, M_y = np.sum(pressure * model.arms, axis=(1, 2)) * model.grid.cell_area
     return float(M_x), float(M_y)
 
 
 def reached_moment(model: ContactModel, target: NormalTarget, pressure: Field) -> Pair | None:
-    """Return the prescribed moment, else that of the pressure; None without tilt."""
+    """Return the moment of a solved state: the prescribed one, else that of the pressure [force
+    length].
+
+    None is returned if the indenter does not tilt.
+    """
     if target.moment is None and target.tilt is None:
         return None
     return target.moment or moment_of(model, pressure)
 
 
 def residuals_of(model: ContactModel, state: State) -> Residuals:
-    """Collect the residuals of a state: contact conditions, friction and equilibrium."""
+    """Collect the residuals of a solved state: contact conditions, friction law and equilibrium."""
     pressing, force = state.pressing, state.target.force
     pressed = Residuals(
         pressing.complementarity,
@@ -109,7 +118,10 @@ def residuals_of(model: ContactModel, state: State) -> Residuals:
 
 
 def _moment_equilibrium(model: ContactModel, state: State) -> float | None:
-    """Compute |Σp (y, x) - M| / Σp r; None where no moment is prescribed."""
+    """Compute the relative error |Σp (y, x) - M| / Σp r of the prescribed moment M.
+
+    r is the distance of a cell from the origin. None is returned where no moment is prescribed.
+    """
     moment, p = state.target.moment, state.pressing.pressure
     if moment is None:
         return None
@@ -124,9 +136,13 @@ def solve_increment(
     tangential: TangentialTarget | None,
     tolerance: float,
 ) -> State:
-    """Solve an increment. The normal problem is not solved again if its load is unchanged.
+    """Solve one increment of uncoupled bodies: the normal problem, then the tangential problem.
 
-    tangential  tangential load; None without shear
+    The normal problem is not solved again if its load is unchanged.
+    before      state at the start of the increment; None before first touch
+    normal      prescribed normal load
+    tangential  prescribed tangential load; None without shear
+    tolerance   residual tolerance of both problems
     raises      NotConverged, GrossSliding, ContactAtWindowEdge, ContactNotResolved
     """
     if before is not None and before.target == normal:
@@ -156,9 +172,11 @@ def solve_increment(
 def normal_target(
     ramp: LoadRamp, start: State | None, fraction: float, tilts: bool
 ) -> NormalTarget:
-    """Return the normal load at a fraction of a ramp, with the tilt if `tilts`.
+    """Return the prescribed normal load at a fraction of a load ramp.
 
-    start  the state at the start of the step; None before first touch
+    start     state at the start of the load step; None before first touch
+    fraction  completed fraction of the ramp, 0 to 1
+    tilts     include the tilt or moment
     """
     reached = (0.0, 0.0) if start is None else (start.normal_force, start.pressing.approach)
     force, approach = ramp.normal.prescribed(fraction, reached)
@@ -173,7 +191,12 @@ def normal_target(
 def tangential_target(
     ramp: LoadRamp, start: State | None, fraction: float, twists: bool
 ) -> TangentialTarget:
-    """Return the tangential load at a fraction of a ramp, with the torsion if `twists`."""
+    """Return the prescribed tangential load at a fraction of a load ramp.
+
+    start     state at the start of the load step; None before first touch
+    fraction  completed fraction of the ramp, 0 to 1
+    twists    include the twist or torque
+    """
     sheared = start.sheared if start is not None else None
     reached: tuple[Pair, Pair | None] = ((0.0, 0.0), (0.0, 0.0))
     if sheared is not None:

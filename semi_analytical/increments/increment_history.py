@@ -18,7 +18,15 @@ FURTHEST = 2.0
 
 @dataclass(frozen=True)
 class PreviousIncrement:
-    """Data of an earlier state for the predictor; see `State` and its solutions."""
+    """Data of an earlier converged state that the predictor of the next increment uses.
+
+    target               prescribed normal load
+    pressure             p (nx, ny) [force/length^2]
+    shear                q (2, nx, ny) [force/length^2]
+    displacement         tangential displacement (2, nx, ny) [length]
+    normal_force, force  normal force and tangential force (2,)
+    approach, shift      approach and tangential shift (2,) [length]
+    """
 
     target: NormalTarget
     pressure: Field
@@ -33,9 +41,13 @@ class PreviousIncrement:
 def further(
     now: PreviousIncrement, behind: PreviousIncrement | None, tangential: TangentialTarget
 ) -> float:
-    """Compute the ratio of the next tangential increment to the last one.
+    """Compute the ratio of the next increment of the tangential load to the last one.
 
-    Zero where no extrapolation applies: the direction or the normal load changes, or torsion acts.
+    The result is 0 where no extrapolation applies: the direction of the load or the normal load
+    changes, the ratio exceeds FURTHEST, or torsion acts.
+    now         data of the last converged state
+    behind      data of the state before `now`; None if unknown
+    tangential  tangential load of the next increment
     """
     if behind is None or behind.target != now.target or tangential.twists:
         return 0.0
@@ -54,7 +66,12 @@ def further(
 def further_shear(
     now: PreviousIncrement, behind: PreviousIncrement | None, tangential: TangentialTarget
 ) -> Point:
-    """Extrapolate shear and displacement linearly in the tangential load; see `further`."""
+    """Extrapolate shear and tangential displacement linearly to the tangential load of the next
+    increment.
+
+    Without valid extrapolation the last shear and displacement are returned. Arguments as for
+    `further`.
+    """
     ratio = further(now, behind, tangential)
     if behind is None or ratio == 0:
         return Point(now.shear, now.displacement)

@@ -1,4 +1,5 @@
-"""Solution of the normal problem of a model: nested grids, then a box around the contact."""
+"""Solution of the normal problem of a contact model: nested grids, then a box around the
+contact."""
 
 from dataclasses import dataclass
 
@@ -37,9 +38,15 @@ MAX_ATTEMPTS = 4
 
 @dataclass(frozen=True)
 class NormalState:
-    """Solution of the normal problem on the domain, with its residuals and iterations.
+    """Solution of the normal problem on the reduced domain.
 
-    tilt  of the indenter (x, y); None without tilt
+    pressure         p (nx, ny) [force/length^2]
+    displacement     u_z (nx, ny) [length]
+    approach         approach of the bodies [length]
+    complementarity  residual Σ p |gap| / (Σp times overlap), dimensionless
+    penetration      largest negative gap over the overlap of the undeformed bodies, dimensionless
+    iterations       iterations of all solves
+    tilt             tilt of the indenter (x, y); None without tilt
     """
 
     pressure: Field
@@ -51,7 +58,10 @@ class NormalState:
     tilt: Pair | None = None
 
     def closure(self, model: ContactModel) -> float | Field:
-        """Return the closure of the gap by approach and tilt [length]."""
+        """Return the closure of the undeformed gap by approach and tilt [length].
+
+        The result is a number, or a field (nx, ny) with tilt.
+        """
         if self.tilt is None:
             return self.approach
         return np.asarray(self.approach + plane(model, self.tilt))
@@ -59,8 +69,11 @@ class NormalState:
 
 @dataclass(frozen=True)
 class NormalTarget:
-    """Prescribed force W [force] or approach [length]: exactly one; and the tilt, None without
-    tilt."""
+    """Prescribed normal load, and prescribed moment or tilt.
+
+    force, approach  normal force [force] or approach [length]: exactly one is given
+    moment, tilt     moment (M_x, M_y) or tilt (φ_x, φ_y): one is given; both None without tilt
+    """
 
     force: float | None = None
     approach: float | None = None
@@ -68,19 +81,22 @@ class NormalTarget:
     tilt: Pair | None = None
 
     def gap(self, model: ContactModel) -> Field:
-        """Return the undeformed gap; for a prescribed tilt that of the tilted indenter at first
-        touch."""
+        """Return the undeformed gap (nx, ny) [length] at first touch.
+
+        For a prescribed tilt the indenter is tilted first.
+        """
         if self.tilt is None:
             return model.gap
         return model.gap - plane(model, self.tilt) - self._first_touch(model)
 
     def _first_touch(self, model: ContactModel) -> float:
-        """Return the approach at which the indenter of prescribed tilt first touches a cell
-        [length]."""
+        """Return the approach at which the tilted indenter first touches a cell [length]; 0
+        without tilt."""
         return 0.0 if self.tilt is None else float(np.min(model.gap - plane(model, self.tilt)))
 
     def on(self, model: ContactModel, box: Box) -> NormalLoad:
-        """Return the load for the solver on a box of cells, relative to `gap`."""
+        """Return the load object for the normal solver on a box of cells, relative to
+        `NormalTarget.gap`."""
         total = None if self.force is None else self.force / model.grid.cell_area
         if self.moment is not None:
             from semi_analytical.normal.tilting import PressureMoments
@@ -95,7 +111,11 @@ class NormalTarget:
         return FixedApproach(self.approach - self._first_touch(model))
 
     def reached(self, model: ContactModel, motion: Motion) -> tuple[float, Pair | None]:
-        """Convert the motion of the load to approach and tilt."""
+        """Convert the rigid motion found by the normal solver to approach [length] and tilt.
+
+        motion  approach relative to first touch, or (approach, tilt x, tilt y) under a prescribed
+                moment
+        """
         if self.moment is None:
             return float(motion) + self._first_touch(model), self.tilt
         approach, tilt_x, tilt_y = map(float, np.ravel(motion))
@@ -103,16 +123,18 @@ class NormalTarget:
 
 
 def plane(model: ContactModel, tilt: Pair) -> Field:
-    """Compute the closure of the gap by a tilt (nx, ny) [length]."""
+    """Compute the closure of the gap by a tilt of the indenter (nx, ny) [length]."""
     return np.asarray(tilt[0] * model.arms[0] + tilt[1] * model.arms[1])
 
 
 def press(model: ContactModel, target: NormalTarget, tolerance: float) -> NormalState:
-    """Solve the normal problem.
+    """Solve the normal problem of a contact model for a prescribed normal load.
 
-    A convolution over the whole domain checks the solution. If bodies overlap outside the box, the
-    box becomes the domain; otherwise the solve is repeated with a tighter tolerance.
-    raises  ContactAtWindowEdge, ContactNotResolved, NotConverged
+    The solver works in a box of cells around the contact. A convolution over the whole domain
+    checks the solution. If bodies overlap outside the box, the box becomes the whole domain.
+    Otherwise the solve is repeated with a tighter tolerance.
+    tolerance  bound of complementarity and penetration residuals, dimensionless
+    raises     ContactAtWindowEdge, ContactNotResolved, NotConverged
     """
     refuse_unresolved_contact(model, target)
     start, iterations = nested_start(model, target)
@@ -150,10 +172,10 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Normal
 
 
 def nested_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
-    """Return an initial guess of the pressure, and the iterations spent on it.
+    """Return an initial guess of the pressure (nx, ny), and the iterations spent on it.
 
-    The guess is the solution on the coarser model, found in the same manner; without a coarser
-    model it follows from Hertz theory (`initial_pressure`).
+    The guess is the solution on a coarser grid, whose initial guess is found in the same manner.
+    Without a coarser grid the guess follows from Hertz theory (`initial_pressure`).
     """
     coarse = model.coarse
     if coarse is None or not _touches(coarse, target):
@@ -165,13 +187,18 @@ def nested_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]
 
 
 def rough_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
-    """Return an initial guess of coarse tolerance, on this model if there is no coarser one."""
+    """Return a solution of the normal problem at the loose COARSE_TOLERANCE, and its iterations.
+
+    The solution on the coarser grid is used if there is one. The result is an initial guess.
+    """
     return _rough(model, target) if model.coarse is None else nested_start(model, target)
 
 
 def _rough(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
-    """Solve the normal problem to the tolerance of an initial guess; return pressure and
-    iterations."""
+    """Solve the normal problem on the model's own grid to COARSE_TOLERANCE.
+
+    Return the pressure (nx, ny) and the iterations.
+    """
     start, iterations = nested_start(model, target)
     gap = target.gap(model)
     operator = model.operator(gap.shape)
@@ -189,15 +216,15 @@ def _rough(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
 def _on_half_cells(pressure: Field) -> Field:
     """Interpolate a pressure (nx, ny) to cells of half the side (2 nx, 2 ny).
 
-    Parabolas pass through its square, which has a finite slope at the contact edge. The contact
-    area does not change.
+    Parabolas interpolate the square of the pressure, which has a finite slope at the contact edge.
+    The contact area does not change.
     """
     squared = _halves(_halves(pressure**2).T).T
     return np.where(doubled(pressure) > 0, np.sqrt(np.maximum(squared, 0.0)), 0.0)
 
 
 def _halves(values: Field) -> Field:
-    """Interpolate values (n, …) to the centres of half cells along the first axis (2 n, …)."""
+    """Interpolate cell values (n, …) to the centres of half cells along the first axis (2 n, …)."""
     continued = np.concatenate([values[:1], values, values[-1:]])
     before, after = continued[:-2], continued[2:]
     bend, slope = (before + after - 2 * values) / 32, (after - before) / 8
@@ -207,14 +234,15 @@ def _halves(values: Field) -> Field:
 
 
 def _touches(model: ContactModel, target: NormalTarget) -> bool:
-    """Return whether the load brings a cell into contact: see `NormalLoad.touches`."""
+    """Return True if the prescribed normal load brings a cell into contact, see
+    `NormalLoad.touches`."""
     gap = target.gap(model)
     load = target.on(model, Box.whole(gap.shape))
     return load.touches(gap)
 
 
 def refuse_unresolved_contact(model: ContactModel, target: NormalTarget) -> None:
-    """Raise an error if the grid cannot represent the contact.
+    """Raise an error if the grid cannot represent the contact under a prescribed normal load.
 
     ContactNotResolved (NothingTouches under a prescribed approach) if no cell of the window comes
     into contact; ContactAtWindowEdge if the window is too small, or its border comes into contact
@@ -247,7 +275,11 @@ def refuse_unresolved_contact(model: ContactModel, target: NormalTarget) -> None
 
 
 def _lower(model: ContactModel) -> str:
-    """Return the remedy for a contact that begins at the border of the window."""
+    """Return the sentence of an error message that states the remedy for a contact that begins at
+    the window
+
+    border.
+    """
     if model.scene.indenter.extent is None:
         return _wider(model)
     return (
@@ -257,7 +289,8 @@ def _lower(model: ContactModel) -> str:
 
 
 def _wider(model: ContactModel) -> str:
-    """Return the remedy for a window that is too small."""
+    """Return the sentence of an error message that states the remedy for a window that is too
+    small."""
     if model.scene.indenter.extent is not None:
         return "Use a height map and a window that are larger than the contact"
     if model.scene.friction is not None and model.scene.friction.extent is not None:
@@ -266,7 +299,10 @@ def _wider(model: ContactModel) -> str:
 
 
 def refuse_contact_at_edge(p: Field, model: ContactModel) -> None:
-    """Raise ContactAtWindowEdge if a cell at the border of the window carries pressure."""
+    """Raise ContactAtWindowEdge if a cell at the border of the window carries pressure.
+
+    p  pressure (nx, ny) on the reduced domain
+    """
     if np.any(model.domain.rim(p) > 0):
         w = model.window.window
         raise ContactAtWindowEdge(

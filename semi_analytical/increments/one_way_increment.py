@@ -1,8 +1,8 @@
 """One load increment under Goodman's approximation (1962): one-way coupling.
 
-The pressure is that without friction. It displaces the surfaces tangentially, but shear does not
-change the gap. The approximation is good for a small Dundurs constant β, and has a closed form for
-indentation.
+The pressure is that of the frictionless contact. The pressure displaces the surfaces tangentially,
+but shear does not change the gap. The approximation is good for a small Dundurs constant β, and has
+a closed form for indentation.
 """
 
 from dataclasses import replace
@@ -25,8 +25,11 @@ def solve_one_way_increment(
     tangential: TangentialTarget | None,
     tolerance: float,
 ) -> State:
-    """Solve the normal problem, then the tangential problem with the displacement by that pressure.
+    """Solve one increment with one-way coupling: the frictionless normal problem, then the
+    tangential one.
 
+    The tangential problem includes the tangential displacement caused by the pressure.
+    before  state at the start of the increment; None before first touch
     raises  NotConverged, GrossSliding, ContactAtWindowEdge, ContactNotResolved
     """
     assert tangential is not None

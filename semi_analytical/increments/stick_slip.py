@@ -1,4 +1,4 @@
-"""Tangential problem of one increment: stick, slip and their history."""
+"""Tangential problem of one increment: stick and slip zones, accumulated slip and dissipation."""
 
 from dataclasses import replace
 
@@ -50,10 +50,13 @@ def slip_and_stick(
     tolerance: float,
     guess: Point | None = None,
 ) -> TangentialState:
-    """Solve the tangential problem of an increment at given pressure, from the state `last`.
+    """Solve the tangential problem of one increment at a given pressure, from the previous state.
 
-    guess   initial guess of the shear with its displacement; None for that of the last state
-    raises  NotConverged; GrossSliding if a force exceeds the friction limit
+    pressure  p at the end of the increment (nx, ny) [force/length^2]
+    last      tangential state at the start of the increment
+    load      prescribed tangential load
+    guess     initial guess of the shear with its displacement; None for that of the previous state
+    raises    NotConverged; GrossSliding if a force exceeds the friction limit
     """
     bound = model.friction_limit(pressure)
     if last.shift is None:
@@ -84,7 +87,13 @@ def _trivial_state(
     last: TangentialState,
     load: TangentialTarget,
 ) -> TangentialState | None:
-    """Return the state in cases without equations: no motion yet, or full slip; None otherwise."""
+    """Return the tangential state in cases that need no solve; None in all other cases.
+
+    These cases are: no tangential load so far, slip without friction, and a force at the friction
+    limit.
+    bound  friction limit µp (nx, ny)
+    last   tangential state at the start of the increment
+    """
     nothing = np.zeros_like(last.shear)
     if load.torque is not None:
         refuse_excessive_torque(model, bound, load)
@@ -117,10 +126,13 @@ def shear_residuals(
     load: TangentialTarget,
     last: TangentialState,
 ) -> ShearResiduals:
-    """Compute the residuals of Coulomb friction and of tangential equilibrium.
+    """Compute the residuals of Coulomb's friction law and of tangential equilibrium for a solution.
 
+    solution       solution of the tangential problem
+    bound          friction limit µp (nx, ny)
     relative_slip  slip of the indenter relative to the body (2, nx, ny) [length]
-    last           previous state: it sets the scale of displacement where the load returns to zero
+    load           prescribed tangential load
+    last           previous state; sets the scale of displacement where the load returns to zero
     """
     q = solution.shear
     equilibrium = None
@@ -152,7 +164,13 @@ def advanced(
     relative_slip: VectorField,
     residuals: ShearResiduals,
 ) -> TangentialState:
-    """Build the accepted state: add slip and dissipation of the increment to those of `last`."""
+    """Build the tangential state at the end of an increment from an accepted solution.
+
+    Slip, slip distance and dissipation of the increment are added to those of the previous state
+    `last`.
+    bound          friction limit µp (nx, ny)
+    relative_slip  slip of the indenter relative to the body in the increment (2, nx, ny) [length]
+    """
     q = solution.shear
     # Within the tolerance of the solver slip may oppose the shear: such cells count as sticking.
     backward = q[0] * relative_slip[0] + q[1] * relative_slip[1] < 0

@@ -1,4 +1,4 @@
-"""Solution of the tangential problem at given pressure, in a box around the contact."""
+"""Solution of the tangential problem at a given pressure, in a box around the contact."""
 
 from dataclasses import dataclass, replace
 
@@ -21,11 +21,11 @@ from semi_analytical.tangential.tangential_problem import TangentialSolution, so
 
 @dataclass(frozen=True)
 class TangentialTarget:
-    """Prescribed tangential load.
+    """Prescribed tangential load: tangential force or shift, torque or twist, and bulk strain.
 
-    force, shift   T [force] or shift [length], each (2,): exactly one
-    torque, twist  M_z [force length] or twist: exactly one; both None without torsion
-    strain         bulk strain since first touch; None without strain
+    force, shift   T [force] or shift of the indenter [length], each (2,): exactly one is given
+    torque, twist  M_z [force length] or twist: exactly one is given; both None without torsion
+    strain         bulk strain of the lower body since first touch; None without strain
     """
 
     force: Vector | None = None
@@ -36,7 +36,7 @@ class TangentialTarget:
 
     @property
     def twists(self) -> bool:
-        """Whether torsion acts."""
+        """True if torsion acts: a torque or a twist is prescribed."""
         return self.torque is not None or self.twist is not None
 
     def on(
@@ -46,11 +46,12 @@ class TangentialTarget:
         domain: ReducedDomain = WINDOW,
         spring: float = 0.0,
     ) -> TangentialLoad:
-        """Return the load for the solver on cells of this area.
+        """Return the load object for the tangential solver on cells of this area.
 
-        rotation  (-y, x) of the cells (2, nx, ny) [length]; None without torsion
-        domain    domain of the cells
-        spring    displacement of a rig's spring per sum of the shear [length^3/force]
+        cell_area  area of a cell and its mirror images [length^2]
+        rotation   (-y, x) of the cells (2, nx, ny) [length]; None without torsion
+        domain     domain of the cells
+        spring     displacement of a test rig's spring per sum of the shear [length^3/force]
         """
         total = None if self.force is None else self.force / cell_area
         if self.torque is not None:
@@ -78,11 +79,13 @@ def shear(
     motion: Vector,
     tolerance: float,
 ) -> TangentialSolution:
-    """Solve the tangential problem of one increment.
+    """Solve the tangential problem of one increment at a given pressure.
 
-    bound          friction limit µp, not zero everywhere
-    target         c by the previous state (see `tangential_problem.solve_tangential`)
-    start, motion  initial guesses
+    bound          friction limit µp (nx, ny), not zero everywhere
+    target         relative surface displacement that stick requires (2, nx, ny) [length], without
+                   the motion of the load
+    load           prescribed tangential load
+    start, motion  initial guesses of the shear with its displacement, and of the rigid motion
     raises         NotConverged
     """
     cells = bound.shape

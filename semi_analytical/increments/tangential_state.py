@@ -1,4 +1,5 @@
-"""Tangential part of a state, and the displacement that stick requires in the next increment."""
+"""Tangential part of a converged state, and the displacement that stick requires in the next
+increment."""
 
 from dataclasses import dataclass
 
@@ -19,18 +20,27 @@ EQUALLY_FAR = 12
 
 @dataclass(frozen=True)
 class TangentialState:
-    """Tangential part of a state; all fields are on the domain.
+    """Tangential part of a converged state; all fields are on the reduced domain.
 
+    shear              q (2, nx, ny) [force/length^2]
     pressure           p at which the tangential problem was solved (nx, ny) [force/length^2]
-    contact_fraction   of the increment, for cells in contact at its start or end (nx, ny)
-    displacement       u_t by the tractions (2, nx, ny) [length]
-    shift              of the indenter; None at the friction limit under force control
-    twist, torque      of the indenter; None without torsion
-    strain             of the lower body since first touch; None without strain
-    slip               u_t + strain - motion accumulated while in contact (paper, eq. (4))
+    contact_fraction   fraction of the increment during which each cell is in contact (nx, ny)
+    displacement       tangential displacement u_t by the tractions (2, nx, ny) [length]
+    shift              tangential shift of the indenter (2,) [length]; None at the friction limit
+                       under force control
+    slip               u_t + strain - motion accumulated while in contact (paper, eq. (4)) (2, nx,
+                       ny) [length]
     slip_distance      path length of slip since the start (nx, ny), sum of |increments| [length]
     dissipation        energy dissipated per area since the start (nx, ny) [force/length]
-    dissipated_energy  since the start; None where the shift is undefined
+    in_stick           sticking cells (nx, ny)
+    dissipated_energy  energy lost to friction since the start [force length]; None where the shift
+                       is undefined
+    status             contact status, e.g. partial slip
+    force              tangential force (2,) [force]
+    residuals          residuals of friction law and equilibrium
+    iterations         iterations of the tangential solver
+    twist, torque      twist and torque of the indenter; None without torsion
+    strain             bulk strain of the lower body since first touch; None without strain
     """
 
     shear: VectorField
@@ -53,13 +63,14 @@ class TangentialState:
 
     @property
     def motion(self) -> Vector:
-        """Shift, followed by the twist under torsion."""
+        """Rigid tangential motion of the indenter: shift (2,), followed by the twist under
+        torsion."""
         assert self.shift is not None
         return self.shift if self.twist is None else np.array([*self.shift, self.twist])
 
 
 def untouched(cells: tuple[int, int]) -> TangentialState:
-    """Return the state before first touch: no shear, no shift, no slip."""
+    """Return the tangential state before first touch: no shear, no shift, no slip."""
     nothing = np.zeros((2, *cells))
     return TangentialState(
         shear=nothing,
@@ -80,7 +91,12 @@ def untouched(cells: tuple[int, int]) -> TangentialState:
 
 
 def rigid(model: ContactModel, motion: Vector) -> VectorField:
-    """Compute the displacement of the indenter by a shift (2,), or by a shift and a twist (3,)."""
+    """Compute the tangential displacement of the surface points by a rigid motion of the indenter
+    [length].
+
+    The result broadcasts with (2, nx, ny).
+    motion  shift (2,), or shift and twist (3,)
+    """
     shift = everywhere(motion[:2])
     return shift if len(motion) == 2 else shift + motion[2] * model.rotation
 
@@ -90,8 +106,11 @@ def surface_target(
 ) -> VectorField:
     """Compute the relative surface displacement that full stick requires (2, nx, ny) [length].
 
-    It consists of the displacement locked in by the previous increment, the strain of the lower
-    body in this increment, and the prescribed twist. The motion of the load is not included.
+    The result consists of the displacement locked in by the previous increment, the strain of the
+    lower body in this increment, and the prescribed twist. The rigid motion of the load is not
+    included.
+    last  tangential state at the start of the increment
+    load  prescribed tangential load at its end
     """
     target = last.displacement - rigid(model, last.motion)
     target = target - stretched(model, load.strain, last.strain)
@@ -101,7 +120,12 @@ def surface_target(
 def stretched(
     model: ContactModel, strain: Strain | None, last: Strain | None = None
 ) -> VectorField | float:
-    """Compute the surface displacement by a bulk strain relative to that of `last` [length]."""
+    """Compute the surface displacement by a change of the bulk strain (2, nx, ny) [length].
+
+    Return 0.0 without strain.
+    strain  strain (xx, yy, xy) at the end; None without strain
+    last    strain at the start; None for zero
+    """
     if strain is None:
         return 0.0
     (xx, yy, xy), (y, x) = np.subtract(strain, last or UNSTRAINED), model.arms
@@ -109,15 +133,22 @@ def stretched(
 
 
 def strain_moments(model: ContactModel, q: VectorField) -> Vector:
-    """Compute the forces conjugate to a strain, Σ(q_x x, q_y y, q_x y + q_y x) Δ (3,) [force
-    length]."""
+    """Compute the forces conjugate to a bulk strain, Σ(q_x x, q_y y, q_x y + q_y x) Δ (3,) [force
+    length].
+
+    q  shear (2, nx, ny)
+    """
     y, x = model.arms
     products = (q[0] * x, q[1] * y, q[0] * y + q[1] * x)
     return np.array([float(np.sum(one)) for one in products]) * model.grid.cell_area
 
 
 def first_motion(last: TangentialState, load: TangentialTarget) -> Vector:
-    """Return the motion of the previous state as an initial guess, with the twist if it is free."""
+    """Return the rigid tangential motion of the previous state, as an initial guess of the next
+    one.
+
+    The twist is included if a torque is prescribed.
+    """
     assert last.shift is not None
     if load.torque is None:
         return last.shift
@@ -125,14 +156,19 @@ def first_motion(last: TangentialState, load: TangentialTarget) -> Vector:
 
 
 def torque_of(model: ContactModel, q: VectorField) -> float:
-    """Compute the torque Σ(q_y x - q_x y) Δ [force length]."""
+    """Compute the torque Σ(q_y x - q_x y) Δ of a shear (2, nx, ny) [force length]."""
     return float(np.sum(q * model.rotation)) * model.grid.cell_area
 
 
 def torsion_reached(
     model: ContactModel, load: TangentialTarget, motion: Vector, q: VectorField
 ) -> tuple[float | None, float | None]:
-    """Return twist and torque, each prescribed or solved; None without torsion."""
+    """Return twist and torque at the end of an increment, each prescribed or solved; None without
+    torsion.
+
+    motion  solved rigid motion: shift, and twist under a prescribed torque
+    q       solved shear (2, nx, ny)
+    """
     if load.torque is not None:
         return float(motion[2]), load.torque
     return load.twist, None if load.twist is None else torque_of(model, q)
@@ -148,9 +184,8 @@ def touching_share(before: Field, after: Field, gap: Field) -> Field:
     mirrored contacts have mirrored slip. The result is correct to first order in the increment. In
     first contact the largest p² takes the place of the growth, and cells without gap have the
     fraction 1. Separation is treated as contact in reverse.
-
-    before, after  pressure at start and end (nx, ny)
-    gap            undeformed (nx, ny)
+    before, after  pressure at the start and the end of the increment (nx, ny)
+    gap            undeformed gap (nx, ny)
     """
     share = np.ones_like(after)
     for less, more in ((before, after), (after, before)):
@@ -163,8 +198,13 @@ def touching_share(before: Field, after: Field, gap: Field) -> Field:
 
 
 def _new_contact_fraction(less: Field, more: Field, changes: Mask) -> Field:
-    """Compute p² over its growth at the nearest lasting contact, for cells in contact at one end
-    only."""
+    """Compute the contact fraction of cells that are in contact only at one end of the increment.
+
+    The fraction is p² of the cell over the growth of p² at the nearest cell in lasting contact, at
+    most 1.
+    less, more  pressure at the end with the smaller and with the larger contact (nx, ny)
+    changes     cells whose contact changes (nx, ny)
+    """
     touched, largest = less > 0, np.max(more)
     p, grown = more / largest, (more / largest) ** 2 - (less / largest) ** 2
     if np.any(touched):
@@ -176,7 +216,8 @@ def _new_contact_fraction(less: Field, more: Field, changes: Mask) -> Field:
 
 
 def _at_nearest(values: Field, known: Mask, wanted: Mask) -> Field:
-    """Interpolate values at `known` cells to `wanted` cells: mean of the nearest ones (wanted,)."""
+    """Return for each wanted cell the mean of `values` over the nearest known cells, shape
+    (wanted,)."""
     from scipy.spatial import KDTree  # as long to import as a small contact takes
 
     tree = KDTree(np.argwhere(known))

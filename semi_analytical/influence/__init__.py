@@ -1,1 +1,2 @@
-"""Influence coefficients: displacement at a cell centre by a unit traction on one cell."""
+"""Influence coefficients: displacement at a cell centre by a unit traction on one cell of the
+surface."""

@@ -1,4 +1,4 @@
-"""Influence coefficients of the two bodies of a scene."""
+"""Influence coefficients of the relative displacement of the two bodies of a scene."""
 
 from contact_scene import Body, IsotropicMaterial
 from contact_scene.disk_cache import remembered
@@ -15,12 +15,13 @@ def influence_coefficients(
     offsets: tuple[int, int],
     rig: Rig | None = None,
 ) -> InfluenceCoefficients:
-    """Compute the coefficients of the relative displacement of two bodies.
+    """Compute the influence coefficients of the relative displacement of two bodies.
 
-    spacing  cell sides [length]
-    offsets  number of offsets along x and y, including zero
-    rig      springs, which displace all cells equally: their compliance times the cell area is
-             added
+    lower, upper  the two bodies
+    spacing       cell sides [length]
+    offsets       number of offsets along x and y, including zero
+    rig           springs of the test rig, which displace all cells equally: their compliance times
+                  the cell area is added
     """
     integrals = RectangleIntegrals(*spacing, offsets)
     down, along = (spacing[0] * spacing[1] * c for c in compliances(rig))

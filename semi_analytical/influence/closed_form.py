@@ -15,11 +15,12 @@ from contact_scene.array_types import Field
 
 
 class RectangleIntegrals:
-    """Integrals over a dx-by-dy cell for observers at offsets (i dx, j dy), i < nx, j < ny.
+    """Integrals of point solutions over a rectangular dx-by-dy cell, for observers at all cell
+    offsets.
 
-    (x, y) is the vector from the loaded point to the observer, r its length. Each integral has
-    shape (nx, ny), dimension [length], and is computed on first use.
-
+    The observers are at (i dx, j dy), i < nx, j < ny. (x, y) is the vector from the loaded point to
+    the observer, r its length. Each integral has the shape (nx, ny) and the dimension [length], and
+    is computed on first use.
     dx, dy  cell sides [length]
     shape   number of offsets along x and y, including zero
     """
@@ -39,30 +40,30 @@ class RectangleIntegrals:
 
     @cached_property
     def xx_r3(self) -> Field:
-        """Integral of x^2 / r^3."""
+        """Integral of x^2 / r^3 over the loaded cell (nx, ny) [length]."""
         return self._corners(self._Y * np.arcsinh(self._X / np.abs(self._Y)))
 
     @cached_property
     def yy_r3(self) -> Field:
-        """Integral of y^2 / r^3."""
+        """Integral of y^2 / r^3 over the loaded cell (nx, ny) [length]."""
         if self._X.size == self._Y.size and np.array_equal(self._X[:, 0], self._Y[0]):
             return self.xx_r3.T
         return self._corners(self._X * np.arcsinh(self._Y / np.abs(self._X)))
 
     @cached_property
     def xy_r3(self) -> Field:
-        """Integral of x y / r^3."""
+        """Integral of x y / r^3 over the loaded cell (nx, ny) [length]."""
         return self._corners(-self._rho)
 
     @cached_property
     def x_r2(self) -> Field:
-        """Integral of x / r^2."""
+        """Integral of x / r^2 over the loaded cell (nx, ny) [length]."""
         X, Y = self._X, self._Y
         return self._corners(Y * np.log(self._rho) + X * np.arctan(Y / X))
 
     @cached_property
     def y_r2(self) -> Field:
-        """Integral of y / r^2."""
+        """Integral of y / r^2 over the loaded cell (nx, ny) [length]."""
         X, Y = self._X, self._Y
         return self._corners(X * np.log(self._rho) + Y * np.arctan(X / Y))
 
@@ -73,7 +74,7 @@ class HalfSpaceCoefficients:
 
     integrals      integrals over the loaded cell
     shear_modulus  G [force/length^2]
-    poisson_ratio  nu
+    poisson_ratio  Poisson's ratio nu
     """
 
     integrals: RectangleIntegrals
@@ -86,30 +87,30 @@ class HalfSpaceCoefficients:
 
     @property
     def zz(self) -> Field:
-        """u_z by pressure."""
+        """Normal displacement u_z by unit pressure (nx, ny) [length^3/force]."""
         return self._c * (1 - self.poisson_ratio) * (self.integrals.xx_r3 + self.integrals.yy_r3)
 
     @property
     def xx(self) -> Field:
-        """u_x by q_x."""
+        """Tangential displacement u_x by unit shear q_x (nx, ny) [length^3/force]."""
         return self._c * (self.integrals.xx_r3 + (1 - self.poisson_ratio) * self.integrals.yy_r3)
 
     @property
     def yy(self) -> Field:
-        """u_y by q_y."""
+        """Tangential displacement u_y by unit shear q_y (nx, ny) [length^3/force]."""
         return self._c * (self.integrals.yy_r3 + (1 - self.poisson_ratio) * self.integrals.xx_r3)
 
     @property
     def xy(self) -> Field:
-        """u_x by q_y."""
+        """Tangential displacement u_x by unit shear q_y (nx, ny) [length^3/force]."""
         return self._c * self.poisson_ratio * self.integrals.xy_r3
 
     @property
     def zx(self) -> Field:
-        """u_z by q_x."""
+        """Normal displacement u_z by unit shear q_x (nx, ny) [length^3/force]."""
         return self._c * (0.5 - self.poisson_ratio) * self.integrals.x_r2
 
     @property
     def zy(self) -> Field:
-        """u_z by q_y."""
+        """Normal displacement u_z by unit shear q_y (nx, ny) [length^3/force]."""
         return self._c * (0.5 - self.poisson_ratio) * self.integrals.y_r2

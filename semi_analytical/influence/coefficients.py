@@ -1,4 +1,4 @@
-"""Protocol of influence coefficients, and their sum over two bodies."""
+"""Interface of influence coefficients, and their combination for two bodies in contact."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -10,7 +10,8 @@ from contact_scene.array_types import Field
 
 
 class InfluenceCoefficients(Protocol):
-    """Displacement at offset (i dx, j dy), i, j >= 0, by unit traction on the cell at the origin.
+    """Displacement at the offset (i dx, j dy), i, j >= 0, by unit traction on the cell at the
+    origin.
 
     The first letter of a name is the displacement, the second the traction [length^3/force]. Each
     array has shape (nx, ny) and is computed on first use. Other quadrants follow by parity: zz, xx,
@@ -20,38 +21,38 @@ class InfluenceCoefficients(Protocol):
 
     @property
     def zz(self) -> Field:
-        """u_z by pressure."""
+        """Normal displacement u_z by unit pressure (nx, ny) [length^3/force]."""
 
     @property
     def xx(self) -> Field:
-        """u_x by q_x."""
+        """Tangential displacement u_x by unit shear q_x (nx, ny) [length^3/force]."""
 
     @property
     def yy(self) -> Field:
-        """u_y by q_y."""
+        """Tangential displacement u_y by unit shear q_y (nx, ny) [length^3/force]."""
 
     @property
     def xy(self) -> Field:
-        """u_x by q_y."""
+        """Tangential displacement u_x by unit shear q_y (nx, ny) [length^3/force]."""
 
     @property
     def zx(self) -> Field:
-        """u_z by q_x."""
+        """Normal displacement u_z by unit shear q_x (nx, ny) [length^3/force]."""
 
     @property
     def zy(self) -> Field:
-        """u_z by q_y."""
+        """Normal displacement u_z by unit shear q_y (nx, ny) [length^3/force]."""
 
 
 @dataclass(frozen=True)
 class Composite:
-    """Relative displacement of two bodies under equal and opposite tractions.
+    """Influence coefficients of the relative displacement of two bodies under opposite tractions.
 
     The upper body is a lower body mirrored in the contact plane: its normal-tangential terms change
     sign, F = F1 + J F2 J with J = diag(1, 1, -1). Tractions are those on the lower body.
-
     lower, upper  coefficients of the deformable bodies, at most one each
-    along, down   displacement by the springs of a rig, equal at all offsets [length^3/force]
+    along, down   tangential and normal displacement by the springs of a test rig, equal at all
+                  offsets [length^3/force]
     """
 
     lower: tuple[InfluenceCoefficients, ...]
@@ -71,32 +72,32 @@ class Composite:
 
     @cached_property
     def zz(self) -> Field:
-        """u_z by pressure."""
+        """Normal displacement u_z by unit pressure (nx, ny) [length^3/force]."""
         return self._added("zz") + self.down
 
     @cached_property
     def xx(self) -> Field:
-        """u_x by q_x."""
+        """Tangential displacement u_x by unit shear q_x (nx, ny) [length^3/force]."""
         return self._added("xx") + self.along
 
     @cached_property
     def yy(self) -> Field:
-        """u_y by q_y."""
+        """Tangential displacement u_y by unit shear q_y (nx, ny) [length^3/force]."""
         return self._added("yy") + self.along
 
     @cached_property
     def xy(self) -> Field:
-        """u_x by q_y."""
+        """Tangential displacement u_x by unit shear q_y (nx, ny) [length^3/force]."""
         return self._added("xy")
 
     @cached_property
     def zx(self) -> Field:
-        """u_z by q_x."""
+        """Normal displacement u_z by unit shear q_x (nx, ny) [length^3/force]."""
         return self._mirrored("zx")
 
     @cached_property
     def zy(self) -> Field:
-        """u_z by q_y."""
+        """Normal displacement u_z by unit shear q_y (nx, ny) [length^3/force]."""
         return self._mirrored("zy")
 
 

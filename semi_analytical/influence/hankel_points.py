@@ -21,10 +21,12 @@ FADE_CENTRE, FADE_WIDTH = 96.0, 16.0
 
 
 def hankel_points(r: float, limit: float) -> tuple[Array, Array]:
-    """Return Gauss points and weights on (0, limit) for distances up to r.
+    """Return Gauss points and weights for Hankel transforms on the wavenumbers 0 < alpha < limit.
 
     Panels double in width, so that layers of all thicknesses are resolved. Beyond PANEL_PHASE / r
     they have equal widths, which resolve the Bessel functions.
+    r      largest distance of the transform [length]
+    limit  largest wavenumber [1/length]
     """
     step = PANEL_PHASE / r
     first = SMALLEST_PHASE / r
@@ -38,9 +40,11 @@ def hankel_points(r: float, limit: float) -> tuple[Array, Array]:
 
 
 def faded_points(low: float, high: float, limit: float = inf) -> tuple[Array, Array]:
-    """Return points and weights for distances from low to high, with a window for short waves.
+    """Return points and weights for Hankel transforms, with a window that removes short waves
+    smoothly.
 
-    limit  wavenumber beyond which the integrand is zero [1/length]
+    low, high  smallest and largest distance of the transform [length]
+    limit      wavenumber beyond which the integrand is zero [1/length]
     """
     alpha, weight = hankel_points(high, min(limit, (FADE_CENTRE + 6 * FADE_WIDTH) / low))
     return alpha, weight * (erfc((alpha * low - FADE_CENTRE) / FADE_WIDTH) / 2)

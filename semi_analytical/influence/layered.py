@@ -40,7 +40,7 @@ FOLDERS = ("frf", "influence")
 
 
 def computed_afresh(identity: str, shape: tuple[int, ...], compute: Callable[[], Field]) -> Field:
-    """Compute an array without a cache."""
+    """Compute an array without a cache; default of `LayeredCoefficients.remember`."""
     return compute()
 
 
@@ -72,7 +72,8 @@ class LayeredCoefficients:
 
     @cached_property
     def _table(self) -> RadialTable:
-        """Point response up to four cells beyond the farthest corner of the window."""
+        """Radial table of the point response, up to four cells beyond the farthest corner of the
+        window."""
         (dx, dy), (nx, ny) = self.spacing, self.shape
         return radial_table(self.stack, hypot((nx + 4) * dx, (ny + 4) * dy))
 
@@ -99,42 +100,49 @@ class LayeredCoefficients:
 
     @property
     def zz(self) -> Field:
-        """u_z by pressure."""
+        """Normal displacement u_z by unit pressure (nx, ny) [length^3/force]."""
         return self._normal[0]
 
     @property
     def xx(self) -> Field:
-        """u_x by q_x."""
+        """Tangential displacement u_x by unit shear q_x (nx, ny) [length^3/force]."""
         return self._tangential[0]
 
     @property
     def yy(self) -> Field:
-        """u_y by q_y."""
+        """Tangential displacement u_y by unit shear q_y (nx, ny) [length^3/force]."""
         return self._tangential[1]
 
     @property
     def xy(self) -> Field:
-        """u_x by q_y."""
+        """Tangential displacement u_x by unit shear q_y (nx, ny) [length^3/force]."""
         return self._tangential[2]
 
     @property
     def zx(self) -> Field:
-        """u_z by q_x."""
+        """Normal displacement u_z by unit shear q_x (nx, ny) [length^3/force]."""
         return self._coupling[0]
 
     @property
     def zy(self) -> Field:
-        """u_z by q_y."""
+        """Normal displacement u_z by unit shear q_y (nx, ny) [length^3/force]."""
         return self._coupling[1]
 
 
 def required_bytes(shape: tuple[int, int]) -> int:
-    """Estimate the peak memory of `LayeredCoefficients` for offsets of this shape [bytes]."""
+    """Estimate the peak memory of `LayeredCoefficients` [bytes].
+
+    shape  number of offsets along x and y
+    """
     return 8 * ARRAYS * (shape[0] + 9) * (shape[1] + 9) + FIXED
 
 
 def refuse_beyond_memory(shape: tuple[int, int]) -> None:
-    """Raise ResourceRefused if coefficients of this shape do not fit into the free memory."""
+    """Raise ResourceRefused if influence coefficients of this shape do not fit into the free
+    memory.
+
+    shape  number of offsets along x and y
+    """
     required, available = required_bytes(shape), available_bytes()
     if required > available:
         raise ResourceRefused(
@@ -146,7 +154,7 @@ def refuse_beyond_memory(shape: tuple[int, int]) -> None:
 
 @cache
 def sources_digest(package: Path = PACKAGE) -> str:
-    """Compute the digest of the sources in FOLDERS and of the library versions, for cache keys.
+    """Compute a digest of the source files in FOLDERS and of the library versions, for cache keys.
 
     package  folder that contains FOLDERS
     """

@@ -1,4 +1,8 @@
-"""Integration boxes that are small compared with their distance from the origin."""
+"""Division of cells into integration boxes that are small compared with their distance from the
+origin.
+
+A point force acts at the origin. Gauss quadrature of its response is accurate on such boxes.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +22,12 @@ POINTS = 10
 
 @dataclass(frozen=True)
 class Boxes:
-    """Axis-parallel rectangles: centres, half sides [length] and index of the cell."""
+    """Axis-parallel integration rectangles.
+
+    x, y            centres (boxes,) [length]
+    half_x, half_y  half sides (boxes,) [length]
+    cell            index of the cell to which each box belongs (boxes,)
+    """
 
     x: Array
     y: Array
@@ -28,12 +37,12 @@ class Boxes:
 
     @staticmethod
     def single(x: float, y: float, half_x: float, half_y: float) -> Boxes:
-        """Return one box of cell 0."""
+        """Return one box with the given centre and half sides, which belongs to cell 0."""
         sides = np.array([half_x]), np.array([half_y])
         return Boxes(np.array([x]), np.array([y]), *sides, np.zeros(1, np.intp))
 
     def chosen(self, which: Mask | slice) -> Boxes:
-        """Select some of the boxes."""
+        """Select some of the boxes by a mask or a slice."""
         return Boxes(*(values[which] for values in vars(self).values()))
 
     def batches(self, points: int) -> Iterator[Boxes]:
@@ -55,7 +64,7 @@ class Boxes:
 
 
 def joined(parts: list[Boxes]) -> Boxes:
-    """Concatenate collections of boxes."""
+    """Concatenate several collections of boxes to one collection."""
     none = np.empty(0)
     empty = Boxes(none, none, none, none, np.empty(0, np.intp))
     columns = zip(*(vars(part).values() for part in (empty, *parts)), strict=True)
@@ -63,7 +72,11 @@ def joined(parts: list[Boxes]) -> Boxes:
 
 
 def boxes_of_cells(spacing: tuple[float, float], cells: Indices) -> Boxes:
-    """Divide cells at offsets (i, j), not (0, 0), until every box has the least distance."""
+    """Divide cells into boxes until each box is small compared with its distance from the origin.
+
+    spacing  cell sides [length]
+    cells    offsets (i, j) of the cells (n, 2), without (0, 0)
+    """
     count = len(cells)
     offsets = cells.astype(np.float64)
     return _cut(
@@ -80,8 +93,9 @@ def boxes_of_cells(spacing: tuple[float, float], cells: Indices) -> Boxes:
 def boxes_around_core(
     spacing: tuple[float, float], radius: float
 ) -> tuple[tuple[float, float], Boxes]:
-    """Divide the quadrant x, y > 0 of the cell at the origin into a core and boxes around it.
+    """Divide the quadrant x, y > 0 of the cell at the origin into a core and boxes around the core.
 
+    spacing  cell sides [length]
     radius   radius of a disc that contains the core [length]
     returns  half sides of the core, and the boxes between the core and the border of the cell
     """
@@ -98,7 +112,10 @@ def boxes_around_core(
 
 
 def _cut(boxes: Boxes) -> Boxes:
-    """Halve boxes along sides that are not small compared with their distance."""
+    """Halve boxes along each side that is not small compared with the distance from the origin.
+
+    The division is repeated until all sides are small.
+    """
     done = []
     while len(boxes.x):
         distance = np.hypot(boxes.x, boxes.y)
@@ -117,5 +134,8 @@ def _cut(boxes: Boxes) -> Boxes:
 
 
 def _ends(half: Array) -> tuple[Array, Array]:
-    """Return the positions of the centres of both halves of a side."""
+    """Return the centres of both halves of a side, relative to the centre of the side.
+
+    half  half the length of the side
+    """
     return -half / 2, half / 2

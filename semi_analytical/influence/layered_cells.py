@@ -1,4 +1,5 @@
-"""Integrals of the point response of a layered body over the cells of a grid."""
+"""Integrals of the point response of a layered body over the cells of a grid: influence
+coefficients."""
 
 import numpy as np
 from scipy.ndimage import correlate1d
@@ -28,10 +29,13 @@ def cell_integrals(
     spacing: tuple[float, float],
     shape: tuple[int, int],
 ) -> Field:
-    """Integrate over the cells at offsets i < nx, j < ny; shape (components, nx, ny).
+    """Integrate the point response of a layered body over the cells at all offsets i < nx, j < ny.
 
-    table    point response of the stack up to MARGIN cells beyond the window
-    spacing  cell sides [length]
+    The result has the shape (components, nx, ny).
+    table       point response up to MARGIN cells beyond the window
+    components  displacement-traction pairs to be integrated
+    spacing     cell sides [length]
+    shape       number of offsets along x and y
     """
     result = _averaged(table, components, spacing, shape)
     cells = _near_cells(spacing, shape)
@@ -52,7 +56,10 @@ def _averaged(
     spacing: tuple[float, float],
     shape: tuple[int, int],
 ) -> Field:
-    """Integrate over all cells by averages along x and y; accurate for far cells only."""
+    """Integrate the point response over all cells from nine points per cell and direction.
+
+    The result (components, nx, ny) is accurate only for cells far from the origin.
+    """
     x = np.arange(shape[0] + MARGIN) * spacing[0]
     y = np.arange(shape[1] + MARGIN) * spacing[1]
     points = np.empty((len(components.names), len(x), len(y)))
@@ -70,7 +77,11 @@ def _averaged(
 
 
 def _averaged_along(field: Field, axis: int, parity: int) -> Field:
-    """Average values at offsets >= 0 over cells along one axis; the result is shorter by MARGIN."""
+    """Average a response over the cells along one axis, from point values at offsets >= 0.
+
+    The result is shorter by MARGIN.
+    parity  parity of the response along the axis
+    """
     mirrored = parity * np.flip(np.take(field, range(1, MARGIN + 1), axis), axis)
     whole = np.concatenate([mirrored, field], axis)
     averaged = correlate1d(whole, CELL_AVERAGE, axis)
@@ -78,7 +89,11 @@ def _averaged_along(field: Field, axis: int, parity: int) -> Field:
 
 
 def _near_cells(spacing: tuple[float, float], shape: tuple[int, int]) -> Indices:
-    """Return the indices (i, j) of the cells closer than FAR, without the loaded cell."""
+    """Return the indices (i, j) of the cells closer to the origin than FAR, without the loaded
+    cell.
+
+    FAR is in units of the longer cell side.
+    """
     radius = FAR * max(spacing)
     i = np.arange(min(shape[0], int(radius / spacing[0]) + 1))
     j = np.arange(min(shape[1], int(radius / spacing[1]) + 1))
@@ -93,7 +108,10 @@ def _near(
     spacing: tuple[float, float],
     cells: Indices,
 ) -> Field:
-    """Integrate over the cells at the given indices; shape (components, number of cells)."""
+    """Integrate the point response over near cells by Gauss quadrature; shape (components, cells).
+
+    cells  indices (i, j) of the cells (cells, 2)
+    """
     result = np.zeros((len(components.names), len(cells)))
     for start in range(0, len(cells), BATCH):
         of_batch = result[:, start : start + BATCH]
@@ -107,7 +125,7 @@ def _near(
 def _loaded_cell(
     table: RadialTable, stack: Stack, components: Components, spacing: tuple[float, float]
 ) -> Field:
-    """Integrate over the loaded cell; shape (components,).
+    """Integrate the point response over the loaded cell; shape (components,).
 
     Near the origin, within the first panel of the table, the closed form of the outer material
     contains the singularity. The rest of the cell is divided into boxes.
@@ -125,7 +143,7 @@ def _loaded_cell(
 
 
 def _integrals(table: RadialTable, components: Components, boxes: Boxes) -> Field:
-    """Integrate the point response over boxes; shape (components, number of boxes)."""
+    """Integrate the point response over boxes by Gauss quadrature; shape (components, boxes)."""
     x, y, weight = boxes.gauss_points()
     values = point_response(table, components, x, y)
     integrals: Field = np.einsum("fbp,bp->fb", values, weight)

@@ -1,4 +1,4 @@
-"""Displacement of a layered body at a point of the surface by unit forces at the origin."""
+"""Surface displacement of a layered body at a point by unit forces at the origin."""
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -13,13 +13,13 @@ BATCH = 1 << 16
 
 
 class Components(NamedTuple):
-    """Components of the response that depend on the same radial functions.
+    """Displacement-traction pairs whose point response depends on the same radial functions.
 
-    names    names as in InfluenceCoefficients
-    radial   columns of the radial table
-    parity   parity of each component along x and y: 1 even, -1 odd
-    turned   function of the radial functions (n, columns), cos phi and sin phi that returns the
-             components (len(names), n)
+    names   names as in InfluenceCoefficients, e.g. "zz"
+    radial  columns of the radial table
+    parity  parity of each pair along x and y: 1 even, -1 odd
+    turned  function of the radial functions (n, columns), cos phi and sin phi that returns the
+            response (len(names), n) in the axes x, y
     """
 
     names: tuple[str, ...]
@@ -48,8 +48,9 @@ COUPLING = Components(("zx", "zy"), slice(3, 4), ((-1, 1), (1, -1)), _coupling)
 
 
 def point_response(table: RadialTable, components: Components, x: Field, y: Field) -> Field:
-    """Compute displacements at (x, y), not the origin, per unit force [length/force].
+    """Compute surface displacements at points (x, y) by unit forces at the origin [length/force].
 
+    The origin is excluded.
     returns  shape (number of components, *x.shape)
     """
     flat_x, flat_y = x.ravel(), y.ravel()

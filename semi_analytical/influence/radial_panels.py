@@ -18,19 +18,27 @@ AT_ONCE = 1 << 11  # number of places at a time, limited by the processor cache
 
 
 def panel_edges(core: float, reach: float) -> Array:
-    """Return panel bounds from zero over `core` to `reach` or beyond [length], (panels + 1,)."""
+    """Return the bounds of interpolation panels over the distance from a force (panels + 1,)
+    [length].
+
+    core   bound of the first panel, which begins at 0
+    reach  distance that the last panel must include
+    """
     panels = max(0, ceil(2 * log2(reach / core)))
     return np.concatenate([[0.0], core * sqrt(2.0) ** np.arange(panels + 1)])
 
 
 def nodes_between(low: float, high: float) -> Array:
-    """Return the Chebyshev nodes of a panel (NODES,)."""
+    """Return the Chebyshev nodes of the panel from `low` to `high` (NODES,)."""
     on_unit = np.cos((np.arange(NODES) + 0.5) * pi / NODES)
     return np.asarray((low + high) / 2 + (high - low) / 2 * on_unit)
 
 
 def coefficients_of(values: Array) -> Array:
-    """Compute Chebyshev coefficients of values at nodes, both (..., panels, NODES, functions)."""
+    """Compute Chebyshev coefficients of functions from their values at the nodes of each panel.
+
+    Values and result have the shape (..., panels, NODES, functions).
+    """
     k = np.arange(NODES)
     matrix = 2 / NODES * np.cos(np.outer(k, (k + 0.5) * pi / NODES))
     matrix[0] /= 2
@@ -38,7 +46,13 @@ def coefficients_of(values: Array) -> Array:
 
 
 def places_on_panels(edges: Array, r: Array) -> Iterator[tuple[int, Indices, Array]]:
-    """Yield the index of each panel with distances, their indices and their places in [-1, 1]."""
+    """Assign distances to panels; yield panel index, indices of the distances, and places in [-1,
+    1].
+
+    Panels without distances are skipped.
+    edges  panel bounds (panels + 1,)
+    r      distances (n,)
+    """
     panels = np.clip(np.searchsorted(edges, r) - 1, 0, len(edges) - 2)
     for panel in map(int, np.flatnonzero(np.bincount(panels))):
         inside = np.flatnonzero(panels == panel)
@@ -47,7 +61,11 @@ def places_on_panels(edges: Array, r: Array) -> Iterator[tuple[int, Indices, Arr
 
 
 def interpolated(coefficients: Array, place: Array) -> Array:
-    """Evaluate functions (functions, places) on a panel from coefficients (NODES, functions)."""
+    """Evaluate the functions of one panel from their Chebyshev coefficients (functions, places).
+
+    coefficients  (NODES, functions)
+    place         places on the panel in [-1, 1] (places,)
+    """
     found = np.empty((coefficients.shape[1], len(place)))
     for start in range(0, len(place), AT_ONCE):
         some = slice(start, start + AT_ONCE)

@@ -40,11 +40,12 @@ REMAINDER_REACH = 24.0
 
 @dataclass(frozen=True)
 class RadialTable:
-    """r times the four radial functions (zz, mean, twist, cross) on 0 <= r <= edges[-1].
+    """Table of r times the four radial functions (zz, mean, twist, cross) on 0 <= r <= edges[-1].
 
+    The functions yield the surface displacement of a layered body by a point force.
     edges         panel bounds [length], shape (panels + 1,), edges[0] = 0
     coefficients  Chebyshev coefficients, shape (panels, NODES, 4) [length^2/force]
-    near          values at r = 0: the outer material's half-space, shape (4,)
+    near          values at r = 0, those of a half-space of the outer material, shape (4,)
     """
 
     edges: Array
@@ -53,17 +54,22 @@ class RadialTable:
 
     @property
     def core(self) -> float:
-        """Bound of the first panel, with a half-space response plus a smooth remainder [length]."""
+        """Bound of the first panel, on which the response is that of a half-space plus a smooth
+        remainder."""
         return float(self.edges[1])
 
     def remainder(self) -> RadialTable:
-        """Return the table minus the response of the half-space of the outer material."""
+        """Return the table minus the response of a half-space of the outer material, valid on
+        the first panel."""
         coefficients = self.coefficients.copy()
         coefficients[:, 0] -= self.near
         return RadialTable(self.edges, coefficients, np.zeros(4))
 
     def __call__(self, r: Array, functions: slice) -> Array:
-        """Interpolate some of the functions at distances r, shape (len(r), functions)."""
+        """Interpolate some of the radial functions at distances r, shape (len(r), functions).
+
+        functions  slice of the functions
+        """
         coefficients = self.coefficients[:, :, functions]
         values = np.empty((len(r), coefficients.shape[2]))
         for panel, inside, place in places_on_panels(self.edges, r):
@@ -72,11 +78,12 @@ class RadialTable:
 
 
 def radial_table(stack: Stack, reach: float) -> RadialTable:
-    """Compute the table of the point response of a layered body up to `reach` [length].
+    """Compute the table of the point response of a layered body, up to the distance `reach`
+    [length].
 
     On the first panel, half the outermost thickness, the response is that of the half-space plus
-    the Hankel transform of the remainder. Beyond, it is the transform of the full FRF, which avoids
-    cancellation above a rigid or stiff base.
+    the Hankel transform of the remainder. Beyond, it is the transform of the full FRF (frequency
+    response function), which avoids cancellation above a rigid or stiff base.
     """
     near = half_space_response(stack.outer)
     if not stack.layers:
@@ -95,13 +102,18 @@ def radial_table(stack: Stack, reach: float) -> RadialTable:
 
 
 def half_space_response(material: HalfSpace) -> Array:
-    """Return r times (zz, mean, twist, cross) of a homogeneous half-space, which are constants."""
+    """Return r times (zz, mean, twist, cross) of a homogeneous half-space, four constants (4,)."""
     G, nu = material
     return np.array([2 - 2 * nu, 2 - nu, -nu, 1 - 2 * nu]) / (4 * pi * G)
 
 
 def _hankel(r: Array, alpha: Array, weight: Array, response: SurfaceScalars) -> Array:
-    """Compute r times the four Hankel transforms at distances r, shape (len(r), 4)."""
+    """Compute r times the Hankel transforms of the four radial functions at distances r (len(r),
+    4).
+
+    alpha, weight  wavenumbers and quadrature weights
+    response       surface FRF at these wavenumbers
+    """
     c11, c12, c22, csh = response
     phase = np.outer(r, alpha)
     bessel0, bessel1 = j0(phase), j1(phase)
@@ -116,7 +128,10 @@ def _hankel(r: Array, alpha: Array, weight: Array, response: SurfaceScalars) -> 
 
 
 def _constant(near: Array) -> Array:
-    """Return the coefficients of one panel with constant functions."""
+    """Return the Chebyshev coefficients (1, NODES, 4) of four constant functions on one panel.
+
+    near  the four constants
+    """
     coefficients = np.zeros((1, NODES, 4))
     coefficients[0, 0] = near
     return coefficients

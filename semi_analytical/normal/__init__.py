@@ -1,1 +1,1 @@
-"""Normal problem: pressure for given shear, in terms of arrays and operators."""
+"""Normal problem: pressure for a given shear, in terms of arrays and operators."""

@@ -17,13 +17,15 @@ from semi_analytical.normal.normal_load import NormalLoad
 
 
 def bearing_pressure(gap: Field, load: NormalLoad, modulus: float, area: float) -> Field:
-    """Compute an initial pressure (nx, ny) below an undeformed gap (nx, ny).
+    """Compute an initial guess of the pressure (nx, ny) from an undeformed gap (nx, ny) by Hertz
+    theory.
 
+    The guess is uniform if the modulus is not positive, or if the cells below the bearing depth
+    cannot carry the load.
+    load     prescribed normal load
     modulus  E* [force/length^2]; not positive where a uniform pressure raises its centre, as on an
              incompressible film with rigid base
-    area     of a cell with its mirror images [length^2]
-    The pressure is uniform if the modulus is not positive, or the cells below the bearing depth
-    cannot carry the load.
+    area     area of a cell with its mirror images [length^2]
     """
     touchable = np.isfinite(gap)
     # Cells of equal gap bear together: the initial guess does not depend on the domain.
@@ -40,10 +42,10 @@ def bearing_pressure(gap: Field, load: NormalLoad, modulus: float, area: float) 
 def modulus_of(compliance: Field, spacing: tuple[float, float]) -> float:
     """Compute the modulus E* of the half-space with the same central displacement [force/length^2].
 
-    Both bodies carry a uniform pressure on the same rectangle (Johnson 1985, eq. 3.25).
-
-    compliance  normal displacement of a cell by unit pressure on another (nx, ny), at offsets
-                (i dx, j dy) from the centre to half the sides of the rectangle [length^3/force]
+    Both bodies carry a uniform pressure on the same rectangle (Johnson 1985, eq. 3.25). The initial
+    guess of the pressure uses E* for layered bodies.
+    compliance  normal displacement of a cell by unit pressure on another (nx, ny), at offsets (i
+                dx, j dy) from the centre to half the sides of the rectangle [length^3/force]
     spacing     cell sides dx, dy [length]
     """
     at_middle = 4 * np.sum(compliance) - 2 * np.sum(compliance[0]) - 2 * np.sum(compliance[:, 0])

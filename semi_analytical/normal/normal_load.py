@@ -23,79 +23,97 @@ Projection = Callable[[Field], Field]
 
 
 class NormalLoad(Protocol):
-    """Load of the normal problem. Its motion is the approach, or a vector (approach, tilt x, tilt
-    y)."""
+    """Interface of the load of the normal problem: prescribed force, approach or moments.
+
+    The rigid motion of a load is the approach, or a vector (approach, tilt x, tilt y).
+    """
 
     def touches(self, gap: Field) -> bool:
-        """Return whether an admissible pressure on cells of finite closure can carry the load."""
+        """Return True if a pressure on the cells of finite gap can carry the load.
+
+        gap  undeformed gap (nx, ny) [length]; infinite where contact is impossible
+        """
 
     def bearing_depth(self, gaps: Vector, stiffness: Vector) -> float:
-        """Return the depth below which cells bear the load in Hertz theory (`initial_pressure`)
-        [length].
+        """Return the depth [length] below which cells bear the load in Hertz theory
+        (`initial_pressure`).
 
-        gaps       undeformed, of all cells, in ascending order [length]
+        gaps       undeformed gaps of all cells, in ascending order [length]
         stiffness  Σp over the depth, as a function of the number of bearing cells [force/length^3]
         """
 
     def motion(self, p: Field, s: Field) -> Motion:
-        """Compute the motion that closes a gap s in the least-squares sense, weighted by the
-        pressure."""
+        """Compute the rigid motion that closes a gap in the least-squares sense, weighted by the
+        pressure.
+
+        p  pressure (nx, ny)
+        s  gap before the rigid motion (nx, ny) [length]
+        """
 
     def closure(self, motion: Motion) -> float | Field:
-        """Return the closure of the gap by a motion, by default the approach [length]."""
+        """Return the closure of the gap by a rigid motion [length]; by default the approach."""
         return motion
 
     def overlap(self, motion: Motion, gap: Field, allowed: Mask) -> float:
         """Return the overlap of the undeformed bodies, the scale of residual gaps [length].
 
-        By default it is the magnitude of the approach.
+        By default the overlap is the magnitude of the approach.
+        motion   rigid motion of the load
+        gap      undeformed gap (nx, ny)
+        allowed  cells of finite gap (nx, ny)
         """
         return abs(float(motion))
 
     def admissible(self, p: Field) -> Field:
-        """Return a non-negative pressure near the given one that carries the load."""
+        """Return a non-negative pressure near p (nx, ny) that carries the prescribed load."""
 
     def projection(self, inside: Field) -> Projection:
-        """Return the projection on pressure changes that preserve prescribed forces.
+        """Return the projection of pressure changes on changes that preserve the prescribed forces.
 
-        inside  1 in contact, 0 elsewhere
+        inside  1 in contact, 0 elsewhere (nx, ny)
         """
 
     def less(self, carried: Field) -> NormalLoad:
-        """Subtract the prescribed resultants of pressures (nx, ny) carried by other cells."""
+        """Return the remaining load after other cells carry the pressures `carried` (nx, ny)."""
         return self
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
-        """Return the closures (nx, ny) by unit motions whose forces are prescribed."""
+        """Return the closures of the gap (nx, ny) by unit rigid motions whose conjugate forces
+        are prescribed."""
         return ()
 
 
 @dataclass(frozen=True)
 class PressureSum(NormalLoad):
-    """Force control: sum Σp of all cell pressures, W / cell area [force/length^2]."""
+    """Force control of the normal problem: the sum Σp of the pressure over all cells is prescribed.
+
+    total  normal force over cell area [force/length^2]
+    """
 
     total: float
 
     def touches(self, gap: Field) -> bool:
-        """Return whether the gap is finite anywhere."""
+        """Return True if the gap of at least one cell is finite."""
         return bool(np.isfinite(np.min(gap)))
 
     def bearing_depth(self, gaps: Vector, stiffness: Vector) -> float:
-        """Determine the depth whose bearing cells carry the sum."""
+        """Return the Hertz bearing depth [length] at which the bearing cells carry the
+        prescribed sum."""
         bearing = int(np.searchsorted(stiffness * gaps, self.total))
         return float(self.total / stiffness[max(bearing - 1, 0)])
 
     def motion(self, p: Field, s: Field) -> Motion:
-        """Return the approach, the multiplier of the sum."""
+        """Return the approach [length]: the mean of the gap s, weighted by the pressure p."""
         return float(np.vdot(p, s) / p.sum())
 
     def admissible(self, p: Field) -> Field:
-        """Cut the pressure off at zero and scale it to the sum."""
+        """Set negative pressures to zero and scale the pressure to the prescribed sum."""
         p = np.maximum(p, 0.0)
         return np.asarray(p * (self.total / p.sum()))
 
     def projection(self, inside: Field) -> Projection:
-        """Return the projection on the contact that removes the mean and thus preserves the sum."""
+        """Return the projection on the contact that removes the mean and thus preserves the sum
+        Σp."""
         count = inside.sum()
 
         def projected(field: Field) -> Field:
@@ -106,36 +124,40 @@ class PressureSum(NormalLoad):
         return projected
 
     def less(self, carried: Field) -> NormalLoad:
-        """Subtract the sum carried by other cells."""
+        """Return the load less the sum of the pressures that other cells carry."""
         return PressureSum(self.total - float(np.sum(carried)))
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
-        """Return the unit approach."""
+        """Return the unit approach as a field (nx, ny) of ones."""
         return (np.ones(shape),)
 
 
 @dataclass(frozen=True)
 class FixedApproach(NormalLoad):
-    """Displacement control: the approach of the two bodies [length]."""
+    """Displacement control of the normal problem: the approach of the two bodies is prescribed.
+
+    approach  approach [length]
+    """
 
     approach: float
 
     def touches(self, gap: Field) -> bool:
-        """Return whether the approach closes the gap at a cell."""
+        """Return True if the approach closes the undeformed gap of at least one cell."""
         return float(np.min(gap)) < self.approach
 
     def bearing_depth(self, gaps: Vector, stiffness: Vector) -> float:
-        """Return half of the approach."""
+        """Return half of the approach, the bearing depth of Hertz theory [length]."""
         return 0.5 * self.approach
 
     def motion(self, p: Field, s: Field) -> Motion:
-        """Return the approach."""
+        """Return the prescribed approach [length]."""
         return self.approach
 
     def admissible(self, p: Field) -> Field:
-        """Return the pressure cut off at zero."""
+        """Return the pressure with negative values set to zero."""
         return np.maximum(p, 0.0)
 
     def projection(self, inside: Field) -> Projection:
-        """Return the restriction to the contact: no force is prescribed."""
+        """Return the restriction to the cells in contact; no force is prescribed that must be
+        preserved."""
         return lambda field: field * inside

@@ -35,7 +35,13 @@ LEAST_FALL = 0.1
 
 @dataclass(frozen=True)
 class NormalSolution:
-    """Pressure, its displacement u_z (nx, ny), motion of the load, iterations, initial residual."""
+    """Solution of the normal problem under one load.
+
+    pressure, displacement  p [force/length^2] and u_z [length], each (nx, ny)
+    motion                  rigid motion of the load
+    iterations              iterations of all linear solves
+    first_residual          residual of the initial guess, dimensionless
+    """
 
     pressure: Field
     displacement: Field
@@ -53,7 +59,13 @@ class _Problem:
     load: NormalLoad
 
     def residual(self, p: Field, g: Field, overlap: float) -> float:
-        """Return the larger of complementarity and penetration, relative to the overlap."""
+        """Return the larger of the complementarity and the penetration residual, relative to the
+        overlap.
+
+        p        pressure (nx, ny)
+        g        gap (nx, ny) [length]; negative where the deformed bodies overlap
+        overlap  overlap of the undeformed bodies [length]
+        """
         total = p.sum()  # zero where a step under a fixed approach has overshot
         complementarity = np.vdot(np.abs(g), p) / total if total > 0 else 0.0
         penetration = -np.where(self.allowed, g, 0.0).min()
@@ -70,15 +82,15 @@ def solve_normal(
     tolerance: float,
     enough: float = 0.0,
 ) -> NormalSolution:
-    """Compute pressure and motion of the load for an undeformed gap.
+    """Compute the contact pressure and the rigid motion of the load for an undeformed gap.
 
     displace      pressure (nx, ny) -> normal displacement (nx, ny); symmetric, positive definite
     precondition  approximate inverse of `displace`; symmetric, positive definite
     gap           undeformed gap (nx, ny) [length]; infinite where contact is impossible
     load          prescribed force or approach
     start         initial pressure (nx, ny), not zero everywhere
-    tolerance     on complementarity Σ|g|p / (δ Σp) and penetration max(-g) / δ, dimensionless;
-                  δ is the overlap of the undeformed bodies
+    tolerance     on complementarity Σ|g|p / (δ Σp) and penetration max(-g) / δ, dimensionless; δ is
+                  the overlap of the undeformed bodies
     enough        reduction of the initial residual that suffices, if above the tolerance
     raises        NotConverged
     """
@@ -114,10 +126,12 @@ def solve_normal(
 def _solve_on(
     contact: Mask, problem: _Problem, p: Field, u: Field, g: Field, depth: float
 ) -> tuple[Field, Field, int]:
-    """Close the gap g on a contact set that contains all cells under pressure.
+    """Solve the linear problem that closes the gap on a given contact set; return p, u and
+    iterations.
 
-    Conjugate gradients stop when the residual norm has fallen by the factor `depth`. Returns
-    pressure, displacement and iterations.
+    Conjugate gradients stop when the residual norm has fallen by the factor `depth`.
+    contact  contact set, which contains all cells under pressure (nx, ny)
+    p, u, g  pressure, displacement and gap at the start (nx, ny)
     """
     projected = problem.load.projection(contact.astype(np.float64))
     return close_gap(problem.displace, problem.precondition, projected, p, u, g, depth)
@@ -132,7 +146,14 @@ def close_gap(
     g: Field,
     depth: float,
 ) -> tuple[Field, Field, int]:
-    """Solve the linear problem of `_solve_on` for the projection of a contact set and load."""
+    """Solve for the pressure that closes the gap on a contact set, by preconditioned conjugate
+    gradients.
+
+    Return pressure, displacement and iterations.
+    projected  projection on the contact set and the prescribed forces
+    p, u, g    pressure, displacement and gap at the start (nx, ny)
+    depth      reduction of the residual norm at which the iteration stops
+    """
     p, u, r = p.copy(), u.copy(), projected(-g)
     t = z = projected(precondition(r))
     rz = first = np.vdot(r, z)
@@ -158,11 +179,14 @@ def _line_search(
     u: Field,
     g: Field,
 ) -> tuple[Field, Field, int]:
-    """Move to the Newton point, cut off at zero, with bisection of the step (line search).
+    """Move to the Newton point with negative pressures set to zero, or bisect the step (line
+    search).
 
-    Under a stiff coating pressure lifts adjacent cells: cutting off all tension at once may raise
-    the energy repeatedly; then cells leave successively. Returns pressure, displacement,
-    iterations.
+    The energy must decrease sufficiently. Under a stiff coating pressure lifts adjacent cells, and
+    setting all negative pressures to zero at once may raise the energy repeatedly. Cells then leave
+    the contact set successively. Return pressure, displacement and iterations.
+    newton, newton_u  pressure and displacement of the Newton point (nx, ny)
+    p, u, g           pressure, displacement and gap of the last accepted point (nx, ny)
     """
     step = 1.0
     for _ in range(MAX_HALVINGS):
@@ -193,7 +217,10 @@ def _remove_tension(
 
     Each pass moves towards the Newton point until `many` cells reach zero pressure, at most half of
     those in tension, provided that the energy decreases sufficiently; else `many` is halved. With
-    `many` = 1 the energy always decreases, so that every pass removes at least one cell.
+    `many` = 1 the energy always decreases, so that every pass removes at least one cell. Return
+    pressure, displacement and iterations.
+    newton, newton_u  pressure and displacement of the Newton point (nx, ny)
+    p, u, g           pressure, displacement and gap of the last accepted point (nx, ny)
     """
     contact = (p > 0) | (newton != 0)
     iterations, many = 0, newton.size
@@ -223,13 +250,22 @@ def _remove_tension(
 
 
 def _decreases_energy(d: Field, d_u: Field, g: Field) -> bool:
-    """Return whether a change of the pressure satisfies Armijo's condition on the energy."""
+    """Return True if a change of the pressure satisfies Armijo's condition on the elastic contact
+    energy.
+
+    d, d_u  changes of pressure and displacement (nx, ny)
+    g       gap before the change (nx, ny), the gradient of the energy
+    """
     slope = np.vdot(d, g)
     return bool(slope + 0.5 * np.vdot(d, d_u) <= LEAST_FALL * slope)
 
 
 def _gradient_step(problem: _Problem, p: Field, u: Field, g: Field) -> tuple[Field, Field]:
-    """Apply an exact line search along the projected gradient, with a step of at most 1."""
+    """Move the pressure along the projected gradient of the energy by an exact line search.
+
+    The step length is at most 1. Return pressure and displacement.
+    p, u, g  pressure, displacement and gap of the last accepted point (nx, ny)
+    """
     unit = np.sum(p) / np.sum(np.abs(u))
     d = problem.load.admissible(np.where(problem.allowed, p - unit * g, 0.0)) - p
     d_u = problem.displace(d)

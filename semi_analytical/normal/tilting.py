@@ -1,8 +1,8 @@
-"""Tilt of the indenter under prescribed moments. Not imported without tilt.
+"""Tilt of the indenter under prescribed moments; this module is not imported without tilt.
 
-A prescribed tilt only changes the gap. A prescribed moment Σ p (y, x) Δ is a constraint as the
-normal force is: the tilt is its multiplier, as the approach is that of Σp (CONVENTIONS,
-"generalised coordinates").
+A prescribed tilt only changes the gap. A prescribed moment Σ p (y, x) Δ is a constraint like the
+normal force: the tilt is its multiplier, as the approach is that of Σp (CONVENTIONS, "generalised
+coordinates").
 """
 
 from dataclasses import dataclass, replace
@@ -27,14 +27,14 @@ ROUND_OFF = 1e-14
 
 @dataclass(frozen=True)
 class PressureMoments:
-    """Prescribed moments Σp y and Σp x, with prescribed Σp or prescribed approach.
+    """Normal load with prescribed moments Σp y and Σp x, and with prescribed Σp or approach.
 
+    The rigid motion is (approach, tilt x, tilt y).
     arms      (y, x) of the cells (2, nx, ny) [length]
-    cells     those of finite gap (nx, ny)
+    cells     cells of finite gap (nx, ny)
     moments   (Σp y, Σp x) = (M_x, M_y) / cell area, shape (2,)
     total     Σp = W / cell area; None where the approach is prescribed
-    approach  of the bodies at the origin; None where Σp is prescribed
-    The motion is (approach, tilt x, tilt y).
+    approach  approach of the bodies at the origin [length]; None where Σp is prescribed
     """
 
     arms: Field
@@ -45,34 +45,43 @@ class PressureMoments:
 
     @cached_property
     def reach(self) -> float:
-        """Largest arm, the unit in which a tilt is comparable with the approach [length]."""
+        """Largest |x| or |y| of a cell [length]; a tilt times this length compares with the
+        approach."""
         return float(np.max(np.abs(self.arms)))
 
     @cached_property
     def shapes(self) -> Field:
-        """Closures by unit motions of prescribed force (k, nx, ny): 1 (if Σp is), y and x over the
-        reach."""
+        """Closures of the gap by unit motions whose conjugate forces are prescribed (k, nx, ny).
+
+        The closures are 1 if Σp is prescribed, then y and x over `reach`.
+        """
         slopes = self.arms / self.reach
         return slopes if self.total is None else np.stack([np.ones_like(slopes[0]), *slopes])
 
     @cached_property
     def sums(self) -> Vector:
-        """Prescribed sums of pressure times shape (k,)."""
+        """Prescribed sums over the cells of pressure times `shapes` (k,)."""
         moments = self.moments / self.reach
         return moments if self.total is None else np.array([self.total, *moments])
 
     def touches(self, gap: Field) -> bool:
-        """Return whether cells of finite gap surround the point of action of the force."""
+        """Return True if the cells of finite gap surround the point of action of the normal
+        force."""
         return self._is_carried_on(self.cells & np.isfinite(gap))
 
     def bearing_depth(self, gaps: Vector, stiffness: Vector) -> float:
-        """Return the bearing depth of the force or approach without moment."""
+        """Return the Hertz bearing depth [length] of the force or the approach without moments."""
         if self.total is None:
             return FixedApproach(self.approach or 0.0).bearing_depth(gaps, stiffness)
         return PressureSum(self.total).bearing_depth(gaps, stiffness)
 
     def motion(self, p: Field, s: Field) -> Motion:
-        """Fit a plane to the gap s by least squares, weighted by the pressure."""
+        """Compute approach and tilt of the plane that fits a gap by least squares, weighted by the
+        pressure.
+
+        p  pressure (nx, ny)
+        s  gap before the rigid motion (nx, ny) [length]
+        """
         shapes = self.shapes
         metric = _products(p * shapes, shapes)
         right = np.array([np.sum(p * shape * (s - (self.approach or 0.0))) for shape in shapes])
@@ -81,19 +90,21 @@ class PressureMoments:
         return np.array([approach, *(fit[-2:] / self.reach)])
 
     def closure(self, motion: Motion) -> float | Field:
-        """Return the plane of approach and tilt."""
+        """Return the closure of the gap by approach and tilt, a plane (nx, ny) [length]."""
         approach, tilt_x, tilt_y = np.ravel(motion)
         return np.asarray(approach + tilt_x * self.arms[0] + tilt_y * self.arms[1])
 
     def overlap(self, motion: Motion, gap: Field, allowed: Mask) -> float:
-        """Return the largest overlap."""
+        """Return the largest overlap of the undeformed bodies over the allowed cells [length]."""
         return float(np.max(self.closure(motion) - gap, where=allowed, initial=-np.inf))
 
     def admissible(self, p: Field) -> Field:
-        """Cut the pressure off at zero and correct it, weighted by itself, by a plane to the sums.
+        """Return a non-negative pressure near p (nx, ny) with the prescribed sum and moments.
 
-        Where that is impossible the correction has equal weight on all cells of finite gap.
-        raises  NotConverged where no pressure has the sums
+        Negative values are set to zero, and the pressure is corrected by a plane, weighted by the
+        pressure. Where this is impossible the correction has equal weight on all cells of finite
+        gap.
+        raises  NotConverged where no pressure has the prescribed sums
         """
         p = np.maximum(p, 0.0)
         if self.total is not None:
@@ -106,10 +117,11 @@ class PressureMoments:
         return carrying
 
     def _is_carried_on(self, cells: Mask) -> bool:
-        """Return whether some pressure on these cells has the sums.
+        """Return True if some pressure on these cells has the prescribed sum and moments.
 
         The cells must surround the point where Σp acts; if Σp is free, they must lie on both sides
         of the direction of the moments.
+        cells  cells that may carry pressure (nx, ny)
         """
         y, x = self.arms[:, cells]
         M_x, M_y = self.moments
@@ -125,8 +137,11 @@ class PressureMoments:
         return bool(left - right < np.pi)
 
     def _carrying(self, p: Field, weight: Field) -> Field | None:
-        """Project p on non-negative pressures with the sums, in the metric 1 / weight; None if
-        impossible."""
+        """Project p on the non-negative pressures with the prescribed sums; None if this is
+        impossible.
+
+        weight  inverse metric of the projection (nx, ny); zero where the pressure is not corrected
+        """
         if not self._is_carried_on(weight > 0):
             return None
         shapes, sums = self.shapes, self.sums
@@ -136,7 +151,12 @@ class PressureMoments:
         return shifted.p if shifted.settled(multiplier) else None
 
     def projection(self, inside: Field) -> Projection:
-        """Return the projection that removes the least-squares fit of the free rigid motions."""
+        """Return the projection of pressure changes that preserves the prescribed sum and moments.
+
+        The projection restricts a field to the contact and removes the least-squares fit of a
+        plane.
+        inside  1 in contact, 0 elsewhere (nx, ny)
+        """
         units = inside * self.shapes
         inverse = np.linalg.pinv(_products(units, units), rcond=1e-14, hermitian=True)
 
@@ -148,7 +168,11 @@ class PressureMoments:
         return projected
 
     def less(self, carried: Field) -> NormalLoad:
-        """Subtract the sums carried by other cells, and exclude those cells."""
+        """Return the load less the sum and moments of pressures carried by other cells, which are
+        excluded.
+
+        carried  pressures of the other cells (nx, ny)
+        """
         return replace(
             self,
             cells=self.cells & (carried == 0),
@@ -157,18 +181,26 @@ class PressureMoments:
         )
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
-        """Return the shapes."""
+        """Return the closures of the gap (nx, ny) by unit rigid motions whose conjugate forces
+        are prescribed."""
         return tuple(self.shapes)
 
 
 def _products(a: Field, b: Field) -> Field:
-    """Compute the sums of products of two sets of fields (k, nx, ny), symmetric (k, k)."""
+    """Compute the symmetric matrix (k, k) of sums over the cells of products of two sets of k
+    fields.
+
+    a, b  fields (k, nx, ny)
+    """
     sums = np.array([[np.sum(one * other) for other in b] for one in a])
     return 0.5 * (sums + sums.T)
 
 
 class _Shifted:
-    """Projected pressure p = max(0, p + weight Σ λ shape): see multipliers.py."""
+    """Projected pressure max(0, p + weight Σ λ shape), for one value of the multipliers λ.
+
+    `multipliers.py` solves for the multipliers whose pressure has the prescribed sum and moments.
+    """
 
     def __init__(
         self, multiplier: Vector, p: Field, weight: Field, shapes: Field, sums: Vector
@@ -181,11 +213,13 @@ class _Shifted:
         self.defect = np.array([np.sum(self.p * shape) for shape in shapes]) - sums
 
     def settled(self, multiplier: Vector) -> bool:
-        """Return whether the defect is round-off."""
+        """Return True if the defect of the prescribed sum and moments is at the level of
+        rounding errors."""
         size = float(np.sum(self.p)) + float(np.max(np.abs(self._sums)))
         return bool(np.sum(np.abs(self.defect)) <= ROUND_OFF * size)
 
     def newton_step(self) -> Vector:
-        """Compute the Newton step of the multipliers; of least length where they are not unique."""
+        """Compute the Newton step of the multipliers; the shortest step where they are not
+        unique."""
         metric = _products(self._slack * self._shapes, self._shapes)
         return np.asarray(-np.linalg.pinv(metric, rcond=1e-14, hermitian=True) @ self.defect)

@@ -1,4 +1,5 @@
-"""Box of cells around a contact; tractions are zero outside."""
+"""Box of cells around a contact; tractions are zero outside. Smaller boxes make convolutions
+cheaper."""
 
 from dataclasses import dataclass
 
@@ -13,30 +14,34 @@ QUANTUM = 16
 
 @dataclass(frozen=True)
 class Box:
-    """Rectangle of cells: index of the first cell and number of cells along x and y."""
+    """Rectangle of cells of a window or reduced domain.
+
+    first  indices of the first cell along x and y
+    shape  number of cells along x and y
+    """
 
     first: tuple[int, int]
     shape: tuple[int, int]
 
     @classmethod
     def whole(cls, cells: tuple[int, int]) -> "Box":
-        """Return the box of all cells."""
+        """Return the box that contains all cells (nx, ny) of a window or reduced domain."""
         return cls((0, 0), cells)
 
     @property
     def slices(self) -> tuple[slice, slice]:
-        """Index of the box in arrays whose last two axes are the cells of the window."""
+        """Slices of the box for arrays whose last two axes are the cells of the window."""
         (i, j), (nx, ny) = self.first, self.shape
         return slice(i, i + nx), slice(j, j + ny)
 
     def embed(self, values: Field, cells: tuple[int, int]) -> Field:
-        """Extend values on the box (..., *shape) by zero to the window (..., *cells)."""
+        """Extend values on the box (..., *shape) by zeros to the window (..., *cells)."""
         field = np.zeros((*values.shape[:-2], *cells))
         field[..., self.slices[0], self.slices[1]] = values
         return field
 
     def mask(self, cells: tuple[int, int]) -> Mask:
-        """Return the mask of the box in the window."""
+        """Return the mask (nx, ny) of the cells that lie in the box."""
         inside = np.zeros(cells, dtype=bool)
         inside[self.slices] = True
         return inside
@@ -46,7 +51,10 @@ def box_around(cells: Mask, margin: int, domain: ReducedDomain = WINDOW) -> Box:
     """Return the smallest box around marked cells and a margin, with sides in multiples of QUANTUM.
 
     A side that does not fit becomes the side of the window. On a reduced domain the box surrounds
-    the cells and their images and is restricted to the domain.
+    the marked cells and their mirror images and is then restricted to the domain.
+    cells   marked cells (nx, ny)
+    margin  number of cells around the marked cells
+    domain  domain of `cells`
     """
     sides = [
         (_half_side if mirrored else _side)(np.any(cells, axis=1 - axis), margin)
@@ -56,7 +64,10 @@ def box_around(cells: Mask, margin: int, domain: ReducedDomain = WINDOW) -> Box:
 
 
 def _side(marked: Mask, margin: int) -> tuple[int, int]:
-    """Return the first index and the length along one axis."""
+    """Return the first index and the number of cells of a box along one axis.
+
+    marked  True at indices along the axis with marked cells
+    """
     at = np.nonzero(marked)[0]
     available = len(marked)
     needed = at[-1] - at[0] + 1 + 2 * margin
@@ -68,6 +79,10 @@ def _side(marked: Mask, margin: int) -> tuple[int, int]:
 
 
 def _half_side(marked: Mask, margin: int) -> tuple[int, int]:
-    """Return first index and length along an axis with a mirror plane before its first cell."""
+    """Return first index and number of cells of a box along an axis with a mirror plane before cell
+    0.
+
+    marked  True at indices along the axis with marked cells
+    """
     _, length = _side(np.concatenate([marked[::-1], marked]), margin)
     return 0, length // 2

@@ -1,4 +1,5 @@
-"""Symmetry reduction: the full window, or its half or quarter between mirror planes."""
+"""Symmetry reduction: full window, or its half or quarter between mirror planes of the contact
+problem."""
 
 from dataclasses import dataclass, fields, replace
 from typing import Any, TypeVar
@@ -21,12 +22,11 @@ ROUND_OFF = 1e-9
 
 @dataclass(frozen=True)
 class ReducedDomain:
-    """The window, its half x > 0 or y > 0, or its quarter x > 0, y > 0.
+    """Domain of the computation: the window, its half x > 0 or y > 0, or its quarter x > 0, y > 0.
 
     Scalar fields (pressure, gap, u_z) are even about mirror planes. Indices count from the planes.
-
-    mirrors  whether x = 0 and y = 0 are mirror planes
-    shear    about each plane, whether a mirror preserves the shear field (1) or reverses it (-1)
+    mirrors  True for x = 0 and y = 0 if the plane is a mirror plane
+    shear    for each plane, 1 if reflection preserves the shear field, -1 if it reverses the field
     """
 
     mirrors: tuple[bool, bool] = (False, False)
@@ -34,52 +34,63 @@ class ReducedDomain:
 
     @property
     def planes(self) -> tuple[int, ...]:
-        """Axes with a mirror plane."""
+        """Axes (0 for x, 1 for y) that are normal to a mirror plane."""
         return tuple(axis for axis, mirrored in enumerate(self.mirrors) if mirrored)
 
     @property
     def _sides(self) -> Pair:
-        """Sides of the window, relative to those of the domain."""
+        """Ratio of the sides of the window to those of the domain, along x and y: 1 or 2."""
         x, y = self.mirrors
         return 1 + x, 1 + y
 
     @property
     def images(self) -> int:
-        """Number of mirror images that make up the window."""
+        """Number of mirror images of the domain that make up the window: 1, 2 or 4."""
         x, y = self._sides
         return x * y
 
     @property
     def scalar(self) -> Parity:
-        """Parity of scalar fields."""
+        """Parity of scalar fields about x = 0 and y = 0: 1 about a mirror plane, else 0."""
         x, y = self.mirrors
         return int(x), int(y)
 
     @property
     def vector(self) -> tuple[Parity, Parity]:
-        """Parity of the components x and y of tangential fields."""
+        """Parities of the x and the y component of tangential fields about x = 0 and y = 0.
+
+        1 is even, -1 odd, 0 no mirror plane.
+        """
         (x, y), (s_x, s_y) = self.scalar, self.shear
         return (-s_x * x, s_y * y), (s_x * x, -s_y * y)
 
     @property
     def rotating(self) -> Parity:
-        """Parity of a change of direction of a vector."""
+        """Parity of a change of direction of a tangential vector: -1 about a mirror plane, else
+        0."""
         x, y = self.scalar
         return -x, -y
 
     @property
     def summed(self) -> tuple[bool, bool]:
-        """Components of tangential fields with a resultant: odd components have none."""
+        """True for x and y if this component of tangential fields has a resultant; odd
+        components have none."""
         x, y = (-1 not in parity for parity in self.vector)
         return x, y
 
     def cells(self, window: Pair) -> Pair:
-        """Return the number of cells of the domain along x and y for a window of cells."""
+        """Return the number of cells of the domain along x and y.
+
+        window  number of cells of the window along x and y
+        """
         x, y = self._sides
         return window[0] // x, window[1] // y
 
     def window(self, cells: Pair) -> Pair:
-        """Return the number of cells of the window along x and y for a domain of cells."""
+        """Return the number of cells of the window along x and y.
+
+        cells  number of cells of the domain along x and y
+        """
         x, y = self._sides
         return x * cells[0], y * cells[1]
 
@@ -97,13 +108,18 @@ class ReducedDomain:
         return np.stack([_extended(*given) for given in zip(field, self.vector, strict=True)])
 
     def extend_fields(self, record: Record) -> Record:
-        """Extend all fields of a dataclass to the window."""
+        """Return a dataclass with all its fields (arrays of two or three axes) extended to the
+        window."""
         found = {one.name: getattr(record, one.name) for one in fields(record)}  # type: ignore[arg-type]
         arrays = {n: v for n, v in found.items() if isinstance(v, np.ndarray) and v.ndim > 1}
         return replace(record, **{name: self.extend(v) for name, v in arrays.items()})  # type: ignore[type-var]
 
     def resultant(self, field: Field) -> Field:
-        """Compute the sums of the components of a tangential field (2,)."""
+        """Compute the sums of both components of a tangential field (2, nx, ny) over the domain
+        (2,).
+
+        Odd components have the sum 0.
+        """
         return np.where(self.summed, np.sum(field, axis=(1, 2)), 0.0)
 
     def rim(self, values: AnyField) -> AnyField:
@@ -125,9 +141,10 @@ class ReducedDomain:
         return framed
 
     def folded(self, framed: Field, width: int) -> Field:
-        """Remove a frame of `width` cells from a scalar response (the adjoint of `framed`).
+        """Remove a frame of `width` cells from a scalar response (adjoint of `framed`).
 
         The response beyond a mirror plane is added to its image in the domain.
+        framed  response with its frame (nx + 2 width, ny + 2 width)
         """
         framed, images = framed.copy(), slice(width - 1, None, -1)
         if self.mirrors[0]:
@@ -137,9 +154,9 @@ class ReducedDomain:
         return framed[width:-width, width:-width]
 
     def differences(self, field: Field) -> Field:
-        """Compute the slopes per cell of a scalar field along both axes (2, nx, ny).
+        """Compute the change per cell of a scalar field (nx, ny) along both axes (2, nx, ny).
 
-        Differences are central, one-sided at the border of the window.
+        Differences are central, and one-sided at the border of the window.
         """
         framed, slopes = self.framed(field, 1), np.empty((2, *field.shape))
         np.subtract(framed[2:, 1:-1], framed[:-2, 1:-1], out=slopes[0])
@@ -180,11 +197,11 @@ QUARTER = ReducedDomain((True, True))
 
 @dataclass(frozen=True)
 class ReducedGrid:
-    """Cells of a domain; the area of a cell includes its images.
+    """Grid of the cells of a reduced domain; the area of a cell includes its mirror images.
 
     A sum over the domain times the cell area is thus the integral over the window.
-
     window  grid of the full window
+    domain  reduced domain
     """
 
     window: SurfaceGrid
@@ -192,7 +209,7 @@ class ReducedGrid:
 
     @property
     def cells(self) -> Pair:
-        """Number of cells along x and y."""
+        """Number of cells of the domain along x and y."""
         return self.domain.cells(self.window.cells)
 
     @property

@@ -1,4 +1,5 @@
-"""Displacement operator by convolution on a domain, and its approximate inverses."""
+"""Displacement operator: convolution of tractions with influence coefficients, and approximate
+inverses."""
 
 from __future__ import annotations
 
@@ -25,9 +26,12 @@ BINS = "".join(str(number) for number in range(len(COMPLIANCES)))
 
 
 def response(transforms: Transforms, pair: str, spectrum: KernelSpectrum) -> Response:
-    """Compute the response between the amplitudes of two components, the second a traction.
+    """Compute the real response between Fourier amplitudes of a displacement and a traction
+    component.
 
-    spectrum  S; the coefficients have the spectrum i S if one component is z, else S
+    transforms  transforms of the domain
+    pair        names of the displacement and the traction component, e.g. "zx"
+    spectrum    S; the coefficients have the spectrum i S if one component is z, else S
     """
     if transforms.whole:  # the phases cancel
         return spectrum
@@ -43,10 +47,11 @@ def response(transforms: Transforms, pair: str, spectrum: KernelSpectrum) -> Res
 
 
 def _in_order(lines: Field, one: int, other: int) -> Field:
-    """Sort the lines of a response in the order of the amplitudes.
+    """Sort the lines of a response along one axis in the order of the amplitudes.
 
     Waves have two amplitudes per wavenumber. Sines have the largest wavenumber in the place of 0,
     where the response between a sine and a cosine vanishes.
+    one, other  parity of the two components along the axis; 0 for waves
     """
     if one == 0:
         return np.repeat(lines, 2, axis=0)
@@ -56,7 +61,15 @@ def _in_order(lines: Field, one: int, other: int) -> Field:
 
 
 class Product:
-    """Product of a matrix of responses with fields of some components."""
+    """Product of a matrix of responses with fields: transform, multiply the amplitudes, transform
+    back.
+
+    transforms       transforms of the domain
+    entries          responses by pairs of component names, e.g. "xy"
+    inputs, outputs  names of the components of the input and output fields
+    padded           transform with zero padding to twice the window (linear convolution)
+    dtype            precision of the transforms
+    """
 
     def __init__(
         self,
@@ -75,7 +88,7 @@ class Product:
         self._entries = {name: entries[name] for row in self._rows for _, name in row}
 
     def __call__(self, values: Array) -> Array:
-        """Compute fields (outputs, nx, ny) of fields (inputs, nx, ny)."""
+        """Compute output fields (outputs, nx, ny) from input fields (inputs, nx, ny)."""
         return self._transforms.filtered(values, *self._sides, self._times)
 
     def _times(self, amplitudes: Sequence[Array], columns: slice) -> list[Array]:
@@ -93,10 +106,14 @@ class Product:
 
 
 class DisplacementOperator:
-    """Displacements caused by tractions on a box of `shape` cells of a domain.
+    """Operator from tractions on a box of cells to surface displacements of these cells.
 
     A call counts as 1/2 convolution per transformed component. Spectra, responses and approximate
     inverses are built on first use.
+    coefficients  influence coefficients of both bodies
+    shape         number of cells of the box along x and y
+    domain        reduced domain that contains the box
+    counter       counter of convolutions
     """
 
     def __init__(
@@ -144,7 +161,11 @@ class DisplacementOperator:
         return self._products[inputs, outputs](values)
 
     def spectrum(self, pair: str) -> KernelSpectrum:
-        """Compute S of the coefficients of two components, with the padded period."""
+        """Compute the spectrum S of the influence coefficients of two components, with the padded
+        period.
+
+        pair  names of the two components in alphabetical order
+        """
         if pair not in self._spectra:
             self._spectra[pair] = kernel_spectrum(self._coefficients, pair, self.transforms.reach)
         return self._spectra[pair]
@@ -155,7 +176,8 @@ class DisplacementOperator:
         return float(0.5 * (self._coefficients.xx[0, 0] + self._coefficients.yy[0, 0]))
 
     def precondition(self, displacement: Field) -> Field:
-        """Apply the approximate inverse of `normal` to a displacement (nx, ny)."""
+        """Apply the approximate inverse of `normal` to a normal displacement; return a pressure
+        (nx, ny)."""
         return self._pressure_inverse(displacement[None])[0]
 
     @cached_property
@@ -164,12 +186,16 @@ class DisplacementOperator:
 
     @cached_property
     def shear_inverse(self) -> ApproximateInverse:
-        """Approximate inverse of the tangential problem."""
+        """Approximate inverse of the map from shear to tangential displacement, with bins of
+        slip compliance."""
         return ApproximateInverse(self.transforms, self._inverse_tangential())
 
     @cached_property
     def inverse(self) -> ApproximateInverse:
-        """Approximate inverse of the coupled problem, in single precision."""
+        """Approximate inverse of the map from all tractions to displacements, in single precision.
+
+        Used to precondition the coupled problem.
+        """
         spectra = self._inverse_tangential() | {"zz": self._inverse_normal()}
         return ApproximateInverse(self.transforms, spectra, SINGLE)
 
@@ -186,12 +212,11 @@ class DisplacementOperator:
 
 
 class ApproximateInverse:
-    """Approximate inverse of a displacement operator without coupling.
+    """Approximate map from displacements to tractions, without normal-tangential coupling.
 
     The spectra are those of the coefficients with the unpadded period. A component costs 1/4
     convolution. Components are x, y and z if they have spectra, then the bins of slip compliance. A
     bin is a shear of one component, with the compliance of the bin added.
-
     spectra  spectra of the inverse (quarters) by pairs of components; real and symmetric
     dtype    precision of the transforms
     """
@@ -210,15 +235,19 @@ class ApproximateInverse:
         self._product = Product(transforms, entries, names, names, padded=False, dtype=dtype)
 
     def __call__(self, displacements: Array) -> Array:
-        """Compute tractions of displacements (components, nx, ny) within the range of `dtype`."""
+        """Compute tractions (components, nx, ny) from displacements of the same shape.
+
+        The displacements must be within the range of `dtype`.
+        """
         tractions = self._product(np.asarray(displacements, dtype=self._dtype))
         tractions *= 1 / self._unit
         return tractions
 
     def yielding(self, compliance: float) -> ApproximateInverse:
-        """Build the inverse for a self-compliance increased by `compliance`.
+        """Build the approximate inverse for bodies whose self-compliance is larger by `compliance`.
 
         The compliances of the bins increase in proportion to the self-compliance.
+        compliance  additional displacement of a cell by its own unit traction [length^3/force]
         """
         xx, yy, xy = (self._spectra[pair] for pair in ("xx", "yy", "xy"))
         # (F + ρ)⁻¹ = F⁻¹ (1 + ρ F⁻¹)⁻¹
@@ -236,7 +265,7 @@ class ApproximateInverse:
 
 
 def positive_inverse(spectrum: Field) -> Field:
-    """Invert the magnitudes of a spectrum, with a lower bound.
+    """Invert the magnitudes of a spectrum, with a lower bound that keeps the result finite.
 
     Conjugate gradients require a positive matrix. Entries of films much stiffer than their base can
     be negative, because the displacements reach beyond the period.
@@ -246,7 +275,7 @@ def positive_inverse(spectrum: Field) -> Field:
 
 
 def inverse_2x2(xx: Field, yy: Field, xy: Field) -> tuple[Field, Field, Field]:
-    """Invert the symmetric matrix [[xx, xy], [xy, yy]] at every wavenumber.
+    """Invert the symmetric matrix [[xx, xy], [xy, yy]] at every wavenumber; return xx, yy, xy.
 
     Eigenvalues are replaced by their magnitudes with a lower bound (see `positive_inverse`).
     """

@@ -16,7 +16,10 @@ COMPLIANCES: Vector = np.array([1.0, RATIO])
 
 
 def shares(compliance: Field) -> Field:
-    """Compute the weights χ (1 + bins, …) for slip compliances d/K₀ (…)."""
+    """Compute the weights χ of each cell in the bins of slip compliance (1 + bins, …).
+
+    compliance  slip compliance over self-compliance, d/K₀ (…)
+    """
     place = np.log(np.maximum(compliance, 1 / RATIO)) / np.log(RATIO) + 1
     number = np.arange(len(COMPLIANCES) + 1).reshape(-1, *np.ones(place.ndim, dtype=int))
     found = np.sqrt(np.maximum(0.0, 1 - np.abs(np.minimum(place, len(COMPLIANCES)) - number)))
@@ -27,6 +30,9 @@ def shares(compliance: Field) -> Field:
 
 
 def beyond(compliance: Field) -> Field:
-    """Compute the fraction beyond the last bin: 0 at the last d_j, 1 from RATIO times it on."""
+    """Compute the degree to which a slip compliance d/K₀ exceeds the last bin, from 0 to 1.
+
+    The result is 0 up to the last d_j, 1 from RATIO times d_j on, and linear in log d between.
+    """
     last = COMPLIANCES[-1]
     return np.asarray(np.clip(np.log(np.maximum(compliance, last) / last) / np.log(RATIO), 0, 1))

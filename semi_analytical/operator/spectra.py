@@ -1,7 +1,7 @@
-"""Spectra of influence coefficients on a zero-padded grid.
+"""Fourier spectra of influence coefficients on a zero-padded grid.
 
 The coefficients are even or odd along each axis. Their transforms are therefore real or imaginary,
-and even or odd; one quarter of a real array represents each.
+and even or odd. One quarter of a real array represents each transform.
 """
 
 from dataclasses import dataclass
@@ -15,9 +15,9 @@ from semi_analytical.influence.coefficients import InfluenceCoefficients
 
 @dataclass(frozen=True)
 class KernelSpectrum:
-    """Real spectrum of coefficients at wavenumbers along y that are not negative.
+    """Real Fourier spectrum of influence coefficients; only non-negative wavenumbers are stored.
 
-    quarter  (my + 1, mx + 1) values at wavenumbers along y and x that are not negative
+    quarter  (my + 1, mx + 1) values at non-negative wavenumbers along y and x
     mirror   parity along x, 1 or -1
     """
 
@@ -25,7 +25,11 @@ class KernelSpectrum:
     mirror: int
 
     def __getitem__(self, columns: slice) -> Field:
-        """Return values at some wavenumbers along y and all 2 mx along x (columns, 2 mx)."""
+        """Return values at some wavenumbers along y and all 2 mx wavenumbers along x (columns, 2
+        mx).
+
+        columns  slice of the wavenumbers along y
+        """
         some = self.quarter[columns]
         return np.concatenate([some, self.mirror * some[:, -2:0:-1]], axis=1)
 
@@ -33,9 +37,11 @@ class KernelSpectrum:
 def kernel_spectrum(
     coefficients: InfluenceCoefficients, pair: str, reach: tuple[slice, slice]
 ) -> KernelSpectrum:
-    """Transform the coefficients of two components, in alphabetical order, at offsets in reach.
+    """Transform the influence coefficients of two components to Fourier space.
 
     The result S is the spectrum; for zx and zy the spectrum is -i S.
+    pair   names of the two components in alphabetical order, e.g. "xz"
+    reach  slices of the offsets along x and y that are transformed
     """
     if pair == "xy":
         return odd_transform(coefficients.xy[reach])
@@ -58,7 +64,8 @@ def even_transform(coefficients: Field) -> KernelSpectrum:
 
 
 def odd_transform(coefficients: Field) -> KernelSpectrum:
-    """Transform coefficients that are odd along both axes; (-i)^2 is real."""
+    """Transform influence coefficients that are odd along both axes; the spectrum is real as
+    (-i)^2 = -1."""
     quarter = np.zeros(coefficients.T.shape)
     lines = dst(coefficients[1:-1, 1:-1].T, type=1, axis=1)
     quarter[1:-1, 1:-1] = -dst(lines, type=1, axis=0)
@@ -66,7 +73,10 @@ def odd_transform(coefficients: Field) -> KernelSpectrum:
 
 
 def mixed_transform(coefficients: Field, odd_axis: int) -> KernelSpectrum:
-    """Compute S of coefficients that are odd along one axis only; the spectrum is -i S."""
+    """Compute S of influence coefficients that are odd along one axis only; the spectrum is -i S.
+
+    odd_axis  0 if odd along x, 1 if odd along y
+    """
     quarter = np.zeros(coefficients.T.shape)
     odd, even = 1 - odd_axis, odd_axis  # transposed
     inner = (slice(1, -1), slice(None)) if odd == 0 else (slice(None), slice(1, -1))

@@ -1,9 +1,9 @@
 """Transforms of fields on a domain: cosines and sines along axes with a mirror plane, else waves.
 
-Cell centres are at (i + ½) h from a mirror plane. Even fields are sums of cosines, odd fields sums
-of sines (DCT-II, DST-II; Martucci 1994). Along an axis without a mirror plane the FFT is used.
-Padding to twice the cells of the window yields the linear convolution without periodicity error
-(DC-FFT; Liu, Wang and Liu 2000).
+Cell centres are at (i + ½) h from a mirror plane, with h the cell side. Even fields are sums of
+cosines, odd fields sums of sines (DCT-II, DST-II; Martucci 1994). Along an axis without a mirror
+plane the FFT is used. Padding to twice the cells of the window yields the linear convolution
+without periodicity error (DC-FFT; Liu, Wang and Liu 2000).
 
 A spectrum is a phase times the amplitudes. The phases make the responses between amplitudes real.
 Amplitudes of waves are complex on the full window and pairs of real numbers on its half.
@@ -39,13 +39,14 @@ class Convolutions:
 
     A convolution is one forward and one inverse transform of a padded grid of any size. Unpadded
     transforms (approximate inverses) do not count. The operators must not run concurrently.
+    count  number of convolutions so far
     """
 
     count: float = 0.0
     _memory: Array = field(default_factory=lambda: np.empty(0, dtype=np.complex128))
 
     def work_space(self, size: int, dtype: Dtype) -> Array:
-        """Return memory for `size` numbers, valid until the next call."""
+        """Return memory for `size` numbers of a type, valid until the next call."""
         if self._memory.nbytes < size * dtype.itemsize:
             self._memory = np.empty(0, dtype=np.complex128)  # release before the new allocation
             self._memory = np.empty(-(-size * dtype.itemsize // 16), dtype=np.complex128)
@@ -55,9 +56,11 @@ class Convolutions:
 class Waves:
     """Fourier transform along an axis without a mirror plane; values are zero-padded to the period.
 
-    of_complex  values are complex, and wavenumbers have both signs
-    in_pairs    amplitudes are pairs of real numbers
-    turned      amplitudes are i times the spectrum
+    cells       number of cells along the axis
+    period      period in cells
+    of_complex  True if values are complex, so that wavenumbers have both signs
+    in_pairs    True if amplitudes are pairs of real numbers
+    turned      True if amplitudes are i times the spectrum
     """
 
     def __init__(
@@ -93,6 +96,9 @@ class MirroredWaves:
 
     Values are zero-padded to half the period m. Cosines have the wavenumbers 0 … m - 1. Sines have
     m, 1 … m - 1: the wavenumber m takes the place of 0, so that the others keep their places.
+    cells   number of cells of the domain along the axis
+    period  period of the window in cells
+    sign    parity of the field: 1 for cosines, -1 for sines
     """
 
     def __init__(self, cells: int, period: int, sign: int, dtype: Dtype) -> None:
@@ -146,9 +152,9 @@ class Transforms:
     """Transforms of the components of fields on a box of `shape` cells of a domain.
 
     Components are x and y (tangential), z (scalar) and bins of slip compliance, named by digits.
-
     half_period  (m_x, m_y) in cells of the window, even, equal on all domains: period of the
                  approximate inverses and half the period of the convolutions
+    whole        True without mirror planes
     """
 
     def __init__(self, shape: Pair, domain: ReducedDomain, counter: Convolutions) -> None:
@@ -159,17 +165,23 @@ class Transforms:
 
     @property
     def reach(self) -> tuple[slice, slice]:
-        """Offsets of influence coefficients that an operator needs."""
+        """Slices of the offsets along x and y of the influence coefficients that an operator
+        needs."""
         m_x, m_y = self.half_period
         return slice(m_x + 1), slice(m_y + 1)
 
     def parity(self, component: str) -> Parity:
-        """Return the parity of a component."""
+        """Return the parity of a component about x = 0 and y = 0: 1 even, -1 odd, 0 without
+        mirror plane."""
         x, y = self.domain.vector
         return {"x": x, "y": y, "z": self.domain.scalar}.get(component, self.domain.rotating)
 
     def phase(self, component: str) -> complex:
-        """Return the ratio of spectrum to amplitude: -i per sine, and -i for a turned component."""
+        """Return the ratio of the spectrum of a component to its amplitudes.
+
+        The ratio has a factor -i per sine, and -i for a component whose amplitudes have the factor
+        i.
+        """
         turned = self._turned(component)
         phase: complex = (-1j) ** (self.parity(component).count(-1) + turned)
         return phase
@@ -187,7 +199,11 @@ class Transforms:
     def sides(
         self, inputs: str, outputs: str, *, padded: bool = True, dtype: Dtype = DOUBLE
     ) -> tuple[list[Sides], list[Sides]]:
-        """Return the transforms of input and output components along x and y."""
+        """Return the transforms along x and y of each input and each output component.
+
+        padded  transform with zero padding to twice the window
+        dtype   precision of the transforms
+        """
         # Responses between scalars need no factor i on the full window.
         mixed = not (self.whole and {*inputs, *outputs} <= {"z"})
         x, y = (m * (1 + padded) for m in self.half_period)
@@ -212,7 +228,14 @@ class Transforms:
     def filtered(
         self, values: Array, inputs: Sequence[Sides], outputs: Sequence[Sides], multiply: Multiply
     ) -> Array:
-        """Compute fields (outputs, nx, ny) from fields (inputs, nx, ny) by their amplitudes."""
+        """Transform fields, multiply their amplitudes by a function, and transform the products
+        back.
+
+        values           input fields (inputs, nx, ny)
+        inputs, outputs  transforms of each component, from `sides`
+        multiply         function from amplitudes of the inputs to amplitudes of the outputs
+        returns          output fields (outputs, nx, ny)
+        """
         (x, y), (nx, ny), most = inputs[0], self.shape, max(len(inputs), len(outputs))
         by_matrix = not self.whole and max(nx, ny) <= MAX_BY_MATRIX
         width = y.count if by_matrix else min(y.count, max(1, BLOCK // x.count))

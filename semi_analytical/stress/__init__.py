@@ -1,6 +1,5 @@
 """Displacement and stress below and at the surface of a body, from tractions on cells of the
-surface.
-"""
+surface."""
 
 from semi_analytical.frf.depth import Level
 from semi_analytical.stress.depths import (

@@ -1,6 +1,5 @@
 """Depths of the displacements and stresses below the surface, and the layer to which a depth
-belongs.
-"""
+belongs."""
 
 from collections.abc import Sequence
 

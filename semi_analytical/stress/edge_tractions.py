@@ -70,9 +70,8 @@ class EdgedTractions:
 
     @property
     def slopes(self) -> tuple[Field, Field]:
-        """Slopes of `cells` along x and y, each (3, nx, ny) per cell; zero in divided or unloaded
-        cells.
-        """
+        """Slopes of `cells` along x and y, each (3, nx, ny) per cell; zero in divided or
+        unloaded cells."""
         whole = self.cells[2] > 0
         whole[self.i, self.j] = False
         by_x, by_y = (np.asarray(np.gradient(self.cells, axis=axis)) for axis in (1, 2))
@@ -81,8 +80,7 @@ class EdgedTractions:
 
 def part_centres(count: int) -> Field:
     """Compute the subcell centres along a cell side, relative to the cell centre (count,), in
-    cells.
-    """
+    cells."""
     return (np.arange(count) + 0.5) / count - 0.5
 
 

@@ -80,9 +80,8 @@ class SubsurfaceField:
         )
 
     def below(self, x: float = 0.0, y: float = 0.0) -> tuple[Field, Field]:
-        """Return displacement (nz, 3) and stress (nz, 6) on the vertical line at (x, y), by cubic
-        interpolation.
-        """
+        """Return displacement (nz, 3) and stress (nz, 6) on the vertical line at (x, y), by
+        cubic interpolation."""
         section = self if len(self.y) == 1 and self.y[0] == y else self.along_x(y)
         weights = line_weights(self.x, x)
         return (
@@ -231,8 +230,7 @@ def _stack(body: Body | Scene | Stack) -> Stack:
 
 def _tractions(grid: SurfaceGrid, pressure: Field, shear: Field | None) -> Field:
     """Check the shapes of pressure and shear, and return (q_x, q_y, p); p alone if the shear is
-    zero.
-    """
+    zero."""
     for name, field, expected in (
         ("pressure", pressure, grid.cells),
         ("shear", shear, (2, *grid.cells)),

@@ -94,14 +94,13 @@ class NearEdge:
         return np.asarray(self.grid.y[0] + self.phi.y * self.grid.spacing[1])
 
     def stress(self) -> Field:
-        """Compute the surface stress at the edge points, as the limit from within the contact (6,
-        n).
-        """
+        """Compute the surface stress at the edge points, as the limit from within the contact
+        (6, n)."""
         return _at_surface(self, self.phi)
 
     def at(self, x: Field, y: Field) -> Field:
-        """Compute the surface stress at positions x, y (n,) [length] near the contact edge (6, n).
-        """
+        """Compute the surface stress at positions x, y (n,) [length] near the contact edge (6,
+        n)."""
         of_cells = (
             (p - c[0]) / side
             for p, c, side in zip(

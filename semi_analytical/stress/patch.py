@@ -74,9 +74,8 @@ def _patch_kernel(material: HalfSpace, spacing: tuple[float, float]) -> Field:
 
 
 def _lagrange(at: Field) -> Field:
-    """Compute the Lagrange interpolation weights of the nodes (n, 2 NODES + 1) for positions `at`
-    (n,).
-    """
+    """Compute the Lagrange interpolation weights of the nodes (n, 2 NODES + 1) for positions
+    `at` (n,)."""
     nodes = np.arange(-NODES, NODES + 1)
     weights = np.ones((len(at), len(nodes)))
     for column, node in enumerate(nodes):

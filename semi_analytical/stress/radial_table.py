@@ -73,8 +73,8 @@ class DepthTable:
 
 
 def clearance(stack: Stack, level: Level) -> float:
-    """Return the distance from a level to the nearest source of the tabulated functions [length].
-    """
+    """Return the distance from a level to the nearest source of the tabulated functions
+    [length]."""
     if level.layer == 0:
         return 2 * stack.layers[0].thickness - level.depth
     return level.depth

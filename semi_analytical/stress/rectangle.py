@@ -43,8 +43,7 @@ class AxisPotentials:
     @cached_property
     def angle(self) -> Field:
         """Primitive over the rectangle of -B_ss at the corners, with rho - z written without
-        cancellation.
-        """
+        cancellation."""
         s, o, z, rho = self._s, self._o, self._z, self._rho
         return np.arctan(s * o * (s**2 + o**2) / (self._deep * (s**2 * rho + o**2 * z)))
 

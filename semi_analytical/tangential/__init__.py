@@ -1,1 +1,1 @@
-"""Tangential problem: shear for given pressure, in terms of arrays and operators."""
+"""Tangential problem: shear for a given pressure, in terms of arrays and operators."""

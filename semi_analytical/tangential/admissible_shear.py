@@ -1,8 +1,8 @@
-"""Tangential loads, and projection on the shears that Coulomb's law admits.
+"""Tangential loads, and projection on the shears that Coulomb's friction law admits.
 
-A shear is admissible if |q| <= bound in every cell and, under force control, if it has the given
-sum. Every iterate is projected exactly on this convex set. The multiplier of the sum is the rigid
-shift (see multipliers.py).
+A shear is admissible if |q| <= bound (friction limit) in every cell and, under force control, if it
+has the prescribed sum. Every iterate is projected exactly on this convex set. The multiplier of the
+sum is the rigid shift (see multipliers.py).
 """
 
 from dataclasses import dataclass
@@ -23,50 +23,71 @@ MULTIPLIER_ROUND_OFF = 5e-16
 
 
 class TangentialLoad(Protocol):
-    """Load of the tangential problem. Its motion is the shift (2,), or shift and twist (3,)."""
+    """Interface of the load of the tangential problem: prescribed forces or prescribed rigid
+    motion.
+
+    The rigid motion of a load is the shift (2,), or shift and twist (3,).
+    """
 
     def rigid(self, motion: Vector) -> VectorField:
-        """Compute the displacement of the indenter, which broadcasts with (2, nx, ny) [length].
+        """Compute the tangential displacement by a rigid motion, which broadcasts with (2, nx, ny)
+        [length].
 
-        By default it is the shift.
+        By default the motion is a shift.
         """
         return everywhere(motion)
 
     def nearest(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
-        """Project y + γ rigid(motion) on the admissible shears; return the shear and the motion.
+        """Project y + γ rigid(motion) on the admissible shears; return the shear and the free rigid
+        motion.
 
-        motion  initial guess of its free components
+        y       shear (2, nx, ny) [force/length^2]
+        bound   friction limit µp (nx, ny)
+        gamma   γ, traction per displacement [force/length^3]
+        motion  initial guess of the free components of the rigid motion
         """
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """Project a shear on the admissible shears."""
+        """Project a shear q (2, nx, ny) on the shears that satisfy the friction limit and the
+        prescribed forces."""
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[VectorField, ...]:
-        """Return the unit motions whose forces are prescribed, fields of this shape (2, nx, ny)."""
+        """Return the unit rigid motions whose conjugate forces are prescribed, as fields (2, nx,
+        ny)."""
         return ()
 
     @property
     def given(self) -> Vector:
-        """Prescribed forces, in the order of the free motions [force / cell area]."""
+        """Prescribed forces divided by the cell area, in the order of the free motions."""
         return np.zeros(0)
 
     def forces(self, q: VectorField) -> Vector:
-        """Compute the forces of a shear on the free motions."""
+        """Compute the forces of a shear that are conjugate to the free motions, divided by the
+        cell area."""
         return np.zeros(0)
 
     def exhausts(self, bound: Field) -> bool:
-        """Return whether the load is at or above the friction limit, which may be zero."""
+        """Return True if the load is at or above the friction limit, which may be zero.
+
+        bound  friction limit µp (nx, ny)
+        """
 
     def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
-        """Return the shear and the motion in gross slip."""
+        """Return the shear (2, nx, ny) and the rigid motion in gross slip.
+
+        bound   friction limit µp (nx, ny)
+        motion  rigid motion that is returned where gross slip does not determine it
+        """
 
 
 @dataclass(frozen=True)
 class ShearSum(TangentialLoad):
-    """Force control: sum Σq of all cell shears, T / cell area, shape (2,).
+    """Force control of the tangential problem: the sum Σq of the shear over all cells is
+    prescribed.
 
+    total   tangential force over cell area (2,) [force/length^2]
     summed  components with a resultant; the others are odd about a mirror plane: their sum over the
             window is zero, and the indenter does not move along them
     """
@@ -77,33 +98,35 @@ class ShearSum(TangentialLoad):
     def nearest(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
-        """Project with the sum; its multiplier is γ times the shift."""
+        """Project y + γ motion on the shears with the prescribed sum; the multiplier of the sum
+        is γ times the shift."""
         q, multiplier = project(y, bound, self.total, gamma * motion, self.summed)
         return q, multiplier / gamma
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """Project on the discs |q| <= bound and the sum."""
+        """Project a shear on the discs |q| <= bound of all cells and on the prescribed sum."""
         return project(q, bound, self.total, summed=self.summed)[0]
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[VectorField, ...]:
-        """Return the unit shifts along the summed components."""
+        """Return the unit shifts along the components with a resultant, as fields (2, nx, ny)."""
         return tuple(np.broadcast_to(everywhere(e), shape) for e in np.eye(2)[list(self.summed)])
 
     @property
     def given(self) -> Vector:
-        """Prescribed sum."""
+        """Prescribed sum of the shear, along the components with a resultant."""
         return self.total[list(self.summed)]
 
     def forces(self, q: VectorField) -> Vector:
-        """Compute the sum of a shear."""
+        """Compute the sum of a shear over the cells, along the components with a resultant."""
         return np.array([np.sum(one) for one, summed in zip(q, self.summed, strict=True) if summed])
 
     def exhausts(self, bound: Field) -> bool:
-        """Return whether the force is at or above the friction limit."""
+        """Return True if the prescribed force is at or above the friction limit Σ bound."""
         return float(np.hypot(*self.total)) >= float(np.sum(bound)) * (1 - AT_LIMIT)
 
     def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
-        """Return the friction limit along the force."""
+        """Return the shear in gross slip, the friction limit along the force, and an unchanged
+        motion."""
         if not np.any(bound):
             return np.zeros((2, *bound.shape)), motion
         return bound * everywhere(self.total / np.hypot(*self.total)), motion
@@ -111,37 +134,42 @@ class ShearSum(TangentialLoad):
 
 @dataclass(frozen=True)
 class FixedShift(TangentialLoad):
-    """Displacement control: the tangential shift of the indenter, shape (2,) [length]."""
+    """Displacement control of the tangential problem: the shift of the indenter is prescribed.
+
+    shift  tangential shift (2,) [length]
+    """
 
     shift: Vector
 
     def nearest(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
-        """Project cell by cell."""
+        """Project y + γ shift on the friction discs cell by cell; return the shear and the
+        prescribed shift."""
         return project_on_discs(y + everywhere(gamma * self.shift), bound), self.shift
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """Project on the discs |q| <= bound."""
+        """Project a shear on the discs |q| <= bound of all cells."""
         return project_on_discs(q, bound)
 
     def exhausts(self, bound: Field) -> bool:
-        """Return whether the friction limit is zero everywhere."""
+        """Return True if the friction limit is zero everywhere."""
         return not np.any(bound)
 
     def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
-        """Return zero shear: gross slip occurs only without friction."""
+        """Return zero shear and the prescribed shift: gross slip occurs only without friction."""
         return np.zeros((2, *bound.shape)), self.shift
 
 
 @dataclass(frozen=True)
 class SprungShift(FixedShift):
-    """Displacement control through a spring: shift of the actuator, shape (2,) [length].
+    """Displacement control through a spring of the test rig: the shift of the actuator is
+    prescribed.
 
     The spring is part of the compliance. `nearest` uses the spring force after the step: with the
     force before the step, a soft spring would convert every change of the shift into slip of all
     cells. The motion is that of the contact.
-
+    shift       shift of the actuator (2,) [length]
     compliance  displacement of the spring per sum of the shear [length^3/force]
     summed      see `ShearSum`
     """
@@ -156,7 +184,11 @@ class SprungShift(FixedShift):
     def nearest(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
-        """Compute P(y + λ) such that Σq + λ/(γc) = δ*/c; λ/γ is the motion of the contact."""
+        """Project y + λ such that Σq + λ/(γc) = δ/c, with the actuator shift δ and the spring
+        compliance c.
+
+        Return the shear q and λ/γ, the motion of the contact.
+        """
         c = self.compliance
         total = self.shift * self.summed / c
         stiffness = 1 / (gamma * c)
@@ -164,7 +196,8 @@ class SprungShift(FixedShift):
         return q, multiplier / gamma
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """Project on the discs with the sum preserved, if friction can carry the sum.
+        """Project a shear on the friction discs with its sum preserved, if friction can carry the
+        sum.
 
         With a soft spring a change of the sum would be a large motion.
         """
@@ -175,13 +208,15 @@ class SprungShift(FixedShift):
 
 
 class NaturalShear(NamedTuple):
-    """Natural map at a shear q.
+    """Value of the natural map P(z) of the tangential problem at a shear q, with P the projection.
 
-    z          q + γ (ω + c - u)
-    projected  P(z)
-    slipped    slip ω + c - u
-    motion     motion of the load, ω
-    error      Σ|q - P(z)| / Σ bound
+    The shear is a solution if P(z) = q.
+    z          q + γ (ω + c - u) (2, nx, ny): ω rigid motion, c displacement that stick requires, u
+               displacement
+    projected  P(z) (2, nx, ny)
+    slipped    slip ω + c - u (2, nx, ny) [length]
+    motion     rigid motion ω of the load
+    error      residual Σ|q - P(z)| / Σ bound
     """
 
     z: VectorField
@@ -199,13 +234,16 @@ def natural_shear(
     gamma: float,
     motion: Vector,
 ) -> NaturalShear:
-    """Evaluate the natural map of semismooth Newton methods.
+    """Evaluate the natural map of the tangential problem, used by semismooth Newton methods.
 
     With a spring, z has the motion of the contact after the step and the slip that of the present
     extension; the two are equal in a solution.
-
-    apart   c - u (2, nx, ny) [length]
-    motion  initial guess
+    load    prescribed tangential load
+    q       shear (2, nx, ny)
+    apart   displacement that stick requires minus actual displacement, c - u (2, nx, ny) [length]
+    bound   friction limit µp (nx, ny)
+    gamma   γ, inverse self-compliance of a cell [force/length^3]
+    motion  initial guess of the rigid motion
     """
     if isinstance(load, SprungShift):
         extension = load.extension(q)
@@ -222,17 +260,21 @@ def natural_shear(
 
 
 def magnitude(v: VectorField) -> Field:
-    """Compute the length of vectors (2, ...), shape (...)."""
+    """Compute the Euclidean norm of the vectors of a field (2, ...); the result has the shape
+    (...)."""
     return np.sqrt(v[0] * v[0] + v[1] * v[1])
 
 
 def everywhere(v: Vector) -> VectorField:
-    """Return a vector (2,) as a field that broadcasts with (2, nx, ny)."""
+    """Return a vector (2,) as a uniform vector field that broadcasts with (2, nx, ny)."""
     return v[:, None, None]
 
 
 def project_on_discs(y: VectorField, bound: Field) -> VectorField:
-    """Project a shear on |q| <= bound, cell by cell."""
+    """Project a shear y (2, nx, ny) on |q| <= bound, cell by cell.
+
+    bound  friction limit µp (nx, ny)
+    """
     length = magnitude(y)
     return np.asarray(y * np.where(length > bound, bound / np.where(length > 0, length, 1.0), 1.0))
 
@@ -245,14 +287,15 @@ def project(
     summed: tuple[bool, bool] = (True, True),
     stiffness: float = 0.0,
 ) -> tuple[VectorField, Vector]:
-    """Project a shear on |q| <= bound and Σq = total; return the shear and the multiplier λ of the
-    sum.
+    """Project a shear on the set |q| <= bound, Σq = total; return the shear and the multiplier λ of
+    the sum.
 
     y          any shear (2, nx, ny)
     bound      friction limit µp (nx, ny); |total| must be less than its sum
-    guess      initial guess of λ
+    total      prescribed sum of the shear (2,)
+    guess      initial guess of λ (2,)
     summed     components with a prescribed sum; λ is zero along the others
-    stiffness  of a spring, over γ: Σq + stiffness λ = total
+    stiffness  stiffness of a spring, over γ: Σq + stiffness λ = total
     """
     if guess is None:
         open_cells = bound > 0
@@ -265,10 +308,12 @@ def project(
 
 
 class ProjectedShear:
-    """Projection of a shear z on the discs |q| <= bound, for multipliers (see multipliers.py).
+    """Projection of a shear z on the friction discs |q| <= bound, for one value of a multiplier.
 
-    z, length  shear (2, ...) and its length (...)
-    outside    cells where the length exceeds the bound
+    `multipliers.py` solves for the multiplier whose projected shear has the prescribed forces.
+    defect     forces of the projected shear minus prescribed forces
+    z, length  shear (2, ...) and its magnitude (...)
+    outside    cells where the magnitude exceeds the bound
     scale, q   factor of the projection (...), and q = scale z
     capacity   sum of the bound
     """
@@ -285,7 +330,10 @@ class ProjectedShear:
         self.capacity = float(np.sum(bound))
 
     def settled(self, multiplier: Vector) -> bool:
-        """Return whether the defect is round-off, of the sums or of the multipliers."""
+        """Return True if the defect of the prescribed forces is at the level of rounding errors.
+
+        multiplier  multiplier for which the projection was computed
+        """
         response = np.sum(self.scale) + self.stiffness
         blur = MULTIPLIER_ROUND_OFF * response * np.sum(np.abs(multiplier))
         strength = np.sum(self.length * self.scale)
@@ -293,14 +341,15 @@ class ProjectedShear:
 
     @property
     def radial(self) -> Field:
-        """Weight w of the derivative of q, scale - w z z, where the bound limits the shear."""
+        """Weight w (...) of the derivative of the projection, scale - w z z; zero where |z| <=
+        bound."""
         return np.where(self.outside, self.scale / np.where(self.outside, self.length**2, 1.0), 0.0)
 
 
 class _ShiftedSum(ProjectedShear):
-    """Projection of y + λ; the defect Σq + stiffness λ - total is zero along unsummed components.
+    """Projection of y + λ on the friction discs, with the defect Σq + stiffness λ - total.
 
-    Arguments as for `project`.
+    The defect is zero along components without a prescribed sum. Arguments as for `project`.
     """
 
     def __init__(
@@ -317,7 +366,7 @@ class _ShiftedSum(ProjectedShear):
         self.defect = (np.sum(self.q, axis=(1, 2)) + stiffness * multiplier - total) * summed
 
     def newton_step(self) -> Vector:
-        """Compute the regularised Newton step of λ.
+        """Compute the regularised Newton step of the multiplier λ that reduces the defect.
 
         A cell on its disc changes only perpendicular to its shear. A multiple of the identity keeps
         the matrix regular while all cells are on their discs, and vanishes with the defect.

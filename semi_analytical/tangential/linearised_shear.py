@@ -1,8 +1,9 @@
-"""Tangential problem linearised in given zones of stick and slip, by projected conjugate gradients.
+"""Tangential problem linearised in given stick and slip zones, solved by projected conjugate
+gradients.
 
 Rigid motions of prescribed force are additional unknowns, and all iterates preserve these forces.
-Where all cells slip in one direction, the force along it cannot be preserved: the pseudo-inverse
-leaves it to the exact projection.
+Where all cells slip in one direction, the force along this direction cannot be preserved: the
+pseudo-inverse leaves it to the exact projection.
 """
 
 from typing import NamedTuple
@@ -22,16 +23,23 @@ UNDETERMINED = 1e-12
 
 
 class Point(NamedTuple):
-    """Shear and its displacement, each (2, nx, ny)."""
+    """Iterate of the tangential problem.
+
+    shear         q (2, nx, ny) [force/length^2]
+    displacement  tangential displacement by the shear (2, nx, ny) [length]
+    """
 
     shear: VectorField
     displacement: VectorField
 
 
 class LinearisedShear:
-    """Derivative of the tangential problem in given zones under a load.
+    """Tangential problem linearised in given stick and slip zones under a load.
 
-    displace, inverse  see `tangential_problem.solve_tangential`
+    displace, inverse  shear-to-displacement map and its approximate inverse, see
+                       `tangential_problem.solve_tangential`
+    zones              stick and slip zones
+    load               prescribed tangential load
     carriers           shears (2, nx, ny) that correct the prescribed forces in these zones
     """
 
@@ -43,7 +51,8 @@ class LinearisedShear:
         load: TangentialLoad,
         carriers: list[VectorField] | None = None,
     ) -> None:
-        """Compute the carriers, or reuse `carriers` of another point with the same zones."""
+        """Compute the carrier shears, or reuse the `carriers` of another iterate with the same
+        zones."""
         self._displace, self._inverse, self._zones, self._load = displace, inverse, zones, load
         if carriers is None:
             units = load.free_motions(zones.sliding_shear.shape)
@@ -55,18 +64,22 @@ class LinearisedShear:
         self._shares = np.linalg.pinv(responses.reshape(count, count).T, rcond=UNDETERMINED)
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """Return an admissible shear near q that slips in the slip zone."""
+        """Return an admissible shear near q whose slipping cells are at the friction limit.
+
+        q      shear (2, nx, ny)
+        bound  friction limit µp (nx, ny)
+        """
         near = self._zones.sliding_shear + self._zones.free(q)
         self._carry(self._load.given - self._load.forces(near), near)
         return self._load.admissible(near, bound)
 
     def solved(self, base: Point, slipped: VectorField, depth: float) -> tuple[Point, int]:
-        """Solve the linearised problem by preconditioned conjugate gradients.
+        """Solve the linearised tangential problem by preconditioned conjugate gradients.
 
-        Iterations stop when the norm of the residual at the base has fallen by the factor `depth`.
-        Returns the point and the iterations.
-
-        slipped  ω + c - u at the base (2, nx, ny)
+        Return the solution and the number of iterations. Iterations stop when the norm of the
+        residual at the start has fallen by the factor `depth`.
+        base     starting point
+        slipped  slip ω + c - u at the starting point (2, nx, ny) [length]
         """
         zones = self._zones
         q, u = base.shear.copy(), base.displacement.copy()
@@ -88,12 +101,17 @@ class LinearisedShear:
         return Point(q, u), iterations
 
     def _preconditioned(self, v: VectorField) -> VectorField:
-        """Apply the preconditioner and remove the prescribed forces of the result."""
+        """Apply the preconditioner to a residual v (2, nx, ny), without changing the prescribed
+        forces."""
         free = self._zones.preconditioned(v, self._inverse)
         self._carry(-self._load.forces(free), free)
         return free
 
     def _carry(self, forces: Field, free: VectorField) -> None:
-        """Add carriers with the given forces to a free shear, in place."""
+        """Add carrier shears with the given forces to a free shear, in place.
+
+        forces  forces to be added (k,), divided by the cell area
+        free    shear of the free components (2, nx, ny)
+        """
         for share, carrier in zip(self._shares @ forces, self.carriers, strict=True):
             free += share * carrier

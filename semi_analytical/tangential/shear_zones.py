@@ -1,9 +1,10 @@
-"""Stick and slip zones, and the derivative of the tangential problem in them.
+"""Stick and slip zones, and the derivative of the tangential problem in these zones.
 
 Both components of the shear are free in sticking cells. A slipping cell has q = µp n + s t with n
-along z of the natural map and t perpendicular to it. Its free component s has the additional
-compliance d = (|z| - µp) / (γ µp) due to the curvature of the disc. On free shears the derivative
-is Π A Π + d with the projection Π on them.
+along z of the natural map and t perpendicular to n. The free component s has the additional
+compliance d = (|z| - µp) / (γ µp) due to the curvature of the friction disc. On free shears the
+derivative is Π A Π + d with the map A from shear to displacement and the projection Π on the free
+shears.
 """
 
 from collections.abc import Callable
@@ -28,7 +29,7 @@ class ShearZones:
     """Stick and slip zones at a point z of the natural map.
 
     slip             slipping cells (nx, ny)
-    sliding_shear    µp n in slipping cells (2, nx, ny) [force/length^2]
+    sliding_shear    µp n in slipping cells, n the direction of slip (2, nx, ny) [force/length^2]
     slip_compliance  compliance d of slipping cells (nx, ny) [length^3/force]
     """
 
@@ -51,7 +52,11 @@ class ShearZones:
         self._xy = self._tangent[0] * self._tangent[1]
 
     def free(self, v: VectorField) -> VectorField:
-        """Project on the free shears: Π v."""
+        """Project a vector field v (2, nx, ny) on the free shears: both components where cells
+        stick.
+
+        In slipping cells only the component perpendicular to the slip remains, elsewhere nothing.
+        """
         across = self._xy * v
         free = np.empty_like(across)
         np.multiply(self._xx, v[0], out=free[0])
@@ -60,7 +65,7 @@ class ShearZones:
         return free
 
     def same(self, other: "ShearZones | None") -> bool:
-        """Return whether the slip zones are identical."""
+        """Return True if another point has the same slip zone."""
         return other is not None and np.array_equal(self.slip, other.slip)
 
     @cached_property
@@ -78,13 +83,13 @@ class ShearZones:
         return self._beyond / (self._self_compliance + self.slip_compliance)
 
     def preconditioned(self, v: VectorField, inverse: Map) -> VectorField:
-        """Apply an approximate inverse of the derivative,
+        """Apply an approximate inverse of the derivative of the tangential problem to v (2, nx,
+        ny),
 
             M = Π χ_0 F⁻¹ χ_0 Π + Σ_j χ_j t (f + d_j)⁻¹ t χ_j,    χ_0 = 1 in sticking cells,
 
         with F, f and the weights χ_j of bins as in `ApproximateInverse` and `slip_compliance_bins`.
         Far beyond the last bin d dominates f: there M tends to t (K₀ + d)⁻¹ t.
-
         inverse  F⁻¹ of two components, then (f + d_j)⁻¹ of one component per bin
         """
         given = np.empty((len(self._shares) + 1, *v.shape[1:]))

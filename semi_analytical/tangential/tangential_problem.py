@@ -2,10 +2,10 @@
 
 Cells stick where |q| < bound and slip along the shear where |q| = bound. For a given bound µp the
 increment minimises the convex energy ½ q·A q - c·q over the admissible shears (Kalker 1990, chapter
-4). Here c is the displacement that stick requires: the slip is ω + c - A q and vanishes where cells
-stick. Each step takes stick and slip zones from the natural map, solves the problem linearised in
-these zones and projects the solution. A line search accepts steps that reduce the energy
-sufficiently.
+4). A maps the shear to tangential displacements. c is the displacement that stick requires: the
+slip is ω + c - A q with the rigid motion ω, and vanishes where cells stick. Each step takes stick
+and slip zones from the natural map, solves the problem linearised in these zones and projects the
+solution. A line search accepts steps that reduce the energy sufficiently.
 """
 
 from dataclasses import dataclass
@@ -45,8 +45,14 @@ REDUCTION, SAME_POINT = 0.5, 2.0
 
 @dataclass(frozen=True)
 class TangentialSolution:
-    """Solution of the tangential problem: shear and its displacement (2, nx, ny), motion, slip
-    zone."""
+    """Solution of the tangential problem of one increment.
+
+    shear, displacement  shear and its tangential displacement, each (2, nx, ny)
+    motion               rigid motion of the load
+    in_slip              slipping cells (nx, ny)
+    residual             larger residual of natural map and slip direction
+    iterations           iterations of the linear solves
+    """
 
     shear: VectorField
     displacement: VectorField
@@ -57,7 +63,7 @@ class TangentialSolution:
 
     @property
     def point(self) -> Point:
-        """Shear and displacement."""
+        """Shear and tangential displacement of the solution as a `Point`."""
         return Point(self.shear, self.displacement)
 
 
@@ -70,7 +76,10 @@ class _Problem:
     self_compliance: float
 
     def natural(self, point: Point, motion: Vector) -> NaturalShear:
-        """Evaluate the natural map q -> P(q + γ (ω + c - u)), whose fixed points are solutions."""
+        """Evaluate the natural map q -> P(q + γ (ω + c - u)), whose fixed points are solutions.
+
+        motion  initial guess of the rigid motion ω
+        """
         apart = self.target - point.displacement
         gamma = 1 / self.self_compliance
         return natural_shear(self.load, point.shear, apart, self.bound, gamma, motion)
@@ -88,7 +97,7 @@ def solve_tangential(
     tolerance: float,
     enough: float = 0.0,
 ) -> TangentialSolution:
-    """Compute shear, motion and slip zone of one increment at given pressure.
+    """Compute shear, rigid motion and slip zone of one increment at a given pressure.
 
     displace         shear (2, nx, ny) -> tangential displacement (2, nx, ny); symmetric, positive
     inverse          approximate inverse of `displace`, then of one component with the compliance of
@@ -159,8 +168,10 @@ def _line_search(
     Close to the solution changes of the energy are below round-off. Only there a point is also
     accepted by its natural residual; elsewhere this criterion may increase the energy and lead to
     cycles.
-
-    growth  largest ratio of the natural residual of the point to the accepted one
+    accepted  last accepted point and its natural residual; None in the first step
+    newton    point after the Newton step
+    motion    rigid motion, initial guess of the projection
+    growth    largest ratio of the natural residual of the point to the accepted one
     """
     natural = problem.natural(newton, motion)
     if accepted is None:

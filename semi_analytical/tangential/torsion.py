@@ -1,10 +1,10 @@
-"""Torsion of the indenter under a prescribed torque. Not imported without torsion.
+"""Torsion of the indenter under a prescribed torque; this module is not imported without torsion.
 
 A prescribed twist only adds to the displacement that stick requires. A prescribed torque Σ(q_y x -
-q_x y) Δ is a constraint as the tangential force is: the twist is its multiplier, as the shift is
-that of Σq. The loads (T, M) that friction can carry form a convex set. A load reaches its boundary
-when all cells slip about one pole, which minimises the power of friction (upper-bound theorem of
-limit analysis).
+q_x y) Δ is a constraint like the tangential force: the twist is its multiplier, as the shift is
+that of Σq. The loads (T, M) that friction can carry form a convex set. A load reaches the boundary
+of this set when all cells slip about one pole, which minimises the power of friction (upper-bound
+theorem of limit analysis).
 """
 
 from collections.abc import Callable
@@ -31,13 +31,13 @@ FLAT = 1e-15
 
 @dataclass(frozen=True)
 class ShearMoments:
-    """Prescribed torque Σ(q_y x - q_x y), with prescribed Σq or prescribed shift.
+    """Tangential load with a prescribed torque Σ(q_y x - q_x y), and with prescribed Σq or shift.
 
+    The rigid motion is (shift x, shift y, twist).
     rotation  (-y, x) of the cells (2, nx, ny) [length]
     torque    Σ(q_y x - q_x y) = M_z / cell area
     total     Σq = T / cell area, shape (2,); None where the shift is prescribed
-    shift     of the indenter (2,); None where Σq is prescribed
-    The motion is (shift x, shift y, twist).
+    shift     shift of the indenter (2,) [length]; None where Σq is prescribed
     """
 
     rotation: VectorField
@@ -47,12 +47,17 @@ class ShearMoments:
 
     @cached_property
     def reach(self) -> float:
-        """Largest arm, the unit in which a twist is comparable with a shift [length]."""
+        """Largest distance of a cell from the origin [length]; a twist times this length
+        compares with a shift."""
         return float(np.max(magnitude(self.rotation)))
 
     @cached_property
     def units(self) -> tuple[VectorField, ...]:
-        """Unit motions of prescribed force: along x and y if Σq is prescribed, and the rotation."""
+        """Unit rigid motions whose conjugate forces are prescribed, fields (2, nx, ny).
+
+        The motions are shifts along x and y if Σq is prescribed, and the rotation divided by
+        `reach`.
+        """
         turn = self.rotation / self.reach
         if self.total is None:
             return (turn,)
@@ -60,26 +65,32 @@ class ShearMoments:
 
     @cached_property
     def given(self) -> Vector:
-        """Prescribed forces on the unit motions."""
+        """Prescribed forces conjugate to the unit motions (k,), divided by the cell area."""
         torque = self.torque / self.reach
         return np.array([torque] if self.total is None else [*self.total, torque])
 
     def forces(self, q: VectorField) -> Vector:
-        """Compute the forces of a shear on the unit motions."""
+        """Compute the forces of a shear that are conjugate to the unit motions (k,), divided by
+        the cell area."""
         return np.array([np.sum(q * unit) for unit in self.units])
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[VectorField, ...]:
-        """Return the unit motions."""
+        """Return the unit rigid motions whose conjugate forces are prescribed, as fields (2, nx,
+        ny)."""
         return self.units
 
     def rigid(self, motion: Vector) -> VectorField:
-        """Compute the displacement by shift and rotation."""
+        """Compute the tangential displacement by shift and twist (2, nx, ny) [length]."""
         return everywhere(motion[:2]) + motion[2] * self.rotation
 
     def nearest(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
-        """Project with the prescribed forces; their multipliers are γ times the motion."""
+        """Project y + γ rigid(motion) on the shears with the prescribed forces; return shear and
+        motion.
+
+        The multipliers of the forces are γ times the motion.
+        """
         if self.shift is not None:
             y = y + everywhere(gamma * self.shift)
             guess = gamma * self.reach * motion[2:]
@@ -90,7 +101,7 @@ class ShearMoments:
         return q, np.array([*shift, multiplier[-1] / (gamma * self.reach)])
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """Project on the discs and the prescribed forces."""
+        """Project a shear on the friction discs |q| <= bound and on the prescribed forces."""
         return self._projected(q, bound, np.zeros(len(self.given)))[0]
 
     def _projected(self, y: VectorField, bound: Field, guess: Vector) -> tuple[VectorField, Vector]:
@@ -105,18 +116,20 @@ class ShearMoments:
         return q, multiplier
 
     def _loaded(self, bound: Field) -> tuple[Mask, Field]:
-        """Select the cells that carry shear, and their unit motions (k, 2, n)."""
+        """Return the cells that carry shear (nx, ny), and the unit motions in these n cells (k,
+        2, n)."""
         loaded = bound > 0
         return loaded, np.stack([unit[:, loaded] for unit in self.units])
 
     def exhausts(self, bound: Field) -> bool:
-        """Return whether the load is at or above the friction limit."""
+        """Return True if the prescribed forces are at or above the friction limit."""
         if not np.any(bound):
             return True
         return bool(np.any(self.given)) and self.limit(bound)[0] <= 1 + AT_LIMIT
 
     def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
-        """Return the shear in gross slip about the pole of the friction limit."""
+        """Return the shear in gross slip about the pole of the friction limit, and an unchanged
+        motion."""
         if not np.any(bound) or not np.any(self.given):
             return np.zeros((2, *bound.shape)), motion
         loaded, units = self._loaded(bound)
@@ -126,10 +139,11 @@ class ShearMoments:
         return q, motion
 
     def limit(self, bound: Field) -> tuple[float, Vector]:
-        """Compute the load factor at the friction limit, and the direction of sliding (k,).
+        """Compute the load factor at the friction limit, and the rigid motion of gross slip (k,).
 
         Newton's method minimises the power of friction over all rigid motions on which the load
-        does unit work. The load factor is the minimum.
+        does unit work. The load factor, limit load over prescribed load, is the minimum.
+        bound  friction limit µp (nx, ny)
         """
         loaded, units = self._loaded(bound)
         limit = bound[loaded]
@@ -159,7 +173,7 @@ def _power(velocity: Vector, limit: Vector, units: Field) -> tuple[float, Vector
 
     velocity  components along the unit motions (k,)
     limit     friction limit of the loaded cells (n,)
-    units     their unit motions (k, 2, n)
+    units     unit motions in the loaded cells (k, 2, n)
     """
     speed = np.tensordot(velocity, units, 1)
     size = _blunt_size(speed)
@@ -170,23 +184,26 @@ def _power(velocity: Vector, limit: Vector, units: Field) -> tuple[float, Vector
 
 
 def _forces(units: Field, q: Field) -> Vector:
-    """Compute the forces (k,) of a shear (2, n) on the unit motions."""
+    """Compute the forces (k,) of a shear (2, n) that are conjugate to the unit motions."""
     return np.asarray(units.reshape(len(units), -1) @ q.ravel())
 
 
 def _along(units: Field, vector: Field) -> Field:
-    """Compute the products (k, n) of the unit motions and a vector of each cell (2, n)."""
+    """Compute the scalar products (k, n) of the unit motions with a vector of each cell (2, n)."""
     return np.asarray(units[:, 0] * vector[0] + units[:, 1] * vector[1])
 
 
 def _products(units: Field, weight: Vector) -> Field:
-    """Compute the weighted sums (k, k) of the products of pairs of unit motions."""
+    """Compute the weighted sums (k, k) over the cells of the products of pairs of unit motions."""
     flat = units.reshape(len(units), -1)
     return np.asarray((units * weight).reshape(flat.shape) @ flat.T)
 
 
 def _blunt_size(speed: VectorField) -> Field:
-    """Compute |speed|, smoothed at the pole, where the slip direction of a cell is undefined."""
+    """Compute the sliding speed of each cell (n,), smoothed near the pole.
+
+    At the pole, the centre of rotation, the slip direction of a cell is undefined.
+    """
     size = magnitude(speed)
     return np.hypot(size, BLUNT * np.max(size))
 
@@ -197,7 +214,12 @@ Power = tuple[float, Vector, Field]
 def _descended(
     power_at: Callable[[Vector], Power], x: Vector, step: Vector, power: float, fall: float
 ) -> tuple[Vector, Power]:
-    """Apply a Newton step with bisection until the power decreases sufficiently (Armijo)."""
+    """Apply a Newton step, bisected until the power of friction decreases sufficiently (Armijo).
+
+    Return the accepted position and its power with gradient and Hessian.
+    x, step      position and Newton step
+    power, fall  power at x, and its decrease predicted by the gradient
+    """
     part = 1.0
     while True:
         there = power_at(x + part * step)
@@ -207,9 +229,12 @@ def _descended(
 
 
 class _ShiftedMoments(ProjectedShear):
-    """Projection of y + Σ λ unit on the discs of the loaded cells (2, n).
+    """Projection of y + Σ λ unit on the friction discs of the loaded cells (2, n).
 
-    given  prescribed forces on the unit motions
+    The defect is that of the prescribed forces.
+    multiplier  multipliers λ (k,) of the prescribed forces
+    units       unit motions in the loaded cells (k, 2, n)
+    given       prescribed forces conjugate to the unit motions (k,)
     """
 
     def __init__(
@@ -220,7 +245,7 @@ class _ShiftedMoments(ProjectedShear):
         self.defect = _forces(units, self.q) - given
 
     def newton_step(self) -> Vector:
-        """Compute the Newton step of λ, damped while all cells slip.
+        """Compute the Newton step of the multipliers λ (k,), damped while all cells slip.
 
         The damping is relative to the stiffness of the cells. The trace of the derivative is no
         measure: it vanishes where all cells slip along their motion.
