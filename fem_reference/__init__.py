@@ -1,7 +1,7 @@
-"""Axisymmetric finite-element reference solver.
+"""Axisymmetric finite-element reference solver for frictional contact of layered bodies.
 
-It shares `contact_scene` with `semi_analytical`, but no numerics. The two solvers verify each
-other.
+The package shares the scene description `contact_scene` with the solver `semi_analytical`, but no
+numerical code. The two solvers therefore verify each other.
 """
 
 from contact_scene.effect import Effect

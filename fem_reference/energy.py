@@ -1,4 +1,7 @@
-"""Work of the loads and elastic energy, from the fields of an increment."""
+"""Energy balance of an increment: work of the loads, elastic energy and dissipation error.
+
+All integrals are computed from the fields of the increments.
+"""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -24,8 +27,9 @@ def accounted(
 ) -> Increment:
     """Add input work, elastic energy and the uncertainty of the dissipated energy to an increment.
 
-    before     previous increment of the history
-    on_strain  work of the shear on the strained lower body in the increment [force length]
+    before     previous increment of the history; None for the first increment
+    on_strain  work of the shear on the imposed strain of the lower body in this increment [force
+               length]
     """
     work, stored = input_work(before, increment), elastic_energy(scene, plan, increment)
     work = None if work is None else work - on_strain
@@ -41,11 +45,11 @@ def accounted(
 
 
 def input_work(before: Increment | None, increment: Increment) -> float | None:
-    """Compute the trapezoidal sum Σ ½ (f₀ + f₁)(ω₁ - ω₀) since the start of the history [force
-    length].
+    """Compute the work of all loads since the start of the history by the trapezoidal rule.
 
-    f are forces and moments, ω their conjugate motions. Return None once a motion is undefined, at
-    the friction limit under force control.
+    The work is Σ ½ (f₀ + f₁)(ω₁ - ω₀) over the increments [force length]. f are the normal force,
+    tangential force and torque, ω the conjugate motions of the indenter. Return None as soon as a
+    motion is undefined, that is at the friction limit under force control.
     """
     worked = 0.0 if before is None else before.trapezoidal_work
     forces, motions = (np.zeros(4), np.zeros(4)) if before is None else _loads(before)
@@ -58,10 +62,11 @@ def input_work(before: Increment | None, increment: Increment) -> float | None:
 def dissipation_uncertainty(
     plan: Plan, before: Increment | None, increment: Increment
 ) -> float | None:
-    """Estimate the error of the dissipated energy by finite increments [force length].
+    """Estimate the error of the dissipated energy that is caused by finite increments [force
+    length].
 
-    It is Σ ∫ |q₁ - q₀| |s₁ - s₀| dA over the increments of path-dependent load steps: the change of
-    shear times the change of slip. Return None if the dissipated energy is None.
+    The estimate is Σ ∫ |q₁ - q₀| |s₁ - s₀| dA over the increments of path-dependent load steps: the
+    change of shear times the change of slip. Return None if the dissipated energy is None.
     """
     if increment.dissipated_energy is None:
         return None
@@ -81,8 +86,13 @@ COMPONENTS = ("radial", "circumferential", "along_load")
 
 
 def _changed(name: str, before: Increment | None, increment: Increment) -> Field:
-    """Return the length of the change of a vector (rings,), or (rings, angles) if the field has
-    angles."""
+    """Compute the magnitude of the change of shear or slip from the previous increment.
+
+    The result has the shape of the field: (rings,), or (rings, angles) if the field has angles.
+
+    name    prefix of the field names, "shear" or "slip"
+    before  previous increment; None counts as zero shear and slip
+    """
     changes = []
     for component in COMPONENTS:
         now = getattr(increment, f"{name}_{component}")
@@ -95,11 +105,12 @@ def _changed(name: str, before: Increment | None, increment: Increment) -> Field
 
 
 def elastic_energy(scene: Scene, plan: Plan, increment: Increment) -> float | None:
-    """Return ½ ∫ (p u_z + q·u) dA, the energy stored in both bodies [force length].
+    """Compute the elastic energy ½ ∫ (p u_z + q·u) dA of both bodies [force length].
 
-    Within the contact u_z = ω - h and u = slip + rigid motion, so no displacement is computed.
-    Return None if particles may slip before their contact (coupled bodies, normal loading under
-    shear), and if the motion is undefined.
+    Within the contact u_z = approach - initial gap, and u = slip + rigid tangential motion, so that
+    no displacement has to be computed. Return None if these relations do not hold: in
+    path-dependent load steps or for coupled bodies, where particles may slip before their contact,
+    and if the motion is undefined.
     """
     if plan.path not in UNCOUPLED or any(plan.path_matters[: increment.step]):
         return None
@@ -118,7 +129,12 @@ def elastic_energy(scene: Scene, plan: Plan, increment: Increment) -> float | No
 def _sheared(
     plan: Plan, increment: Increment, hats: Hats
 ) -> Iterator[tuple[Field, Field, Field | None]]:
-    """Yield shear, slip and the rigid motion times the weights of the rings, by component."""
+    """Yield the fields of each shear component that do work in the elastic energy.
+
+    The components are the one along the load and the circumferential one. Each item contains the
+    shear, the slip, and the rigid displacement integrated over the hat functions, all of shape
+    (rings,). The rigid displacement is None if the motion of the indenter is undefined.
+    """
     if increment.shear_along_load is not None and increment.slip_along_load is not None:
         shift = increment.tangential_shift
         size = None if shift is None else float(np.dot(shift, plan.direction)) * hats.weights
@@ -130,7 +146,7 @@ def _sheared(
 
 
 def _hats(radii: Field) -> Hats:
-    """Return hat functions whose corners are the rings."""
+    """Create the hat functions whose corner nodes are the given rings (rings,) [length]."""
     nodes = np.empty(2 * len(radii) - 1)
     nodes[::2] = radii
     nodes[1::2] = 0.5 * (radii[:-1] + radii[1:])
@@ -138,7 +154,12 @@ def _hats(radii: Field) -> Hats:
 
 
 def _loads(increment: Increment) -> tuple[Field, Field | None]:
-    """Return forces (W, T_x, T_y, M_z) and motions (ω_z, ω_x, ω_y, φ_z), or None if undefined."""
+    """Return the forces (W, T_x, T_y, M_z) of an increment and the conjugate motions of the
+    indenter.
+
+    The motions are (approach, shift along x, shift along y, twist). The motions are None if the
+    shift or the twist is undefined.
+    """
     force, shift = increment.tangential_force, increment.tangential_shift
     torque, twist = increment.torque, increment.twist
     now = np.array([increment.normal_force, *(force or (0.0, 0.0)), torque or 0.0])

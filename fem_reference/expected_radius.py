@@ -1,6 +1,7 @@
-"""Expected contact radius, for which the fine elements of the mesh are laid out.
+"""Estimate of the contact radius before the solve, for which the fine elements are laid out.
 
-It affects the mesh only: a contact outside of the fine elements is detected and meshed again.
+The estimate affects the mesh only. A contact that exceeds the fine elements is detected, and the
+scene is solved again on a larger mesh.
 """
 
 from math import sqrt
@@ -37,22 +38,28 @@ DEEP = 100.0
 
 
 def sections_of(scene: Scene, discretisation: FiniteElementDiscretisation) -> list[SectionMesh]:
-    """Return meshes of the deformable bodies of a scene; equal bodies share their mesh."""
+    """Create the meshes of the deformable bodies of a scene. Equal bodies share one mesh."""
     radius = meshed_radius(scene, discretisation.contact_radius)
     sections = ContactModel.of(scene, discretisation, radius).sections
     return list({id(section): section for section in sections if section is not None}.values())
 
 
 def meshed_radius(scene: Scene, prescribed: float | None) -> float:
-    """Return the radius for the mesh: that of a rim, or the requested or expected radius
-    [length]."""
+    """Return the contact radius for which the meshes of a scene are laid out [length].
+
+    The radius is that of the indenter's rim if there is a rim, else the prescribed radius, else the
+    expected contact radius.
+
+    prescribed  radius requested in the discretisation [length]; None without one
+    """
     return scene.indenter.rim or prescribed or expected_radius(scene)
 
 
 def expected_radius(scene: Scene) -> float:
-    """Estimate the largest contact radius of the history without friction [length].
+    """Estimate the largest contact radius of the load history, without friction [length].
 
-    Half-spaces and thick layers have closed forms. Other layers are solved on a coarse mesh.
+    Half-spaces and thick layers have closed forms. Contacts of bodies with other layers are solved
+    on a coarse mesh.
     """
     guess = max(_half_space_radius(scene, ramp) for ramp in scene.load_path())
     layered = scene.body.layers or scene.indenter.layers
@@ -66,14 +73,20 @@ def expected_radius(scene: Scene) -> float:
 
 
 def _extremes(scene: Scene) -> list[LoadRamp]:
-    """Return the ramps with the largest force and the largest approach."""
+    """Return the load ramp with the largest final force and that with the largest final approach.
+
+    The list has one ramp for each kind of normal control that occurs in the history.
+    """
     ramps = scene.load_path()
     kinds = [[r for r in ramps if r.normal.kind is kind and r.normal.end] for kind in ControlKind]
     return [max(same, key=lambda ramp: ramp.normal.end) for same in kinds if same]
 
 
 def _bare_radius(scene: Scene, ramp: LoadRamp) -> float:
-    """Return the radius of a contact between half-spaces of the outermost materials [length]."""
+    """Estimate the contact radius at the end of a ramp with each body replaced by a half-space.
+
+    The half-space consists of the outermost material of the body. The radius has the unit [length].
+    """
     outermost = [
         body.model_copy(update={"material": body.layers[0].material, "layers": ()})
         if body.layers
@@ -85,8 +98,12 @@ def _bare_radius(scene: Scene, ramp: LoadRamp) -> float:
 
 
 def _half_space_radius(scene: Scene, ramp: LoadRamp) -> float:
-    """Return the radius of a contact between half-spaces with the mean compliance of all layers
-    [length]."""
+    """Estimate the contact radius at the end of a ramp from the closed form for half-spaces
+    [length].
+
+    Each half-space has the mean of (1-ν²)/E over all layers of the body. Raise UnsupportedScene if
+    the shape of the indenter has no closed form.
+    """
     indenter, end, exponent = scene.indenter, ramp.normal.end, scene.indenter.gap_exponent
     if indenter.rim is not None:
         return indenter.rim
@@ -105,13 +122,22 @@ def _half_space_radius(scene: Scene, ramp: LoadRamp) -> float:
 
 
 def _softness(body: Body) -> float:
-    """Return the mean of (1-ν²)/E over the elastic materials of a body."""
+    """Compute the mean of (1-ν²)/E over the elastic materials of a body [length^2/force].
+
+    Each material has the same weight. The mean is 0 for a rigid body.
+    """
     parts = body.elastic_materials
     return sum(1 / part.plane_strain_modulus for part in parts) / max(1, len(parts))
 
 
 def _coarse_radius(scene: Scene, ramp: LoadRamp, guess: float) -> float:
-    """Return the radius of a contact loaded in one increment, on coarse meshes until one fits."""
+    """Compute the contact radius at the end of a ramp on coarse meshes, without friction [length].
+
+    The load is applied in one increment. The mesh is replaced until the contact fits into its fine
+    elements and is not much smaller than their zone.
+
+    guess  contact radius for the first mesh [length]
+    """
     by_force = ramp.normal.kind is ControlKind.FORCE
     end = ramp.normal.end
     step = LoadStep(normal_force=end) if by_force else LoadStep(approach=end)
@@ -132,7 +158,10 @@ def _coarse_radius(scene: Scene, ramp: LoadRamp, guess: float) -> float:
 
 
 def _coarse(scene: Scene, radius: float) -> FiniteElementDiscretisation:
-    """Return coarse elements for a contact of about this radius."""
+    """Return a coarse discretisation of the bodies for contacts up to a radius [length].
+
+    The outer boundary is limited to LARGEST_COARSE_BOX contact radii if the layers are thin enough.
+    """
     to_radius = Scales(radius, outermost_modulus(scene)).dimensionless
     bodies = [to_radius(body) for body in (scene.body, scene.indenter)]
     deepest = max(sum(layer.thickness for layer in body.layers) for body in bodies)

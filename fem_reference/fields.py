@@ -1,4 +1,7 @@
-"""Result of a solve: fields over the radius, with the names and signs of CONVENTIONS."""
+"""Result of a finite-element contact solve: fields over the radius for all increments.
+
+Names and signs of the fields follow CONVENTIONS.
+"""
 
 from dataclasses import dataclass
 from enum import Enum
@@ -10,7 +13,11 @@ from fem_reference.plan import Plan
 
 
 class Method(Enum):
-    """Enforcement of the contact and friction laws."""
+    """Methods that enforce the contact law and Coulomb's friction law.
+
+    COMPLEMENTARITY enforces both laws exactly. PENALTY places springs between the surfaces and
+    reduces the overlap by augmented-Lagrangian updates.
+    """
 
     COMPLEMENTARITY = "complementarity"
     PENALTY = "penalty"
@@ -18,13 +25,18 @@ class Method(Enum):
 
 @dataclass(frozen=True, kw_only=True)
 class Increment(RingIncrement):
-    """Converged state at the end of one increment of the load history.
+    """Converged contact state at the end of one increment of the load history.
 
-    Pressure and shear are values at the rings, with linear interpolation. Gap and slip are means
-    weighted with the ring's hat function, so that they are exactly zero in contact and stick.
+    Pressure and shear are values at the rings, that is at the nodes of the surface, with linear
+    interpolation between the rings. Gap and slip are means over each ring, weighted with the hat
+    function of the ring. The exact law therefore gives a gap of exactly zero in contact and a slip
+    of exactly zero in stick.
 
-    iterations  linear systems of the contact solver
-    path        algorithm used, for a method with several; else None
+    factorizations  number of sparse factorisations
+    sweeps          number of alternating iterations between the normal and the tangential problem
+    iterations      number of linear systems that the contact algorithm solved
+    path            name of the algorithm that solved the coupled normal and tangential problems;
+                    None if these problems are not coupled
     """
 
     factorizations: int = 0
@@ -34,10 +46,12 @@ class Increment(RingIncrement):
 
 @dataclass(frozen=True)
 class Result:
-    """All increments of a load history on one mesh, with scene, discretisation and plan.
+    """Result of a load history on one mesh: all increments, with scene, discretisation and plan.
 
-    sections  meshes of lower body and indenter, in units of `radius`; None if rigid
-    radius    contact radius for which the meshes are laid out [length]
+    sections    meshes of the lower body and of the indenter, in units of `radius`; None for a rigid
+                body
+    radius      contact radius for which the meshes are laid out [length]
+    increments  converged states in the order of the load history
     """
 
     scene: Scene
@@ -50,15 +64,15 @@ class Result:
 
     @property
     def solver(self) -> str:
-        """Name of the solver in a summary."""
+        """Name of the solver and of the contact method, as printed in a summary."""
         return f"fem_reference.{self.method.value}"
 
     @property
     def tolerance(self) -> float:
-        """Limit of every residual at the end of every increment."""
+        """Upper limit that every residual met at the end of every increment [1]."""
         return self.discretisation.tolerance
 
     @property
     def steps(self) -> tuple[Increment, ...]:
-        """Last increment of every load step."""
+        """Last increment of each completed load step."""
         return tuple(i for i in self.increments if i.index == i.increments_in_step)

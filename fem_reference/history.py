@@ -1,4 +1,8 @@
-"""Load stepping: state, increment, state; the contact method solves the increments."""
+"""Load stepping of the finite-element solver.
+
+A contact method solves each increment from the state at the end of the previous increment. Each
+state is then converted to an increment of the result.
+"""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -28,17 +32,21 @@ from fem_reference.plan import Path
 
 
 def solved_increments(method: ContactMethod, tolerance: float) -> Iterator[Increment]:
-    """Yield the increments of the scene's load path; raises the errors of `resumable_solve`."""
+    """Yield the increments of the scene's load history, in order.
+
+    The errors are those of `resumable_solve`.
+    """
     return (increment for increment, _ in resumable_solve(method, tolerance))
 
 
 def resumable_solve(
     method: ContactMethod, tolerance: float, since: Checkpoint | None = None
 ) -> Iterator[tuple[Increment, ResumePoint[PointState]]]:
-    """Yield the increments of the scene's load path, each with its resume point.
+    """Yield the increments of the scene's load history, each with the resume point after it.
 
-    since   checkpoint after which the solve resumes
-    raises  NotConverged and GrossSliding, with the last converged increment as `last_state`
+    tolerance  upper limit of every residual [1]
+    since      checkpoint after which the solve resumes; None for the whole history
+    raises     NotConverged and GrossSliding, with the last converged increment as `last_state`
     """
     scene, counts = method.model.scene, method.plan.increments
     return resumable_increments(scene, counts, _Solver(scene, method, tolerance), since)
@@ -46,7 +54,11 @@ def resumable_solve(
 
 @dataclass(frozen=True)
 class _Solver:
-    """Adapter from a contact method to load stepping. Work does not limit the bisection."""
+    """Adapter from a contact method to the load stepping of `contact_scene`.
+
+    The amount of work does not limit the bisection of increments here, so that `spent` and
+    `most_spent` are zero.
+    """
 
     scene: Scene
     method: ContactMethod
@@ -54,7 +66,7 @@ class _Solver:
     most_spent: float = 0.0
 
     def spent(self) -> float:
-        """Return 0: work does not limit the bisection."""
+        """Return 0, because the amount of work does not limit the bisection of increments."""
         return 0.0
 
     def advance(
@@ -64,7 +76,12 @@ class _Solver:
         before: PointState | None,
         fraction: float,
     ) -> PointState:
-        """Return the state at a fraction of the ramp."""
+        """Solve for the contact state at a given fraction of the ramp of a load step.
+
+        start     state at the start of the ramp; None at the start of the history
+        before    state at the end of the previous increment; None at the start of the history
+        fraction  part of the ramp at the end of the increment, from 0 to 1
+        """
         normal = (start.normal_force, start.approach) if start else (0.0, 0.0)
         tangential = (start.load, start.motion) if start else (0.0, 0.0)
         loads = Loads(NormalTarget(*ramp.normal.prescribed(fraction, normal)), STILL)
@@ -77,11 +94,21 @@ class _Solver:
         return self.method.advance(before, loads, self.tolerance)
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Field:
-        """Return the gap without tractions at the rings of an increment [length]."""
+        """Return the gap between the undeformed surfaces at the rings of an increment [length].
+
+        The array has the shape of the gap of the increment `last`: (rings,) or (rings, angles).
+        """
         return np.array(np.broadcast_to(self.method.undeformed_gap, last.gap.T.shape).T)
 
     def report(self, reached: Reached[PointState], last: Increment | None) -> Increment:
-        """Return the increment with its energies and the displacements of the rig."""
+        """Convert a solved state to an increment of the result.
+
+        The increment includes the energies and the displacements of the rig's springs.
+
+        reached  solved state with its predecessor and its place in the load history
+        last     previous increment of the result, whose energies are continued; None for the first
+                 one
+        """
         increment = self.method.increment(reached.state, reached.place)
         increment = replace(increment, halvings=reached.halvings)
         increment = of_contact(increment, self.scene.rig)
@@ -89,8 +116,11 @@ class _Solver:
         return accounted(self.scene, self.method.plan, last, increment, resisted)
 
     def _along(self, ramp: LoadRamp) -> ScalarControl | None:
-        """Return the control of the twist, or of the tangential motion along the plan's
-        direction."""
+        """Return the control of the twist, or of the tangential motion projected on the plan's
+        direction.
+
+        Return None if the plan has neither torsion nor a tangential load.
+        """
         path, control = self.method.plan.path, ramp.tangential
         if path is Path.TWISTING:
             return ramp.twisting

@@ -1,11 +1,15 @@
-"""Prescribed loads or motions of the indenter at the end of an increment."""
+"""Prescribed loads and motions of the indenter at the end of a load increment."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
 class NormalTarget:
-    """Prescribed normal force [force] or approach [length]."""
+    """Prescribed normal load at the end of an increment: either a force or an approach.
+
+    force     normal force [force]; None if the approach is prescribed
+    approach  rigid approach of the indenter [length]; None if the force is prescribed
+    """
 
     force: float | None = None
     approach: float | None = None
@@ -13,10 +17,12 @@ class NormalTarget:
 
 @dataclass(frozen=True)
 class TangentialTarget:
-    """Prescribed load or motion of the indenter along the shear.
+    """Prescribed tangential load at the end of an increment: either a load or a motion.
 
-    load    tangential force along the plan's direction [force], or torque [force length]
-    motion  shift along this direction [length], or twist [radian]
+    load    tangential force along the plan's direction [force], or torque [force length]; None if
+            the motion is prescribed
+    motion  tangential shift along this direction [length], or twist [radian]; None if the load is
+            prescribed
     """
 
     load: float | None = None
@@ -28,9 +34,9 @@ STILL = TangentialTarget(motion=0.0)
 
 @dataclass(frozen=True)
 class Loads:
-    """Prescribed loads or motions at the end of an increment.
+    """All prescribed loads and motions of the indenter at the end of an increment.
 
-    strain  of the lower body since first contact, equal in all directions
+    strain  equibiaxial surface strain imposed on the lower body since first contact [1]
     """
 
     normal: NormalTarget

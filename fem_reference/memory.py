@@ -1,4 +1,4 @@
-"""Memory of a factorisation, compared with the available memory."""
+"""Memory estimate of a sparse factorisation, and its comparison with the available memory."""
 
 import numpy as np
 
@@ -18,8 +18,15 @@ NODES_PER_ELEMENT = 4  # biquadratic: about one corner, two midsides and one cen
 
 
 def required_bytes(elements: int, unknowns: int, components: int, with_pressure: bool) -> float:
-    """Estimate the memory of assembly and factorisation of a section, within a factor of two
-    [byte]."""
+    """Estimate the memory to assemble and factorise the stiffness of a section [byte].
+
+    The estimate is correct within a factor of 2.
+
+    elements       number of elements of the section
+    unknowns       number of degrees of freedom
+    components     number of displacement components in the motion, 1 to 3
+    with_pressure  True if the pressures of nearly incompressible elements are unknowns
+    """
     fill = FILL_WITH_PRESSURE if with_pressure else FILL
     entries = fill * components * unknowns * np.log2(max(unknowns, 2))
     matrices = 8.0 * elements * (9 * components) ** 2
@@ -27,25 +34,28 @@ def required_bytes(elements: int, unknowns: int, components: int, with_pressure:
 
 
 def run_bytes(factoring: float) -> float:
-    """Estimate the largest memory of a run, with libraries and figures [byte].
+    """Estimate the peak memory of a whole run, including libraries and figures [byte].
 
-    factoring  `required_bytes` of its largest section, an upper bound
+    factoring  result of `required_bytes` for the largest section, an upper bound
     """
     return LIBRARIES + max(DRAWING, PART_IN_USE * factoring)
 
 
 def largest_bytes(elements: int, several_motions: bool) -> int:
-    """Estimate the memory for the factors of the largest section [byte].
+    """Estimate the memory to assemble and factorise a section from its number of elements [byte].
 
-    elements         of the section
-    several_motions  true for motions with a circumferential component
+    several_motions  True if the solve needs motions with a circumferential displacement, which have
+                     3 components; otherwise a motion has 2 components
     """
     unknowns, components = NODES_PER_ELEMENT * elements, 3 if several_motions else 2
     return int(required_bytes(elements, unknowns * components, components, False))
 
 
 def require_memory(needed: float) -> None:
-    """Raise ResourceRefused if this number of bytes exceeds the available memory."""
+    """Raise ResourceRefused if the required memory exceeds the memory available on this machine.
+
+    needed  required memory [byte]
+    """
     free = available_bytes()
     if needed > free:
         raise ResourceRefused(

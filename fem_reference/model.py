@@ -1,4 +1,8 @@
-"""Model of a scene on one mesh: compliance, gap and friction."""
+"""Model of a contact scene on one mesh: compliances of the bodies, undeformed gap and friction.
+
+The contact methods in `fem_reference.contact` read all properties of the two bodies from this
+model.
+"""
 
 from dataclasses import replace
 from functools import cached_property
@@ -21,15 +25,16 @@ from fem_reference.scales import Scales
 
 
 class ContactModel:
-    """Two bodies of a scene with their meshes. A compliance is computed at its first use and
-    stored.
+    """Hold the two bodies of a scene with their meshes, and compute the compliances of their
+    surfaces.
 
-    Lengths and forces are those of the scene. Only the meshes are in units of `scales`.
+    A compliance is computed at its first use and stored. Lengths and forces have the units of the
+    scene. Only the meshes are in the units of `scales`.
 
-    sections        lower and upper mesh; None for a rigid body
+    sections        meshes of the lower body and of the indenter; None for a rigid body
     factorizations  number of sparse factorisations
-    settled         names of condensed motions, and of motions counted by an interrupted part of the
-                    history
+    settled         names of the motions whose factorisations are already counted, in this run or
+                    before the checkpoint from which the run resumes
     """
 
     def __init__(
@@ -49,7 +54,10 @@ class ContactModel:
     def of(
         cls, scene: Scene, discretisation: FiniteElementDiscretisation, radius: float
     ) -> "ContactModel":
-        """Return the model for contacts up to a radius [length]."""
+        """Create the model of a scene, with meshes for contacts up to a given radius.
+
+        radius  largest expected contact radius, the unit of length of the meshes [length]
+        """
         scales = Scales(radius, outermost_modulus(scene))
         lower, upper = (scales.dimensionless(body) for body in (scene.body, scene.indenter))
         section = _section(lower, discretisation)
@@ -58,59 +66,80 @@ class ContactModel:
 
     @cached_property
     def radii(self) -> Field:
-        """Radii of the nodes in the contact zone, corner and midside alternating [length]."""
+        """Radii of the surface nodes in the contact zone (m,), corner and midside nodes alternating
+        [length].
+        """
         section = next(section for section in self.sections if section is not None)
         return np.asarray(section.radii * self.scales.length)
 
     @cached_property
     def hats(self) -> Hats:
-        """Hat functions of the corners that can carry traction. They end at a rim."""
+        """Hat functions over the radius, one for each corner node that can carry traction.
+
+        If the indenter has a rim, the functions end at the rim.
+        """
         return hats_on(self.radii, self.rim)
 
     @property
     def rim(self) -> float:
-        """Radius beyond which the indenter cannot touch; infinite without a rim [length]."""
+        """Radius of the indenter's rim, beyond which no contact is possible [length].
+
+        The radius is infinite if the indenter has no rim.
+        """
         rim = self.scene.indenter.rim
         return np.inf if rim is None else rim
 
     @property
     def ends_at_rim(self) -> bool:
-        """True if the rim of the indenter bounds the contact at any load."""
+        """True if the indenter has a rim, which bounds the contact radius at any load."""
         return self.scene.indenter.rim is not None
 
     @property
     def friction(self) -> CoulombFriction:
-        """Friction between the two bodies, equal everywhere."""
+        """Coulomb friction between the two bodies, equal at all points of the surface."""
         return self.scene.friction or FRICTIONLESS
 
     def gap(self, r: Field) -> Field:
-        """Undeformed gap at a radius [length], taken where a particle was before any load."""
+        """Compute the gap between the undeformed surfaces at first touch [length].
+
+        r  radii of surface particles before any load [length]
+        """
         return np.asarray(self.scene.indenter.initial_gap(r, 0.0))
 
     def compliance(self, harmonic: int) -> NodalCompliance:
-        """Return the displacement of the lower surface relative to the upper per nodal force
-        [length/force].
+        """Return the compliance of the two surfaces for tractions of one angular harmonic n.
 
-        For n = 0 the motion is normal loading. For n >= 1 its components are (r, theta, z).
+        The matrix contains the displacement of the lower surface relative to the upper surface, per
+        unit generalised nodal force [length/force]. For n = 0 the loading is normal and has the
+        components (r, z); torsion is excluded. For n >= 1 the components are (r, theta, z).
         """
         return self._condensed(motion(harmonic))
 
     def torsion(self) -> NodalCompliance:
-        """Return the circumferential displacement per circumferential nodal force
-        [length/force]."""
+        """Return the compliance of the two surfaces in torsion.
+
+        The matrix contains the circumferential displacement of the lower surface relative to the
+        upper surface, per unit circumferential nodal force [length/force].
+        """
         return self._condensed(TORSION)
 
     def along_load(self) -> Field:
-        """Return the mean displacement along x around the axis, per nodal force f(r) along x
-        [length/force].
+        """Compute the compliance along a tangential load in Mindlin's approximation, shape (m, m).
 
-        With q_r = f cos θ and q_θ = -f sin θ, the mean of u_x is (u_r - u_θ)/2 in the amplitudes of
-        n = 1. Mindlin's approximation neglects the part of u_x ∝ cos 2θ, and u_y.
+        The load acts along x. An entry is the displacement u_x of a node, averaged over the angle
+        θ, per unit nodal force f(r) along x [length/force]. With q_r = f cos θ and q_θ = -f sin θ,
+        the mean of u_x is (u_r - u_θ)/2 in the amplitudes of n = 1. Mindlin's approximation
+        neglects u_y and the part of u_x ∝ cos 2θ.
         """
         C = self.compliance(1).matrix
         return np.asarray(0.5 * (C[0, :, 0] - C[0, :, 1] - C[1, :, 0] + C[1, :, 1]))
 
     def _condensed(self, of: Motion) -> NodalCompliance:
+        """Return the compliance of the two surfaces in one motion; compute and store it at its
+        first use.
+
+        The result has the units of the scene and contains the compliance of the rig's springs.
+        """
         if of not in self._compliances:
             condensed = composite(*self.sections, of)
             name = f"{of.harmonic} {of.components}"
@@ -124,14 +153,23 @@ class ContactModel:
         return self._compliances[of]
 
     def _springs(self, of: Motion) -> Field:
-        """Return the displacement of all nodes by the springs of a rig, per nodal force (c, c)
-        [length/force]."""
+        """Compute the displacement of the nodes by the springs of the loading rig, per unit nodal
+        force.
+
+        The springs displace all nodes equally. The result has one row and one column for each
+        component of the motion, shape (c, c) [length/force]. It is zero for motions without a
+        spring.
+        """
         down, along = compliances(self.scene.rig)
         compliance = {PRESSING: down, SHEARING: along}.get(of, 0.0)
         return np.asarray(compliance * np.multiply.outer(of.on_axis, of.resultant))
 
 
 def _section(body: Body, discretisation: FiniteElementDiscretisation) -> SectionMesh | None:
+    """Create the mesh of the meridional section of a body, or return None for a rigid body.
+
+    The discretisation selects the mesher: tensor-product rectangles, or gmsh.
+    """
     if not body.deforms:
         return None
     make = section_mesh
@@ -142,9 +180,10 @@ def _section(body: Body, discretisation: FiniteElementDiscretisation) -> Section
 
 
 def outermost_modulus(scene: Scene) -> float:
-    """Return Young's modulus of the outermost elastic material [force/length^2].
+    """Return Young's modulus of the outermost elastic material of the lower body [force/length^2].
 
-    It is that of the indenter if the lower body has no elastic material.
+    If the lower body is rigid, return the modulus of the outermost material of the indenter. Raise
+    ValueError if both bodies are rigid.
     """
     for body in (scene.body, scene.indenter):
         for material in body.elastic_materials:

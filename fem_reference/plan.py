@@ -1,5 +1,4 @@
-"""Plan of a scene: its effects, checks that refuse unsupported scenes, and numbers of
-increments."""
+"""Plan of a solve: effects that a scene requires, refusal of unsupported scenes, and increments."""
 
 from dataclasses import dataclass
 from enum import Enum
@@ -32,7 +31,7 @@ STRAIGHT = 1e-9
 
 
 class Path(Enum):
-    """Tractions of the solve, and their harmonics."""
+    """Tractions that a solve computes, and their dependence on the angle."""
 
     PRESSING = "pressure alone"
     PRESSING_WITH_FRICTION = "pressure and radial shear, coupled"
@@ -43,13 +42,13 @@ class Path(Enum):
 
 @dataclass(frozen=True)
 class Plan:
-    """Effects computed for a scene. Other effects need no work.
+    """Effects that are computed for a scene. Effects that do not occur in the scene need no work.
 
     path          tractions of the solve
-    direction     unit vector of the tangential load, (1, 0) without one
+    direction     unit vector (x, y) of the tangential load, (1, 0) without one
     increments    number of increments of each load step
-    path_matters  true for load steps whose end depends on the number of increments
-    effects       all effects with reasons, for output
+    path_matters  for each load step, True if its final state depends on the number of increments
+    effects       all effects with the reasons for or against them, for output
     """
 
     path: Path
@@ -60,7 +59,11 @@ class Plan:
 
 
 def plan(scene: Scene) -> Plan:
-    """Determine the path of a scene; raise UnsupportedScene if it is not axisymmetric."""
+    """Determine the effects and the numbers of increments that a scene requires.
+
+    Raise UnsupportedScene if the scene is not axisymmetric, or combines loads that this solver does
+    not support.
+    """
     scene = normal_form(scene)
     refuse_equator(scene)
     _refuse_shapes(scene)
@@ -89,6 +92,13 @@ def plan(scene: Scene) -> Plan:
 
 
 def _path(friction: bool, loaded: bool, twisted: bool, couples: bool) -> Path:
+    """Determine the tractions of the solve from the effects of the scene.
+
+    friction  True if the scene has friction
+    loaded    True if a load step has a tangential force or shift
+    twisted   True if a load step has a torque or twist
+    couples   True if normal loading or an imposed strain causes shear
+    """
     if not friction:
         return Path.PRESSING
     if twisted:
@@ -99,7 +109,11 @@ def _path(friction: bool, loaded: bool, twisted: bool, couples: bool) -> Path:
 
 
 def _path_matters(ramps: tuple[LoadRamp, ...], path: Path) -> tuple[bool, ...]:
-    """Return true for each step whose end depends on the path to it."""
+    """Determine for each load step whether its final state depends on the number of increments.
+
+    Friction makes a step path-dependent if there is shear while the normal load or the imposed
+    strain changes. For coupled pressure and shear a change of the tangential load is sufficient.
+    """
     matters = []
     sheared = path in (Path.PRESSING_WITH_FRICTION, Path.HARMONICS)
     for ramp in ramps:
@@ -112,8 +126,13 @@ def _path_matters(ramps: tuple[LoadRamp, ...], path: Path) -> tuple[bool, ...]:
 
 
 def _increments(scene: Scene, matters: tuple[bool, ...]) -> tuple[int, ...]:
-    """Return the increments of each step: requested, or as its path and closed load cycles
-    require."""
+    """Determine the number of increments of each load step.
+
+    The number is the one that the scene requests, or else the number that path dependence and
+    closed load cycles require.
+
+    matters  for each load step, True if its final state depends on the number of increments
+    """
     ramps = scene.load_path()
     loops = loop_increments(ramps) if scene.friction else (1,) * len(ramps)
     return tuple(
@@ -123,7 +142,11 @@ def _increments(scene: Scene, matters: tuple[bool, ...]) -> tuple[int, ...]:
 
 
 def _path_increments(scene: Scene, ramp: LoadRamp) -> int:
-    """Return the number of increments for an error of the shear of about 1 %."""
+    """Determine the number of increments of a path-dependent load step for an error of about 1 %.
+
+    The error is that of the shear. If only the tangential force changes, each increment is at most
+    LARGEST_SHARE of the friction limit.
+    """
     friction = scene.friction
     by_force = ramp.normal.kind is ramp.tangential.kind is ControlKind.FORCE
     pressing = ramp.normal.start != ramp.normal.end or ramp.strains
@@ -140,9 +163,9 @@ def _path_increments(scene: Scene, ramp: LoadRamp) -> int:
 def _effects(
     scene: Scene, path: Path, acting: tuple[bool, bool, bool, bool], why_coupled: str
 ) -> tuple[Effect, ...]:
-    """Return all effects with their reasons.
+    """Return all effects of a solve, each with the reason for or against its computation.
 
-    acting       true for friction, a tangential load, torsion, and coupling, in this order
+    acting       True for friction, a tangential load, torsion, and coupling, in this order
     why_coupled  reason for or against relative tangential displacement by pressure
     """
     has_friction, loaded, twisted, couples = acting
@@ -169,8 +192,11 @@ def _effects(
 
 
 def _cross_slip(path: Path) -> Effect:
-    """Return the effect of slip across the load by Poisson's ratio (Munisamy, Hills and Nowell
-    1994)."""
+    """Return the effect "slip across the load", with the reason for or against its computation.
+
+    Poisson's ratio causes slip perpendicular to a tangential load (Munisamy, Hills and Nowell
+    1994).
+    """
     name = "slip across the load"
     if path is Path.SHEARING:
         return Effect(
@@ -182,7 +208,7 @@ def _cross_slip(path: Path) -> Effect:
 
 
 def _refuse_shapes(scene: Scene) -> None:
-    """Raise UnsupportedScene for indenters and friction that are not axisymmetric."""
+    """Raise UnsupportedScene if the indenter or the coefficient of friction is not axisymmetric."""
     indenter, friction = scene.indenter, scene.friction
     if not indenter.is_of_revolution:
         raise UnsupportedScene(
@@ -197,9 +223,14 @@ def _refuse_shapes(scene: Scene) -> None:
 
 
 def _refuse_loads(scene: Scene, loaded: bool, twisted: bool, coupled: bool) -> None:
-    """Raise UnsupportedScene for tilts, and for loads along two lines or about two axes.
+    """Raise UnsupportedScene for combinations of loads that this solver does not support.
 
-    coupled  true if normal loading causes shear
+    Refused are tilts, tangential loads along more than one line, and torsion combined with a
+    tangential load or with coupled bodies.
+
+    loaded   True if a load step has a tangential force or shift
+    twisted  True if a load step has a torque or twist
+    coupled  True if normal loading causes shear
     """
     if any(any(ramp.tilting.end) for ramp in scene.load_path()):
         raise UnsupportedScene(
@@ -234,6 +265,6 @@ def _refuse_loads(scene: Scene, loaded: bool, twisted: bool, coupled: bool) -> N
 
 
 def _turns(one: tuple[float, float], other: tuple[float, float]) -> bool:
-    """Return true if two loads are not on one line, within round-off."""
+    """Return True if two tangential loads (x, y) are not parallel or opposite, within round-off."""
     cross = one[0] * other[1] - one[1] * other[0]
     return abs(cross) > STRAIGHT * hypot(*one) * hypot(*other)

@@ -1,8 +1,9 @@
-"""Dimensionless residuals of the contact and friction laws, independent of the mesh.
+"""Dimensionless residuals of the contact law and of Coulomb's friction law on rings.
 
-All sums run over rings. Tractions are nodal values, gaps and slips are integrals over the hat
-functions, so that the sum of their products is the integral of the product of the fields. The
-measures are those of `contact_scene.quantities.residuals.Residuals`. A NaN in a field gives NaN.
+The residuals do not depend on the mesh size. All sums run over the rings of the surface. Tractions
+are nodal values. Gaps and slips are integrals over the hat functions, so that Σ traction × gap is
+the integral of the product of both fields. The definitions are those of
+`contact_scene.quantities.residuals.Residuals`. A NaN in a field gives a NaN residual.
 """
 
 import numpy as np
@@ -15,36 +16,60 @@ LEAST_SLIP = 1e-3
 
 
 def over(part: float, whole: float) -> float:
-    """Return part / whole; 0 if the part is zero, infinite if only the whole is zero."""
+    """Compute the quotient part / whole without an error for a zero denominator.
+
+    Return 0 if `part` is zero, and infinity if only `whole` is zero.
+    """
     if not part:
         return 0.0
     return part / whole if whole else float("inf")
 
 
 def complementarity(p: Field, gap: Field, weights: Field, approach: float) -> float:
-    """Return Σ|g| p / (approach Σ w p), with g the integral of the gap over a hat and w of the
-    hat."""
+    """Compute the complementarity residual of gap and pressure: Σ |g| p / (approach Σ w p) [1].
+
+    p         pressure at the rings (rings,) [force/length^2]
+    gap       g, integral of the gap over each hat function (rings,) [length^3]
+    weights   w, integral of each hat function (rings,) [length^2]
+    approach  rigid approach of the indenter [length]
+    """
     return float(np.sum(np.abs(gap) * p) / (np.sum(weights * p) * abs(approach)))
 
 
 def penetration(gap: Field, weights: Field, approach: float) -> float:
-    """Return the largest mean overlap over a hat, relative to the approach."""
+    """Compute the largest overlap of the surfaces, divided by the rigid approach [1].
+
+    The overlap is the negative part of the mean gap over a hat function.
+
+    gap      integral of the gap over each hat function (rings,) [length^3]
+    weights  integral of each hat function (rings,) [length^2]
+    """
     return float(np.maximum(0.0, -np.min(gap / weights)) / abs(approach))
 
 
 def friction_cone(size: Field, bound: Field) -> float:
-    """Return the largest excess of the shear over its limit, relative to the largest limit."""
+    """Compute the largest excess of the shear over the friction limit µp, relative to the largest
+    limit.
+
+    size   magnitude of the shear at the points [force/length^2]
+    bound  friction limit µp at the points [force/length^2]
+    """
     largest = np.max(bound)
     return 0.0 if largest == 0 else float(np.maximum(0.0, np.max(size - bound)) / largest)
 
 
 def slip_direction(q: Field, bound: Field, passed: Field, areas: Field, moved: float) -> float:
-    """Return ∫(b|s| − q·s) / ∫b|s|, with s the slip of the indenter relative to the body.
+    """Compute the residual of the slip direction: ∫(b|s| − q·s) / ∫b|s| [1].
 
-    It is zero if the shear has the length of the limit b along s wherever there is slip.
+    The residual is zero if the shear q is equal to the friction limit b and parallel to the slip s
+    wherever there is slip. Here s is the slip of the indenter relative to the lower body.
 
-    q, passed  (2, points)
-    moved      largest displacement, the scale for slip too small to have a direction
+    q       shear (2, points) [force/length^2]
+    bound   b, friction limit µp (points,) [force/length^2]
+    passed  s, slip in the increment (2, points) [length]
+    areas   surface areas that the points represent (points,) [length^2]
+    moved   largest displacement; limits the denominator from below if the slip is too small to have
+            a direction [length]
     """
     work = areas * bound * np.hypot(*passed)
     missing = np.sum(work - areas * np.sum(q * passed, axis=0))

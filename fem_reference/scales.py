@@ -1,4 +1,4 @@
-"""Units of length and stress of the dimensionless quantities in this package."""
+"""Units of length and stress that make the elasticity problem dimensionless."""
 
 from dataclasses import dataclass
 
@@ -8,10 +8,10 @@ from contact_scene.material import IsotropicMaterial, Material
 
 @dataclass(frozen=True)
 class Scales:
-    """Unit of length and unit of stress of a dimensionless problem.
+    """Unit of length and unit of stress of the dimensionless elasticity problem.
 
-    length   expected contact radius [length]
-    modulus  elastic modulus of one of the bodies [force/length^2]
+    length   radius for which the mesh is laid out, usually the expected contact radius [length]
+    modulus  Young's modulus of the outermost material of one body [force/length^2]
     """
 
     length: float
@@ -19,16 +19,19 @@ class Scales:
 
     @property
     def force(self) -> float:
-        """Unit of force [force]."""
+        """Unit of force: modulus times length squared [force]."""
         return self.modulus * self.length * self.length
 
     @property
     def moment(self) -> float:
-        """Unit of moment and torque [force length]."""
+        """Unit of moment and torque: unit of force times unit of length [force length]."""
         return self.force * self.length
 
     def dimensionless(self, body: Body) -> Body:
-        """Return the body with thicknesses and moduli in these units, without its shape."""
+        """Return a copy of a body whose layer thicknesses and Young's moduli are in these units.
+
+        The copy has no surface shape, because the mesh requires the layers and materials only.
+        """
         layers = tuple(
             Layer(thickness=layer.thickness / self.length, material=self._scaled(layer.material))
             for layer in body.layers
@@ -39,6 +42,7 @@ class Scales:
         return Body(material=material, layers=layers)
 
     def _scaled(self, material: IsotropicMaterial) -> IsotropicMaterial:
+        """Return a copy of a material whose Young's modulus is divided by the unit of stress."""
         return IsotropicMaterial(
             young_modulus=material.young_modulus / self.modulus,
             poisson_ratio=material.poisson_ratio,

@@ -1,4 +1,4 @@
-"""Solve a scene: plan, mesh, model, load stepping."""
+"""Solve a scene by finite elements: plan, mesh, compliances and load stepping."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -109,7 +109,8 @@ def _solver(
     discretisation: FiniteElementDiscretisation,
     method: Method,
 ) -> ContactMethod:
-    """Return the contact method on a model, with the requested enforcement."""
+    """Create the contact method on a model, with exact or penalty enforcement of the contact laws.
+    """
     penalty = None
     if method is Method.PENALTY:
         penalty = Penalty(
@@ -121,7 +122,11 @@ def _solver(
 def _counted(
     model: ContactModel, history: Iterator[tuple[Increment, ResumePoint[PointState]]]
 ) -> Iterator[tuple[Increment, ResumePoint[PointState]]]:
-    """Add to each increment its number of sparse factorisations."""
+    """Yield the increments and resume points of a history, with the numbers of sparse
+    factorisations.
+
+    The number of an increment counts the factorisations since the previous increment.
+    """
     counted = 0
     for increment, point in history:
         spent, counted = model.factorizations - counted, model.factorizations

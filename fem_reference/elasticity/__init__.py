@@ -1,1 +1,1 @@
-"""Compliance of an axisymmetric section: weak form, factorisation, condensation."""
+"""Elasticity of one axisymmetric body: weak form, factorisation and compliance of its surface."""

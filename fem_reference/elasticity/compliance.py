@@ -1,4 +1,8 @@
-"""All that contact sees of the elasticity: displacement of surface nodes per force on them."""
+"""Compliance of the surface: displacement of surface nodes per force on the surface nodes.
+
+The contact algorithms need no other information about the elasticity of the bodies. Compliances are
+cached on disk.
+"""
 
 import hashlib
 from dataclasses import dataclass
@@ -22,16 +26,20 @@ FOLDERS = ("mesh", "elasticity")
 
 @dataclass(frozen=True, eq=False)
 class NodalCompliance:
-    """Displacement of the surface's Q2 nodes in the contact zone per unit generalised nodal force.
+    """Displacement of the surface nodes in the contact zone per unit generalised nodal force.
 
-    motion          harmonic n and components: (r, z) for n = 0, (theta) in torsion, else all three
-    radii           (m,) of the nodes; corners at even indices, midsides between; radii[0] = 0
-    matrix          (c, m, c, m), symmetric. The generalised forces are the integrals of psi_i t r
-                    dr of the traction amplitudes t, with psi the quadratic trace functions, without
-                    2 pi or pi
-    factorizations  number of sparse factorisations, counted also if the matrix comes from the
-                    cache, so that the cost of a scene does not depend on previous solves
-    from_cache      true if the matrix comes from the cache
+    The nodes are those of biquadratic elements (Q2). A generalised force is the integral of psi_i t
+    r dr, with t the amplitude of the traction and psi_i the quadratic trace function of the node.
+    It does not contain the factor 2 pi or pi of the angle.
+
+    motion          harmonic n and components: (r, z) for n = 0, (theta) in torsion, else (r, theta,
+                    z)
+    radii           radii of the nodes (m,); corners have even indices, midside nodes odd ones;
+                    radii[0] = 0
+    matrix          compliance (c, m, c, m) for c components, symmetric
+    factorizations  number of sparse factorisations. A matrix from the cache counts too, so that the
+                    cost of a scene does not depend on previous solves
+    from_cache      True if the matrix was read from the cache
     """
 
     motion: Motion
@@ -42,15 +50,15 @@ class NodalCompliance:
 
     @property
     def harmonic(self) -> int:
-        """The harmonic n."""
+        """Angular harmonic n of the tractions and displacements."""
         return self.motion.harmonic
 
 
 def condense(section: SectionMesh, motion: Motion) -> NodalCompliance:
-    """Compute the compliance of one body in one motion by one sparse factorisation, or read the
-    cache.
+    """Compute the compliance of the surface of one body in one motion.
 
-    Raises ResourceRefused if the memory is insufficient.
+    The matrix is computed by one sparse factorisation, or read from the cache. Raise
+    ResourceRefused if the memory is insufficient.
     """
     radii, count = section.radii, len(motion.components)
     computed = False
@@ -67,12 +75,14 @@ def condense(section: SectionMesh, motion: Motion) -> NodalCompliance:
 def composite(
     lower: SectionMesh | None, upper: SectionMesh | None, motion: Motion
 ) -> NodalCompliance:
-    """Compute the displacement of the lower surface relative to the upper, per force on the lower
-    one.
+    """Compute the compliance of two surfaces in contact: the sum of the compliances of both bodies.
 
-    None is a rigid body; equal bodies may have one section. The upper body has the reversed shear
-    relative to its inward normal: C1 + J C2 J with J = diag(1, 1, -1). Raises ValueError for
-    two rigid bodies, or two with different contact nodes.
+    The displacement is that of the lower surface relative to the upper, per force on the lower
+    surface. With z into each body, the shear on the upper body has the opposite sign. The sum is
+    therefore C1 + J C2 J with J = diag(1, 1, -1). Raise ValueError for two rigid bodies, or for
+    bodies with different contact nodes.
+
+    lower, upper  meshes of the two bodies; None for a rigid body. Equal bodies may share one mesh
     """
     bodies = [section for section in (lower, upper) if section is not None]
     if not bodies:
@@ -93,7 +103,8 @@ def composite(
 
 
 def _identity(section: SectionMesh, motion: Motion) -> str:
-    """Hash of everything that decides the matrix."""
+    """Compute the cache key of a compliance matrix: a hash of all data that determine the matrix.
+    """
     outline = section.outline
     materials = [(m.young_modulus, m.poisson_ratio) for m in outline.materials]
     edges = (outline.zone, outline.box, outline.interfaces, outline.rigid_base)
@@ -108,9 +119,11 @@ def _identity(section: SectionMesh, motion: Motion) -> str:
 
 @cache
 def sources_digest(package: Path = PACKAGE) -> str:
-    """Compute the digest of the sources of mesh and compliance, and of the library versions.
+    """Compute the digest of the source code of mesh and elasticity, and of the library versions.
 
-    package  the folder that contains FOLDERS
+    The digest is part of the cache key, so that a change of the code invalidates the cache.
+
+    package  folder that contains the subfolders FOLDERS
     """
     libraries = (np.__version__, scipy.__version__, skfem.__version__)
     digest = hashlib.sha256(repr(libraries).encode())

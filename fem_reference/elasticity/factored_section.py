@@ -1,4 +1,4 @@
-"""One body in one harmonic, factored: displacements of the section for forces on its surface."""
+"""Factorised stiffness of one body in one harmonic, and displacements by forces on its surface."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,16 +23,16 @@ BLOCK = 64
 
 
 class FactoredSection:
-    """Factorised stiffness of a section in one harmonic, with solves.
+    """Factorise the stiffness of a section in one harmonic, and solve for its displacements.
 
     Unknowns are in the order of elimination, those of the contact zone last. The symmetric matrix
-    is eliminated in this order without pivoting, so that the last block of the factors is the
-    stiffness of the contact zone after condensation of all other unknowns.
+    is eliminated in this order without pivoting. The last block of the factors is therefore the
+    stiffness of the contact zone after condensation of all other unknowns. The constructor raises
+    ResourceRefused if the memory is insufficient.
 
-    section, motion  factorised problem
-    nodes            (2, n) positions (r, z) of the nodes
-    surface          (m,) nodes of the contact zone, by radius Raises ResourceRefused if the memory
-                     is insufficient.
+    section, motion  mesh and harmonic of the factorised problem
+    nodes            positions (r, z) of the nodes (2, n)
+    surface          indices of the nodes of the contact zone (m,), in the order of their radii
     """
 
     def __init__(self, section: SectionMesh, motion: Motion) -> None:
@@ -62,8 +62,14 @@ class FactoredSection:
         self._far = self._numbering.factor * far[self._numbering.dofs]
 
     def displacement(self, forces: Field, nodes: Indices | slice = EVERYWHERE) -> Field:
-        """Return the displacement (c, n, k) of nodes for generalised forces (c, m, k) on the
-        surface."""
+        """Compute the displacements of nodes by generalised forces on the surface, for k load
+        cases.
+
+        The result has the shape (c, nodes, k) for c components.
+
+        forces  generalised forces on the m surface nodes (c, m, k)
+        nodes   indices of the nodes at which displacements are returned; all nodes by default
+        """
         weights = self.motion.resultant_weights(self.section.radii)
         resultants = np.einsum("cm,cmk->k", weights, forces)
         displacement = self._far[:, nodes, None] * resultants
@@ -79,10 +85,11 @@ class FactoredSection:
         return displacement
 
     def compliance(self) -> Field:
-        """Return the displacement (c, m, c, m) of the surface nodes per unit generalised force on
-        them.
+        """Compute the displacement of the surface nodes per unit generalised force on them (c, m,
+        c, m).
 
-        The far field depends on the resultant alone. The small asymmetry that it causes is removed.
+        The far field depends on the resultant alone and makes the matrix slightly asymmetric. The
+        result is the symmetric part.
         """
         numbering, first = self._numbering, self._numbering.contact
         stiffness = (self._lu.L[first:, first:] @ self._lu.U[first:, first:]).toarray()
@@ -96,7 +103,12 @@ class FactoredSection:
         return (0.5 * (matrix + matrix.T)).reshape(weights.shape * 2)
 
     def _prescribed(self, basis: Basis) -> Field:
-        """Return the degrees of freedom on the far boundary for a unit resultant."""
+        """Return the prescribed degrees of freedom on the far boundary for a unit resultant load.
+
+        The values are the displacements of a half-space, or zero for a rigid base or a motion
+        without far field. The array has an entry for every degree of freedom, zero except on the
+        far boundary.
+        """
         values = np.zeros(self._numbering.size)
         outline, far_field = self.section.outline, self.motion.far_field
         if far_field is not None and not outline.rigid_base:
@@ -112,8 +124,10 @@ class FactoredSection:
 def _assembled(
     section: SectionMesh, motion: Motion, basis: Basis, numbering: Numbering
 ) -> csr_array:
-    """Assemble the stiffness between all displacements, with the explicit zeros that fill-in
-    needs."""
+    """Assemble the sparse stiffness matrix of all displacement degrees of freedom.
+
+    Entries with the value zero remain in the sparsity pattern, because fill-in needs them.
+    """
     stiffness = element_stiffness(basis, section, motion.harmonic, motion.components)
     dofs, factor = _of_elements(basis, numbering)
     stiffness *= factor[:, :, None] * factor[:, None]
@@ -126,8 +140,11 @@ def _assembled(
 def _with_pressure(
     stiffness: csr_array, section: SectionMesh, motion: Motion, basis: Basis, numbering: Numbering
 ) -> csr_array:
-    """Add equations of the pressure p: volume strain = p / lambda in mixed elements, and its
-    forces."""
+    """Extend the stiffness matrix by the pressures p of nearly incompressible elements.
+
+    The additional equations are volume strain = p / lambda. The pressures enter the displacement
+    equations by the transposed matrix.
+    """
     mixed, first = dilatation(section).mixed, numbering.dofs.size
     volume = volume_strain(basis, motion.harmonic, motion.components)[mixed]
     dofs, factor = (one[mixed, :, None] for one in _of_elements(basis, numbering))
@@ -141,8 +158,10 @@ def _with_pressure(
 
 
 def _of_elements(basis: Basis, numbering: Numbering) -> tuple[Dofs, Field]:
-    """Return degrees of freedom of the elements (e, 9 c), component by component, and their
-    factors."""
+    """Return the displacement degrees of freedom of all elements and their factors, both (e, 9 c).
+
+    The 9 nodes of a component are contiguous.
+    """
     shape = (-1, basis.nelems)
     return (
         numbering.dofs[:, basis.element_dofs].reshape(shape).T,

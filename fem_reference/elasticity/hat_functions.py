@@ -1,8 +1,8 @@
-"""Tractions that are linear between corner nodes: hat functions over the radius.
+"""Tractions that are linear in r between corner nodes: hat functions over the radius.
 
-Displacements of the surface are quadratic on an element, tractions linear, and gap and slip are
-tested with the same hats: no more conditions than the displacement can meet, so that the pressure
-does not ripple and the matrix stays symmetric.
+Displacements of the surface are quadratic on each element edge, and tractions are linear. Gap and
+slip are weighted with the hat functions of the tractions. There are then no more contact conditions
+than the displacements can meet. The pressure has no oscillations, and the matrix is symmetric.
 """
 
 from abc import ABC, abstractmethod
@@ -22,18 +22,23 @@ SAME = 1e-9
 
 @BilinearForm  # type: ignore[untyped-decorator]
 def product(hat: Any, trace: Any, w: Any) -> Any:
-    """Return φ ψ r."""
+    """Return the integrand φ ψ r, with a hat function φ and a quadratic trace function ψ of the
+    radius.
+    """
     return hat * trace * w.x[0]
 
 
 @dataclass(frozen=True)
 class TractionBasis(ABC):
-    """Functions φ of the radius that span the tractions, and their products with the trace ψ.
+    """Functions φ_j of the radius that span the tractions, and their integrals.
 
-    radii     (n,) of the rings whose values are the unknowns [length]
+    There is one function for each of n rings on the surface. ψ_i are the quadratic trace functions
+    of the m surface nodes of the displacement.
+
+    radii     radii of the rings, whose tractions are the unknowns (n,) [length]
     products  ∫ ψ_i φ_j r dr (m, n) [length^2]
-    weights   ∫ φ r dr (n,) [length^2]
-    arms      ∫ φ r² dr (n,) [length^3]
+    weights   ∫ φ_j r dr (n,) [length^2]
+    arms      ∫ φ_j r² dr (n,) [length^3]
     """
 
     radii: Field
@@ -42,35 +47,53 @@ class TractionBasis(ABC):
     arms: Field
 
     def compliance(self, nodal: Matrix) -> Matrix:
-        """Compute displacements, integrated over φ, per traction at the rings: Mᵀ C M.
+        """Compute the ring compliance Mᵀ C M from the nodal compliance C, with M = `products`.
 
-        nodal  displacement per generalised force at the nodes (m, m)
+        The result (n, n) contains the displacement, integrated over each function φ_i r dr, per
+        unit traction at each ring.
+
+        nodal  displacement per generalised force at the surface nodes (m, m) [length/force]
         """
         weak = self.products.T @ nodal @ self.products
         return np.asarray(weak)
 
     @abstractmethod
     def of(self, function: Callable[[Field], Field]) -> Field:
-        """Integrate f(r) φ(r) r dr over the radius, for each basis function φ."""
+        """Compute the integral of f(r) φ_j(r) r dr for each basis function φ_j (n,).
+
+        function  f, a function of an array of radii
+        """
 
 
 class Hats(TractionBasis):
-    """Hat functions of the corner nodes."""
+    """Traction basis of hat functions: one at its own corner node, zero at all others, linear
+    between.
+    """
 
     def of(self, function: Callable[[Field], Field]) -> Field:
-        """Integrate f(r) φ(r) r dr over the radius, for each basis function φ."""
+        """Compute the integral of f(r) φ_j(r) r dr for each hat function φ_j (n,).
+
+        function  f, a function of an array of radii
+        """
         return _integrals(_hat_basis(self.radii), function)
 
 
 def corners_under(nodes: Field, reach: float) -> int:
-    """Count the corners from the axis out to a radius; corners have the even indices of `nodes`."""
+    """Count the corner nodes from the axis out to a given radius.
+
+    nodes  radii of corner and midside nodes, alternating; corners have the even indices [length]
+    reach  outer radius [length]
+    """
     return int(np.count_nonzero(nodes[::2] <= reach * (1 + SAME)))
 
 
 def hats_on(nodes: Field, reach: float = np.inf) -> Hats:
-    """Return the hats on nodes (corner and midside alternating), up to the corner at `reach`.
+    """Create the hat functions on surface nodes, from the axis to the corner node at a radius.
 
-    The last corner has half a hat: no traction acts beyond it.
+    The last corner has half a hat function, because no traction acts beyond it.
+
+    nodes  radii of corner and midside nodes, alternating (m,) [length]
+    reach  outer radius of the tractions; infinite for all nodes [length]
     """
     radii = nodes[::2][: corners_under(nodes, reach)]
     hats = _hat_basis(radii)
@@ -83,10 +106,11 @@ def hats_on(nodes: Field, reach: float = np.inf) -> Hats:
 
 
 def _hat_basis(radii: Field) -> Basis:
+    """Create the scikit-fem basis of hat functions with the given corner radii."""
     return Basis(MeshLine(radii), ElementLineP1(), intorder=ORDER)
 
 
 def _integrals(hats: Basis, function: Callable[[Field], Field]) -> Field:
-    """Return ∫ f φ r dr of every hat."""
+    """Compute the integrals ∫ f φ_j r dr of a function f(r) for all hat functions φ_j (n,)."""
     load = LinearForm(lambda hat, w: function(np.asarray(w.x[0])) * hat * w.x[0])
     return np.asarray(load.assemble(hats))

@@ -1,6 +1,7 @@
-"""Motions of a body in one angular harmonic: components, axis, resultant and far field.
+"""Motions of a body in one angular harmonic: components, axis conditions, resultant and far field.
 
-The far field is the displacement of a half-space by the resultant, on the outer boundary.
+The far field is the displacement of a half-space by the resultant of the tractions. It is
+prescribed on the outer boundary of the mesh.
 """
 
 from collections.abc import Callable
@@ -22,11 +23,11 @@ class Motion:
     """One harmonic of the displacement, with its conditions on the axis and in the far field.
 
     harmonic    n
-    components  indices of u_r (0), u_theta (1), u_z (2) in the motion
-    on_axis     by component: 0 if it is zero at r = 0, else its factor of the one displacement on
-                the axis
-    resultant   by component: factor of the nodal forces in the resultant of the surface tractions
-    lever       power of r in the resultant
+    components  indices of the components in the motion: u_r (0), u_theta (1), u_z (2)
+    on_axis     factor of each component in the single displacement of a node at r = 0; 0 if the
+                component is zero at r = 0
+    resultant   factor of the nodal forces of each component in the resultant of the tractions
+    lever       power of r in the resultant: 1 for a torque, 0 for a force
     far_field   displacement of a half-space for a unit resultant; None for zero displacement
     """
 
@@ -39,18 +40,26 @@ class Motion:
 
     @property
     def changes_volume(self) -> bool:
-        """True if the motion can change the volume; torsion cannot."""
+        """True if the motion can change the volume of the material, which is not the case in
+        torsion.
+        """
         return self.harmonic > 0 or self.components != TORSION.components
 
     def resultant_weights(self, radii: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return factors (c, m) of the generalised nodal forces in the resultant: W, T or M_z."""
+        """Return the factors of the generalised nodal forces in the resultant load, shape (c, m).
+
+        The resultant is the normal force W, the tangential force T or the torque M_z.
+
+        radii  radii of the surface nodes (m,)
+        """
         return np.multiply.outer(np.asarray(self.resultant), radii**self.lever)
 
 
 def boussinesq(r: Field, z: Field, material: IsotropicMaterial) -> Field:
-    """Compute amplitudes u_r, u_theta, u_z (3, ...) of a unit force along z at the origin, n = 0.
+    """Compute the displacement of a half-space by a unit normal force at the origin (n = 0).
 
-    Boussinesq 1885; Johnson, Contact Mechanics (1985), Eq. 3.18.
+    Return the amplitudes u_r, u_theta and u_z (3, ...) at the points (r, z). Boussinesq 1885;
+    Johnson, Contact Mechanics (1985), Eq. 3.18.
     """
     G, nu = material.shear_modulus, material.poisson_ratio
     R = np.hypot(r, z)
@@ -60,9 +69,10 @@ def boussinesq(r: Field, z: Field, material: IsotropicMaterial) -> Field:
 
 
 def cerruti(r: Field, z: Field, material: IsotropicMaterial) -> Field:
-    """Compute amplitudes u_r, u_theta, u_z (3, ...) of a unit force along theta = 0, n = 1.
+    """Compute the displacement of a half-space by a unit tangential force at the origin (n = 1).
 
-    Cerruti 1882; Johnson, Contact Mechanics (1985), Eq. 3.75.
+    The force acts along theta = 0. Return the amplitudes u_r, u_theta and u_z (3, ...) at the
+    points (r, z). Cerruti 1882; Johnson, Contact Mechanics (1985), Eq. 3.75.
     """
     G, nu = material.shear_modulus, material.poisson_ratio
     R = np.hypot(r, z)
@@ -73,9 +83,11 @@ def cerruti(r: Field, z: Field, material: IsotropicMaterial) -> Field:
 
 
 def point_torque(r: Field, z: Field, material: IsotropicMaterial) -> Field:
-    """Compute amplitudes u_r, u_theta, u_z (3, ...) of a unit torque about z at the origin, n = 0.
+    """Compute the displacement of a half-space by a unit torque about z at the origin (n = 0).
 
-    It is half of Kelvin's point couple in the full space, whose plane z = 0 is free of traction.
+    Return the amplitudes u_r, u_theta and u_z (3, ...) at the points (r, z). The plane z = 0 of a
+    full space under Kelvin's point couple is free of traction, so that each half carries half of
+    the couple.
     """
     R = np.hypot(r, z)
     u_theta = r / R**3
@@ -91,7 +103,10 @@ SHEARING = Motion(1, (0, 1, 2), (1.0, -1.0, 0.0), (np.pi, -np.pi, 0.0), 0, cerru
 
 
 def motion(harmonic: int) -> Motion:
-    """Return the motion under tractions of the harmonic: for n = 0 normal loading, not torsion."""
+    """Return the motion of a body under surface tractions of an angular harmonic n >= 0.
+
+    For n = 0 the motion is that of normal loading, not torsion. Raise ValueError for a negative n.
+    """
     if harmonic < 0:
         raise ValueError(f"harmonic {harmonic} is not 0, 1, 2, ...")
     if harmonic < 2:

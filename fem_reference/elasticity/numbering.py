@@ -1,9 +1,9 @@
-"""Degrees of freedom of a section in one harmonic, and the order in which they are eliminated.
+"""Degrees of freedom of a section in one harmonic, and the order of their elimination.
 
 The order is a nested dissection by the position of the elements. A section is cut in two along a
-line of nodes, the halves again, and so on. The nodes of a cut are eliminated after both halves,
-which they separate: no fill arises between the halves (George 1973, SIAM Journal on Numerical
-Analysis 10, 345-363).
+line of nodes, then each half is cut in two, and so on. The nodes of a cut are eliminated after both
+halves that they separate. No fill then arises between the halves (George 1973, SIAM Journal on
+Numerical Analysis 10, 345-363).
 """
 
 from dataclasses import dataclass
@@ -23,14 +23,18 @@ LEAF = 4  # elements that are not divided further
 
 @dataclass(frozen=True, eq=False)
 class Numbering:
-    """Degrees of freedom: a displacement is a factor times one. On the axis components share one.
+    """Degrees of freedom of a section: each nodal displacement is a factor times one degree of
+    freedom.
 
-    dofs      (c, n) degree of freedom of every displacement
-    factor    (c, n)
-    pressure  (m, 3) those of the elements whose pressure is unknown; they have the last numbers
-    order     (u,) unknowns in the order of elimination: those of the contact zone last
-    contact   number of unknowns before those of the contact zone
-    size      number of degrees of freedom, prescribed ones included
+    The displacement components of a node on the axis share one degree of freedom.
+
+    dofs      degree of freedom of every displacement (c, n), for c components and n nodes
+    factor    factor of every displacement (c, n)
+    pressure  degrees of freedom of the m elements whose pressure is unknown (m, 3); they have the
+              last numbers
+    order     unknowns in the order of elimination (u,); those of the contact zone are the last
+    contact   number of unknowns that precede those of the contact zone in this order
+    size      number of degrees of freedom, including prescribed ones
     """
 
     dofs: Dofs
@@ -44,10 +48,10 @@ class Numbering:
 def number_unknowns(
     section: SectionMesh, motion: Motion, basis: Basis, mixed: NDArray[np.bool_]
 ) -> Numbering:
-    """Number the degrees of freedom.
+    """Number the degrees of freedom of a section and determine the order of their elimination.
 
-    basis  of one component
-    mixed  (e,) elements whose pressure is unknown
+    basis  basis of one displacement component
+    mixed  True for elements whose pressure is unknown (e,)
     """
     components, axis = len(motion.components), basis.get_dofs("axis").all()
     surface, far = basis.get_dofs("contact").all(), basis.get_dofs("far").all()
@@ -75,10 +79,11 @@ def number_unknowns(
 
 
 def _elimination_keys(points: NDArray[np.float64], quads: Indices, elements: Indices) -> Indices:
-    """Return sort keys (2, n) of the nodes. The second key has priority.
+    """Return two sort keys of each node (2, n) for the order of elimination. The second key has
+    priority.
 
-    points, quads  corners (2, k) and elements (4, e)
-    elements       (e, 9) nodes of the elements
+    points, quads  corner positions (2, k), and corner indices of the elements (4, e)
+    elements       the 9 nodes of every element (e, 9)
     """
     leaf = _leaves(points, quads)
     count = int(elements.max()) + 1
@@ -93,7 +98,10 @@ def _elimination_keys(points: NDArray[np.float64], quads: Indices, elements: Ind
 
 
 def _leaves(points: NDArray[np.float64], quads: Indices) -> Indices:
-    """(e,) number of the leaf of every element, by repeated halving of all subtrees at once."""
+    """Return the number of the leaf of the dissection tree that contains each element (e,).
+
+    All subtrees of one level are divided at once, each at the median position of its elements.
+    """
     corners = points[:, quads]
     low, high = corners.min(axis=1), corners.max(axis=1)
     middle = 0.5 * (low + high)

@@ -1,7 +1,8 @@
-"""Bases of a section: biquadratic displacements, and pressures linear in an element.
+"""Finite-element bases of a section: biquadratic displacements and element-wise linear pressures.
 
-A field ∝ cos n theta or sin n theta has, apart from n, the derivatives u/r, u_,r and u_,z.
-Integrals have the weight r; the factors 2 pi and pi of the angle belong to the resultants.
+A field ∝ cos n theta or sin n theta has the derivatives u/r, u_,r and u_,z, and factors n.
+Integrals have the weight r. The factors 2 pi and pi from the integral over the angle are contained
+in the resultants instead.
 """
 
 from typing import Any
@@ -18,9 +19,11 @@ EXACT = 5
 
 
 class ElementQuadLinear(Element):  # type: ignore[misc]
-    """1, r and z, counted from the middle of an element over its size; no more on its edges.
+    """Discontinuous linear element on quadrilaterals, for the pressure.
 
-    What scikit-fem has on quadrilaterals is bilinear.
+    The functions are 1, r and z. r and z are measured from the middle of the element and divided by
+    the size of the element. All 3 degrees of freedom are interior. The linear functions of
+    scikit-fem on quadrilaterals are bilinear and therefore not suitable.
     """
 
     interior_dofs = 3
@@ -31,7 +34,7 @@ class ElementQuadLinear(Element):  # type: ignore[misc]
     refdom = RefQuad
 
     def gbasis(self, mapping: Any, X: Any, i: int, tind: Any = None) -> tuple[DiscreteField]:
-        """Evaluate the basis function i at points; see `skfem.Element.gbasis`."""
+        """Evaluate basis function i (0: 1, 1: r, 2: z) at points; see `skfem.Element.gbasis`."""
         at = mapping.F(X, tind)
         if i == 0:
             return (DiscreteField(np.ones_like(at[0])),)
@@ -42,9 +45,11 @@ class ElementQuadLinear(Element):  # type: ignore[misc]
 
 
 def displacement_basis(section: SectionMesh, quadrature: Any = None) -> Basis:
-    """Create the basis of one component of the displacement, with u/r, u_,r and u_,z as `grad`.
+    """Create the basis of one displacement component on a section, with the integration weight r.
 
-    quadrature  points and weights on the unit square; None for exact integration
+    The attribute `grad` of the functions contains u/r, u_,r and u_,z.
+
+    quadrature  points and weights on the unit square; None for exact integration of the energy
     """
     basis = Basis(section.mesh, ElementQuad2(), intorder=EXACT, quadrature=quadrature)
     r = np.asarray(basis.global_coordinates())[0]
@@ -56,8 +61,10 @@ def displacement_basis(section: SectionMesh, quadrature: Any = None) -> Basis:
 
 
 def pressure_basis(displacement: Basis) -> Basis:
-    """Create the basis of the pressure, at the points and with the weights of that of the
-    displacement."""
+    """Create the basis of the pressure for a given displacement basis.
+
+    The quadrature points and weights are those of the displacement basis.
+    """
     basis = displacement.with_element(ElementQuadLinear())
     basis.dx = displacement.dx
     return basis

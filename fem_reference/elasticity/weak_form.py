@@ -1,14 +1,15 @@
-"""Weak form of elasticity in a section, for one angular harmonic.
+"""Weak form of linear elasticity in the meridional section of a body, for one angular harmonic n.
 
-A load ∝ cos n theta (r and z components) and sin n theta (theta) causes displacements of this form,
-so the angle is integrated analytically and n enters the strains as a number:
+A load ∝ cos n theta (r and z components) and sin n theta (theta component) causes displacements of
+the same form. The angle is therefore integrated analytically, and n enters the strains as a number:
 
     e_rr = u_r,r              g_rz = u_r,z + u_z,r
     e_tt = (u_r + n u_t)/r    g_rt = u_t,r - (u_t + n u_r)/r
     e_zz = u_z,z              g_tz = u_t,z - n u_z/r
 
-Energies are integrals over r dr dz (see `section_basis`). Every element has one product of matrices
-of its strains: a scikit-fem form for each pair of components would take four times the time.
+Energies are integrals over r dr dz (see `section_basis`). The stiffness of each element is one
+matrix product of its strains. A scikit-fem form for each pair of components would take 4 times the
+time.
 """
 
 from dataclasses import dataclass
@@ -32,7 +33,14 @@ NORMAL = ("rr", "tt", "zz")
 
 
 def strains(u: Any, component: int, n: int) -> dict[str, Field]:
-    """The strains that one component of a displacement has a part in."""
+    """Compute the strains that one displacement component of the harmonic n causes.
+
+    The result maps the names rr, tt, zz, rz, rt and tz to the strain at the points. Shear strains
+    are engineering strains. Strains that the component does not cause are absent.
+
+    u          scikit-fem field of the component whose `grad` contains u/r, u_,r and u_,z
+    component  0 for u_r, 1 for u_theta, 2 for u_z
+    """
     over_r, along_r, along_z = u.grad
     found = (
         {"rr": along_r, "tt": over_r, "rz": along_z},
@@ -48,11 +56,13 @@ def strains(u: Any, component: int, n: int) -> dict[str, Field]:
 def element_stiffness(
     basis: Basis, section: SectionMesh, harmonic: int, components: Components
 ) -> Field:
-    """Compute the stiffness (e, 9 c, 9 c) of every element, component by component.
+    """Compute the stiffness matrices of all elements, shape (e, 9 c, 9 c) for c components.
 
-    The volume strain is projected onto linear functions of an element (Q2-P1) in every material.
-    This prevents locking of nearly incompressible layers and is exact for quadratic displacements.
-    Mixed elements of `dilatation` have no resistance to it: there the pressure is an unknown.
+    The 9 nodal values of a component are contiguous. The volume strain is projected onto linear
+    functions of an element (Q2-P1) in every material. This projection prevents locking of nearly
+    incompressible layers and is exact for quadratic displacements. Elements marked `mixed` in
+    `dilatation` have no resistance to volume strain in this matrix, because their pressure is a
+    separate unknown.
     """
     strain = _strains_of(basis, harmonic, components)
     volume = _projected_volume(basis, strain)
@@ -68,17 +78,31 @@ def element_stiffness(
 
 
 def volume_strain(basis: Basis, harmonic: int, components: Components) -> Field:
-    """Compute projections (e, 9 c, 3) of the volume strain onto orthonormal linear functions."""
+    """Compute the volume strain of the shape functions, projected onto linear functions of an
+    element.
+
+    The result (e, 9 c, 3) contains the coefficients of 3 orthonormal linear functions, for each of
+    the 9 shape functions of each of the c components.
+    """
     return _projected_volume(basis, _strains_of(basis, harmonic, components))
 
 
 def volume_strain_at(basis: Basis, points: Basis, strain: Field) -> Field:
-    """Evaluate the volume strain (e, q) of projections (e, 3), at the points of another basis."""
+    """Evaluate the projected volume strain at the quadrature points of a basis, shape (e, q).
+
+    basis   displacement basis with which the strain was projected
+    points  displacement basis at whose quadrature points the strain is evaluated
+    strain  coefficients of the 3 orthonormal linear functions of each element (e, 3)
+    """
     return np.einsum("ep,epq->eq", strain, _orthonormal(basis, _linear(points)))
 
 
 def _strains_of(basis: Basis, harmonic: int, components: Components) -> dict[str, Field]:
-    """Compute strains (e, 9 c, q) of every element's functions, component by component."""
+    """Compute the strains of the shape functions at the quadrature points of all elements.
+
+    The result maps the name of each strain to an array (e, 9 c, q) for c components and q points.
+    The 9 shape functions of a component are contiguous.
+    """
     elements, points = basis.dx.shape
     found: dict[str, Field] = {}
     for k, component in enumerate(components):
@@ -91,17 +115,28 @@ def _strains_of(basis: Basis, harmonic: int, components: Components) -> dict[str
 
 
 def _projected_volume(basis: Basis, strain: dict[str, Field]) -> Field:
+    """Project the volume strain of the shape functions onto orthonormal linear functions (e, 9 c,
+    3).
+
+    strain  strains of the shape functions by name, as returned by `_strains_of`
+    """
     volume = sum(strain[name] for name in NORMAL if name in strain) * basis.dx[:, None]
     return np.asarray(volume @ _orthonormal(basis, _linear(basis)).transpose(0, 2, 1))
 
 
 def _linear(basis: Basis) -> Field:
-    """Return the functions of the pressure (e, 3, q)."""
+    """Evaluate the linear functions 1, r and z of every element at its quadrature points (e, 3, q).
+    """
     return np.stack([np.asarray(field[0]) for field in pressure_basis(basis).basis], axis=1)
 
 
 def _orthonormal(basis: Basis, linear: Field) -> Field:
-    """Return linear functions (e, 3, q), orthonormal in their element."""
+    """Transform the functions 1, r and z of every element to orthonormal linear functions (e, 3,
+    q).
+
+    basis   displacement basis whose quadrature defines the scalar product
+    linear  values of 1, r and z at the points at which the result is evaluated (e, 3, q)
+    """
     functions = _linear(basis)
     gram = (functions * basis.dx[:, None]) @ functions.transpose(0, 2, 1)
     return np.asarray(np.linalg.solve(np.linalg.cholesky(gram), linear))
@@ -109,11 +144,14 @@ def _orthonormal(basis: Basis, linear: Field) -> Field:
 
 @dataclass(frozen=True, eq=False)
 class Dilatation:
-    """Resistance to change of volume; lambda = 2 mu nu / (1 - 2 nu), infinite at nu = 1/2.
+    """Resistance of every element to a change of volume, in terms of Lamé's constant lambda.
 
-    resistance  (e,) lambda; 0 if the pressure is an unknown
-    mixed       (e,) true if it is an unknown: with a large lambda the shear stiffness is round-off
-    compliance  (e,) 1 / lambda if the pressure is an unknown, else 0
+    lambda = 2 mu nu / (1 - 2 nu) is infinite at nu = 1/2. If lambda is much larger than mu, the
+    pressure becomes an unknown, because the shear stiffness would be lost in round-off.
+
+    resistance  lambda (e,), in units of the moduli; 0 if the pressure is an unknown
+    mixed       True for elements whose pressure is an unknown (e,)
+    compliance  1 / lambda (e,) if the pressure is an unknown, else 0
     """
 
     resistance: Field
@@ -122,7 +160,7 @@ class Dilatation:
 
 
 def dilatation(section: SectionMesh) -> Dilatation:
-    """Compute the resistance to volume strain of every element."""
+    """Compute the resistance of every element to a change of volume from its material."""
     nu = np.array([m.poisson_ratio for m in section.outline.materials])[section.layer]
     softness = (1.0 - 2.0 * nu) / (2.0 * shear_moduli(section))  # nu / lambda
     mixed = 2.0 * nu > STIFFEST * (1.0 - 2.0 * nu)
@@ -135,5 +173,5 @@ def dilatation(section: SectionMesh) -> Dilatation:
 
 
 def shear_moduli(section: SectionMesh) -> Field:
-    """Return mu of every element (e,)."""
+    """Return the shear modulus mu of every element (e,)."""
     return np.array([m.shear_modulus for m in section.outline.materials])[section.layer]

@@ -1,7 +1,7 @@
-"""The mesh of one body by gmsh: a second mesher, against which the first is checked.
+"""Mesh of one body by gmsh, a second mesher that verifies the tensor-product mesh.
 
-Layers are structured blocks; an elastic substrate is filled with quadrilaterals in no order, whose
-sizes spread from its edges.
+Layers are structured blocks. An elastic substrate is filled with unstructured quadrilaterals, whose
+sizes are interpolated from its edges.
 """
 
 import signal
@@ -42,16 +42,16 @@ _QUADRILATERAL = 3  # gmsh's number of the element with four nodes
 
 
 class GmshMissing(SolverError):
-    """gmsh cannot be loaded on this machine."""
+    """Error: the library gmsh cannot be loaded on this machine."""
 
 
 def gmsh_section_mesh(
     body: Body, elements_per_radius: int, box: float | None = None, zone: float = CONTACT_ZONE
 ) -> SectionMesh:
-    """Create the mesh of a body whose unit of length is the contact radius; see `section_mesh`.
+    """Create the mesh of a section by gmsh, for a body whose unit of length is the contact radius.
 
-    Raises GmshMissing if the library or its dependencies are not installed, and SolverError if gmsh
-    does not fill the section with quadrilaterals.
+    Arguments are those of `section_mesh`. Raise GmshMissing if gmsh or a library that it requires
+    is not installed, and SolverError if gmsh does not fill the section with quadrilaterals.
     """
     outline = section_outline(body, elements_per_radius, box, zone)
     with _gmsh_model() as gmsh:
@@ -79,7 +79,10 @@ def gmsh_section_mesh(
 
 @contextmanager
 def _gmsh_model() -> Iterator[Any]:
-    """gmsh with an empty model, which is gone afterwards."""
+    """Provide the gmsh module with an empty model, as a context manager.
+
+    On exit the model is removed and the previous gmsh options are restored.
+    """
     try:
         import gmsh
     except (ImportError, OSError) as error:
@@ -107,19 +110,27 @@ def _gmsh_model() -> Iterator[Any]:
 
 
 def _restore_broken_pipes() -> None:
-    """Restore Python's handling of broken pipes, which gmsh replaces by termination of the
-    process."""
+    """Restore Python's handling of broken pipes (SIGPIPE).
+
+    gmsh replaces Python's handler, so that a broken pipe would terminate the process.
+    """
     if threading.current_thread() is threading.main_thread():  # others must not change handlers
         signal.signal(signal.SIGPIPE, signal.getsignal(signal.SIGPIPE))
 
 
 def _set(gmsh: Any, options: Mapping[str, float]) -> None:
+    """Set numerical gmsh options by their names."""
     for name, value in options.items():
         gmsh.option.setNumber(name, value)
 
 
 def _draw(geometry: Any, outline: SectionOutline) -> None:
-    """Create lines and surfaces, with the elements of every line. Loops start along r, then z."""
+    """Create the lines and surfaces of a section in gmsh, and the number of elements on every line.
+
+    Curve loops start along r, then follow z.
+
+    geometry  gmsh geometry kernel of the current model
+    """
     h = outline.size
     across = (0.0, outline.zone, outline.box)
     depths = (0.0, *outline.interfaces)
@@ -154,11 +165,14 @@ def _draw(geometry: Any, outline: SectionOutline) -> None:
 
 
 def _divide(geometry: Any, line: int, elements: NDArray[np.floating[Any]]) -> None:
-    """Set the elements of a line to the number between the given points, in a geometric
-    progression.
+    """Set the number of elements of a gmsh line and their geometric progression.
 
-    The number is even: a surface can only be filled by quadrilaterals if its edge has an even
+    Number and progression are those of the given coordinates. The number is rounded up to an even
+    number, because a surface can only be filled with quadrilaterals if its boundary has an even
     number of elements.
+
+    line      gmsh tag of the line
+    elements  coordinates of the element ends along the line
     """
     sizes = np.diff(elements)
     count = sizes.size + sizes.size % 2

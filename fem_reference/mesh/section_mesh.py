@@ -1,4 +1,4 @@
-"""The mesh of one body: its meridional section, r across and z into the body."""
+"""Mesh of one body: its meridional section in the (r, z) plane, with z into the body."""
 
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -21,12 +21,15 @@ CLOSEST = 0.25
 
 @dataclass(frozen=True, eq=False)
 class SectionMesh:
-    """Quadrilaterals that fill a section. Lengths are in units of the expected contact radius.
+    """Mesh of quadrilaterals in a meridional section. The unit of length is the expected contact
+    radius.
 
-    points   (2, n) corners (r, z), exact on an edge, an interface or the axis
-    quads    (4, e) indices of the corners of an element, counted around it
-    outline  edges, interfaces and element sizes of the section Raises SolverError for missing
-             elements: the sum of the areas differs from that of the section.
+    The constructor raises SolverError if the sum of the element areas differs from the area of the
+    section, that is if elements are missing or overlap.
+
+    points   corners (r, z) of the elements (2, n), exact on an outer edge, an interface or the axis
+    quads    indices of the 4 corners of every element (4, e), in order around the element
+    outline  outer edges, interfaces and element sizes of the section
     """
 
     points: NDArray[np.float64]
@@ -43,9 +46,9 @@ class SectionMesh:
 
     @property
     def mesh(self) -> MeshQuad:
-        """Mesh for scikit-fem with named boundaries: axis, contact zone, and far boundary.
+        """Mesh for scikit-fem with the named boundaries "axis", "contact" (contact zone) and "far".
 
-        The far boundary has zero displacement or that of a half-space.
+        The far boundary has zero displacement, or the displacement of a half-space.
         """
         outline = self.outline
         boundaries = {
@@ -57,19 +60,22 @@ class SectionMesh:
 
     @cached_property
     def areas(self) -> NDArray[np.float64]:
-        """(e,) area of every element."""
+        """Area of every element in the (r, z) plane (e,), in units of the contact radius squared.
+        """
         (r0, r1, r2, r3), (z0, z1, z2, z3) = self.points[:, self.quads]
         return np.abs((r2 - r0) * (z3 - z1) - (r3 - r1) * (z2 - z0)) / 2.0
 
     @cached_property
     def layer(self) -> NDArray[np.int64]:
-        """(e,) index into `outline.materials` of every element."""
+        """Index of the material of every element in `outline.materials` (e,)."""
         middle = self.points[1, self.quads].mean(axis=0)
         return np.searchsorted(np.asarray(self.outline.interfaces), middle)
 
     @cached_property
     def radii(self) -> NDArray[np.float64]:
-        """(m,) radii of the nodes of the contact zone, corner and midside alternating."""
+        """Radii of the surface nodes in the contact zone (m,), corner and midside nodes
+        alternating.
+        """
         r, z = self.points
         corners = np.sort(r[(z == 0.0) & (r <= self.outline.zone)])
         radii = np.empty(2 * corners.size - 1)
@@ -78,17 +84,22 @@ class SectionMesh:
         return radii
 
     def refined(self) -> "SectionMesh":
-        """Return the mesh with every element divided into four. Its space contains that of this
-        mesh."""
+        """Return the mesh with every element divided into 4 elements.
+
+        The finite-element space of the refined mesh contains that of this mesh.
+        """
         mesh = self.mesh.refined()
         finer = replace(self.outline, size=self.outline.size / 2.0)
         return SectionMesh(np.asarray(mesh.p), np.asarray(mesh.t), finer)
 
     def towards(self, edges: NDArray[np.float64]) -> "SectionMesh":
-        """Return a mesh of rectangles with lines at these radii, refined towards them and the
-        surface.
+        """Return a mesh of rectangles that is refined towards given radii and towards the surface.
 
-        Elements are halved repeatedly. Return this mesh itself without radii.
+        The radii are mesh lines. The distance of the adjacent mesh lines from a radius, and of the
+        first lines from the surface, decreases by the factor SHRINK from line to line. Return this
+        mesh unchanged if there are no radii. Used for the stress below the edges of the tractions.
+
+        edges  radii of the edges of the tractions, in units of the contact radius
         """
         if not edges.size:
             return self
@@ -115,7 +126,7 @@ class SectionMesh:
 def section_mesh(
     body: Body, elements_per_radius: int, box: float | None = None, zone: float = CONTACT_ZONE
 ) -> SectionMesh:
-    """The graded mesh of rectangles of a body whose unit of length is the contact radius.
+    """Create the graded mesh of rectangles for a body whose unit of length is the contact radius.
 
     Arguments and errors are those of `section_outline`.
     """

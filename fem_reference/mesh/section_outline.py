@@ -1,4 +1,5 @@
-"""Outline of a section for any mesh: outer edges, interfaces, contact zone and element sizes."""
+"""Outline of a section, common to all meshers: edges, interfaces, contact zone and element sizes.
+"""
 
 from dataclasses import dataclass
 
@@ -30,15 +31,15 @@ elements down to it take memory and time without end."""
 
 @dataclass(frozen=True)
 class SectionOutline:
-    """Edges of the section 0 <= r <= box, 0 <= z <= depth, in units of the contact radius.
+    """Outline of the section 0 <= r <= box, 0 <= z <= depth, in units of the contact radius.
 
-    size        side of the elements in the contact zone
-    zone        outer radius of the contact zone: an even number of elements
-    box         outer radius
-    interfaces  depths of the interfaces and of the base, increasing; the base is the last
-    materials   above each of these, moduli in one common unit
-    rigid_base  true if the base is the surface of a rigid substrate, false for a cut through an
-                elastic one
+    size        side of the square elements in the contact zone
+    zone        outer radius of the contact zone, an even number of elements
+    box         outer radius of the section
+    interfaces  increasing depths of the interfaces between layers; the last value is the base
+    materials   material above each of these depths; moduli in one common unit
+    rigid_base  True if the base is the surface of a rigid substrate, False if the base is a cut
+                through an elastic substrate
     """
 
     size: float
@@ -50,25 +51,26 @@ class SectionOutline:
 
     @property
     def depth(self) -> float:
-        """Depth of the base."""
+        """Depth of the base of the section, in units of the contact radius."""
         return self.interfaces[-1]
 
     @property
     def pieces(self) -> tuple[tuple[float, float], ...]:
-        """Upper and lower depth of every layer, the substrate as the last."""
+        """Upper and lower depth of every layer, with an elastic substrate as the last layer."""
         return tuple(zip((0.0, *self.interfaces[:-1]), self.interfaces, strict=True))
 
 
 def section_outline(
     body: Body, elements_per_radius: int, box: float | None, zone: float
 ) -> SectionOutline:
-    """The outline for a body whose unit of length is the contact radius.
+    """Create the outline of a section for a body whose unit of length is the contact radius.
 
-    elements_per_radius  N: the elements of the contact zone have the side 1/N
-    box                  outer radius and depth of the section; None: `sufficient_box`
-    zone                 the contact zone reaches at least so far
-    Raises ValueError for sizes that make no mesh, UnsupportedScene for layers too thin or too thick
-    for one, SolverError for a box too small for the body.
+    elements_per_radius
+            number N of elements per contact radius; elements of the contact zone have the side 1/N
+    box     outer radius and depth of the section; None for `sufficient_box`
+    zone    least outer radius of the contact zone
+    raises  ValueError for fewer than 2 elements per radius, UnsupportedScene for layers that are
+            too thin or too thick, SolverError for a box that is too small
     """
     if elements_per_radius < 2:
         raise ValueError(f"{elements_per_radius} elements per contact radius: give at least 2")
@@ -103,12 +105,13 @@ def section_outline(
 
 
 def sufficient_box(body: Body) -> float:
-    """Estimate the radius beyond which the far field of the substrate applies to the stack.
+    """Estimate the least outer radius L of a section, in units of the contact radius.
 
-    With x the sum over the layers of thickness times relative difference from the substrate's
-    stiffness, the relative error of the shift is about x / L^2, and that of the approach is
-    smaller. A stack that spreads the load, x > 1, has an error of 0.06 x^2 / L^2. The limit is
-    1e-5.
+    The displacement of a half-space of the substrate material is prescribed at this radius. Let x
+    be the sum over the layers of thickness times the relative difference of their stiffness from
+    the substrate. The relative error of the tangential shift is about x / L^2, and that of the
+    approach is smaller. Layers that spread the load (x > 1) cause an error of 0.06 x^2 / L^2. The
+    limit of the error is 1e-5.
     """
     thickness = sum(layer.thickness for layer in body.layers)
     x = 0.0
@@ -120,7 +123,10 @@ def sufficient_box(body: Body) -> float:
 
 
 def _difference(layer: IsotropicMaterial, substrate: IsotropicMaterial) -> float:
-    """Return the larger of the relative differences of the shear and the plane-strain modulus."""
+    """Compute the relative difference of stiffness between a layer and the substrate [1].
+
+    The result is the larger of the differences of the shear modulus and the plane-strain modulus.
+    """
     return max(
         abs(layer.shear_modulus / substrate.shear_modulus - 1.0),
         abs(layer.plane_strain_modulus / substrate.plane_strain_modulus - 1.0),
@@ -128,7 +134,11 @@ def _difference(layer: IsotropicMaterial, substrate: IsotropicMaterial) -> float
 
 
 def graded(start: float, end: float, origin: float, size: float) -> NDArray[np.float64]:
-    """Lines from start to end; elements have `size` at the origin and grow by GROWTH from there."""
+    """Compute the coordinates of graded mesh lines from `start` to `end`.
+
+    Elements have the given size at `origin`. Neighbouring elements grow by the factor GROWTH with
+    the distance from there. There are at least LAYER_ELEMENTS elements.
+    """
     slope = np.log(GROWTH)
     reach = size * slope / (GROWTH - 1.0)
     lower, upper = np.log(reach + slope * (np.array([start, end]) - origin)) / slope
