@@ -1,1 +1,1 @@
-"""Compliance of the surface: normal and tangential displacement of rings and angles."""
+"""Compliance of the contact surface: displacement of rings and of points per traction on them."""

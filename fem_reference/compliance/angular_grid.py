@@ -1,8 +1,9 @@
-"""Angular points on a ring, and the transforms between point values and harmonics.
+"""Points at equal angles on a ring, and transforms between point values and angular harmonics.
 
-All fields are mirror symmetric in θ: q_r, p and the displacements u_r, u_z are sums of cos nθ; q_θ
+All fields are mirror symmetric in θ. q_r, p and the displacements u_r, u_z are sums of cos nθ. q_θ
 and u_θ are sums of sin nθ. The half circle is therefore sufficient. The number of harmonics equals
-the number of unknowns on a ring: more are not unique, fewer make the tangential problem singular.
+the number of unknowns on a ring. More harmonics are not unique, and fewer make the tangential
+problem singular.
 """
 
 from dataclasses import dataclass
@@ -15,12 +16,13 @@ from contact_scene.array_types import Matrix, Vector
 
 @dataclass(frozen=True)
 class AngularGrid:
-    """Angles on the half circle with the transforms between point values and amplitudes.
+    """Angles on the half circle, with the transforms between point values and harmonic amplitudes.
 
-    angles   θ_j (points,)
-    weights  angle of the full circle that each point represents (points,), summing to 2π
-    cosines  amplitudes of cos nθ from point values (harmonics, points)
-    sines    amplitudes of sin nθ from point values; zero if sin nθ is zero at all points
+    angles   θ_j (points,) [radian]
+    weights  angle of the full circle that each point represents (points,), with the sum 2π
+    cosines  matrix from point values to the amplitudes of cos nθ (harmonics, points)
+    sines    matrix from point values to the amplitudes of sin nθ (harmonics, points); a row is zero
+             if sin nθ is zero at all points
     """
 
     angles: Vector
@@ -30,50 +32,65 @@ class AngularGrid:
 
     @property
     def points(self) -> int:
-        """Number of points on a ring."""
+        """Number of points on the half circle of a ring."""
         return len(self.angles)
 
     @property
     def highest(self) -> int:
-        """The highest harmonic n."""
+        """Highest angular harmonic n of the transforms."""
         return len(self.cosines) - 1
 
     @property
     def transforms(self) -> tuple[Matrix, Matrix, Matrix]:
-        """Amplitudes from point values for the components r, θ, z."""
+        """Matrices from point values to harmonic amplitudes for the components r, θ and z."""
         return self.cosines, self.sines, self.cosines
 
     @property
     def norms(self) -> Vector:
-        """c_n with Σ_j weight_j f_j cos nθ_j = c_n f_n: 2π for constants and for the harmonic that
-        alternates from point to point, π for all others (harmonics,)."""
+        """Factors c_n (harmonics,) with Σ_j weight_j f_j cos nθ_j = c_n f_n for the amplitudes f_n.
+
+        c_n is 2π for constants and for the harmonic that alternates from point to point, and π for
+        all others.
+        """
         powers = [np.sum(d**2 / self.weights, axis=1) for d in (self.cosines, self.sines)]
         return np.asarray(1 / np.maximum(*powers))
 
     def amplitudes(self, values: Matrix) -> Matrix:
-        """Transform r, θ, z point values (3, rings, points) to amplitudes (3, rings,
-        harmonics)."""
+        """Transform point values of a vector field to harmonic amplitudes.
+
+        values   components r, θ, z at the points (3, rings, points)
+        returns  amplitudes of the components (3, rings, harmonics)
+        """
         return np.stack([f @ d.T for f, d in zip(values, self.transforms, strict=True)])
 
     def at_points(self, amplitudes: Matrix) -> Matrix:
-        """Transform r, θ, z amplitudes (3, rings, harmonics) to point values (3, rings,
-        points)."""
+        """Transform harmonic amplitudes of a vector field to point values.
+
+        amplitudes  amplitudes of the components r, θ, z (3, rings, harmonics)
+        returns     components r, θ, z at the points (3, rings, points)
+        """
         waves = [d * self.norms[:, None] / self.weights for d in self.transforms]
         return np.stack([f @ wave for f, wave in zip(amplitudes, waves, strict=True)])
 
     def modes(self, angles: Vector) -> tuple[Matrix, Matrix]:
-        """Compute cos nθ and sin nθ at given angles (harmonics, angles)."""
+        """Compute cos nθ and sin nθ of all harmonics n at given angles, each (harmonics, angles).
+        """
         phase = np.outer(np.arange(self.highest + 1), angles)
         return np.cos(phase), np.sin(phase)
 
 
 def axisymmetric_grid() -> AngularGrid:
-    """Create the grid of one point per ring, for fields that do not depend on θ."""
+    """Create the grid with one point per ring, for fields that do not depend on the angle θ."""
     return AngularGrid(np.zeros(1), np.full(1, 2 * np.pi), np.ones((1, 1)), np.ones((1, 1)))
 
 
 def end_grid(highest: int) -> AngularGrid:
-    """Create the grid θ_j = πj/J, j = 0…J, with points on y = 0, where q_θ vanishes."""
+    """Create the angular grid θ_j = πj/J, j = 0…J, which includes θ = 0 and θ = π.
+
+    These two points are on the line y = 0 of the load, where the circumferential shear q_θ is zero.
+
+    highest  J, highest harmonic
+    """
     J = highest
     share = np.full(J + 1, 2 * np.pi / J)
     share[[0, J]] /= 2
@@ -85,7 +102,12 @@ def end_grid(highest: int) -> AngularGrid:
 
 
 def mid_grid(highest: int) -> AngularGrid:
-    """Create the grid θ_j = π(j + ½)/J, j = 0…J−1, which has sin Jθ, but not cos Jθ."""
+    """Create the angular grid θ_j = π(j + ½)/J, j = 0…J−1, without the points θ = 0 and θ = π.
+
+    The grid can represent sin Jθ, but not cos Jθ.
+
+    highest  J, highest harmonic
+    """
     J = highest
     cosines = np.zeros((J + 1, J))
     cosines[:J] = dct(np.eye(J), type=2, axis=0) / J

@@ -1,8 +1,9 @@
-"""Gauss points of the contact edges, at which the penalty law acts on rings.
+"""Gauss points of the element edges in contact, at which the penalty law acts on rings.
 
-Three points on an edge resolve the overlap that quadratic displacements leave in the springs of the
-law; two hat functions do not. The exact law cannot act there: the displacements cannot distinguish
-the pressures of three points on an edge.
+Three Gauss points on an edge resolve the overlap of the surfaces that the penalty springs permit
+when displacements are quadratic. Two hat functions do not resolve it. The exact contact law cannot
+act at Gauss points, because the displacements cannot distinguish the pressures of three points on
+an edge.
 """
 
 from collections.abc import Callable
@@ -16,17 +17,26 @@ POINTS_PER_EDGE = 3
 
 
 class GaussPoints(TractionBasis):
-    """Gauss points r_g with weights w_g r_g: the functions are one at a point, zero at others."""
+    """Traction basis of Gauss points: the tractions are concentrated on rings through the Gauss
+    points.
+
+    The function of a point r_g is one at the point and zero at all others. The integral of f over r
+    dr is Σ f(r_g) w_g r_g with the Gauss weights w_g.
+    """
 
     def of(self, function: Callable[[Field], Field]) -> Field:
-        """Integrate f φ r dr for a function f of the radius."""
+        """Compute the integral of f(r) φ_g r dr for the function φ_g of each Gauss point (points,).
+
+        function  f, a function of an array of radii
+        """
         return self.weights * function(self.radii)
 
 
 def gauss_points(nodes: Field, reach: float = np.inf) -> GaussPoints:
-    """Create Gauss points on every edge between Q2 nodes, up to the corner at `reach`.
+    """Create the Gauss points on all surface edges of elements, from the axis to a given radius.
 
-    nodes  radii of corner and midside nodes in turn, corners first and last (m,) [length]
+    nodes  radii of corner and midside nodes, alternating; first and last are corners (m,) [length]
+    reach  outer radius of the tractions, rounded to a corner [length]
     """
     places, parts = np.polynomial.legendre.leggauss(POINTS_PER_EDGE)
     quadratic = np.array([places * (places - 1) / 2, 1 - places**2, places * (places + 1) / 2])

@@ -1,4 +1,4 @@
-"""Compliance between the points (r_i, θ_j): the harmonics put together."""
+"""Compliance between the points (r_i, θ_j) of the surface, assembled from the angular harmonics."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -16,16 +16,17 @@ Scalar = TypeVar("Scalar", np.float64, np.bool_)
 
 @dataclass(frozen=True)
 class PointCompliance:
-    """Displacements of all points by tractions on all points, weighted with the area of a point.
+    """Displacements of all surface points by tractions on all surface points.
 
-    The point on ring r_i at angle θ_j stands for the area w_ij = Δθ_j ∫ φ_i r dr. The first ring is
-    one point: on several angles it is the axis, with one traction for the whole hat that peaks
-    there. Fields on points are flat (points,), the axis first, then ring by ring; vectors
-    (2, points) are r and θ components, on the axis of several angles x and y.
+    The point on the ring r_i at the angle θ_j represents the area w_ij = Δθ_j ∫ φ_i r dr, and
+    displacements are weighted with this area. On a grid of several angles, the first ring is the
+    axis and is one point with one traction. Fields on points are flat (points,): first the axis,
+    then ring by ring. Vectors (2, points) have the components r and θ, on the axis of several
+    angles x and y.
 
-    rings, grid  where the points are
-    springs      compliance of springs between the surfaces, the same along and across them
-                 [length^3/force]: zero, or one over a penalty
+    rings, grid  radii and angles of the points, with the compliance of the rings
+    springs      compliance of penalty springs between the surfaces, equal in the normal and
+                 tangential direction [length^3/force]; zero without a penalty
     """
 
     rings: RingCompliance
@@ -34,25 +35,29 @@ class PointCompliance:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Rings, the axis among them, and angles."""
+        """Number of rings, including the axis, and number of angles."""
         return len(self.rings.radii), self.grid.points
 
     @cached_property
     def ring_of_point(self) -> NDArray[np.intp]:
-        """Index of the ring of each point (points,)."""
+        """Index of the ring that contains each point (points,)."""
         rings, angles = self.shape
         return np.concatenate([[0], np.repeat(np.arange(1, rings), angles)])
 
     @cached_property
     def areas(self) -> Vector:
-        """w (points,) [length^2]; their sum is the area of the zone."""
+        """Areas w that the points represent (points,) [length^2]. Their sum is the area of the
+        contact zone.
+        """
         weights = self.grid.weights
         around = np.tile(weights, len(self.rings.radii) - 1)
         return self.rings.areas[self.ring_of_point] * np.concatenate([[np.sum(weights)], around])
 
     @cached_property
     def motion(self) -> Field:
-        """Displacement of the points per unit of the indenter's shift or twist (2, points)."""
+        """Tangential displacement of the points per unit shift or twist of the indenter (2,
+        points).
+        """
         if self.grid.highest == 0:
             return self.rings.motion
         around = np.tile(self._e_x_around, len(self.rings.radii) - 1)
@@ -60,35 +65,45 @@ class PointCompliance:
 
     @cached_property
     def stretch(self) -> Field:
-        """Displacement of the points per unit of an equibiaxial strain (2, points) [length]."""
+        """Tangential displacement of the points per unit equibiaxial strain (2, points) [length].
+        """
         outward = self.rings.stretch[self.ring_of_point]
         return np.stack([outward, np.zeros_like(outward)])
 
     @cached_property
     def along(self) -> Field:
-        """Load, a force or torque: Σ along · q (2, points) [length^2] or [length^3]."""
+        """Factors of the shear q in the tangential load (2, points): the load is Σ along · q.
+
+        The load is a force [factors in length^2] or a torque [factors in length^3].
+        """
         return np.asarray(self.areas * self.motion)
 
     @cached_property
     def carries_shear(self) -> NDArray[np.bool_]:
-        """Mask of the points that can carry shear (points,).
+        """True for the points that can carry shear (points,).
 
-        The axis carries shear only along a tangential load.
+        The point on the axis carries shear only under a tangential load.
         """
         on_axis = self.rings.radii[self.ring_of_point] == 0.0
         return np.asarray(~on_axis | (self.motion[0] != 0.0))
 
     @cached_property
     def couples(self) -> bool:
-        """True if pressure causes relative tangential displacement."""
+        """True if pressure causes relative tangential displacement of the two surfaces."""
         return any(np.any(A[:2, :, 2]) for A in self.rings.harmonics)
 
     @cached_property
     def matrix(self) -> Matrix:
-        """K (3 points, 3 points), components r, θ, z outermost: w u = K t. Symmetric, positive
-        definite. Where mirror symmetry leaves no component, a diagonal entry keeps it zero.
+        """Compliance matrix K of all points (3 points, 3 points) with w u = K t; r, θ, z are
+        outermost.
 
-        K_ab = Σ_n c_n A^n_ab ⊗ D_aᵀ D_b with D the amplitudes from point values.
+        Here t are the tractions, u the displacements and w the areas of the points. K is symmetric
+        and positive definite. If mirror symmetry excludes a component at a point, a diagonal entry
+        keeps this component zero. The blocks of components a and b are
+
+            K_ab = Σ_n c_n A^n_ab ⊗ D_aᵀ D_b
+
+        with the ring compliances A^n and the matrices D from point values to amplitudes.
         """
         rings, angles = self.shape
         harmonics = np.stack(self.rings.harmonics[: self.grid.highest + 1], axis=-1)
@@ -107,9 +122,14 @@ class PointCompliance:
         return K
 
     def displacement(self, pressure: Vector, shear: Field) -> tuple[Field, Vector]:
-        """Compute u_t (2, points) and u_z (points,) [length] harmonic by harmonic.
+        """Compute the tangential (2, points) and normal (points,) displacement by given tractions
+        [length].
 
-        The matrix is not used. u_t is zero at points that cannot carry shear.
+        The computation is done harmonic by harmonic, independently of the compliance matrix. The
+        tangential displacement is set to zero at points that cannot carry shear.
+
+        pressure  pressure at the points (points,) [force/length^2]
+        shear     shear at the points (2, points) [force/length^2]
         """
         tractions = np.stack([*shear, pressure])
         amplitudes = self.grid.amplitudes(self._spread(tractions))
@@ -125,25 +145,33 @@ class PointCompliance:
         return u[:2] * self.carries_shear, u[2]
 
     def scalar_on_grid(self, values: NDArray[Scalar]) -> NDArray[Scalar]:
-        """Convert values at points to (rings, angles)."""
+        """Convert a scalar field from points (points,) to the shape (rings, angles).
+
+        The value of the axis is repeated for all angles.
+        """
         rings, angles = self.shape
         on_grid = [np.repeat(values[:1], angles), values[1:]]
         return np.concatenate(on_grid).reshape(rings, angles)
 
     def vector_on_grid(self, values: Field) -> Field:
-        """Convert a vector at points to r and θ components (2, rings, angles)."""
+        """Convert a vector field from points (2, points) to components r and θ (2, rings, angles).
+        """
         return self._spread(np.stack([*values, np.zeros_like(values[0])]))[:2]
 
     @cached_property
     def _e_x_around(self) -> Field:
-        """e_x in r, θ components (2, angles)."""
+        """Components r and θ of the unit vector along x at all angles (2, angles)."""
         cos, sin = np.cos(self.grid.angles), np.sin(self.grid.angles)
         return np.stack([cos, np.where(np.any(self.grid.sines, axis=0), -sin, 0.0)])
 
     @cached_property
     def _axis(self) -> Field:
-        """Unit tractions of the axis x, y, z (3,) in components r, θ, z (3,) at all angles: none
-        along y, by mirror symmetry. Where nothing depends on θ it is a ring like the others."""
+        """Components r, θ and z at all angles of unit tractions on the axis along x, y and z.
+
+        The shape is (3, 3, angles): component first, then direction. The traction along y is zero
+        by mirror symmetry. On a grid of one angle the axis is treated as a ring, and the matrix is
+        the identity.
+        """
         if self.grid.highest == 0:
             return np.eye(3)[:, :, None]
         unit = np.zeros((3, 3, self.grid.points))
@@ -152,14 +180,20 @@ class PointCompliance:
         return unit
 
     def _spread(self, values: Field) -> Field:
-        """Convert values at points (3, points) to (3, rings, angles)."""
+        """Convert a vector field from points (3, points) to components r, θ and z (3, rings,
+        angles).
+        """
         rings, angles = self.shape
         axis = np.einsum("cak,c->ak", self._axis, values[:, 0])
         return np.concatenate([axis[:, None], values[:, 1:].reshape(3, rings - 1, angles)], axis=1)
 
     def _summed_on_axis(self, weak: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the displacement (3, points, …) on which tractions (3, rings, angles, …) do
-        work."""
+        """Convert weighted displacements from rings and angles (3, rings, angles, …) to points (3,
+        points, …).
+
+        On the axis the values of all angles are summed to components x, y and z. This conversion is
+        the transpose of `_spread`, so that the work of the tractions is preserved.
+        """
         axis = np.einsum("cak,ak...->c...", self._axis, weak[:, 0])
         rest = weak[:, 1:].reshape(3, -1, *weak.shape[3:])
         return np.concatenate([axis[:, None], rest], axis=1)

@@ -1,4 +1,4 @@
-"""Compliance of rings: displacement of rings per traction on rings, by angular harmonics."""
+"""Compliance of rings: displacement of rings per traction on rings, for each angular harmonic."""
 
 from dataclasses import dataclass
 
@@ -26,21 +26,24 @@ R, THETA, Z = range(3)
 
 @dataclass(frozen=True)
 class RingCompliance:
-    """Displacement amplitudes by traction amplitudes, both over the functions φ of the rings.
+    """Displacement amplitudes of the rings per traction amplitude, for all angular harmonics.
 
-    radii      of the rings, ascending (rings,) [length]
+    Displacements are integrated, and tractions interpolated, with one function φ of the radius for
+    each ring.
+
+    radii      ascending radii of the rings (rings,) [length]
     areas      ∫ φ r dr (rings,) [length^2]
-    gap        undeformed, the mean over φ (rings,) [length]
+    gap        undeformed gap, the mean weighted with φ (rings,) [length]
     harmonics  for n = 0, 1, …: ∫ φ_i u r dr of the components r, θ, z of the displacement, lower
-               body minus indenter, per traction with profile φ_k (3, rings, 3, rings)
-               [length^5/force], symmetric. On Path.SHEARING the component r is the one along the
+               body minus indenter, per traction with the profile φ_k (3, rings, 3, rings)
+               [length^5/force], symmetric. On Path.SHEARING component r is the direction of the
                load
     path       tractions of the solve
-    motion     displacement of the rings per unit of the indenter's shift or twist (2, rings), for
+    motion     displacement of the rings per unit shift or twist of the indenter (2, rings), for
                tractions that do not depend on θ; zero if symmetry excludes the motion
-    stretch    radius of the rings, the mean over φ (rings,) [length]
+    stretch    radius of the rings, the mean weighted with φ (rings,) [length]
     reach      outer end of the last element [length]
-    edge       rule that determines the edge of the contact between rings
+    edge       rule that determines the radius of the contact edge between rings
     """
 
     radii: Vector
@@ -54,17 +57,23 @@ class RingCompliance:
     edge: Edge
 
     def contact_edge(self, pressure: Vector) -> float:
-        """Find the radius where a pressure (rings,) ends [length]."""
+        """Compute the radius of the contact edge, at which the pressure decreases to zero [length].
+
+        pressure  pressure at the rings (rings,) [force/length^2]
+        """
         return contact_edge(self.radii, pressure, self.edge, self.reach)
 
 
 def ring_compliance(
     model: ContactModel, path: Path, highest: int = 0, at_gauss_points: bool = False
 ) -> RingCompliance:
-    """Compute the compliance of the bodies of a model; condense the motions that are missing.
+    """Compute the compliance of the rings from the nodal compliances of a model.
 
-    highest          harmonic, on a path with coupled pressure and shear
-    at_gauss_points  rings are at Gauss points instead of corner nodes
+    Nodal compliances that are missing in the model are computed.
+
+    path             tractions of the solve
+    highest          highest angular harmonic; zero unless pressure and shear are coupled
+    at_gauss_points  True for rings at the Gauss points instead of the corner nodes
     """
     nodes = model.radii
     basis: TractionBasis = gauss_points(nodes, model.rim) if at_gauss_points else model.hats

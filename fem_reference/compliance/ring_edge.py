@@ -1,17 +1,20 @@
-"""Radius of the contact and of the stick zone, resolved below the size of elements.
+"""Radii of the edges of the contact and of the stick zone, resolved below the element size.
 
-The pressure at the edge of a smooth contact is proportional to the root of the distance. On hats of
-equal width, its nodal values near the edge depend only on the position of the edge in its element:
-the first zero is one element beyond the last ring with pressure, and the ratio of the last two
-values determines the position. The relation is that of plane contact of a parabola, solved with
-equal hats and the kernel -ln|x| of a half-plane. Every smooth contact is of this form close to its
-edge. The compliance of elements at the edge deviates from a half-plane by a correction that depends
-on Poisson's ratio. The difference of the shear from the limit has the same form at the border of
-the stick zone (Cattaneo 1938), without this correction.
+The pressure at the edge of a smooth contact is proportional to the square root of the distance from
+the edge. For hat functions of equal width, the nodal values near the edge depend only on the
+position of the edge in its element. The first ring without pressure is one element beyond the last
+ring with pressure. The ratio of the last two positive values determines the position of the edge.
 
-At Gauss points, three per element, the squares of the values are fitted by a parabola in r² without
-the last element. The fit uses tractions of springs only: augmented tractions oscillate at the edge.
-The error of the radii is below 0.1 h for any position of the edge in an element.
+This relation is that of the plane contact of a parabola, solved with equal hat functions and the
+kernel -ln|x| of a half-plane. Every smooth contact has this form close to its edge. Finite elements
+at the edge deviate from a half-plane by a correction that depends on Poisson's ratio. The
+difference between friction limit and shear has the same form at the edge of the stick zone
+(Cattaneo 1938), without this correction.
+
+At Gauss points (three per element) the squares of the values are fitted by a parabola in r²,
+without the last element. The fit uses the tractions of the first penalty pass only, because
+augmented tractions oscillate at the edge. The error of the radii is below 0.1 h (h: element size)
+for any position of the edge in an element.
 """
 
 from dataclasses import dataclass
@@ -51,10 +54,12 @@ FEWEST = 5
 
 
 def beyond_pressure(*bodies: Body) -> Beyond:
-    """Compute the distance of the contact edge from the last ring, in elements.
+    """Compute the polynomial for the distance of the contact edge from the last ring with pressure.
 
-    The result is a polynomial in the ratio of the last two values. The correction for square
-    elements is the mean over the bodies, weighted with their compliances. At least one deforms.
+    The result contains the coefficients, lowest power first. The argument is the ratio of the
+    pressures of the last two rings with pressure, the value is the distance in elements. The
+    correction for square elements is the mean over the bodies, weighted with their compliances. At
+    least one body must deform.
     """
     outermost = [body.elastic_materials[0] for body in bodies if body.deforms]
     gives = np.array([1.0 / m.plane_strain_modulus for m in outermost])
@@ -63,36 +68,48 @@ def beyond_pressure(*bodies: Body) -> Beyond:
 
 
 class Edge(Protocol):
-    """Rule for the radius where a traction that falls like a square root reaches zero."""
+    """Rule for the radius at which a traction decreases to zero like the root of the distance."""
 
     @property
     def of_stick(self) -> "Edge":
-        """The rule for the shear that is missing from full slip."""
+        """Rule for the edge of the stick zone, where the shear reaches the friction limit.
+
+        The rule applies to the difference between the friction limit and the shear.
+        """
 
     def radius(self, radii: Field, values: Field, last: int, step: int = 1) -> float:
-        """Find the radius where values reach zero [length].
+        """Compute the radius at which ring values decrease to zero [length].
 
-        values  (n,), positive at the ring `last` and before it, none at the next
-        step    +1 where they fall outwards, -1 where they fall inwards
+        radii   radii of the rings (n,) [length]
+        values  values at the rings (n,), positive at the ring `last` and before it, zero at the
+                next ring
+        last    index of the last ring with a positive value
+        step    +1 if the values decrease outwards, -1 if they decrease inwards
         """
 
 
 @dataclass(frozen=True)
 class HatEdge:
-    """The edge of tractions on hat functions.
+    """Rule for the edge of tractions that are interpolated with hat functions.
 
-    beyond  elements from the last ring to the edge, by powers of the ratio of the last two values
+    beyond  coefficients of the polynomial for the distance in elements from the last ring to the
+            edge, in powers of the ratio of the last two positive values
     """
 
     beyond: Beyond = BEYOND
 
     @property
     def of_stick(self) -> "HatEdge":
-        """Rule of a half-plane for the border of stick, without the correction of elements."""
+        """Rule of a half-plane for the edge of the stick zone, without the correction for finite
+        elements.
+        """
         return HatEdge()
 
     def radius(self, radii: Field, values: Field, last: int, step: int = 1) -> float:
-        """Compute the radius; see `Edge.radius`."""
+        """Compute the radius at which ring values decrease to zero; see `Edge.radius`.
+
+        The distance from the last ring follows from the ratio of the last two positive values.
+        """
         before, after = last - step, last + step
         width = radii[after] - radii[last]
         if not 0 <= before < len(radii) or values[before] <= 0:
@@ -110,20 +127,25 @@ class HatEdge:
 
 @dataclass(frozen=True)
 class GaussEdge:
-    """The edge of tractions at Gauss points.
+    """Rule for the edge of tractions at Gauss points.
 
-    element  length of an element [length]
+    element  length of an element edge on the surface [length]
     """
 
     element: float
 
     @property
     def of_stick(self) -> "GaussEdge":
-        """The same."""
+        """Rule for the edge of the stick zone, equal to the rule for the contact edge."""
         return self
 
     def radius(self, radii: Field, values: Field, last: int, step: int = 1) -> float:
-        """Compute the radius; see `Edge.radius`."""
+        """Compute the radius at which point values decrease to zero; see `Edge.radius`.
+
+        The squares of the values near the edge are fitted by a parabola in r², whose zero is the
+        result. If there are too few values or no zero, the result is the middle between the last
+        point and the next.
+        """
         beyond = last + step
         middle = radii[last]
         if 0 <= beyond < len(radii):
@@ -140,11 +162,14 @@ class GaussEdge:
 
 
 def contact_edge(radii: Field, pressure: Field, edge: Edge, reach: float | None = None) -> float:
-    """Find the radius where the pressure ends [length]: the rim of a flat punch if its last ring
-    carries any, 0 where none does.
+    """Compute the radius of the contact edge, at which the pressure decreases to zero [length].
 
-    pressure  (n,), not negative
-    reach     outer end of the last element [length]; None: its last ring
+    If the last ring carries pressure, the result is the outer end of the last element, as for a
+    flat punch. Without pressure the result is 0.
+
+    pressure  pressure at the rings (n,), not negative
+    edge      rule for the radius between two rings
+    reach     outer end of the last element [length]; None for the radius of the last ring
     """
     carrying = np.flatnonzero(pressure > 0)
     if len(carrying) == 0:
@@ -158,11 +183,15 @@ def contact_edge(radii: Field, pressure: Field, edge: Edge, reach: float | None 
 def stick_area(
     radii: Field, bound: Field, shear: Field, slips: Mask, contact_radius: float, edge: Edge
 ) -> float:
-    """Compute the area of the stick zone, with edges between the rings [length^2].
+    """Compute the area of the stick zone, whose edges are resolved between the rings [length^2].
 
-    bound  friction limit (n,), zero where there can be no shear
-    shear  its components (c, n), one or two
-    slips  (n,) neither where the surfaces stick nor where they are apart
+    The fields are those of an axisymmetric contact, or those along one ray.
+
+    bound           friction limit µp at the rings (n,), zero where no shear is possible
+    shear           one or two components of the shear at the rings (c, n)
+    slips           True for rings that are in contact and slip (n,)
+    contact_radius  radius of the contact edge [length]
+    edge            rule for the radius of an edge between two rings
     """
     if not np.any(bound > 0):
         return 0.0

@@ -1,1 +1,1 @@
-"""Contact of two bodies that are known by their compliances."""
+"""Contact with friction between two bodies that are represented by their surface compliances."""

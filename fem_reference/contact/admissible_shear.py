@@ -1,6 +1,8 @@
-"""The set of admissible shears: every vector within its disc, and the resultant T if that is given.
+"""Set of admissible shears: every shear vector lies within the friction limit of its point.
 
-Discs are the same in (q_r, q_θ) as in (q_x, q_y).
+The friction limit is a disc for each point. If the tangential load is prescribed, the resultant of
+the shear is equal to the load T. A disc has the same form in the components (q_r, q_θ) and (q_x,
+q_y).
 """
 
 import numpy as np
@@ -12,7 +14,12 @@ ROUND_OFF = 4e-16
 
 
 def into_discs(q: Field, bound: Vector) -> Field:
-    """Restrict vectors q (2, points) to discs of radius `bound` by projection."""
+    """Reduce shear vectors that exceed the friction limit to the limit, without a change of
+    direction.
+
+    q      shear vectors (2, points) [force/length^2]
+    bound  friction limit of each point (points,) [force/length^2]
+    """
     length = np.sqrt(q[0] ** 2 + q[1] ** 2)
     longer = length > bound
     return np.asarray(q * np.where(longer, bound / np.where(longer, length, 1.0), 1.0))
@@ -21,14 +28,17 @@ def into_discs(q: Field, bound: Vector) -> Field:
 def project(
     q: Field, bound: Vector, stiffness: Vector, along: Field, total: float | None
 ) -> tuple[Field, float]:
-    """Return the projection of q onto the admissible shears in the metric Σ d |·|².
+    """Compute the projection of a shear field onto the set of admissible shears.
 
-    stiffness  d (points,) > 0
-    along      (2, points); the total is Σ along · q
-    total      T, smaller than Σ bound |along|; None without this condition
-    returns    P(q + λ along/d) with the λ that gives the total
+    The metric is Σ d |·|². The result is P(q + λ along/d), with P the projection of each vector
+    onto its disc, and the multiplier λ. The resultant increases with λ. λ is found by Newton's
+    method within a shrinking bracket, which therefore converges.
 
-    The total increases with λ, so that Newton's method within a shrinking bracket converges.
+    q          shear vectors (2, points)
+    bound      friction limit, the radius of each disc (points,)
+    stiffness  d > 0 (points,)
+    along      factors of the shear in the resultant Σ along · q (2, points)
+    total      prescribed resultant T, smaller than Σ bound |along|; None if it is not prescribed
     """
     if total is None:
         return into_discs(q, bound), 0.0
@@ -57,7 +67,13 @@ def project(
 
 
 def _slope(moved: Field, bound: Vector, along: Field, push: Field) -> float:
-    """Compute the derivative of the total by the multiplier; vectors at their bound only turn."""
+    """Compute the derivative of the resultant of the projected shear by the multiplier λ.
+
+    Vectors at the friction limit change their direction only.
+
+    moved  shear vectors before the projection (2, points)
+    push   derivative of these vectors by λ (2, points)
+    """
     length = np.sqrt(moved[0] ** 2 + moved[1] ** 2)
     outside = length > bound
     safe = np.where(outside, length, 1.0)
@@ -68,7 +84,10 @@ def _slope(moved: Field, bound: Vector, along: Field, push: Field) -> float:
 
 
 def _between(low: float, high: float, jump: float) -> float:
-    """A point inside bounds that may be infinite."""
+    """Return a point between two bounds of a bracket, which may be infinite.
+
+    jump  distance of the point from the finite bound if the other bound is infinite
+    """
     if np.isinf(high):
         return low + jump
     return high - jump if np.isinf(low) else 0.5 * (low + high)

@@ -1,9 +1,10 @@
 """Alternating (block Gauss-Seidel) iteration of the coupled normal and tangential problems.
 
-Each iteration solves the shear at the last pressure and the pressure at that shear (Panagiotopoulos
-1975). It contracts by about max(β², µ|β|), with Dundurs' second constant β, and diverges for
-µ|β| ≥ 1. Anderson mixing of the pressures (Anderson 1965) removes that limit up to µ|β| far above
-one. Its solution is the initial guess of `coupled_newton`. Without coupling one iteration is exact.
+Each iteration solves the shear at the last pressure and then the pressure at this shear
+(Panagiotopoulos 1975). The iteration contracts by about max(β², µ|β|), with Dundurs' second
+constant β and the coefficient of friction µ, and diverges for µ|β| ≥ 1. Anderson mixing of the
+pressures (Anderson 1965) extends the convergence to values of µ|β| far above 1. The solution is the
+initial guess of `coupled_newton`. Without coupling one iteration is exact.
 """
 
 from dataclasses import dataclass
@@ -38,11 +39,15 @@ DEPENDENT = 1e-10  # relative size of a difference below which it depends linear
 
 @dataclass(frozen=True)
 class CoupledProblem:
-    """An increment on points.
+    """Contact problem of one increment on points, with its loads.
 
-    gap         without pressure (points,) [length]
-    friction    between the surfaces
-    target      u_t of the state before less the motion of the indenter then (2, points) [length]
+    gap         gap without tractions (points,) [length]
+    friction    Coulomb friction between the surfaces
+    target      tangential displacement of the points under full stick and zero shift of the
+                indenter (2, points) [length]: displacement at the start of the increment minus the
+                rigid motion at the start
+    normal      prescribed normal force or approach
+    tangential  prescribed tangential load or motion
     """
 
     compliance: PointCompliance
@@ -53,27 +58,42 @@ class CoupledProblem:
     tangential: TangentialTarget
 
     def bound(self, pressure: Vector) -> Vector:
-        """The longest shear that each point can carry (points,) [force/length^2]."""
+        """Compute the friction limit µp of every point (points,) [force/length^2].
+
+        The limit is zero at points that cannot carry shear.
+        """
         carrying = np.where(self.compliance.carries_shear, pressure, 0.0)
         return self.friction.limit(carrying)
 
     def mean_friction(self, pressure: Vector) -> float:
-        """Friction limit over pressure, both as means over the contact; 0 without contact."""
+        """Compute the mean friction limit divided by the mean pressure [1].
+
+        Both means are over the contact. The result is 0 without contact.
+        """
         w, p = self.compliance.areas, np.maximum(pressure, 0.0)
         return over(float(np.sum(w * self.friction.limit(p))), float(np.sum(w * p)))
 
     def capacity(self, pressure: Vector) -> float:
-        """The largest load, a force or torque, that friction carries under a pressure."""
+        """Compute the largest tangential force or torque that friction can carry under a given
+        pressure.
+        """
         lever = np.hypot(*self.compliance.motion)
         return float(np.sum(self.compliance.areas * lever * self.bound(pressure)))
 
 
 @dataclass(frozen=True)
 class CoupledSolution:
-    """Pressure (points,) and shear (2, points) with the rigid motion.
+    """Solution of a coupled contact problem: tractions and rigid motion of the indenter.
 
-    shift      of the indenter, or twist; None if the load equals the friction limit (gross slip)
-    algorithm  algorithm used
+    pressure   pressure at the points (points,) [force/length^2]
+    shear      shear at the points (2, points) [force/length^2]
+    approach   rigid approach [length]
+    shift      shift [length] or twist [radian]; None if the load is at the friction limit (gross
+               slip)
+    in_slip    True for slipping points (points,)
+    outer_iterations, solves
+               numbers of alternating iterations and of linear systems
+    algorithm  name of the algorithm that found the solution
     """
 
     pressure: Vector
@@ -87,7 +107,10 @@ class CoupledSolution:
 
 
 class AlternationFailed(NotConverged):
-    """The alternating iteration did not converge; with its iterations and linear solves."""
+    """Error: the alternating iteration did not converge.
+
+    The attributes are the number of alternating iterations and of linear systems that were solved.
+    """
 
     def __init__(
         self, outer_iterations: int, solves: int, residual: float, tolerance: float
@@ -100,11 +123,12 @@ class AlternationFailed(NotConverged):
 def solve_coupled(
     problem: CoupledProblem, pressure: Vector, shear: Field, tolerance: float
 ) -> CoupledSolution:
-    """Iterate from a first pressure and shear until both problems meet the tolerance.
+    """Solve pressure and shear of an increment by the alternating iteration.
 
-    tolerance  of the change of the pressure by an iteration, Σ w |p' − p| / Σ w p'; the shear is
-               solved to a tenth of it in the end
-    raises     AlternationFailed
+    pressure, shear  initial guess of the tractions (points,) and (2, points)
+    tolerance        limit of the change of the pressure in one iteration, Σ w |p' − p| / Σ w p'
+                     [1]. In the end, the shear is solved to 1/10 of this tolerance
+    raises           AlternationFailed
     """
     w, target = problem.compliance.areas, problem.normal
     q, turn, solves, change = shear, 0, 0, np.inf
@@ -140,26 +164,40 @@ def solve_coupled(
 
 
 def _change(areas: Vector, p: Vector, answer: Vector) -> float:
-    """Compute the change of the pressure by an iteration relative to the new pressure [1]."""
+    """Compute the change of the pressure in one iteration, relative to the new pressure [1].
+
+    p       pressure before the iteration (points,)
+    answer  pressure after the iteration (points,)
+    """
     carried = float(np.sum(areas * answer))
     return float(np.sum(areas * np.abs(answer - p))) / carried if carried > 0 else np.inf
 
 
 def sides_of(pressure: Vector) -> Sides:
-    """Guess the active set of the normal problem: points with pressure are free."""
+    """Guess the active set of the normal problem from a pressure (points,).
+
+    Points with pressure are free (0). All others are at the lower bound zero (-1).
+    """
     return np.where(pressure > 0, 0, -1).astype(np.int8)
 
 
 def approach_of(problem: CoupledProblem, pressed: BoxSolution) -> float:
-    """The prescribed approach, or that which the force takes."""
+    """Return the rigid approach of a solution of the normal problem [length].
+
+    The result is the prescribed approach, or the multiplier of the prescribed force.
+    """
     prescribed = problem.normal.approach
     return pressed.multiplier if prescribed is None else prescribed
 
 
 def press(problem: CoupledProblem, q: Field, guess: Sides) -> BoxSolution:
-    """Solve the pressure at a given shear, with the approach as multiplier of the force.
+    """Solve the normal problem: the pressure at a given shear, and the approach under a given
+    force.
 
-    Raises NotConverged, LinAlgError.
+    Raise NotConverged, or LinAlgError.
+
+    q      shear at the points (2, points)
+    guess  guess of the active set: 0 for points in contact, -1 for others (points,)
     """
     compliance, target = problem.compliance, problem.normal
     w, K = compliance.areas, compliance.matrix
@@ -177,7 +215,14 @@ def press(problem: CoupledProblem, q: Field, guess: Sides) -> BoxSolution:
 
 
 def _shear(problem: CoupledProblem, p: Vector, start: Field, tolerance: float) -> TangentialState:
-    """Solve the shear at a given pressure, on the points that carry shear."""
+    """Solve the tangential problem: the shear at a given pressure, on points that can carry shear.
+
+    If the prescribed load is at the friction limit, the shear is the limit at all points.
+
+    p          pressure (points,)
+    start      initial guess of the shear (2, points)
+    tolerance  limit of the relative residual of the shear [1]
+    """
     compliance, target = problem.compliance, problem.tangential
     w, K = compliance.areas, compliance.matrix
     points = len(w)
@@ -206,7 +251,11 @@ def _shear(problem: CoupledProblem, p: Vector, start: Field, tolerance: float) -
 
 
 class _Anderson:
-    """Anderson mixing of the pressures p → p' of the iteration."""
+    """Anderson mixing of the pressures of the alternating iteration.
+
+    Each iteration computes a new pressure p' from a pressure p. Anderson mixing extrapolates the
+    last pressures to a fixed point p' = p.
+    """
 
     def __init__(self, areas: Vector, force: float | None) -> None:
         self._areas = areas
@@ -215,7 +264,14 @@ class _Anderson:
         self._changes: list[Vector] = []
 
     def next(self, p: Vector, answer: Vector) -> Vector:
-        """An admissible pressure near which the change would vanish, after one with this answer."""
+        """Compute the pressure for the next iteration by extrapolation of all stored iterations.
+
+        The result is not negative, is zero where the last pressure is zero, and carries the
+        prescribed force.
+
+        p       pressure before the last iteration (points,)
+        answer  pressure after the last iteration (points,)
+        """
         self._points = [*self._points, p][-REMEMBERED:]
         self._changes = [*self._changes, answer - p][-REMEMBERED:]
         if len(self._points) < 2:

@@ -1,9 +1,11 @@
-"""The penalty law and Uzawa's update: tractions of a pass are multipliers of the next.
+"""Penalty law of contact, and Uzawa's update of the multipliers (augmented Lagrangian).
 
-Springs of stiffness ε between the surfaces carry t = λ + ε (overlap): the pressure is
-p = ⟨λ − ε g⟩ (Wriggers 2006, Computational Contact Mechanics, ch. 6), the shear λ_t + ε v returned
-to Coulomb's cone (Giannakopoulos 1989, Comput. Struct. 32, 157). This is the exact law of contact
-and friction between bodies on which the springs, of compliance 1/ε, lie in series.
+Springs of stiffness ε between the surfaces carry the traction t = λ + ε (overlap), with the
+multiplier λ. The pressure is p = ⟨λ − ε g⟩ with the gap g (Wriggers 2006, Computational Contact
+Mechanics, ch. 6). The shear λ_t + ε v, with the tangential strain v of the springs, is returned to
+Coulomb's cone (Giannakopoulos 1989, Comput. Struct. 32, 157). In each pass the multipliers are the
+tractions of the previous pass. The penalty law is equal to the exact law between bodies with the
+springs, of compliance 1/ε, in series.
 """
 
 from collections.abc import Callable
@@ -19,13 +21,13 @@ P = TypeVar("P")
 
 @dataclass(frozen=True)
 class Penalty:
-    """Stiffness of the springs, and limits on the updates of the multipliers.
+    """Stiffness of the penalty springs, and limits on the updates of the multipliers.
 
-    factor         c, stiffness ε = c E* / h with E* the contact modulus of the outermost materials
-                   and h the length of a contact edge [1]
-    augmentations  largest number of Uzawa updates of the multipliers in each increment; without any
-                   the pressure is that of springs of stiffness ε between the surfaces
-    overlap        largest overlap over the displacement of the bodies [1]
+    factor         c of the stiffness ε = c E* / h [1], with the contact modulus E* of the outermost
+                   materials and the length h of an element edge in contact
+    augmentations  largest number of Uzawa updates of the multipliers in each increment. With 0
+                   updates the pressure is that of springs of stiffness ε between the surfaces
+    overlap        largest allowed overlap over the displacement of the bodies [1]
     """
 
     factor: float = 10.0
@@ -39,11 +41,11 @@ class Penalty:
             raise ValueError(f"augmentations cannot be negative, as {self.augmentations} is")
 
     def stiffness(self, contact_modulus: float, edge_length: float) -> float:
-        """Compute ε [force/length^3].
+        """Compute the stiffness ε of the penalty springs per area [force/length^3].
 
-        contact_modulus  E* of the outermost materials [force/length^2]: it is them that an overlap
-                         as short as an edge presses
-        edge_length      of a contact edge of the mesh [length]
+        contact_modulus  E* of the outermost materials, which an overlap shorter than an edge
+                         deforms [force/length^2]
+        edge_length      length of an element edge on the contact surface [length]
         """
         return self.factor * contact_modulus / edge_length
 
@@ -55,16 +57,19 @@ def augmented(
     penalty: Penalty,
     fewest: int,
 ) -> list[P]:
-    """Return all passes of an increment, the last one the best.
+    """Repeat the penalty solve of an increment with updated multipliers until the overlap is
+    allowed.
 
-    (Alart and Curnier 1991, Comput. Methods Appl. Mech. Eng. 92, 353; Simo and Laursen 1992,
-    Comput. Struct. 42, 97.) One update of stiff springs removes nearly all of the penalty's error.
-    The updates end when the remaining error is allowed. At Gauss points the displacements do not
-    determine all pressures, and further updates would accumulate oscillations.
+    Return the solutions of all passes. The last one is the best. One update of stiff springs
+    removes nearly all of the error of the penalty (Alart and Curnier 1991, Comput. Methods Appl.
+    Mech. Eng. 92, 353; Simo and Laursen 1992, Comput. Struct. 42, 97). At Gauss points the
+    displacements do not determine all pressures, and updates beyond the allowed error would
+    accumulate oscillations.
 
-    again   function from a pass to the next, whose multipliers are its tractions
-    left    function of a pass: its overlap over the displacement of the bodies
-    fewest  least number of updates, if their limit allows it
+    first   solution of the first pass
+    again   function from the solution of a pass to that of the next pass
+    left    function of a solution: its overlap over the displacement of the bodies [1]
+    fewest  least number of updates, unless `penalty.augmentations` is smaller
     raises  SurfacesOverlap if the overlap after the last update is not allowed
     """
     passes = [first]

@@ -1,11 +1,12 @@
-"""Pressure and shear by continuation, from contact with springs to contact without springs.
+"""Continuation of coupled contact: the compliance of springs between the surfaces is reduced to
+zero.
 
 Strong friction with strongly coupled bodies has several states that satisfy all laws. Pairs of
 states appear and vanish as loads change, and Newton's method then cycles between kinks.
-Sufficiently soft springs between the surfaces leave one state. The state is followed while the
-spring compliance decreases, with the arc length as parameter: at a limit point the path returns to
-softer springs and later to stiffer ones (Keller 1977, in Applications of Bifurcation Theory, p.
-359; Allgower and Georg 1990, Numerical Continuation Methods, ch. 2 and 12).
+Sufficiently soft springs between the surfaces leave one state. This state is followed along a path
+while the spring compliance decreases, with the arc length as parameter. At a limit point the path
+returns to softer springs and later to stiffer ones (Keller 1977, in Applications of Bifurcation
+Theory, p. 359; Allgower and Georg 1990, Numerical Continuation Methods, ch. 2 and 12).
 
 The direction along the path preserves the sign of the determinant of the derivative with the
 direction as its last row. This condition applies across kinks, too, where directions are
@@ -35,11 +36,14 @@ LITTLE_FRICTION = 0.1  # least divisor of the error of shear, over the pressure
 def solve_by_continuation(
     problem: CoupledProblem, start: Start, tolerance: float
 ) -> CoupledSolution:
-    """Solve an increment by continuation.
+    """Solve the coupled pressure and shear of an increment by continuation in the spring
+    compliance.
 
-    tolerance  as of `solve_by_newton`
-    raises     NotConverged if the path does not begin or end within MAX_STEPS; the residual is then
-               the spring compliance over the compliance of the bodies
+    start      initial guess of tractions and rigid motion
+    tolerance  limit of the norm of the residual, as in `solve_by_newton` [1]
+    raises     NotConverged if the path does not begin, or does not end within MAX_STEPS. If the
+               path does not end, the stated residual is the spring compliance over the compliance
+               of the bodies
     """
     points = len(problem.compliance.areas)
     itself = np.diagonal(problem.compliance.matrix)[2 * points :] / problem.compliance.areas
@@ -54,8 +58,13 @@ def solve_by_continuation(
 
 @dataclass(frozen=True)
 class _Reached:
-    """Scaled values that miss hardly anything, with the derivative by them, and the number of
-    corrections that took."""
+    """Converged point on the continuation path.
+
+    root         iterate with its slipping points
+    values       scaled unknowns
+    derivative   derivative of the equations by the scaled unknowns
+    corrections  number of Newton corrections
+    """
 
     root: Root
     values: Vector
@@ -64,10 +73,11 @@ class _Reached:
 
 
 class _Path:
-    """Point on the path, the direction of the path, and the length of the next step.
+    """Current point on the continuation path, direction of the path, and length of the next step.
 
-    Lengths are relative to scales: mean pressure, friction limit of this pressure, approach, and
-    the compliance of the bodies for that of the springs.
+    Unknowns are scaled: the pressure by its mean, the shear by the friction limit of this mean,
+    motions by the approach, and the spring compliance by the compliance of the bodies at a point.
+    Lengths along the path refer to scaled unknowns.
     """
 
     def __init__(self, problem: CoupledProblem, begun: Root, softness: float) -> None:
@@ -81,12 +91,16 @@ class _Path:
         self._direction, self._sign = self._tangent(derivative, -self._softer)
 
     def lost(self, tolerance: float) -> NotConverged:
-        """Create the exception of a path that is given up."""
+        """Create the exception for a path that is not followed any further."""
         left = float(self._values[-1])
         return NotConverged("the path of continuation", self._solves, left, tolerance)
 
     def step(self, tolerance: float) -> Root | None:
-        """Take one step along the path; return the root without springs at its end."""
+        """Try one step along the path. Return the solution without springs if the path has reached
+        its end.
+
+        Return None otherwise. If the correction fails, the next step is shorter.
+        """
         ahead = self._values + self._length * self._direction
         if ahead[-1] > 0:
             reached = self._corrected(ahead, self._direction, ON_PATH)
@@ -105,6 +119,9 @@ class _Path:
         return reached.root
 
     def _go_to(self, reached: _Reached) -> None:
+        """Move the current point to a converged point, and update the direction and the step
+        length.
+        """
         direction, sign = self._tangent(reached.derivative, self._direction)
         self._values = reached.values
         self._direction = sign * self._sign * direction
@@ -112,7 +129,11 @@ class _Path:
             self._length = min(GROWTH * self._length, LONGEST)
 
     def _shorten(self) -> None:
-        """Reduce the length by half; at a kink, change to the direction on its other side."""
+        """Reduce the step length by half after a correction that failed.
+
+        Below the least length the point is at a kink. The direction is then replaced by that on the
+        other side of the kink.
+        """
         self._length /= 2
         if self._length > SHORTEST:
             return
@@ -122,9 +143,12 @@ class _Path:
         self._length = 100 * BEYOND_KINK
 
     def _corrected(self, ahead: Vector, across: Vector, tolerance: float) -> _Reached | None:
-        """Compute the intersection of path and plane by Newton's method; None if it fails.
+        """Compute the intersection of the path with a plane by Newton's method, or return None if
+        it fails.
 
-        across  normal of the plane, unit vector
+        ahead      point of the plane at which Newton's method starts (3 points + 3,)
+        across     normal of the plane, a unit vector (3 points + 3,)
+        tolerance  limit of the norm of the residual [1]
         """
         values = ahead
         for corrections in range(MAX_CORRECTIONS + 1):
@@ -141,17 +165,25 @@ class _Path:
         return None
 
     def _derivative(self, values: Vector) -> Matrix:
+        """Compute the derivative of the equations by the scaled unknowns."""
         _, jacobian, _ = self.equations.linearised(Iterate.of(values * self._scales))
         return np.asarray(jacobian * self._scales)
 
     def _tangent(self, derivative: Matrix, along: Vector) -> tuple[Vector, float]:
-        """Compute the unit tangent on the side of a vector, and the sign of the determinant."""
+        """Compute the unit tangent of the path, and the sign of the determinant of the extended
+        derivative.
+
+        derivative  derivative of the equations by the scaled unknowns
+        along       vector with which the tangent has a positive scalar product; last row of the
+                    extended derivative
+        """
         right = np.append(np.zeros(len(derivative)), 1.0)
         tangent = self._solved(derivative, along, right)
         sign, _ = np.linalg.slogdet(np.vstack([derivative, along]))
         return tangent / np.linalg.norm(tangent), float(sign)
 
     def _solved(self, derivative: Matrix, last: Vector, right: Vector) -> Vector:
+        """Solve the linear system of the derivative extended by one last row."""
         self._solves += 1
         try:
             return np.asarray(np.linalg.solve(np.vstack([derivative, last]), right))
@@ -160,7 +192,12 @@ class _Path:
 
 
 def _scales(equations: Equations, at: Iterate, softness: float) -> Vector:
-    """Compute the units of the values of an iterate; tractions count by their areas."""
+    """Compute the units by which the unknowns of an iterate are scaled (3 points + 3,).
+
+    Tractions are weighted with the areas of their points.
+
+    softness  compliance of the bodies at a point, unit of the spring compliance [length^3/force]
+    """
     w, n = equations.w, equations.n
     p = at.tractions[2 * n :]
     area = float(np.sum(w, where=p > 0))

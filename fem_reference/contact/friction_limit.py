@@ -1,4 +1,4 @@
-"""Friction limit of a whole contact: comparison with the load, and contact status."""
+"""Friction limit of a whole contact: comparison with the tangential load, and contact status."""
 
 import numpy as np
 
@@ -12,16 +12,20 @@ AT_LIMIT = 1e-6
 
 
 def reaches_limit(load: float | None, capacity: float) -> bool:
-    """Return True if a force or torque is at the friction limit.
+    """Return True if a tangential force or torque is at the friction limit, that is at gross slip.
 
-    load      None where the motion is prescribed
-    capacity  the largest load that friction carries
+    load      force or torque; None if the motion is prescribed
+    capacity  largest load that friction can carry
     """
     return load is not None and abs(load) >= capacity * (1 - AT_LIMIT)
 
 
 def refuse_beyond_limit(load: float | None, capacity: float) -> None:
-    """Raise GrossSliding for a force or torque beyond the friction limit; see `reaches_limit`."""
+    """Raise GrossSliding if a tangential force or torque exceeds the friction limit.
+
+    load      force or torque; None if the motion is prescribed
+    capacity  largest load that friction can carry
+    """
     if load is not None and abs(load) > capacity * (1 + AT_LIMIT):
         raise GrossSliding(
             f"tangential force or torque {abs(load):.6g} exceeds the friction limit "
@@ -32,10 +36,13 @@ def refuse_beyond_limit(load: float | None, capacity: float) -> None:
 def contact_status(
     loaded: Mask, stuck: Mask, carried: float | None, capacity: float
 ) -> ContactStatus:
-    """Determine the contact status under a tangential load.
+    """Determine the contact status: full stick, partial slip, gross sliding, or no stick area left.
 
-    loaded, stuck  places that can carry shear, and those of them that do not slip
-    carried        load by the shear, of either sign; None where nothing leads the indenter
+    loaded    True for points in contact that can carry shear
+    stuck     True for those of these points that stick
+    carried   tangential force or torque of the shear, of either sign; None if no tangential motion
+              of the indenter is possible
+    capacity  largest load that friction can carry
     """
     if np.any(stuck):
         whole = np.array_equal(stuck, loaded)

@@ -1,4 +1,4 @@
-"""Conversion of a state on points to an increment of the result."""
+"""Conversion of a contact state on points to an increment of the result."""
 
 from dataclasses import replace
 from math import pi, sqrt
@@ -22,9 +22,12 @@ Scalar = TypeVar("Scalar", np.float64, np.bool_)
 def reported(
     contact: PointContact, state: PointState, direction: tuple[float, float], place: Place
 ) -> Increment:
-    """Convert a state: fields are (rings, angles), or (rings,) while nothing depends on θ.
+    """Convert a contact state on points to an increment of the result.
 
-    direction  of the tangential load, from which angles count
+    Fields have the shape (rings, angles), or (rings,) if the state is axisymmetric.
+
+    direction  unit vector (x, y) of the tangential load, from which angles are counted
+    place      load step, and index of the increment in the load step
     """
     compliance, rings = contact.compliance, contact.rings
     p = _shown(contact, state.pressure)
@@ -63,7 +66,14 @@ def _with_shear(
     direction: tuple[float, float],
     edges: Field,
 ) -> Increment:
-    """The increment with its shear and slip by the names that they have on the plan's path."""
+    """Add shear, slip, stick zone and tangential load to an increment of the result.
+
+    The names of the fields depend on the path of the plan: circumferential in torsion, along the
+    load without coupling, otherwise radial and circumferential.
+
+    pressed  increment with pressure and gap
+    edges    radius of the contact edge on every ray (angles,) [length]
+    """
     sheared = replace(
         pressed,
         status=state.status,
@@ -98,31 +108,39 @@ def _with_shear(
 
 
 def _shown(contact: PointContact, values: NDArray[Scalar]) -> NDArray[Scalar]:
-    """Convert values at points (points,) to (rings, angles) or (rings,)."""
+    """Convert a scalar field at points (points,) to (rings, angles), or (rings,) if axisymmetric.
+    """
     return _ring(contact, contact.compliance.scalar_on_grid(values))
 
 
 def _ring(contact: PointContact, on_grid: NDArray[Scalar]) -> NDArray[Scalar]:
-    """Convert (rings, 1) to (rings,)."""
+    """Remove the angle axis of a field (rings, 1) of an axisymmetric contact; else return it
+    unchanged.
+    """
     return on_grid[:, 0] if contact.axisymmetric else on_grid
 
 
 def _edges(contact: PointContact, state: PointState) -> Field:
     """Compute the radius of the contact edge on every ray (angles,) [length].
 
-    It is the radius of the last ring if that carries pressure, and 0 without contact.
+    The radius is the outer end of the last element if the last ring carries pressure, and 0 without
+    contact.
     """
     p = contact.compliance.scalar_on_grid(state.edge_tractions[2])
     return np.array([contact.rings.contact_edge(ray) for ray in p.T])
 
 
 def _contact_area(contact: PointContact, edges: Field) -> float:
-    """Compute the contact area ½∫a² dθ from the edge radius a on every ray [length^2]."""
+    """Compute the contact area ½∫a² dθ from the radius a of the contact edge on every ray
+    [length^2].
+    """
     return float(0.5 * np.sum(contact.compliance.grid.weights * np.square(edges)))
 
 
 def _stick_area(contact: PointContact, state: PointState, edges: Field) -> float:
-    """Compute the stick area ½∫c² dθ from the radius c of its edge on every ray [length^2]."""
+    """Compute the area ½∫c² dθ of the stick zone with the radius c of its edge on every ray
+    [length^2].
+    """
     contact_area = _contact_area(contact, edges)
     if state.status is ContactStatus.FULL_STICK and contact.at_gauss_points:
         return contact_area

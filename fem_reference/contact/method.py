@@ -1,7 +1,7 @@
-"""The contact method of a scene: bodies on points, the law between them, and the load path.
+"""Contact method of a scene: compliance of the bodies, contact law, and selection of the points.
 
-Until there is a tangential load on coupled bodies nothing depends on θ, and one point stands for
-its whole ring; so it is on all paths without coupling.
+Fields do not depend on the angle θ without coupling of pressure and shear, and before the first
+tangential load on coupled bodies. One point then represents its whole ring.
 """
 
 from dataclasses import dataclass
@@ -32,11 +32,11 @@ HIGHEST = 8
 
 @dataclass(frozen=True)
 class ContactMethod:
-    """The contact method of a scene: solves its increments and reports them.
+    """Solve the increments of a scene and convert their states to increments of the result.
 
-    penalty  None: the exact law of Coulomb and Signorini
-    around   points on the half circle, from the direction of the load on, for Path.HARMONICS;
-             None: end_grid(8)
+    penalty  parameters of the penalty law; None for the exact laws of Signorini and Coulomb
+    around   angular points on the half circle, counted from the direction of the load, for
+             Path.HARMONICS; None for end_grid(8)
     """
 
     model: ContactModel
@@ -45,9 +45,13 @@ class ContactMethod:
     around: AngularGrid | None = None
 
     def advance(self, before: PointState | None, loads: Loads, tolerance: float) -> PointState:
-        """Solve an increment from the state before it.
+        """Solve one increment from the state at its start and return the state at its end.
 
-        raises  NotConverged, SurfacesOverlap, GrossSliding, ContactAtZoneEdge, ContactNotResolved
+        before     state at the start of the increment; None before first contact
+        loads      prescribed loads or motions at the end of the increment
+        tolerance  upper limit of every residual [1]
+        raises     NotConverged, SurfacesOverlap, GrossSliding, ContactAtZoneEdge,
+                   ContactNotResolved
         """
         contact = self._on_rings
         if self.plan.path is Path.HARMONICS:
@@ -63,13 +67,19 @@ class ContactMethod:
         return state
 
     def increment(self, state: PointState, place: Place) -> Increment:
-        """Convert a state to the increment of a result."""
+        """Convert the contact state at the end of an increment to an increment of the result.
+
+        place  load step, and index of the increment in the load step
+        """
         contact = self._on_rings if state.axisymmetric else self._on_points
         return reported(contact, state, self.plan.direction, place)
 
     def work_on_strain(self, before: PointState | None, state: PointState) -> float:
-        """Return ½ Σ w (q₀ + q₁)·r Δε, the work of the shear on a lower body with the strain change
-        Δε."""
+        """Compute the work of the shear on the imposed strain of the lower body in one increment.
+
+        The work is ½ Σ w (q₀ + q₁)·r Δε over the rings [force length], with the shear q at the
+        start and at the end, the change Δε of the strain, and the areas w and radii r of the rings.
+        """
         change = state.strain - (before.strain if before else 0.0)
         if change == 0:
             return 0.0
@@ -78,20 +88,24 @@ class ContactMethod:
 
     @property
     def undeformed_gap(self) -> NDArray[np.float64]:
-        """Gap without tractions, the mean over each ring's function (rings,) [length]."""
+        """Gap between the undeformed surfaces, the weighted mean over each ring (rings,) [length].
+        """
         return self._on_rings.gap
 
     @cached_property
     def _on_rings(self) -> PointContact:
+        """Contact problem with one point per ring, for fields that do not depend on the angle."""
         return point_contact(self.model, self.plan.path, axisymmetric_grid(), self.penalty)
 
     @cached_property
     def _on_points(self) -> PointContact:
+        """Contact problem with several angles per ring, for coupled bodies under a tangential load.
+        """
         around = self.around or end_grid(HIGHEST)
         return point_contact(self.model, self.plan.path, around, self.penalty)
 
     def _refuse_contact_at_edge(self, contact: PointContact, state: PointState) -> None:
-        """Raise ContactAtZoneEdge where the contact is at the end of the zone of fine elements."""
+        """Raise ContactAtZoneEdge if the contact reaches the end of the zone of fine elements."""
         last = contact.compliance.ring_of_point == len(contact.rings.radii) - 1
         if not self.model.ends_at_rim and np.any(state.pressure[last] > 0):
             raise ContactAtZoneEdge(

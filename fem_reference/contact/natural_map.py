@@ -1,10 +1,14 @@
-"""Natural map of contact and friction on points, and its generalised derivative.
+"""Natural map of the contact and friction laws on points, and its generalised derivative.
+
+The laws are equivalent to the nonsmooth equations
 
     p = ⟨z_z⟩,  z_z = p − (w g)/d_z        q = P(z_t),  z_t = q + (w s)/d_t,
 
-with P the projection onto the disc of radius µ⟨z_z⟩ and s the slip of the indenter relative to the
-body (Alart and Curnier 1991, Comput. Methods Appl. Mech. Eng. 92, 353). Springs between the
-surfaces, equally soft in both directions, may increase the approach and reduce the slip.
+with the pressure p, the gap g, the shear q, the slip s of the indenter relative to the body, and
+the point areas w. ⟨⟩ is the positive part, P the projection onto the disc of radius µ⟨z_z⟩, and d
+the diagonal of the compliance matrix (Alart and Curnier 1991, Comput. Methods Appl. Mech. Eng. 92,
+353). Springs between the surfaces are optional. Their compliance is equal in both directions. They
+increase the approach and reduce the slip.
 """
 
 from dataclasses import dataclass
@@ -19,8 +23,14 @@ LEAST_FRICTION = 1e-6  # least divisor of the error of shear, over the pressure
 
 @dataclass(frozen=True)
 class Iterate:
-    """Tractions (3 points,), r, θ, z outermost, shift, approach, and the compliance of springs
-    between the surfaces [length^3/force]."""
+    """Unknowns of an increment: tractions, rigid motion, and compliance of springs between the
+    surfaces.
+
+    tractions  components r, θ, z of the tractions at the points, r outermost (3 points,)
+    shift      tangential shift or twist of the indenter
+    approach   rigid approach [length]
+    springs    compliance of the springs [length^3/force]
+    """
 
     tractions: Vector
     shift: float
@@ -29,18 +39,20 @@ class Iterate:
 
     @property
     def values(self) -> Vector:
-        """All of them (3 points + 3,)."""
+        """All unknowns in one vector (3 points + 3,): tractions, shift, approach and spring
+        compliance.
+        """
         return np.append(self.tractions, [self.shift, self.approach, self.springs])
 
     @classmethod
     def of(cls, values: Vector) -> "Iterate":
-        """Create the iterate with these values."""
+        """Create an iterate from the vector of its unknowns (3 points + 3,)."""
         shift, approach, springs = (float(value) for value in values[-3:])
         return cls(values[:-3], shift, approach, springs)
 
 
 class Equations:
-    """The equations of an increment; those of the loads come last."""
+    """Equations of an increment: natural map of the laws at all points, then prescribed loads."""
 
     def __init__(self, problem: CoupledProblem) -> None:
         compliance = problem.compliance
@@ -54,14 +66,14 @@ class Equations:
         self.scale = float(np.mean(self.w))
 
     def missed(self, at: Iterate) -> Vector:
-        """Compute the residual of the equations (3 points + 2,)."""
+        """Compute the residual vector of all equations at an iterate (3 points + 2,)."""
         return self._equations(at)[0]
 
     def linearised(self, at: Iterate) -> tuple[Vector, Matrix, Mask]:
-        """Compute the residual, its generalised derivative, and the mask of slipping points.
+        """Compute the residual vector, its generalised derivative, and the mask of slipping points.
 
-        The derivative is with respect to the values of an iterate (3 points + 2, 3 points + 3). At
-        a kink it is that of the side of the iterate.
+        The derivative (3 points + 2, 3 points + 3) is with respect to the unknowns of an iterate.
+        At a kink of the natural map, the derivative is that of the side on which the iterate is.
         """
         n, K, w = self.n, self.K, self.w
         missed, z_t, z_z, bound = self._equations(at)
@@ -108,10 +120,14 @@ class Equations:
         return missed, jacobian, in_slip & (bound > 0)
 
     def size(self, missed: Vector, at: Iterate) -> float:
-        """Compute the norm of a residual [1].
+        """Compute the norm of a residual vector [1].
 
-        It is the sum of its parts relative to the normal load and to the friction limit. It is
-        infinite without a prescribed load and without tractions.
+        The norm is the sum of the pressure residuals relative to the normal load and of the shear
+        residuals relative to the friction limit. The norm is infinite without a prescribed load and
+        without tractions.
+
+        missed  residual vector (3 points + 2,)
+        at      iterate at which the residual was computed
         """
         n, p = self.n, at.tractions[2 * self.n :]
         load = self.pressed or float(np.sum(self.w * np.abs(p)))
@@ -127,7 +143,14 @@ class Equations:
         )
 
     def solution(self, at: Iterate, in_slip: Mask, solves: int) -> CoupledSolution:
-        """Project an iterate without springs, so that the laws hold exactly."""
+        """Convert a converged iterate to a solution that satisfies the inequalities of the laws
+        exactly.
+
+        The pressure is set to ⟨z_z⟩ and the shear to P(z_t). The iterate must not contain springs.
+
+        in_slip  True for slipping points (points,)
+        solves   number of linear systems solved
+        """
         _, z_t, z_z, bound = self._equations(at)
         p = np.maximum(z_z, 0.0)
         length = np.hypot(*z_t)
@@ -136,7 +159,11 @@ class Equations:
         return CoupledSolution(p, q, at.approach, at.shift, in_slip, 0, solves)
 
     def _equations(self, at: Iterate) -> tuple[Vector, Field, Vector, Vector]:
-        """Compute the residual, z_t (2, points), z_z and µ⟨z_z⟩ (points,)."""
+        """Compute the residual vector and the arguments of the natural map at an iterate.
+
+        Return the residual (3 points + 2,), z_t (2, points), z_z (points,) and the friction limit
+        µ⟨z_z⟩ (points,).
+        """
         problem, n = self.problem, self.n
         q, p = at.tractions[: 2 * n].reshape(2, n), at.tractions[2 * n :]
         sprung = at.springs * self.w

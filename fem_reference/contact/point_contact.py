@@ -1,4 +1,4 @@
-"""Contact problem on points: compliance, undeformed gap, friction, and the law of contact."""
+"""Contact problem on points: compliance, undeformed gap, friction, and contact law."""
 
 from dataclasses import dataclass, replace
 from typing import Any
@@ -28,9 +28,11 @@ COPIES = 4  # of the matrix between all points, during its assembly and restrict
 
 @dataclass(frozen=True)
 class PointContact:
-    """Compliance, friction, and the law of contact.
+    """Contact problem of two bodies on the points of the surface, without loads.
 
-    penalty   None: the exact law of Coulomb and Signorini
+    compliance  displacement of all points per traction on all points
+    friction    Coulomb friction between the surfaces
+    penalty     parameters of the penalty law; None for the exact laws of Signorini and Coulomb
     """
 
     compliance: PointCompliance
@@ -39,26 +41,31 @@ class PointContact:
 
     @property
     def rings(self) -> RingCompliance:
-        """The rings that the points are on."""
+        """Rings that contain the points, with their compliance."""
         return self.compliance.rings
 
     @property
     def gap(self) -> Vector:
-        """Undeformed gap, the mean over each point's function (points,) [length]."""
+        """Gap between the undeformed surfaces, the weighted mean around each point (points,)
+        [length].
+        """
         return self.rings.gap[self.compliance.ring_of_point]
 
     @property
     def axisymmetric(self) -> bool:
-        """True if points are whole rings."""
+        """True if each point represents a whole ring."""
         return self.compliance.grid.highest == 0
 
     @property
     def at_gauss_points(self) -> bool:
-        """True if the displacements cannot distinguish the pressures of all points."""
+        """True if the points are Gauss points of the element edges.
+
+        The displacements cannot distinguish the pressures of all Gauss points.
+        """
         return isinstance(self.rings.edge, GaussEdge)
 
     def untouched(self) -> PointState:
-        """Return the state before first contact."""
+        """Create the contact state before first contact: no tractions and the undeformed gap."""
         nothing = np.zeros((3, len(self.gap)))
         return PointState(
             axisymmetric=self.axisymmetric,
@@ -80,7 +87,9 @@ class PointContact:
         )
 
     def lifted(self, state: PointState) -> PointState:
-        """Extend an axisymmetric state to these points."""
+        """Extend an axisymmetric state, with one point per ring, to the points of this contact
+        problem.
+        """
         ring = self.compliance.ring_of_point
         lifted: dict[str, Any] = {
             k: v[..., ring] for k, v in vars(state).items() if isinstance(v, np.ndarray)
@@ -91,10 +100,14 @@ class PointContact:
 def point_contact(
     model: ContactModel, path: Path, grid: AngularGrid, penalty: Penalty | None = None
 ) -> PointContact:
-    """Compute the contact problem of a model on the rings of its mesh and the angles of a grid.
+    """Create the contact problem of a model on the rings of its mesh and the angles of a grid.
 
-    The penalty law acts at Gauss points, but on harmonics at nodes.
-    Raises ResourceRefused where the memory does not suffice for the matrix between all points.
+    The penalty law acts at Gauss points, except on Path.HARMONICS, where it acts at nodes. Raise
+    ResourceRefused if the memory is insufficient for the compliance matrix of all points.
+
+    path     tractions of the solve
+    grid     angular points on each ring
+    penalty  parameters of the penalty law; None for the exact laws
     """
     rings = ring_compliance(
         model, path, grid.highest, at_gauss_points=bool(penalty) and path is not Path.HARMONICS

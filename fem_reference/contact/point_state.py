@@ -1,4 +1,4 @@
-"""The state of a contact on points at the end of an increment."""
+"""Contact state at the end of an increment, on the points of the surface."""
 
 from dataclasses import dataclass
 
@@ -11,27 +11,33 @@ from contact_scene.quantities.summary import ContactStatus
 
 @dataclass(frozen=True)
 class PointState:
-    """Converged fields; vectors (2, points) are components r and θ, on Path.SHEARING x alone.
+    """Converged contact state on points. Vectors (2, points) have the components r and θ.
 
-    axisymmetric       true if points are whole rings
-    displacement       u_t of the bodies [length]; with the motion the history of the next increment
-    multiplier         tractions without springs, r, θ, z (3, points); zero for the exact law
-    edge_tractions     r, θ, z (3, points) that determine the edges of contact and stick: of the
-                       first pass of a penalty that does not move them, because later passes
-                       oscillate there
-    gap                between the bodies, negative for an overlap [length]
-    slip               since the start, of the lower body's particles relative to the indenter's
+    On Path.SHEARING the first component is the one along the load, and the second is zero.
+
+    axisymmetric       True if each point represents a whole ring
+    displacement       tangential displacement of the lower surface relative to the upper one
+                       [length]
+    multiplier         tractions without the contribution of the penalty springs, r, θ, z (3,
+                       points); zero for the exact law
+    edge_tractions     tractions r, θ, z (3, points) from which the edges of contact and stick are
+                       computed. With a penalty at Gauss points, they are those of the first pass
+                       with a small overlap, because later passes oscillate at the edge
+    gap                gap between the surfaces, negative for an overlap [length]
+    slip               slip of the lower body relative to the indenter, accumulated since the start
                        [length]
     load               tangential force [force] or torque [force length]
-    motion             shift [length] or twist [radian]; None at the friction limit under a load
-    dissipated_energy  None if the motion is None
-    overlap            largest overlap by springs [length]
-    moved              largest mean tangential displacement so far, weighted with the shear [length]
+    motion             shift [length] or twist [radian]; None at the friction limit under a
+                       prescribed load
+    dissipated_energy  energy lost to friction since the start; None if the motion is None
+    overlap            largest overlap that the penalty springs permit [length]
+    moved              largest mean tangential displacement in the history, weighted with the shear
+                       [length]
     outer_iterations, solves
                        numbers of alternating iterations and of linear systems
-    augmentations      number of updates of the multipliers
-    strain             of the lower body since first contact, equal in all directions
-    algorithm                algorithm for pressure and shear; None if they are not coupled
+    augmentations      number of augmented-Lagrangian updates of the multipliers
+    strain             equibiaxial strain imposed on the lower body since first contact [1]
+    algorithm          algorithm that solved pressure and shear; None if they are not coupled
     """
 
     axisymmetric: bool
@@ -60,15 +66,15 @@ class PointState:
 
     @property
     def tractions(self) -> Field:
-        """Shear and pressure, r, θ, z (3, points)."""
+        """Shear and pressure as one array with the components r, θ, z (3, points)."""
         return np.concatenate([self.shear, self.pressure[None]])
 
 
 def length(vectors: Field) -> Vector:
-    """Compute the length of each vector of (2, points)."""
+    """Compute the length of every vector of an array (2, points)."""
     return np.asarray(np.sqrt(vectors[0] ** 2 + vectors[1] ** 2))
 
 
 def longest(vectors: Field) -> float:
-    """Compute the length of the longest vector of (2, points)."""
+    """Compute the length of the longest vector of an array (2, points)."""
     return float(np.max(length(vectors)))

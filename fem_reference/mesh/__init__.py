@@ -1,1 +1,2 @@
-"""Meshes of a section: its outline, graded by ourselves or by gmsh."""
+"""Meshes of the meridional section of a body: outline, graded rectangles, and gmsh as alternative.
+"""

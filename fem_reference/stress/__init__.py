@@ -1,4 +1,4 @@
-"""Displacement and stress of a section under the tractions on its surface."""
+"""Displacement and stress below the surface of a body under given surface tractions."""
 
 from fem_reference.stress.section_field import SectionField
 from fem_reference.stress.subsurface import subsurface

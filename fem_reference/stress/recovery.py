@@ -1,10 +1,10 @@
-"""Stress at the nodes, recovered from the elements.
+"""Recovery of the stress at the nodes from the strains in the elements.
 
-Strains of biquadratic elements are most accurate at their 2 x 2 Gauss points (Barlow 1976). There
-the stress is taken, extrapolated bilinearly to the nodes of the element, and averaged over the
-elements of one material that meet at a node (Hinton and Campbell 1974). A node on an interface
-keeps one value per material, so that the jump of the stress in the plane of the layers is not
-smeared.
+Strains of biquadratic elements are most accurate at their 2 x 2 Gauss points (Barlow 1976). The
+stress is computed at these points and extrapolated bilinearly to the nodes of the element. It is
+then averaged over the elements of one material that meet at a node (Hinton and Campbell 1974). A
+node on an interface has one value for each material. The jump of the in-plane stress at an
+interface is therefore preserved.
 """
 
 from __future__ import annotations
@@ -40,16 +40,18 @@ GAUSS = 0.5 + np.array([-0.5, 0.5]) / np.sqrt(3.0)
 
 @dataclass(frozen=True, eq=False)
 class Recovery:
-    """Extrapolation from the 2 x 2 points of the elements to nodes, one point per material of a
-    node.
+    """Extrapolation of the stress from the 2 x 2 Gauss points of the elements to the nodes.
 
-    section, basis  of the displacements
-    at              the same basis at the 2 x 2 points
-    extrapolation   (9, 4) from these points to the nodes of an element
-    cells           (e, 9) points
-    node            (n,) node of every point
-    material        (n,)
-    share           (n,) number of elements at a point
+    A node on an interface is represented by several points, one for each material. There are n
+    points.
+
+    section, basis  mesh, and basis of one displacement component
+    at              the same basis, evaluated at the 2 x 2 Gauss points
+    extrapolation   matrix from the Gauss points to the nodes of an element (9, 4)
+    cells           points of every element (e, 9)
+    node            node of every point (n,)
+    material        index of the material of every point (n,)
+    share           number of elements that meet at a point (n,)
     """
 
     section: SectionMesh
@@ -62,7 +64,12 @@ class Recovery:
     share: Field
 
     def amplitude(self, of: Motion, u: Field, scales: Scales) -> Amplitude:
-        """Compute the fields of one motion from the displacement of the nodes (c, nodes)."""
+        """Compute displacement and stress at all points from the nodal displacement of one motion.
+
+        of      motion, that is harmonic and components
+        u       dimensionless nodal displacement (c, nodes) for c components
+        scales  units of length and stress of the result
+        """
         strain = dict.fromkeys(ORDER, np.zeros_like(self.at.dx))
         for component, values in zip(of.components, u, strict=True):
             found = strains(self.at.interpolate(values), component, of.harmonic)
@@ -83,7 +90,7 @@ class Recovery:
 
 
 def recovery_of(section: SectionMesh) -> Recovery:
-    """Create the recovery of the stress on a section, which is equal for all its motions."""
+    """Create the stress recovery on a section. It is independent of the motion."""
     xi, eta = (part.ravel() for part in np.meshgrid(GAUSS, GAUSS, indexing="ij"))
     basis = displacement_basis(section)
     at = displacement_basis(section, (np.stack([xi, eta]), np.full(4, 0.25)))
@@ -103,8 +110,12 @@ def recovery_of(section: SectionMesh) -> Recovery:
 
 
 def _extrapolation(nodes: Field) -> Field:
-    """Return the bilinear functions (9, 4) of the 2 x 2 points, first coordinate slowest, at the
-    nodes."""
+    """Return the matrix from the 2 x 2 Gauss points to the nodes of an element (9, 4).
+
+    The first coordinate of the Gauss points varies slowest.
+
+    nodes  positions of the 9 nodes in the unit square (9, 2)
+    """
     low, high = GAUSS
     along = [np.stack([(high - c) / (high - low), (c - low) / (high - low)], -1) for c in nodes.T]
     return np.einsum("na,nb->nab", *along).reshape(len(nodes), 4)

@@ -1,4 +1,4 @@
-"""Displacement and stress at the points of a section."""
+"""Displacement and stress at the points of a section, as a sum over motions."""
 
 from __future__ import annotations
 
@@ -21,8 +21,10 @@ SAME_DEPTH = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class Amplitude:
-    """Fields of one motion: cos n theta, but u_theta and the stresses tz, rt sin n theta; those of
-    torsion do not depend on theta.
+    """Amplitudes of the displacement and stress of one motion with the angular harmonic n.
+
+    u_theta and the stresses tz and rt are ∝ sin n theta, all other components ∝ cos n theta. The
+    fields of torsion do not depend on theta.
 
     displacement  u_r, u_theta, u_z (3, n) [length]
     stress        rr, tt, zz, tz, rz, rt (6, n), tension positive [force/length^2]
@@ -35,12 +37,14 @@ class Amplitude:
 
 @dataclass(frozen=True, eq=False)
 class SectionField:
-    """Fields of one body over its section, z into it; at an interface one point for each material.
+    """Displacement and stress of one body at the points of its section, with z into the body.
 
-    points    r and z (2, n) [length]
-    material  (n,) 0 for the outermost layer
-    cells     (e, 9) points of an element: corners, midsides, middle
-    parts     contributions whose sum is the field
+    A node on an interface is represented by one point for each material.
+
+    points    positions r and z (2, n) [length]
+    material  index of the material of every point (n,), 0 for the outermost layer
+    cells     points of every element (e, 9): corners, midsides, middle
+    parts     contributions of the motions, whose sum is the field
     """
 
     points: Field
@@ -49,29 +53,49 @@ class SectionField:
     parts: tuple[Amplitude, ...]
 
     def displacement(self, theta: float = 0.0) -> Field:
-        """u_r, u_theta, u_z (3, n) on the half plane at an angle from the load [length]."""
+        """Compute the displacement u_r, u_theta, u_z (3, n) at the angle theta from the load
+        [length].
+        """
         return self._sum([part.displacement for part in self.parts], (1,), theta)
 
     def stress(self, theta: float = 0.0) -> Field:
-        """Return the stress rr, tt, zz, tz, rz, rt (6, n), positive in tension [force/length^2]."""
+        """Compute the stress rr, tt, zz, tz, rz, rt (6, n) at the angle theta from the load.
+
+        Tension is positive [force/length^2].
+        """
         return self._sum([part.stress for part in self.parts], AS_SINE, theta)
 
     @cached_property
     def axis(self) -> Indices:
-        """Points on the axis, downwards; those of an interface with the upper material first."""
+        """Indices of the points on the axis, in the order of increasing depth.
+
+        At an interface the point of the upper material is first.
+        """
         return self._sorted(self.points[0] == 0.0, self.points[1])
 
     def side(self, depth: float, material: int) -> Indices:
-        """Return indices of points at the depth of an interface in a material, in the order of
-        r."""
+        """Return the indices of the points at the depth of an interface, on the side of one
+        material.
+
+        The indices are in the order of increasing radius.
+        """
         on_it = np.isclose(self.points[1], depth, rtol=SAME_DEPTH, atol=0.0)
         return self._sorted(on_it & (self.material == material), self.points[0])
 
     def _sorted(self, chosen: NDArray[np.bool_], along: Field) -> Indices:
+        """Return the indices of the chosen points, sorted by a coordinate.
+
+        Points with equal coordinates are sorted by their material.
+        """
         found = np.flatnonzero(chosen)
         return found[np.lexsort((self.material[found], along[found]))]
 
     def _sum(self, fields: list[Field], as_sine: tuple[int, ...], theta: float) -> Field:
+        """Compute the sum of a field over all motions at the angle theta.
+
+        fields   amplitudes of the field in every motion
+        as_sine  indices of the components that are ∝ sin n theta
+        """
         total = np.zeros_like(fields[0])
         for part, field in zip(self.parts, fields, strict=True):
             n = part.motion.harmonic

@@ -1,4 +1,7 @@
-"""The fields below the surface of one body: mesh, loads, one solve per motion, recovery."""
+"""Fields below the surface of one body under given tractions.
+
+The steps are mesh, nodal forces, one solve for each motion, and recovery of the stress.
+"""
 
 from __future__ import annotations
 
@@ -78,7 +81,12 @@ def subsurface(
 
 
 def _nodes(body: Body, section: SectionMesh, nodes: Field, length: float) -> Field:
-    """(2, n) positions [length], interfaces at the very depths that the body gives them."""
+    """Return the positions (2, n) of nodes in the unit of the scene [length].
+
+    Depths of nodes on interfaces are set to the exact sums of the layer thicknesses.
+
+    nodes  positions in units of `length` (2, n)
+    """
     points = nodes * length
     bottoms = np.cumsum([layer.thickness for layer in body.layers])
     for depth, bottom in zip(section.outline.interfaces, bottoms, strict=False):
@@ -87,16 +95,20 @@ def _nodes(body: Body, section: SectionMesh, nodes: Field, length: float) -> Fie
 
 
 def _section(body: Body, discretisation: FiniteElementDiscretisation, zone: float) -> SectionMesh:
-    """Return a mesh of half the elements per radius with every element divided into four.
+    """Create the mesh for the stress: half the elements per radius, each divided into 4 elements.
 
-    The stress error of a mesh for displacements alone is 2e-3 for any element size at the surface,
-    because its elements grow faster with depth.
+    The elements of a mesh made for displacements grow faster with depth. Such a mesh has a stress
+    error of 2e-3 for any element size at the surface.
     """
     coarse = max(2, ceil(discretisation.elements_per_radius / 2))
     return section_mesh(body, coarse, discretisation.box, zone).refined()
 
 
 def _refuse_incompressible(section: SectionMesh) -> None:
+    """Raise UnsupportedScene if a material is nearly incompressible.
+
+    The pressure in such a material does not follow from the strain.
+    """
     if np.any(dilatation(section).mixed):
         raise UnsupportedScene(
             "a material is incompressible or nearly so, and the stress follows from the strain "
@@ -106,10 +118,11 @@ def _refuse_incompressible(section: SectionMesh) -> None:
 
 @dataclass(frozen=True, eq=False)
 class _LoadPoints:
-    """Points of integration of the tractions, between all corners and rings.
+    """Integration points of the surface tractions, between all corner nodes and rings.
 
-    radii     (k,)
-    weighted  (m, k) ψ w r at them for every node of the surface, so that ∫ ψ t r dr = weighted @ t
+    radii     radii of the integration points (k,), dimensionless
+    weighted  ψ w r at the points for every node of the surface (m, k), with the trace function ψ
+              and the weight w, so that ∫ ψ t r dr = weighted @ t for tractions t
     """
 
     radii: Field
@@ -119,10 +132,13 @@ class _LoadPoints:
 def _carrying_the_load(
     tractions: SurfaceTractions, points: _LoadPoints, length: float
 ) -> list[tuple[Motion, Field]]:
-    """Return amplitudes at the points, scaled to the load of the result.
+    """Return the traction amplitudes at the integration points, scaled to the normal load of the
+    result.
 
-    The result has linear interpolation between rings. Roots through its values have a slightly
-    larger load.
+    The result of a solve has linear interpolation between rings. Tractions with a square root at
+    the edge have a slightly larger load and are reduced accordingly.
+
+    length  unit of length of the section [length]
     """
     radii, weight = points.radii * length, points.weighted.sum(axis=0)
     found = tractions.amplitudes(radii)
@@ -136,6 +152,12 @@ def _carrying_the_load(
 def _points_of_load(
     section: SectionMesh, tractions: SurfaceTractions, length: float
 ) -> _LoadPoints:
+    """Create the integration points of the surface tractions on a section.
+
+    Between two adjacent corner nodes or rings there are POINTS_BETWEEN Gauss points.
+
+    length  unit of length of the section [length]
+    """
     nodes = section.radii
     corners = nodes[::2]
     rings = tractions.radii / length

@@ -1,4 +1,4 @@
-"""Tractions on the surface of a section, at any radius, as harmonics."""
+"""Tractions on the surface of a section at any radius, as amplitudes of angular harmonics."""
 
 from __future__ import annotations
 
@@ -35,17 +35,17 @@ BETWEEN_RAYS = 2  # rays of the tractions per computed ray
 
 @dataclass(frozen=True, eq=False)
 class SurfaceTractions:
-    """Tractions on the lower body; names and signs as in `Increment`.
+    """Tractions on the lower body as functions of the radius; names and signs as in `Increment`.
 
-    They are linear between rings. If the contact ends in a root, the pressure is a linear
-    interpolant times √(1 - r²/a²), with the edge a of every ray, and the shear is the pressure
-    times a linear interpolant: the stress near an edge depends on the tractions of the last
-    element.
+    By default the tractions are linear between rings. With `rooted`, the pressure is √(1 - r²/a²)
+    times a linear interpolant, with the radius a of the contact edge on every ray. The shear is
+    then the pressure times a linear interpolant. This form matters for the stress near an edge,
+    which depends on the tractions of the last element.
 
-    radii   (rings,) [length]
-    angles  None, or (angles,) for fields (rings, angles)
-    rooted  true if pressure and shear end in a root of the distance from the edge
-    edge    distance of the edge from the last ring with pressure, see `beyond_pressure`
+    radii   radii of the rings (rings,) [length]
+    angles  None, or angles (angles,) for fields (rings, angles)
+    rooted  True if pressure and shear decrease to zero like the root of the distance from the edge
+    edge    polynomial for the distance of the edge from the last ring, see `beyond_pressure`
     """
 
     radii: Field
@@ -59,7 +59,7 @@ class SurfaceTractions:
 
     @classmethod
     def of(cls, increment: Increment) -> SurfaceTractions:
-        """Return the tractions of an increment, linear between rings."""
+        """Create the surface tractions of an increment, with linear interpolation between rings."""
         return cls(
             increment.radii,
             increment.pressure,
@@ -71,23 +71,31 @@ class SurfaceTractions:
 
     @property
     def loaded_radius(self) -> float:
-        """Radius of the last ring with pressure, or of the next one if it is the axis [length]."""
+        """Radius of the last ring with pressure [length].
+
+        If only the axis carries pressure, the radius is that of the next ring.
+        """
         loaded = self.pressure.reshape(len(self.radii), -1).max(axis=1) > 0
         last = np.flatnonzero(loaded)[-1]
         return float(self.radii[last] or self.radii[last + 1])
 
     @property
     def reach(self) -> float:
-        """Radius at which the pressure reaches zero, or of the last ring [length]."""
+        """Radius of the first ring without pressure, at which interpolated pressure becomes zero
+        [length].
+
+        If all rings carry pressure, the radius is that of the last ring.
+        """
         beyond = self.radii[self.radii > self.loaded_radius]
         return float(beyond[0]) if beyond.size else self.loaded_radius
 
     @property
     def edges(self) -> Field:
-        """Radii of the edges in front of and behind the load [length].
+        """Radii of the contact edge at θ = 0 and θ = π, that is in front of and behind the load
+        [length].
 
-        They are equal for an axisymmetric pressure. Empty if the tractions are not rooted or have
-        too few rings.
+        The two radii are equal for an axisymmetric pressure. The array is empty if the tractions
+        are not `rooted` or if too few rings carry pressure.
         """
         if not self.rooted or self._fewest < FEWEST_RINGS:
             return np.empty(0)
@@ -97,7 +105,11 @@ class SurfaceTractions:
         return np.array([np.sum(amplitudes), np.sum(amplitudes[::2]) - np.sum(amplitudes[1::2])])
 
     def amplitudes(self, radii: Field) -> list[tuple[Motion, Field]]:
-        """Motions with the amplitudes (c, radii) at any radii of q_r, q_theta, p that load them."""
+        """Compute the traction amplitudes of all motions at given radii.
+
+        Each item of the list contains a motion and the amplitudes (c, radii) of its components
+        among q_r, q_theta and p [force/length^2].
+        """
         nothing = np.zeros_like(self.pressure)
         shear = (self.shear_radial, self.shear_circumferential, self.shear_along_load)
         parts = [nothing if part is None else part for part in (*shear, self.pressure)]
@@ -116,46 +128,56 @@ class SurfaceTractions:
 
     @property
     def _fewest(self) -> float:
-        """Elements with pressure, on the ray with the fewest."""
+        """Number of elements that carry pressure on the ray with the fewest such elements."""
         return float(np.min(np.count_nonzero(self._rays > 0, axis=0)) / self._per_element)
 
     @property
     def _rays(self) -> Field:
-        """The pressure (rings, angles), of one angle where it is the same all round."""
+        """Pressure at the rings on every ray (rings, angles), with one angle for an axisymmetric
+        pressure.
+        """
         return self.pressure.reshape(len(self.radii), -1)
 
     @cached_property
     def _grid(self) -> AngularGrid:
+        """Angular grid of the rays, with or without the ray θ = 0."""
         assert self.angles is not None
         count = len(self.angles)
         return end_grid(count - 1) if self.angles[0] == 0 else mid_grid(count)
 
     @property
     def _per_element(self) -> int:
-        """Points of an element: its ring, or Gauss points, of which none is on the axis."""
+        """Number of rings per element: 1 for hat functions, POINTS_PER_EDGE for Gauss points.
+
+        Gauss points are recognised by the absence of a ring on the axis.
+        """
         return 1 if self.radii[0] == 0.0 else POINTS_PER_EDGE
 
     @cached_property
     def _edges(self) -> Field:
-        """Radius of the edge on every ray [length]: between rings from the axis on, or between
-        Gauss points."""
+        """Radius of the contact edge on every ray (angles,) [length]."""
         edge: Edge = HatEdge(self.edge)
         if self._per_element > 1:
             edge = GaussEdge(float(self.radii[POINTS_PER_EDGE] - self.radii[0]))
         return np.array([contact_edge(self.radii, ray, edge) for ray in self._rays.T])
 
     def _linear(self, radii: Field, rays: Field) -> Field:
-        """Return harmonics (4, radii, harmonics) of tractions that are linear between rings."""
+        """Interpolate tractions linearly between rings and return their harmonics (4, radii,
+        harmonics).
+
+        rays  q_r, q_theta, shear along the load, and pressure (4, rings, angles)
+        """
         found = [[np.interp(radii, self.radii, ray) for ray in part.T] for part in rays]
         return self._harmonics(np.swapaxes(found, 1, 2))
 
     def _rooted(self, radii: Field, rays: Field) -> Field:
-        """Interpolate tractions that fall to zero like a square root at the contact edge.
+        """Interpolate tractions that decrease to zero like a square root at the contact edge.
 
-        Returns the amplitudes of their harmonics, shape (4, radii, harmonics).
+        Return the amplitudes of their harmonics (4, radii, harmonics). The ratio of shear to
+        pressure and the smooth factor of the pressure are interpolated between rays first, because
+        the radius of the contact edge differs from ray to ray.
 
-        Shear over pressure and the smooth factor of the pressure are interpolated between rays
-        first, because the radius of the root differs from ray to ray.
+        rays  q_r, q_theta, shear along the load, and pressure (4, rings, angles)
         """
         factors = np.empty((4, len(radii), rays.shape[2]))
         for ray, edge in enumerate(self._edges):
@@ -180,8 +202,12 @@ class SurfaceTractions:
         return self._harmonics(factors, fine)[..., : self._grid.highest + 1]
 
     def _harmonics(self, values: Field, grid: AngularGrid | None = None) -> Field:
-        """Return harmonics (4, radii, harmonics) of values (4, radii, angles), or of axisymmetric
-        values."""
+        """Transform tractions at angles (4, radii, angles) to harmonics (4, radii, harmonics).
+
+        Axisymmetric tractions are returned unchanged.
+
+        grid  angular grid of the values; None for the rays of these tractions
+        """
         if self.angles is None:
             return values
         on = grid or self._grid
@@ -190,7 +216,16 @@ class SurfaceTractions:
 
 
 def _smooth_factor(radii: Field, at: Field, pressed: Field, edge: float, per_element: int) -> Field:
-    """Return the smooth factor of the pressure on a ray, p / √(1 - r²/a²), at any radii."""
+    """Compute the smooth factor p / √(1 - r²/a²) of the pressure p on one ray, at given radii.
+
+    a is the radius of the contact edge. Near the edge the factor is a straight line, fitted without
+    the last element.
+
+    radii        radii at which the factor is evaluated [length]
+    at, pressed  radii and pressures of the rings with pressure
+    edge         a [length]
+    per_element  number of rings per element
+    """
     inner = at[at < edge][:-per_element]
     smooth = pressed[: len(inner)] / np.sqrt(1.0 - (inner / edge) ** 2)
     count = min(FITTED * per_element, len(inner))
