@@ -109,8 +109,7 @@ def _solver(
     discretisation: FiniteElementDiscretisation,
     method: Method,
 ) -> ContactMethod:
-    """Create the contact method on a model, with exact or penalty enforcement of the contact laws.
-    """
+    """Create the contact method on a model, with exact or penalty enforcement of the contact laws."""
     penalty = None
     if method is Method.PENALTY:
         penalty = Penalty(

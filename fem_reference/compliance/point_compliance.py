@@ -65,8 +65,7 @@ class PointCompliance:
 
     @cached_property
     def stretch(self) -> Field:
-        """Tangential displacement of the points per unit equibiaxial strain (2, points) [length].
-        """
+        """Tangential displacement of the points per unit equibiaxial strain (2, points) [length]."""
         outward = self.rings.stretch[self.ring_of_point]
         return np.stack([outward, np.zeros_like(outward)])
 
@@ -154,8 +153,7 @@ class PointCompliance:
         return np.concatenate(on_grid).reshape(rings, angles)
 
     def vector_on_grid(self, values: Field) -> Field:
-        """Convert a vector field from points (2, points) to components r and θ (2, rings, angles).
-        """
+        """Convert a vector field from points (2, points) to components r and θ (2, rings, angles)."""
         return self._spread(np.stack([*values, np.zeros_like(values[0])]))[:2]
 
     @cached_property

@@ -12,9 +12,9 @@ difference between friction limit and shear has the same form at the edge of the
 (Cattaneo 1938), without this correction.
 
 At Gauss points (three per element) the squares of the values are fitted by a parabola in r²,
-without the last element. The fit uses the tractions of the first penalty pass only, because
-augmented tractions oscillate at the edge. The error of the radii is below 0.1 h (h: element size)
-for any position of the edge in an element.
+without the last element. The values are those of the first penalty pass with a small overlap,
+because the tractions of later passes oscillate at the edge. The error of the radii is below 0.1 h
+(h: element size) for any position of the edge in an element.
 """
 
 from dataclasses import dataclass
@@ -143,8 +143,8 @@ class GaussEdge:
         """Compute the radius at which point values decrease to zero; see `Edge.radius`.
 
         The squares of the values near the edge are fitted by a parabola in r², whose zero is the
-        result. If there are too few values or no zero, the result is the middle between the last
-        point and the next.
+        result. If there are too few values or no zero nearby, the result is the middle between the
+        last point and the next.
         """
         beyond = last + step
         middle = radii[last]

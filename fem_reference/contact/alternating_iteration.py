@@ -45,7 +45,7 @@ class CoupledProblem:
     friction    Coulomb friction between the surfaces
     target      tangential displacement of the points under full stick and zero shift of the
                 indenter (2, points) [length]: displacement at the start of the increment minus the
-                rigid motion at the start
+                rigid motion at the start, corrected for penalty springs and imposed strain
     normal      prescribed normal force or approach
     tangential  prescribed tangential load or motion
     """
@@ -266,8 +266,8 @@ class _Anderson:
     def next(self, p: Vector, answer: Vector) -> Vector:
         """Compute the pressure for the next iteration by extrapolation of all stored iterations.
 
-        The result is not negative, is zero where the last pressure is zero, and carries the
-        prescribed force.
+        The result is not negative and is zero where the last pressure is zero. It carries the
+        prescribed force, if there is one.
 
         p       pressure before the last iteration (points,)
         answer  pressure after the last iteration (points,)

@@ -1,16 +1,17 @@
-"""Convex quadratic programs with bounds, common to pressure and shear.
+"""Convex quadratic programs with bounds, common to the normal and the tangential problem.
 
     minimise ½ xᵀA x - cᵀx   with   lower <= x <= upper   and, optionally,   v·x = t
 
-A is symmetric and positive definite. The contact pressure has the bounds (0, ∞), the gap as
-gradient and the approach as multiplier of its load. Shear below a given friction limit has the
-bounds ±µp, the slip as gradient and the shift as multiplier (Tresca's problem).
+A is symmetric and positive definite. The contact pressure has the bounds (0, ∞). Its gradient is
+the gap, and the multiplier of the prescribed force is the approach. Shear below a given friction
+limit has the bounds ±µp. Its gradient is the slip, and the multiplier is the shift (Tresca's
+problem).
 
 A primal-dual active-set method improves a guess of the components at their bounds (Hintermüller,
-Ito and Kunisch 2002). Each step solves the equations of the free components exactly, and no
-component changes from one bound to the other without being free in between. This method takes few
-steps but may cycle. A primal active-set method then continues: it releases one component per step,
-never increases the energy and therefore terminates (Nocedal and Wright 2006, section 16.5).
+Ito and Kunisch 2002). Each step solves the equations of the free components exactly. No component
+changes from one bound to the other without being free in between. This method takes few steps but
+may cycle. A primal active-set method then continues: it releases one component per step, never
+increases the energy and therefore terminates (Nocedal and Wright 2006, section 16.5).
 """
 
 from dataclasses import dataclass
@@ -32,7 +33,11 @@ ROUND_OFF = 1e-13
 
 @dataclass(frozen=True)
 class Total:
-    """The condition v·x = t; v > 0 wherever the bounds leave room."""
+    """Linear condition v·x = t of a program, such as a prescribed normal force.
+
+    weights  v, positive for all components whose bounds differ
+    value    t
+    """
 
     weights: Field
     value: float
@@ -40,7 +45,13 @@ class Total:
 
 @dataclass(frozen=True)
 class BoxProgram:
-    """One program; `total` is None without a condition on the sum."""
+    """Quadratic program ½ xᵀA x - cᵀx with bounds on the n components of x.
+
+    matrix        A (n, n), symmetric and positive definite
+    right         c (n,)
+    lower, upper  bounds of x (n,)
+    total         linear condition v·x = t; None without a condition
+    """
 
     matrix: Matrix
     right: Field
@@ -51,12 +62,14 @@ class BoxProgram:
 
 @dataclass(frozen=True)
 class BoxSolution:
-    """The minimiser.
+    """Minimiser of a quadratic program with bounds.
 
-    values      x
-    multiplier  λ of the total, with A x = c + λ v on the free components; 0 without a total
-    sides       -1, 0, +1: at the lower bound, free, at the upper one; 0 where these are equal
-    steps       linear systems solved
+    values      x (n,)
+    multiplier  λ of the linear condition, with A x = c + λ v for the free components; 0 without a
+                condition
+    sides       active set (n,): -1 at the lower bound, 0 free, +1 at the upper bound; 0 if the
+                bounds are equal
+    steps       number of linear systems solved
     """
 
     values: Field
@@ -66,9 +79,13 @@ class BoxSolution:
 
 
 def solve_box(program: BoxProgram, guess: Sides) -> BoxSolution:
-    """Compute the minimiser from a guess of the active bounds; raise NotConverged.
+    """Compute the minimiser of a quadratic program with bounds from a guess of the active set.
 
-    The program must be feasible: the total, if any, is between the totals of the two bounds.
+    The program must be feasible: t of the linear condition, if there is one, is between the values
+    of v·x at the two bounds. Raise NotConverged if the active set does not converge.
+
+    guess  -1 for components at the lower bound, 0 for free ones, +1 for those at the upper bound
+           (n,)
     """
     fixed = program.lower == program.upper
     sides = np.where(fixed, -1, guess).astype(np.int8)
@@ -88,7 +105,11 @@ def solve_box(program: BoxProgram, guess: Sides) -> BoxSolution:
 
 
 def _on_free(program: BoxProgram, sides: Sides) -> tuple[Field, float]:
-    """Solve for the free components at fixed sides; return x and the multiplier."""
+    """Solve for the free components of x with all others at their bounds; return x and the
+    multiplier.
+
+    sides  active set: -1 at the lower bound, 0 free, +1 at the upper bound (n,)
+    """
     A, c, total = program.matrix, program.right, program.total
     free = sides == 0
     x = np.where(sides < 0, program.lower, program.upper)
@@ -111,6 +132,7 @@ def _on_free(program: BoxProgram, sides: Sides) -> tuple[Field, float]:
 
 
 def _gradient(program: BoxProgram, x: Field, multiplier: float) -> Field:
+    """Compute the gradient A x - c - λ v of the Lagrangian of a program (n,)."""
     gradient = program.matrix @ x - program.right
     if program.total is not None:
         gradient -= multiplier * program.total.weights
@@ -120,7 +142,14 @@ def _gradient(program: BoxProgram, x: Field, multiplier: float) -> Field:
 def _moved(
     program: BoxProgram, x: Field, multiplier: float, sides: Sides, fixed: NDArray[np.bool_]
 ) -> Sides:
-    """Update the sides: fix free components beyond a bound, free those that pull inwards."""
+    """Update the active set of a program after a solve for its free components.
+
+    Free components beyond a bound are fixed at this bound. Fixed components whose gradient points
+    inwards become free.
+
+    sides  active set: -1 at the lower bound, 0 free, +1 at the upper bound (n,)
+    fixed  True for components whose two bounds are equal (n,)
+    """
     little = ROUND_OFF * np.max(np.abs(x), initial=0.0)
     gradient = _gradient(program, x, multiplier)
     noise = ROUND_OFF * (np.abs(program.matrix) @ np.abs(x) + np.abs(program.right))
@@ -136,14 +165,24 @@ def _moved(
 def _solution(
     program: BoxProgram, x: Field, multiplier: float, sides: Sides, steps: int
 ) -> BoxSolution:
-    """Create the solution, clipped to the bounds; equal bounds count as neither side."""
+    """Create the solution of a program from x, which is clipped to the bounds.
+
+    Components whose two bounds are equal have the entry 0 in the active set of the solution.
+    """
     room = program.lower < program.upper
     within = np.clip(x, program.lower, program.upper)
     return BoxSolution(within, multiplier, np.where(room, sides, 0).astype(np.int8), steps)
 
 
 def _descend(program: BoxProgram, fixed: NDArray[np.bool_], spent: int) -> BoxSolution:
-    """Minimise by the primal active set method from a feasible point."""
+    """Minimise a quadratic program by the primal active-set method, from a feasible point.
+
+    Used if the primal-dual active-set method cycles. Raise NotConverged after MAX_RELEASES steps
+    per component.
+
+    fixed  True for components whose two bounds are equal (n,)
+    spent  number of linear systems that were already solved
+    """
     sides = np.where(fixed, -1, 0).astype(np.int8)
     x = _feasible(program)
     size = 1 / np.sqrt(np.diag(program.matrix))
@@ -165,7 +204,7 @@ def _descend(program: BoxProgram, fixed: NDArray[np.bool_], spent: int) -> BoxSo
 
 
 def _feasible(program: BoxProgram) -> Field:
-    """A point within the bounds that has the total."""
+    """Return a point x that is within the bounds and satisfies the linear condition (n,)."""
     lower, upper, total = program.lower, program.upper, program.total
     if total is None:
         return np.where(np.isfinite(upper), 0.5 * (lower + upper), lower)
@@ -181,7 +220,13 @@ def _feasible(program: BoxProgram) -> Field:
 def _room(
     program: BoxProgram, x: Field, goal: Field, sides: Sides
 ) -> tuple[float, int | None, int]:
-    """Compute the admissible part of a step, the blocking component, and its bound."""
+    """Compute the largest admissible step from x towards the minimiser of the free components.
+
+    Return the fraction of the step, the component that reaches its bound first, and the bound (-1
+    lower, +1 upper). The component is None if the full step is admissible.
+
+    goal  minimiser of the free components (n,)
+    """
     step = np.where(sides == 0, goal - x, 0.0)
     limit = np.where(step < 0, program.lower, program.upper)
     with np.errstate(divide="ignore", invalid="ignore"):

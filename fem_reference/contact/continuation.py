@@ -75,9 +75,9 @@ class _Reached:
 class _Path:
     """Current point on the continuation path, direction of the path, and length of the next step.
 
-    Unknowns are scaled: the pressure by its mean, the shear by the friction limit of this mean,
-    motions by the approach, and the spring compliance by the compliance of the bodies at a point.
-    Lengths along the path refer to scaled unknowns.
+    Lengths along the path refer to scaled unknowns. Units are the mean pressure, the friction limit
+    of this mean for the shear, the approach, and the compliance of the bodies at a point for the
+    springs. The unit of the shift is the larger of shift and approach.
     """
 
     def __init__(self, problem: CoupledProblem, begun: Root, softness: float) -> None:

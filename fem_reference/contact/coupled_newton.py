@@ -1,9 +1,10 @@
-"""Semismooth Newton method for the coupled pressure and shear.
+"""Semismooth Newton method for the coupled pressure and shear of an increment.
 
-The alternating iteration provides its initial guess. If this iteration diverges, as below thin
+The alternating iteration provides the initial guess. If this iteration diverges, as below thin
 incompressible films and for µ|β| far above 1, Newton's method starts from the previous increment.
-The derivative is that of the natural map on the current side of each kink. The method may cycle
-between kinks: see `continuation`.
+Here µ is the coefficient of friction and β Dundurs' second constant. The derivative is that of the
+natural map on the current side of each kink. The method may cycle between kinks: see
+`continuation`.
 """
 
 from dataclasses import dataclass
@@ -29,7 +30,13 @@ SUFFICIENT = 1e-3
 
 @dataclass(frozen=True)
 class Start:
-    """Initial guess: pressure (points,), shear (2, points), shift and approach."""
+    """Initial guess of the tractions and the rigid motion of an increment.
+
+    pressure  pressure at the points (points,) [force/length^2]
+    shear     shear at the points (2, points) [force/length^2]
+    shift     shift [length] or twist [radian] of the indenter
+    approach  rigid approach [length]
+    """
 
     pressure: Vector
     shear: Field
@@ -39,7 +46,12 @@ class Start:
 
 @dataclass(frozen=True)
 class Root:
-    """A converged iterate, its slipping points, and the number of linear systems solved."""
+    """Converged iterate of Newton's method.
+
+    at       iterate: tractions, rigid motion and spring compliance
+    in_slip  True for slipping points (points,)
+    solves   number of linear systems solved
+    """
 
     at: Iterate
     in_slip: Mask
@@ -47,9 +59,11 @@ class Root:
 
 
 def solve_by_newton(problem: CoupledProblem, start: Start, tolerance: float) -> CoupledSolution:
-    """Solve pressure and shear together.
+    """Solve the coupled pressure and shear of an increment by the semismooth Newton method.
 
-    tolerance  of Σ w |p − ⟨z_z⟩| / Σ w p + Σ w |q − P(z_t)| / Σ w µp, plus the error of the loads
+    start      initial guess of tractions and rigid motion
+    tolerance  limit of Σ w |p − ⟨z_z⟩| / Σ w p + Σ w |q − P(z_t)| / Σ w µp plus the error of the
+               prescribed loads [1]; symbols as in `natural_map`
     raises     NotConverged
     """
     found = root(problem, start, tolerance)
@@ -57,7 +71,12 @@ def solve_by_newton(problem: CoupledProblem, start: Start, tolerance: float) -> 
 
 
 def root(problem: CoupledProblem, start: Start, tolerance: float, springs: float = 0.0) -> Root:
-    """Find a root of the equations with springs between the surfaces; raises NotConverged."""
+    """Find a root of the contact equations of an increment, with springs between the surfaces.
+
+    tolerance  limit of the norm of the residual [1]
+    springs    compliance of the springs [length^3/force]; zero without springs
+    raises     NotConverged
+    """
     misses: list[float] = []
     try:
         at, solves = _first(problem, start, springs)
@@ -82,9 +101,13 @@ def root(problem: CoupledProblem, start: Start, tolerance: float, springs: float
 
 
 def _step(jacobian: Matrix, right: Vector) -> Vector:
-    """Solve the linear system. Rows with the diagonal entry alone are eliminated first.
+    """Compute the Newton step by the solution of the linear system.
 
-    These are the equations of points without contact and of components that symmetry excludes.
+    Equations with a diagonal entry alone are eliminated first. These are the equations of points
+    without contact, and of components that symmetry excludes.
+
+    jacobian  generalised derivative of the equations, without the column of the spring compliance
+    right     negative residual
     """
     diagonal = np.diagonal(jacobian)
     alone = (np.count_nonzero(jacobian, axis=1) == 1) & (diagonal != 0)
@@ -96,10 +119,13 @@ def _step(jacobian: Matrix, right: Vector) -> Vector:
 
 
 def _first(problem: CoupledProblem, start: Start, springs: float) -> tuple[Iterate, int]:
-    """An iterate with pressure, and the linear solves for it.
+    """Create the first iterate of Newton's method, and count the linear systems that it requires.
 
-    Where there is none yet it is that of frictionless contact: between bodies apart no force
-    depends on any motion, and no Newton step is defined.
+    If the initial guess has no pressure, the first iterate is the solution of the frictionless
+    contact. Between separated bodies no force depends on any motion, so that no Newton step is
+    defined.
+
+    springs  compliance of the springs between the surfaces [length^3/force]
     """
     pressure, approach, solves = start.pressure, start.approach, 0
     if not np.any(pressure > 0):
@@ -115,10 +141,14 @@ def _first(problem: CoupledProblem, start: Start, springs: float) -> tuple[Itera
 
 
 def _nearer(equations: Equations, at: Iterate, change: Vector, bound: float) -> Iterate | None:
-    """Return the first trial of a line search whose residual is below the bound.
+    """Search along a Newton step for an iterate whose residual norm is below a bound.
 
-    If there is none, return the trial of the least residual: at a kink all steps may increase it.
-    Return None if no residual is finite.
+    The step is halved up to MAX_HALVINGS times. Return the first iterate below the bound. If there
+    is none, return the iterate with the least residual norm, because at a kink all steps may
+    increase the norm. Return None if no residual norm is finite.
+
+    change  Newton step (3 points + 3,)
+    bound   limit of the residual norm [1]
     """
     nearest, least = None, np.inf
     for halvings in range(MAX_HALVINGS + 1):

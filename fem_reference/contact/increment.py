@@ -1,8 +1,8 @@
-"""One load increment on points: from the state at its start to the state at its end.
+"""Solve one load increment on points: from the contact state at its start to that at its end.
 
-Pressure and shear follow from the alternating iteration and Newton's method for both; if these
-fail, from continuation. With a penalty an increment has several passes, of which
-each takes the tractions of the last one as multipliers (see `augmented_lagrangian`).
+Pressure and shear of coupled bodies follow from the alternating iteration, completed by Newton's
+method. If both fail, they follow from continuation. With a penalty an increment has several passes.
+The multipliers of a pass are the tractions of the previous pass (see `augmented_lagrangian`).
 """
 
 from dataclasses import dataclass, replace
@@ -54,8 +54,12 @@ WIDEST_ZONE = 1.25
 def advance(
     contact: PointContact, before: PointState | None, loads: Loads, tolerance: float
 ) -> PointState:
-    """Solve an increment. All residuals of the state at its end are at most the tolerance.
+    """Solve one increment and return the contact state at its end.
 
+    All residuals of the state are at most the tolerance.
+
+    before  state at the start of the increment; None before first contact
+    loads   prescribed loads or motions at the end of the increment
     raises  NotConverged, SurfacesOverlap, GrossSliding, NothingTouches
     """
     _refuse_unresolved(contact, loads)
@@ -72,7 +76,9 @@ def advance(
 
 
 def _refuse_unresolved(contact: PointContact, loads: Loads) -> None:
-    """Raise NothingTouches if the approach is below the gap at all points."""
+    """Raise NothingTouches if the prescribed approach does not exceed the undeformed gap at any
+    point.
+    """
     approach, gap = loads.normal.approach, float(np.min(contact.gap))
     if approach is not None and approach <= gap:
         raise NothingTouches(
@@ -83,17 +89,19 @@ def _refuse_unresolved(contact: PointContact, loads: Loads) -> None:
 
 @dataclass(frozen=True)
 class _Pass:
-    """Solution for given multipliers, with its displacements and residuals.
+    """Solution of the contact problem for given multipliers, with its displacements and residuals.
 
-    multiplier    see `PointState`
-    displacement  u_t of the bodies [length]
-    law_gap       gap with the strain of springs, zero where there is pressure [length]
-    passed        slip of the indenter relative to the body in the increment, minus the strain of
-                  springs (2, points); springs pull particles in this direction
-    motion        see `PointState`
-    outer_iterations
-                  alternating iterations of all attempts
-    solves        linear systems of all attempts
+    With a penalty an increment consists of several passes with updated multipliers.
+
+    multiplier        tractions without the contribution of the penalty springs, r, θ, z (3, points)
+    displacement      tangential displacement of the bodies (2, points) [length]
+    law_gap           gap plus the strain of the springs (points,), zero in contact [length]
+    passed            slip of the indenter relative to the body in the increment, minus the strain
+                      of the springs (2, points) [length]
+    motion            shift [length] or twist [radian]; None at the friction limit under a
+                      prescribed load
+    outer_iterations  number of alternating iterations in all attempts
+    solves            number of linear systems in all attempts
     """
 
     problem: CoupledProblem
@@ -109,29 +117,34 @@ class _Pass:
 
     @property
     def tractions(self) -> Field:
-        """Shear and pressure, r, θ, z (3, points)."""
+        """Shear and pressure as one array with the components r, θ, z (3, points)."""
         return np.concatenate([self.solution.shear, self.solution.pressure[None]])
 
     @property
     def strain(self) -> Field:
-        """Strain of the springs, r, θ, z (3, points) [length]."""
+        """Deformation of the penalty springs, components r, θ, z (3, points) [length]."""
         return self.problem.compliance.springs * (self.tractions - self.multiplier)
 
     @property
     def overlap(self) -> float:
-        """Largest overlap that springs leave [length]."""
+        """Largest overlap of the surfaces that the penalty springs permit [length]."""
         loaded = self.solution.pressure > 0
         return float(np.max(np.abs(self.strain[2]), where=loaded, initial=0.0))
 
     @property
     def overlap_share(self) -> float:
-        """The overlap over the approach."""
+        """Largest overlap of the surfaces divided by the rigid approach [1]."""
         return over(self.overlap, abs(self.solution.approach))
 
 
 @dataclass(frozen=True)
 class _Increment:
-    """The increment from a state to given loads."""
+    """Increment from a contact state to prescribed loads, with the solves for its passes.
+
+    before     contact state at the start of the increment
+    loads      prescribed loads or motions at the end of the increment
+    tolerance  upper limit of every residual [1]
+    """
 
     contact: PointContact
     before: PointState
@@ -139,10 +152,11 @@ class _Increment:
     tolerance: float
 
     def first(self) -> _Pass:
-        """Solve the first pass.
+        """Solve the first pass of the increment.
 
-        At Gauss points the multiplier of the pressure starts from zero in every increment, because
-        ripples would accumulate otherwise. That of the shear starts from the shear.
+        Without a penalty it is the only pass. At Gauss points the multiplier of the pressure is
+        zero at the start of every increment, because oscillations would accumulate otherwise. The
+        multiplier of the shear is the shear at the start of the increment.
         """
         before, penalty = self.before, self.contact.penalty
         multiplier = np.zeros_like(before.tractions)
@@ -154,7 +168,11 @@ class _Increment:
         return self._solve(multiplier, before.tractions, motion)
 
     def again(self, last: _Pass) -> _Pass:
-        """Solve the pass whose multipliers are the tractions of the last one."""
+        """Solve the next pass of the increment, whose multipliers are the tractions of the last
+        pass.
+
+        The numbers of iterations and linear systems are the sums over all passes.
+        """
         motion = last.motion, last.solution.approach
         after = self._solve(last.tractions, last.tractions, motion)
         outer_iterations, solves = (
@@ -164,14 +182,15 @@ class _Increment:
         return replace(after, outer_iterations=outer_iterations, solves=solves)
 
     def left(self, one: _Pass) -> float:
-        """Compute the error of the penalty in a pass [1].
+        """Compute the error of the penalty in a pass: the deformation of the springs, relative [1].
 
-        It is the overlap over the approach, or the strain of springs along the surface over the
-        largest displacement there in the history, both weighted with the shear; the larger of the
-        two. Residual shear without a load moves the bodies by less than the elements resolve of the
-        displacement before. At Gauss points the error counts with the square of the part of the
-        mesh's contact zone that is in contact. The error of the elements is inverse to that square,
-        and the penalty's need not be smaller.
+        The error is the larger of two ratios. The first is the overlap over the approach. The
+        second is the tangential strain of the springs over the largest tangential displacement in
+        the history, both as means weighted with the shear.
+
+        At Gauss points the error is multiplied by the square of the ratio of the contact radius to
+        the radius of the mesh's contact zone. The discretisation error is proportional to the
+        inverse of this square, and the error of the penalty need not be smaller.
         """
         moved = self.moved(one) + ROUND_OFF * abs(one.solution.approach)
         left = max(one.overlap_share, over(self.weighted(one, one.strain[:2]), moved))
@@ -183,16 +202,24 @@ class _Increment:
         return left * min(1.0, WIDEST_ZONE * reached / rings.reach) ** 2
 
     def moved(self, one: _Pass) -> float:
-        """Compute the largest mean tangential displacement of the history up to a pass [length]."""
+        """Compute the largest mean tangential displacement of the history up to a pass [length].
+
+        The mean is weighted with the shear.
+        """
         return max(self.before.moved, self.weighted(one, one.displacement))
 
     def weighted(self, one: _Pass, vectors: Field) -> float:
-        """Compute the mean length of vectors, weighted with the shear of a pass."""
+        """Compute the mean length of vectors (2, points) over the contact, weighted with the shear
+        of a pass.
+        """
         shear = self.contact.compliance.areas * length(one.solution.shear)
         return over(float(np.sum(shear * length(vectors))), float(np.sum(shear)))
 
     def state(self, passes: list[_Pass]) -> PointState:
-        """Collect the state at the end of the last pass."""
+        """Create the contact state at the end of the increment from the solution of its last pass.
+
+        passes  solutions of all passes
+        """
         contact, before, last = self.contact, self.before, passes[-1]
         compliance, problem, solution = contact.compliance, last.problem, last.solution
         p, q, w = solution.pressure, solution.shear, compliance.areas
@@ -235,12 +262,15 @@ class _Increment:
         )
 
     def _solve(self, multiplier: Field, start: Field, motion: tuple[float | None, float]) -> _Pass:
-        """Solve one pass. Its residuals follow from displacements that are computed anew from the
-        final tractions, harmonic by harmonic.
+        """Solve the contact problem for given multipliers until all residuals meet the tolerance.
 
-        start   tractions r, θ, z (3, points)
-        motion  of the indenter, tangential and approach
-        raises  NotConverged, GrossSliding
+        The residuals follow from displacements that are computed again from the final tractions,
+        harmonic by harmonic, without the compliance matrix.
+
+        multiplier  tractions without the contribution of the penalty springs, r, θ, z (3, points)
+        start       initial guess of the tractions r, θ, z (3, points)
+        motion      initial guess of the shift or twist, and of the approach
+        raises      NotConverged, GrossSliding
         """
         contact, before, loads = self.contact, self.before, self.loads
         compliance = contact.compliance
@@ -283,6 +313,12 @@ class _Increment:
         outer_iterations: int,
         solves: int,
     ) -> _Pass:
+        """Compute displacements, slip and residuals of a solution, and return them as a pass.
+
+        multiplier  tractions without the contribution of the penalty springs, r, θ, z (3, points)
+        outer_iterations, solves
+                    numbers of alternating iterations and of linear systems so far
+        """
         compliance, motion = problem.compliance, solution.shift
         if motion is None and not np.any(problem.bound(solution.pressure)):
             # Without any friction limit the indenter does not move.
@@ -303,6 +339,12 @@ class _Increment:
     def _status(
         self, problem: CoupledProblem, p: Vector, in_stick: Mask, load: float
     ) -> ContactStatus:
+        """Determine the contact status from the sticking points and the tangential load.
+
+        p         pressure (points,)
+        in_stick  True for sticking points (points,)
+        load      tangential force or torque of the shear
+        """
         carries = problem.compliance.carries_shear
         driven = bool(np.any(problem.compliance.motion))
         return contact_status(
@@ -310,9 +352,13 @@ class _Increment:
         )
 
     def _touching_share(self, p: Vector, at_edges: Vector) -> Vector:
-        """Compute `touching_share` at the points (points,), ray by ray.
+        """Compute the contact fraction of the increment at every point (points,), ray by ray.
 
-        at_edges  pressure by which the edge is found at the end (points,)
+        The contact fraction is the part of the increment in which the point is in contact, see
+        `touching_share`. Used to count slip only while the surfaces are in contact.
+
+        p         pressure at the end of the increment (points,)
+        at_edges  pressure from which the contact edge at the end is computed (points,)
         """
         compliance, before = self.contact.compliance, self.before
         rings = compliance.rings
@@ -338,10 +384,13 @@ class _Increment:
     def _residuals(
         self, problem: CoupledProblem, solution: CoupledSolution, g: Vector, passed: Field | None
     ) -> Residuals:
-        """Compute the residuals of the law; with a penalty, of that of the springs.
+        """Compute the residuals of the contact and friction laws for a solution.
 
-        g       gap with the strain of springs
-        passed  as of a pass; None where the motion is undefined
+        With a penalty the residuals are those of the penalty law.
+
+        g       gap plus the strain of the springs (points,) [length]
+        passed  slip in the increment minus the strain of the springs (2, points) [length]; None if
+                the motion of the indenter is undefined
         """
         p, q, w = solution.pressure, solution.shear, problem.compliance.areas
         bound, approach = problem.bound(p), solution.approach
@@ -376,12 +425,14 @@ class _Increment:
 
 
 def _solved(problem: CoupledProblem, start: Start, tolerance: float) -> CoupledSolution:
-    """Solve by the alternating iteration, else by Newton's method, else by continuation.
+    """Solve the coupled problem by alternating iteration, else by Newton's method, else by
+    continuation.
 
     For coupled bodies the alternating iteration provides the initial guess of Newton's method,
     which then converges to round-off in a few steps. If Newton's method fails from there, the
-    alternating iteration continues. Only the latter can end at the friction limit, where no motion
-    is defined.
+    alternating iteration continues. Only the alternating iteration can end at the friction limit,
+    where the motion of the indenter is undefined. If the alternating iteration fails, Newton's
+    method and then continuation start from the initial guess of the increment.
     """
     outer_iterations = spent = 0
     try:
@@ -428,16 +479,17 @@ def _solved(problem: CoupledProblem, start: Start, tolerance: float) -> CoupledS
 def touching_share(
     radii: Field, apart_before: Mask, apart: Mask, edge_before: float, edge: float
 ) -> Field:
-    """Compute the contact fraction of an increment for each ring.
+    """Compute the contact fraction of an increment for each ring, from 0 to 1.
 
-    Particles slip past each other from their touch on and until they part. Where the edge of the
-    contact passes a ring at r on its way from a₀ to a₁, they touch for |a - r|/|a₁ - a₀| of their
-    motion, with a the larger of both: to first order in the increment, in which the motion follows
-    the radius.
+    Particles slip past each other only while they are in contact. If the contact edge moves from a₀
+    to a₁ and passes a ring of radius r, the ring is in contact for the fraction |a - r|/|a₁ - a₀|
+    of the motion, with a the larger of a₀ and a₁. This fraction is correct to first order in the
+    increment, in which the motion follows the radius.
 
-    radii                of the rings [length]
-    apart_before, apart  rings with a gap at start and end
-    edge_before, edge    a₀ and a₁ [length]; without contact 0
+    radii              radii of the rings [length]
+    apart_before, apart
+                       True for rings with a gap at the start, and at the end
+    edge_before, edge  a₀ and a₁ [length], 0 without contact
     """
     widest, travel = max(edge_before, edge), abs(edge - edge_before)
     passed = apart_before != apart

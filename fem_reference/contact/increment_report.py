@@ -108,8 +108,7 @@ def _with_shear(
 
 
 def _shown(contact: PointContact, values: NDArray[Scalar]) -> NDArray[Scalar]:
-    """Convert a scalar field at points (points,) to (rings, angles), or (rings,) if axisymmetric.
-    """
+    """Convert a scalar field at points (points,) to (rings, angles), or (rings,) if axisymmetric."""
     return _ring(contact, contact.compliance.scalar_on_grid(values))
 
 

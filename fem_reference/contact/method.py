@@ -88,8 +88,7 @@ class ContactMethod:
 
     @property
     def undeformed_gap(self) -> NDArray[np.float64]:
-        """Gap between the undeformed surfaces, the weighted mean over each ring (rings,) [length].
-        """
+        """Gap between the undeformed surfaces, the weighted mean over each ring (rings,) [length]."""
         return self._on_rings.gap
 
     @cached_property
@@ -99,8 +98,7 @@ class ContactMethod:
 
     @cached_property
     def _on_points(self) -> PointContact:
-        """Contact problem with several angles per ring, for coupled bodies under a tangential load.
-        """
+        """Contact problem with several angles per ring, for coupled bodies under a tangential load."""
         around = self.around or end_grid(HIGHEST)
         return point_contact(self.model, self.plan.path, around, self.penalty)
 

@@ -123,8 +123,8 @@ class Equations:
         """Compute the norm of a residual vector [1].
 
         The norm is the sum of the pressure residuals relative to the normal load and of the shear
-        residuals relative to the friction limit. The norm is infinite without a prescribed load and
-        without tractions.
+        residuals relative to the friction limit. The norm is infinite without a prescribed normal
+        force and without pressure.
 
         missed  residual vector (3 points + 2,)
         at      iterate at which the residual was computed

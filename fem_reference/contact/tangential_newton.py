@@ -1,7 +1,8 @@
-"""Shear at given pressure: sticking or slipping points by projected Newton steps.
+"""Tangential problem at a given pressure: sticking and slipping points by projected Newton steps.
 
-With the bound µp given, the shear minimises ½ qᵀKq − cᵀq over all vectors within their discs whose
-resultant is T: a convex problem, whose multiplier is the shift ω of the indenter.
+With the given friction limit µp, the shear q minimises the energy ½ qᵀKq − cᵀq. Each shear vector
+lies within a disc of radius µp, and the resultant may be prescribed as T. The problem is convex.
+The multiplier of the resultant is the shift ω of the indenter.
 """
 
 from dataclasses import dataclass
@@ -24,13 +25,16 @@ GRADIENT_STEPS = 2
 
 @dataclass(frozen=True)
 class ShearProblem:
-    """One tangential problem on contact points.
+    """Tangential problem on the contact points at a given pressure.
 
-    compliance  K (2 points, 2 points), components outermost: w u_t = K q
-    target      c = w (u_t − ω of the state before, less u_t by the new pressure) (2, points)
-    areas       w (points,)
-    along       T = Σ along · q, and along ω is w times the displacement of a shift (2, points)
-    bound       µp > 0 (points,)
+    compliance  K (2 points, 2 points), components outermost, with w u_t = K q
+    target      c = w (u_t − ω of the previous state − u_t by the new pressure) (2, points): the
+                area-weighted displacement by shear under full stick and zero shift
+    areas       areas w that the points represent (points,) [length^2]
+    along       factors of the shear in the load T = Σ along · q; also w times the displacement per
+                unit shift (2, points)
+    bound       friction limit µp > 0 (points,) [force/length^2]
+    control     prescribed tangential load or motion
     """
 
     compliance: Matrix
@@ -41,21 +45,28 @@ class ShearProblem:
     control: TangentialTarget
 
     def stiffness(self) -> Vector:
-        """Compute d (points,), the metric in which discs remain discs."""
+        """Compute the weights d of the metric Σ d |q|², in which discs remain discs (points,).
+
+        d is the mean of the two diagonal entries of the compliance matrix at a point.
+        """
         diagonal = np.diagonal(self.compliance).reshape(2, -1)
         return np.asarray(0.5 * (diagonal[0] + diagonal[1]))
 
     def forced(self) -> Field:
-        """c with the shift in it, where that is prescribed."""
+        """Return the linear term c of the energy, including the prescribed shift if there is one."""
         motion = self.control.motion
         return self.target if motion is None else self.target + motion * self.along
 
 
 @dataclass(frozen=True)
 class TangentialState:
-    """Shear (2, points), shift, slipping points, residual and number of linear solves.
+    """Solution of a tangential problem.
 
-    shift  None where it is not defined
+    shear     shear at the points (2, points) [force/length^2]
+    shift     shift [length] or twist [radian]; None at the friction limit, where it is undefined
+    in_slip   True for slipping points (points,)
+    residual  relative residual of the shear [1]
+    solves    number of linear systems solved
     """
 
     shear: Field
@@ -66,9 +77,11 @@ class TangentialState:
 
 
 def solve_shear(problem: ShearProblem, start: Field, tolerance: float) -> TangentialState:
-    """The shear and the shift, or the resultant's part of them that is prescribed.
+    """Solve the tangential problem: the shear, and the shift if the load is prescribed.
 
-    tolerance  of Σ w|q − P(q − ∇/d)| / Σ w|q|
+    start      initial guess of the shear (2, points)
+    tolerance  limit of Σ w|q − P(q − ∇/d)| / Σ w|q| [1], with the gradient ∇ of the energy and the
+               projection P onto the admissible shears
     raises     NotConverged
     """
     K, c, d = problem.compliance, problem.forced(), problem.stiffness()
@@ -105,12 +118,16 @@ def solve_shear(problem: ShearProblem, start: Field, tolerance: float) -> Tangen
 
 
 def _sum(areas: Vector, vectors: Field) -> float:
-    """Integrate the length of vectors over the contact."""
+    """Compute the integral of the length of vectors (2, points) over the contact."""
     return float(np.sum(areas * np.sqrt(vectors[0] ** 2 + vectors[1] ** 2)))
 
 
 def _lowest(K: Matrix, slope: Field, q: Field, end: Field) -> tuple[Field, float]:
-    """Return the point of least energy between q and `end`, and the decrease of the energy."""
+    """Return the shear of least energy on the line from q to `end`, and the decrease of the energy.
+
+    K      compliance matrix (2 points, 2 points)
+    slope  gradient of the energy at q (2, points)
+    """
     step = end - q
     falls = float(np.sum(slope * step))
     curvature = float(np.sum(step.ravel() * (K @ step.ravel())))
@@ -123,11 +140,18 @@ def _lowest(K: Matrix, slope: Field, q: Field, end: Field) -> tuple[Field, float
 def _newton_point(
     problem: ShearProblem, c: Field, z: Field, length: Vector, in_slip: Mask, d: Vector
 ) -> Field:
-    """Compute the Newton point: equilibrium at fixed sets of sticking and slipping points.
+    """Compute the shear that Newton's method predicts for fixed sets of sticking and slipping
+    points.
 
-    Unknown are both components where it sticks, and where it slips the component across n = z/|z|;
-    along n the shear is the bound. Turning a vector of the length of the bound away from its slip
-    costs (|z| − bound) d / bound.
+    Unknowns are both components at sticking points, and at slipping points the component
+    perpendicular to n = z/|z|. The component along n is equal to the friction limit. A change of
+    the direction of a slipping vector adds the stiffness (|z| − bound) d / bound.
+
+    c        linear term of the energy (2, points)
+    z        shear minus gradient/d, plus the multiplier term of a prescribed load (2, points)
+    length   |z| (points,)
+    in_slip  True for slipping points (points,)
+    d        weights of the metric (points,)
     """
     K, bound = problem.compliance, problem.bound
     points = len(bound)
@@ -139,6 +163,10 @@ def _newton_point(
     turning = (length[slip] - bound[slip]) * d[slip] / bound[slip]
 
     def on_unknowns(rows: Matrix) -> Matrix:
+        """Restrict rows (2 points, k) of a matrix to the unknowns of the Newton step.
+
+        These are both components at sticking points, then the perpendicular one at slipping points.
+        """
         across = rows[points + slip]
         across *= n[0][:, None]
         across -= rows[slip] * n[1][:, None]

@@ -66,8 +66,7 @@ class TractionBasis(ABC):
 
 
 class Hats(TractionBasis):
-    """Traction basis of hat functions: one at a corner node, zero at all others, linear in between.
-    """
+    """Traction basis of hat functions: one at a corner node, zero at all others, linear in between."""
 
     def of(self, function: Callable[[Field], Field]) -> Field:
         """Compute the integral of f(r) φ_j(r) r dr for each hat function φ_j (n,).

@@ -125,8 +125,7 @@ def _projected_volume(basis: Basis, strain: dict[str, Field]) -> Field:
 
 
 def _linear(basis: Basis) -> Field:
-    """Evaluate the linear functions 1, r and z of every element at its quadrature points (e, 3, q).
-    """
+    """Evaluate the linear functions 1, r and z of every element at its quadrature points (e, 3, q)."""
     return np.stack([np.asarray(field[0]) for field in pressure_basis(basis).basis], axis=1)
 
 

@@ -60,8 +60,7 @@ class SectionMesh:
 
     @cached_property
     def areas(self) -> NDArray[np.float64]:
-        """Area of every element in the (r, z) plane (e,), in units of the contact radius squared.
-        """
+        """Area of every element in the (r, z) plane (e,), in units of the contact radius squared."""
         (r0, r1, r2, r3), (z0, z1, z2, z3) = self.points[:, self.quads]
         return np.abs((r2 - r0) * (z3 - z1) - (r3 - r1) * (z2 - z0)) / 2.0
 
