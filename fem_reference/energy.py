@@ -62,8 +62,7 @@ def input_work(before: Increment | None, increment: Increment) -> float | None:
 def dissipation_uncertainty(
     plan: Plan, before: Increment | None, increment: Increment
 ) -> float | None:
-    """Estimate the error of the dissipated energy that is caused by finite increments [force
-    length].
+    """Estimate the error of the dissipated energy caused by finite increments [force length].
 
     The estimate is Σ ∫ |q₁ - q₀| |s₁ - s₀| dA over the increments of path-dependent load steps: the
     change of shear times the change of slip. Return None if the dissipated energy is None.
@@ -154,8 +153,9 @@ def _hats(radii: Field) -> Hats:
 
 
 def _loads(increment: Increment) -> tuple[Field, Field | None]:
-    """Return the forces (W, T_x, T_y, M_z) of an increment and the conjugate motions of the
-    indenter.
+    """Return the forces and the conjugate motions of an increment.
+
+    The forces are (W, T_x, T_y, M_z).
 
     The motions are (approach, shift along x, shift along y, twist). The motions are None if the
     shift or the twist is undefined.

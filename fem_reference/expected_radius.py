@@ -98,8 +98,7 @@ def _bare_radius(scene: Scene, ramp: LoadRamp) -> float:
 
 
 def _half_space_radius(scene: Scene, ramp: LoadRamp) -> float:
-    """Estimate the contact radius at the end of a ramp from the closed form for half-spaces
-    [length].
+    """Estimate the contact radius at the end of a ramp by half-space theory [length].
 
     Each half-space has the mean of (1-ν²)/E over all layers of the body. Raise UnsupportedScene if
     the shape of the indenter has no closed form.

@@ -116,8 +116,9 @@ class _Solver:
         return accounted(self.scene, self.method.plan, last, increment, resisted)
 
     def _along(self, ramp: LoadRamp) -> ScalarControl | None:
-        """Return the control of the twist, or of the tangential motion projected on the plan's
-        direction.
+        """Return the control of the twist or of the tangential motion.
+
+        The tangential motion is projected on the plan's direction.
 
         Return None if the plan has neither torsion nor a tangential load.
         """

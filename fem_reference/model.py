@@ -25,8 +25,7 @@ from fem_reference.scales import Scales
 
 
 class ContactModel:
-    """Hold the two bodies of a scene with their meshes, and compute the compliances of their
-    surfaces.
+    """Hold two bodies with their meshes, and compute the compliances of their surfaces.
 
     A compliance is computed at its first use and stored. Lengths and forces have the units of the
     scene. Only the meshes are in the units of `scales`.
@@ -66,8 +65,9 @@ class ContactModel:
 
     @cached_property
     def radii(self) -> Field:
-        """Radii of the surface nodes in the contact zone (m,), corner and midside nodes alternating
-        [length].
+        """Radii of the surface nodes in the contact zone (m,) [length].
+
+        Corner and midside nodes alternate.
         """
         section = next(section for section in self.sections if section is not None)
         return np.asarray(section.radii * self.scales.length)
@@ -135,8 +135,9 @@ class ContactModel:
         return np.asarray(0.5 * (C[0, :, 0] - C[0, :, 1] - C[1, :, 0] + C[1, :, 1]))
 
     def _condensed(self, of: Motion) -> NodalCompliance:
-        """Return the compliance of the two surfaces in one motion; compute and store it at its
-        first use.
+        """Return the compliance of the two surfaces in one motion.
+
+        The compliance is computed at its first use and stored.
 
         The result has the units of the scene and contains the compliance of the rig's springs.
         """
@@ -153,8 +154,7 @@ class ContactModel:
         return self._compliances[of]
 
     def _springs(self, of: Motion) -> Field:
-        """Compute the displacement of the nodes by the springs of the loading rig, per unit nodal
-        force.
+        """Compute the displacement of the nodes by the rig's springs, per unit nodal force.
 
         The springs displace all nodes equally. The result has one row and one column for each
         component of the motion, shape (c, c) [length/force]. It is zero for motions without a

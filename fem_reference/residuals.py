@@ -48,8 +48,9 @@ def penetration(gap: Field, weights: Field, approach: float) -> float:
 
 
 def friction_cone(size: Field, bound: Field) -> float:
-    """Compute the largest excess of the shear over the friction limit µp, relative to the largest
-    limit.
+    """Compute the largest excess of the shear over the friction limit µp.
+
+    The excess is relative to the largest limit [1].
 
     size   magnitude of the shear at the points [force/length^2]
     bound  friction limit µp at the points [force/length^2]

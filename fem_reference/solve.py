@@ -109,7 +109,7 @@ def _solver(
     discretisation: FiniteElementDiscretisation,
     method: Method,
 ) -> ContactMethod:
-    """Create the contact method on a model, with exact or penalty enforcement of the contact laws."""
+    """Create the contact method on a model, with exact or penalty enforcement of the laws."""
     penalty = None
     if method is Method.PENALTY:
         penalty = Penalty(
@@ -121,8 +121,9 @@ def _solver(
 def _counted(
     model: ContactModel, history: Iterator[tuple[Increment, ResumePoint[PointState]]]
 ) -> Iterator[tuple[Increment, ResumePoint[PointState]]]:
-    """Yield the increments and resume points of a history, with the numbers of sparse
-    factorisations.
+    """Yield the increments of a history with their numbers of sparse factorisations.
+
+    Each increment comes with its resume point.
 
     The number of an increment counts the factorisations since the previous increment.
     """

@@ -73,7 +73,7 @@ class AngularGrid:
         return np.stack([f @ wave for f, wave in zip(amplitudes, waves, strict=True)])
 
     def modes(self, angles: Vector) -> tuple[Matrix, Matrix]:
-        """Compute cos nθ and sin nθ of all harmonics n at given angles, each (harmonics, angles)."""
+        """Compute cos nθ and sin nθ of all harmonics n at angles θ, each (harmonics, angles)."""
         phase = np.outer(np.arange(self.highest + 1), angles)
         return np.cos(phase), np.sin(phase)
 

@@ -17,8 +17,7 @@ POINTS_PER_EDGE = 3
 
 
 class GaussPoints(TractionBasis):
-    """Traction basis of Gauss points: the tractions are concentrated on rings through the Gauss
-    points.
+    """Traction basis of tractions that are concentrated on rings through Gauss points.
 
     The function of a point r_g is one at the point and zero at all others. The integral of f over r
     dr is Σ f(r_g) w_g r_g with the Gauss weights w_g.

@@ -46,8 +46,9 @@ class PointCompliance:
 
     @cached_property
     def areas(self) -> Vector:
-        """Areas w that the points represent (points,) [length^2]. Their sum is the area of the
-        contact zone.
+        """Areas w that the points represent (points,) [length^2].
+
+        The sum of the areas is the area of the contact zone.
         """
         weights = self.grid.weights
         around = np.tile(weights, len(self.rings.radii) - 1)
@@ -55,8 +56,9 @@ class PointCompliance:
 
     @cached_property
     def motion(self) -> Field:
-        """Tangential displacement of the points per unit shift or twist of the indenter (2,
-        points).
+        """Tangential displacement of the points per unit shift or twist (2, points).
+
+        The shift or twist is that of the indenter.
         """
         if self.grid.highest == 0:
             return self.rings.motion
@@ -65,7 +67,7 @@ class PointCompliance:
 
     @cached_property
     def stretch(self) -> Field:
-        """Tangential displacement of the points per unit equibiaxial strain (2, points) [length]."""
+        """Tangential displacement of points per unit equibiaxial strain (2, points) [length]."""
         outward = self.rings.stretch[self.ring_of_point]
         return np.stack([outward, np.zeros_like(outward)])
 
@@ -93,8 +95,9 @@ class PointCompliance:
 
     @cached_property
     def matrix(self) -> Matrix:
-        """Compliance matrix K of all points (3 points, 3 points) with w u = K t; r, θ, z are
-        outermost.
+        """Compliance matrix K of all points (3 points, 3 points), with w u = K t.
+
+        Rows and columns are ordered by the components r, θ, z, then by points.
 
         Here t are the tractions, u the displacements and w the areas of the points. K is symmetric
         and positive definite. If mirror symmetry excludes a component at a point, a diagonal entry
@@ -121,8 +124,9 @@ class PointCompliance:
         return K
 
     def displacement(self, pressure: Vector, shear: Field) -> tuple[Field, Vector]:
-        """Compute the tangential (2, points) and normal (points,) displacement by given tractions
-        [length].
+        """Compute the displacement of the points by given tractions [length].
+
+        Return the tangential displacement (2, points) and the normal displacement (points,).
 
         The computation is done harmonic by harmonic, independently of the compliance matrix. The
         tangential displacement is set to zero at points that cannot carry shear.
@@ -153,7 +157,10 @@ class PointCompliance:
         return np.concatenate(on_grid).reshape(rings, angles)
 
     def vector_on_grid(self, values: Field) -> Field:
-        """Convert a vector field from points (2, points) to components r and θ (2, rings, angles)."""
+        """Convert a vector field at the points (2, points) to the shape (2, rings, angles).
+
+        The components of the result are r and θ.
+        """
         return self._spread(np.stack([*values, np.zeros_like(values[0])]))[:2]
 
     @cached_property
@@ -178,16 +185,18 @@ class PointCompliance:
         return unit
 
     def _spread(self, values: Field) -> Field:
-        """Convert a vector field from points (3, points) to components r, θ and z (3, rings,
-        angles).
+        """Convert a vector field at the points (3, points) to the shape (3, rings, angles).
+
+        The components of the result are r, θ and z.
         """
         rings, angles = self.shape
         axis = np.einsum("cak,c->ak", self._axis, values[:, 0])
         return np.concatenate([axis[:, None], values[:, 1:].reshape(3, rings - 1, angles)], axis=1)
 
     def _summed_on_axis(self, weak: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Convert weighted displacements from rings and angles (3, rings, angles, …) to points (3,
-        points, …).
+        """Convert area-weighted displacements on rings and angles to points.
+
+        The shapes are (3, rings, angles, …) and (3, points, …).
 
         On the axis the values of all angles are summed to components x, y and z. This conversion is
         the transpose of `_spread`, so that the work of the tractions is preserved.

@@ -100,8 +100,9 @@ class HatEdge:
 
     @property
     def of_stick(self) -> "HatEdge":
-        """Rule of a half-plane for the edge of the stick zone, without the correction for finite
-        elements.
+        """Rule of a half-plane for the edge of the stick zone.
+
+        The rule has no correction for finite elements.
         """
         return HatEdge()
 

@@ -14,8 +14,9 @@ ROUND_OFF = 4e-16
 
 
 def into_discs(q: Field, bound: Vector) -> Field:
-    """Reduce shear vectors that exceed the friction limit to the limit, without a change of
-    direction.
+    """Reduce shear vectors that exceed the friction limit to the limit.
+
+    The directions of the vectors do not change.
 
     q      shear vectors (2, points) [force/length^2]
     bound  friction limit of each point (points,) [force/length^2]

@@ -74,8 +74,9 @@ class CoupledProblem:
         return over(float(np.sum(w * self.friction.limit(p))), float(np.sum(w * p)))
 
     def capacity(self, pressure: Vector) -> float:
-        """Compute the largest tangential force or torque that friction can carry under a given
-        pressure.
+        """Compute the largest tangential load that friction can carry under a given pressure.
+
+        The load is a force or a torque.
         """
         lever = np.hypot(*self.compliance.motion)
         return float(np.sum(self.compliance.areas * lever * self.bound(pressure)))
@@ -191,8 +192,9 @@ def approach_of(problem: CoupledProblem, pressed: BoxSolution) -> float:
 
 
 def press(problem: CoupledProblem, q: Field, guess: Sides) -> BoxSolution:
-    """Solve the normal problem: the pressure at a given shear, and the approach under a given
-    force.
+    """Solve the normal problem: the pressure at a given shear.
+
+    Under a prescribed force, the approach is part of the solution.
 
     Raise NotConverged, or LinAlgError.
 

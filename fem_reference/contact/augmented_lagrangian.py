@@ -57,8 +57,9 @@ def augmented(
     penalty: Penalty,
     fewest: int,
 ) -> list[P]:
-    """Repeat the penalty solve of an increment with updated multipliers until the overlap is
-    allowed.
+    """Repeat the penalty solve of an increment until the remaining overlap is allowed.
+
+    The multipliers are updated after each solve.
 
     Return the solutions of all passes. The last one is the best. One update of stiff springs
     removes nearly all of the error of the penalty (Alart and Curnier 1991, Comput. Methods Appl.

@@ -105,8 +105,9 @@ def solve_box(program: BoxProgram, guess: Sides) -> BoxSolution:
 
 
 def _on_free(program: BoxProgram, sides: Sides) -> tuple[Field, float]:
-    """Solve for the free components of x with all others at their bounds; return x and the
-    multiplier.
+    """Solve for the free components of x with all others at their bounds.
+
+    Return x and the multiplier λ of the linear condition.
 
     sides  active set: -1 at the lower bound, 0 free, +1 at the upper bound (n,)
     """

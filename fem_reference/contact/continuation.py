@@ -1,5 +1,4 @@
-"""Continuation of coupled contact: the compliance of springs between the surfaces is reduced to
-zero.
+"""Continuation of coupled contact problems in the compliance of springs between the surfaces.
 
 Strong friction with strongly coupled bodies has several states that satisfy all laws. Pairs of
 states appear and vanish as loads change, and Newton's method then cycles between kinks.
@@ -36,8 +35,9 @@ LITTLE_FRICTION = 0.1  # least divisor of the error of shear, over the pressure
 def solve_by_continuation(
     problem: CoupledProblem, start: Start, tolerance: float
 ) -> CoupledSolution:
-    """Solve the coupled pressure and shear of an increment by continuation in the spring
-    compliance.
+    """Solve the coupled pressure and shear of an increment by continuation.
+
+    The parameter is the compliance of springs between the surfaces, which is reduced to zero.
 
     start      initial guess of tractions and rigid motion
     tolerance  limit of the norm of the residual, as in `solve_by_newton` [1]
@@ -96,8 +96,9 @@ class _Path:
         return NotConverged("the path of continuation", self._solves, left, tolerance)
 
     def step(self, tolerance: float) -> Root | None:
-        """Try one step along the path. Return the solution without springs if the path has reached
-        its end.
+        """Try one step along the path.
+
+        Return the solution without springs if the path has reached its end.
 
         Return None otherwise. If the correction fails, the next step is shorter.
         """
@@ -119,8 +120,9 @@ class _Path:
         return reached.root
 
     def _go_to(self, reached: _Reached) -> None:
-        """Move the current point to a converged point, and update the direction and the step
-        length.
+        """Move the current point to a converged point.
+
+        The direction and the step length are updated.
         """
         direction, sign = self._tangent(reached.derivative, self._direction)
         self._values = reached.values
@@ -143,8 +145,9 @@ class _Path:
         self._length = 100 * BEYOND_KINK
 
     def _corrected(self, ahead: Vector, across: Vector, tolerance: float) -> _Reached | None:
-        """Compute the intersection of the path with a plane by Newton's method, or return None if
-        it fails.
+        """Compute the intersection of the path with a plane by Newton's method.
+
+        Return None if Newton's method fails.
 
         ahead      point of the plane at which Newton's method starts (3 points + 3,)
         across     normal of the plane, a unit vector (3 points + 3,)
@@ -170,8 +173,9 @@ class _Path:
         return np.asarray(jacobian * self._scales)
 
     def _tangent(self, derivative: Matrix, along: Vector) -> tuple[Vector, float]:
-        """Compute the unit tangent of the path, and the sign of the determinant of the extended
-        derivative.
+        """Compute the unit tangent of the path.
+
+        Return also the sign of the determinant of the extended derivative.
 
         derivative  derivative of the equations by the scaled unknowns
         along       vector with which the tangent has a positive scalar product; last row of the

@@ -76,9 +76,7 @@ def advance(
 
 
 def _refuse_unresolved(contact: PointContact, loads: Loads) -> None:
-    """Raise NothingTouches if the prescribed approach does not exceed the undeformed gap at any
-    point.
-    """
+    """Raise NothingTouches if the prescribed approach is at most the gap at all points."""
     approach, gap = loads.normal.approach, float(np.min(contact.gap))
     if approach is not None and approach <= gap:
         raise NothingTouches(
@@ -168,8 +166,7 @@ class _Increment:
         return self._solve(multiplier, before.tractions, motion)
 
     def again(self, last: _Pass) -> _Pass:
-        """Solve the next pass of the increment, whose multipliers are the tractions of the last
-        pass.
+        """Solve the next pass, whose multipliers are the tractions of the last pass.
 
         The numbers of iterations and linear systems are the sums over all passes.
         """
@@ -209,8 +206,9 @@ class _Increment:
         return max(self.before.moved, self.weighted(one, one.displacement))
 
     def weighted(self, one: _Pass, vectors: Field) -> float:
-        """Compute the mean length of vectors (2, points) over the contact, weighted with the shear
-        of a pass.
+        """Compute the mean length of vectors over the contact, weighted with the shear of a pass.
+
+        vectors are an array (2, points), such as displacements.
         """
         shear = self.contact.compliance.areas * length(one.solution.shear)
         return over(float(np.sum(shear * length(vectors))), float(np.sum(shear)))
@@ -425,8 +423,9 @@ class _Increment:
 
 
 def _solved(problem: CoupledProblem, start: Start, tolerance: float) -> CoupledSolution:
-    """Solve the coupled problem by alternating iteration, else by Newton's method, else by
-    continuation.
+    """Solve the coupled problem by the first of three algorithms that converges.
+
+    The algorithms are alternating iteration, Newton's method and continuation.
 
     For coupled bodies the alternating iteration provides the initial guess of Newton's method,
     which then converges to round-off in a few steps. If Newton's method fails from there, the

@@ -108,13 +108,17 @@ def _with_shear(
 
 
 def _shown(contact: PointContact, values: NDArray[Scalar]) -> NDArray[Scalar]:
-    """Convert a scalar field at points (points,) to (rings, angles), or (rings,) if axisymmetric."""
+    """Convert a scalar field at points to the shape (rings, angles) or (rings,).
+
+    The result has the shape (rings,) if the contact is axisymmetric.
+    """
     return _ring(contact, contact.compliance.scalar_on_grid(values))
 
 
 def _ring(contact: PointContact, on_grid: NDArray[Scalar]) -> NDArray[Scalar]:
-    """Remove the angle axis of a field (rings, 1) of an axisymmetric contact; else return it
-    unchanged.
+    """Remove the angle axis of a field (rings, 1) if the contact is axisymmetric.
+
+    Other fields (rings, angles) are returned unchanged.
     """
     return on_grid[:, 0] if contact.axisymmetric else on_grid
 
@@ -130,15 +134,14 @@ def _edges(contact: PointContact, state: PointState) -> Field:
 
 
 def _contact_area(contact: PointContact, edges: Field) -> float:
-    """Compute the contact area ½∫a² dθ from the radius a of the contact edge on every ray
-    [length^2].
-    """
+    """Compute the contact area ½∫a² dθ from the edge radius a on every ray [length^2]."""
     return float(0.5 * np.sum(contact.compliance.grid.weights * np.square(edges)))
 
 
 def _stick_area(contact: PointContact, state: PointState, edges: Field) -> float:
-    """Compute the area ½∫c² dθ of the stick zone with the radius c of its edge on every ray
-    [length^2].
+    """Compute the area of the stick zone [length^2].
+
+    The area is ½∫c² dθ with the radius c of the edge of the stick zone on every ray.
     """
     contact_area = _contact_area(contact, edges)
     if state.status is ContactStatus.FULL_STICK and contact.at_gauss_points:

@@ -88,22 +88,34 @@ class ContactMethod:
 
     @property
     def undeformed_gap(self) -> NDArray[np.float64]:
-        """Gap between the undeformed surfaces, the weighted mean over each ring (rings,) [length]."""
+        """Gap between the undeformed surfaces at the rings (rings,) [length].
+
+        The value of a ring is the weighted mean over its basis function.
+        """
         return self._on_rings.gap
 
     @cached_property
     def _on_rings(self) -> PointContact:
-        """Contact problem with one point per ring, for fields that do not depend on the angle."""
+        """Contact problem with one point per ring.
+
+        Used for fields that do not depend on the angle.
+        """
         return point_contact(self.model, self.plan.path, axisymmetric_grid(), self.penalty)
 
     @cached_property
     def _on_points(self) -> PointContact:
-        """Contact problem with several angles per ring, for coupled bodies under a tangential load."""
+        """Contact problem with several angles per ring.
+
+        Used for coupled bodies under a tangential load.
+        """
         around = self.around or end_grid(HIGHEST)
         return point_contact(self.model, self.plan.path, around, self.penalty)
 
     def _refuse_contact_at_edge(self, contact: PointContact, state: PointState) -> None:
-        """Raise ContactAtZoneEdge if the contact reaches the end of the zone of fine elements."""
+        """Raise ContactAtZoneEdge if the contact reaches the end of the fine elements.
+
+        A contact that ends at the rim of the indenter is allowed.
+        """
         last = contact.compliance.ring_of_point == len(contact.rings.radii) - 1
         if not self.model.ends_at_rim and np.any(state.pressure[last] > 0):
             raise ContactAtZoneEdge(

@@ -23,8 +23,7 @@ LEAST_FRICTION = 1e-6  # least divisor of the error of shear, over the pressure
 
 @dataclass(frozen=True)
 class Iterate:
-    """Unknowns of an increment: tractions, rigid motion, and compliance of springs between the
-    surfaces.
+    """Unknowns of an increment: tractions, rigid motion, and compliance of additional springs.
 
     tractions  components r, θ, z of the tractions at the points, r outermost (3 points,)
     shift      tangential shift or twist of the indenter
@@ -39,8 +38,9 @@ class Iterate:
 
     @property
     def values(self) -> Vector:
-        """All unknowns in one vector (3 points + 3,): tractions, shift, approach and spring
-        compliance.
+        """All unknowns in one vector (3 points + 3,).
+
+        The order is tractions, shift, approach, spring compliance.
         """
         return np.append(self.tractions, [self.shift, self.approach, self.springs])
 
@@ -143,8 +143,7 @@ class Equations:
         )
 
     def solution(self, at: Iterate, in_slip: Mask, solves: int) -> CoupledSolution:
-        """Convert a converged iterate to a solution that satisfies the inequalities of the laws
-        exactly.
+        """Convert a converged iterate to a solution that satisfies all inequalities exactly.
 
         The pressure is set to ⟨z_z⟩ and the shear to P(z_t). The iterate must not contain springs.
 

@@ -46,8 +46,9 @@ class PointContact:
 
     @property
     def gap(self) -> Vector:
-        """Gap between the undeformed surfaces, the weighted mean around each point (points,)
-        [length].
+        """Gap between the undeformed surfaces at the points (points,) [length].
+
+        The value of a point is the weighted mean over its ring.
         """
         return self.rings.gap[self.compliance.ring_of_point]
 
@@ -87,8 +88,9 @@ class PointContact:
         )
 
     def lifted(self, state: PointState) -> PointState:
-        """Extend an axisymmetric state, with one point per ring, to the points of this contact
-        problem.
+        """Extend an axisymmetric contact state to the points of this contact problem.
+
+        The axisymmetric state has one point per ring.
         """
         ring = self.compliance.ring_of_point
         lifted: dict[str, Any] = {

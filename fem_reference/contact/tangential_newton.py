@@ -53,7 +53,7 @@ class ShearProblem:
         return np.asarray(0.5 * (diagonal[0] + diagonal[1]))
 
     def forced(self) -> Field:
-        """Return the linear term c of the energy, including the prescribed shift if there is one."""
+        """Return the linear term c of the energy, including a prescribed shift."""
         motion = self.control.motion
         return self.target if motion is None else self.target + motion * self.along
 
@@ -140,8 +140,7 @@ def _lowest(K: Matrix, slope: Field, q: Field, end: Field) -> tuple[Field, float
 def _newton_point(
     problem: ShearProblem, c: Field, z: Field, length: Vector, in_slip: Mask, d: Vector
 ) -> Field:
-    """Compute the shear that Newton's method predicts for fixed sets of sticking and slipping
-    points.
+    """Compute the shear that Newton's method predicts for fixed stick and slip zones.
 
     Unknowns are both components at sticking points, and at slipping points the component
     perpendicular to n = z/|z|. The component along n is equal to the friction limit. A change of

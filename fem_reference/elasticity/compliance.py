@@ -103,7 +103,10 @@ def composite(
 
 
 def _identity(section: SectionMesh, motion: Motion) -> str:
-    """Compute the cache key of a compliance matrix: a hash of all data that determine the matrix."""
+    """Compute the cache key of a compliance matrix.
+
+    The key is a hash of all data that determine the matrix.
+    """
     outline = section.outline
     materials = [(m.young_modulus, m.poisson_ratio) for m in outline.materials]
     edges = (outline.zone, outline.box, outline.interfaces, outline.rigid_base)

@@ -62,8 +62,7 @@ class FactoredSection:
         self._far = self._numbering.factor * far[self._numbering.dofs]
 
     def displacement(self, forces: Field, nodes: Indices | slice = EVERYWHERE) -> Field:
-        """Compute the displacements of nodes by generalised forces on the surface, for k load
-        cases.
+        """Compute the displacements of nodes by generalised forces on the surface.
 
         The result has the shape (c, nodes, k) for c components.
 
@@ -85,8 +84,9 @@ class FactoredSection:
         return displacement
 
     def compliance(self) -> Field:
-        """Compute the displacement of the surface nodes per unit generalised force on them (c, m,
-        c, m).
+        """Compute the displacement of the surface nodes per unit generalised force.
+
+        The shape is (c, m, c, m) for c components and m surface nodes.
 
         The far field depends on the resultant alone and makes the matrix slightly asymmetric. The
         result is the symmetric part.

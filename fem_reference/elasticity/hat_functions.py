@@ -22,9 +22,7 @@ SAME = 1e-9
 
 @BilinearForm  # type: ignore[untyped-decorator]
 def product(hat: Any, trace: Any, w: Any) -> Any:
-    """Return the integrand φ ψ r, with a hat function φ and a quadratic trace function ψ of the
-    radius.
-    """
+    """Return the integrand φ ψ r of a hat function φ and a quadratic trace function ψ."""
     return hat * trace * w.x[0]
 
 
@@ -66,7 +64,10 @@ class TractionBasis(ABC):
 
 
 class Hats(TractionBasis):
-    """Traction basis of hat functions: one at a corner node, zero at all others, linear in between."""
+    """Traction basis of hat functions, one for each corner node.
+
+    A hat function is one at its node, zero at all others and linear in between.
+    """
 
     def of(self, function: Callable[[Field], Field]) -> Field:
         """Compute the integral of f(r) φ_j(r) r dr for each hat function φ_j (n,).

@@ -23,8 +23,9 @@ LEAF = 4  # elements that are not divided further
 
 @dataclass(frozen=True, eq=False)
 class Numbering:
-    """Degrees of freedom of a section: each nodal displacement is a factor times one degree of
-    freedom.
+    """Degrees of freedom of a section, and the order of their elimination.
+
+    Each nodal displacement is a factor times one degree of freedom.
 
     The displacement components of a node on the axis share one degree of freedom.
 
@@ -79,8 +80,9 @@ def number_unknowns(
 
 
 def _elimination_keys(points: NDArray[np.float64], quads: Indices, elements: Indices) -> Indices:
-    """Return two sort keys of each node (2, n) for the order of elimination. The second key has
-    priority.
+    """Return two sort keys of each node (2, n) for the order of elimination.
+
+    The second key has priority.
 
     points, quads  corner positions (2, k), and corner indices of the elements (4, e)
     elements       the 9 nodes of every element (e, 9)

@@ -78,8 +78,7 @@ def element_stiffness(
 
 
 def volume_strain(basis: Basis, harmonic: int, components: Components) -> Field:
-    """Compute the volume strain of the shape functions, projected onto linear functions of an
-    element.
+    """Compute the volume strain of the shape functions, projected onto linear functions.
 
     The result (e, 9 c, 3) contains the coefficients of 3 orthonormal linear functions, for each of
     the 9 shape functions of each of the c components.
@@ -115,8 +114,9 @@ def _strains_of(basis: Basis, harmonic: int, components: Components) -> dict[str
 
 
 def _projected_volume(basis: Basis, strain: dict[str, Field]) -> Field:
-    """Project the volume strain of the shape functions onto orthonormal linear functions (e, 9 c,
-    3).
+    """Project the volume strain of the shape functions onto linear functions (e, 9 c, 3).
+
+    The 3 linear functions of an element are orthonormal.
 
     strain  strains of the shape functions by name, as returned by `_strains_of`
     """
@@ -125,13 +125,14 @@ def _projected_volume(basis: Basis, strain: dict[str, Field]) -> Field:
 
 
 def _linear(basis: Basis) -> Field:
-    """Evaluate the linear functions 1, r and z of every element at its quadrature points (e, 3, q)."""
+    """Evaluate the functions 1, r and z of every element at its quadrature points (e, 3, q)."""
     return np.stack([np.asarray(field[0]) for field in pressure_basis(basis).basis], axis=1)
 
 
 def _orthonormal(basis: Basis, linear: Field) -> Field:
-    """Transform the functions 1, r and z of every element to orthonormal linear functions (e, 3,
-    q).
+    """Transform the functions 1, r and z of every element to orthonormal linear functions.
+
+    The shape is (e, 3, q) for q points.
 
     basis   displacement basis whose quadrature defines the scalar product
     linear  values of 1, r and z at the points at which the result is evaluated (e, 3, q)

@@ -21,8 +21,9 @@ CLOSEST = 0.25
 
 @dataclass(frozen=True, eq=False)
 class SectionMesh:
-    """Mesh of quadrilaterals in a meridional section. The unit of length is the expected contact
-    radius.
+    """Mesh of quadrilaterals in a meridional section of a body.
+
+    The unit of length is the expected contact radius.
 
     The constructor raises SolverError if the sum of the element areas differs from the area of the
     section, that is if elements are missing or overlap.
@@ -60,7 +61,10 @@ class SectionMesh:
 
     @cached_property
     def areas(self) -> NDArray[np.float64]:
-        """Area of every element in the (r, z) plane (e,), in units of the contact radius squared."""
+        """Area of every element in the (r, z) plane (e,).
+
+        The unit of length is the contact radius.
+        """
         (r0, r1, r2, r3), (z0, z1, z2, z3) = self.points[:, self.quads]
         return np.abs((r2 - r0) * (z3 - z1) - (r3 - r1) * (z2 - z0)) / 2.0
 
@@ -72,9 +76,7 @@ class SectionMesh:
 
     @cached_property
     def radii(self) -> NDArray[np.float64]:
-        """Radii of the surface nodes in the contact zone (m,), corner and midside nodes
-        alternating.
-        """
+        """Radii of the surface nodes in the contact zone (m,), corners and midsides alternating."""
         r, z = self.points
         corners = np.sort(r[(z == 0.0) & (r <= self.outline.zone)])
         radii = np.empty(2 * corners.size - 1)

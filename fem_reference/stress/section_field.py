@@ -53,13 +53,16 @@ class SectionField:
     parts: tuple[Amplitude, ...]
 
     def displacement(self, theta: float = 0.0) -> Field:
-        """Compute the displacement u_r, u_theta, u_z (3, n) at the angle theta from the load
-        [length].
+        """Compute the displacement u_r, u_theta, u_z (3, n) at the angle theta [length].
+
+        The angle is counted from the direction of the load.
         """
         return self._sum([part.displacement for part in self.parts], (1,), theta)
 
     def stress(self, theta: float = 0.0) -> Field:
-        """Compute the stress rr, tt, zz, tz, rz, rt (6, n) at the angle theta from the load.
+        """Compute the stress rr, tt, zz, tz, rz, rt (6, n) at the angle theta [force/length^2].
+
+        The angle is counted from the direction of the load. Tension is positive.
 
         Tension is positive [force/length^2].
         """
@@ -74,8 +77,9 @@ class SectionField:
         return self._sorted(self.points[0] == 0.0, self.points[1])
 
     def side(self, depth: float, material: int) -> Indices:
-        """Return the indices of the points at the depth of an interface, on the side of one
-        material.
+        """Return the indices of the points on one side of an interface.
+
+        The points have the depth of the interface and belong to one material.
 
         The indices are in the order of increasing radius.
         """

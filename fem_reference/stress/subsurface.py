@@ -132,8 +132,9 @@ class _LoadPoints:
 def _carrying_the_load(
     tractions: SurfaceTractions, points: _LoadPoints, length: float
 ) -> list[tuple[Motion, Field]]:
-    """Return the traction amplitudes at the integration points, scaled to the normal load of the
-    result.
+    """Return traction amplitudes that are scaled to the normal load of the result.
+
+    The amplitudes are those at the integration points.
 
     The result of a solve has linear interpolation between rings. Tractions with a square root at
     the edge have a slightly larger load and are reduced accordingly.

@@ -81,8 +81,9 @@ class SurfaceTractions:
 
     @property
     def reach(self) -> float:
-        """Radius of the first ring without pressure, at which interpolated pressure becomes zero
-        [length].
+        """Radius of the first ring without pressure [length].
+
+        The interpolated pressure becomes zero at this ring.
 
         If all rings carry pressure, the radius is that of the last ring.
         """
@@ -91,8 +92,9 @@ class SurfaceTractions:
 
     @property
     def edges(self) -> Field:
-        """Radii of the contact edge at θ = 0 and θ = π, that is in front of and behind the load
-        [length].
+        """Radii of the contact edge at θ = 0 and θ = π [length].
+
+        These edges are in front of and behind the load.
 
         The two radii are equal for an axisymmetric pressure. The array is empty if the tractions
         are not `rooted` or if too few rings carry pressure.
@@ -133,8 +135,9 @@ class SurfaceTractions:
 
     @property
     def _rays(self) -> Field:
-        """Pressure at the rings on every ray (rings, angles), with one angle for an axisymmetric
-        pressure.
+        """Pressure at the rings on every ray (rings, angles).
+
+        An axisymmetric pressure has one angle.
         """
         return self.pressure.reshape(len(self.radii), -1)
 
@@ -162,8 +165,9 @@ class SurfaceTractions:
         return np.array([contact_edge(self.radii, ray, edge) for ray in self._rays.T])
 
     def _linear(self, radii: Field, rays: Field) -> Field:
-        """Interpolate tractions linearly between rings and return their harmonics (4, radii,
-        harmonics).
+        """Interpolate tractions linearly between rings and return their harmonics.
+
+        The shape of the result is (4, radii, harmonics).
 
         rays  q_r, q_theta, shear along the load, and pressure (4, rings, angles)
         """
