@@ -49,24 +49,25 @@ from contact_scene.quantities.stated_error import (
 )
 from contact_scene.solver_errors import AccuracyOutOfReach, ContactNotResolved, SolverError
 
-# Context of the solve of a discretisation: its observer of increments, or its checkpoint store.
+# Function from a discretisation to the context of its solve, which yields an observer of increments
+# or a checkpoint store.
 InContext: TypeAlias = Callable[[Any], AbstractContextManager[Any]]
-# Called after each level: its number, the requested and the reached errors.
+# Function that is called after each level with its number, the requested and the reached errors.
 Estimated = Callable[[int, Mapping[str, float], Mapping[str, float | None]], None]
 
-# Errors must be below 1/1.15 of the request, because stopping at the first error below a limit
-# selects errors that are too small.
+# Margin: errors must be below 1/1.15 of the request, because stopping at the first estimate below a
+# limit prefers estimates that are too small.
 SPARE = 1.15
-# Largest and least refinement of the cells per level, and their refinement for a number not
-# converged.
+# Largest and least refinement factor of the cells per level, and their factor for a scalar whose
+# error has not converged.
 MAX_AT_ONCE, LEAST_AT_ONCE, UNCONVERGED = 4.0, 1.15, 2.0
-# Doublings of the cells of the first level until they resolve the contact.
+# Largest number of doublings of the cells until the first level resolves the contact.
 MAX_DOUBLINGS = 5
 MAX_ROUNDS = 7
-# The first level may overestimate an error by the first factor. Refinements above the second one
-# cannot be computed.
+# Factor by which the first level may overestimate an error, and largest refinement factor from the
+# first to the last level.
 DOUBT, FURTHEST = 4.0, 1e4
-# A number below this fraction of its natural size is zero with round-off.
+# A scalar below this fraction of its characteristic magnitude is zero with round-off.
 ROUND_OFF = 1e-7
 
 
@@ -237,8 +238,7 @@ class Levels:
         return finer, estimated_seconds(level.processor_seconds, *works)
 
     def settings(self, fineness: Fineness) -> AccuracySettings:
-        """Convert a discretisation to the record for summary.json: cells, increments and
-        tolerance."""
+        """Return the record of a discretisation for summary.json: cells, increments, tolerance."""
         return AccuracySettings(
             increments=fineness.increments,
             tolerance=fineness.tolerance,
@@ -283,7 +283,12 @@ def bounded(by: Refinement, cells: Part, most: float = MAX_AT_ONCE) -> Refinemen
 
 @dataclass(frozen=True)
 class Refined:
-    """Outcome of a refinement: the last solved level, and its errors next to the requested ones."""
+    """Outcome of an adaptive refinement.
+
+    level     last solved level, with its result and error estimates
+    accuracy  requested and reached relative errors by name, and the reason if the request is not
+              met
+    """
 
     level: RefinementLevel
     accuracy: AccuracyReached

@@ -32,23 +32,24 @@ from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import SolverError
 from contact_scene.stepping.increment_error import with_error
 
-# Coarse solves: description, fraction of the cells along a side, and further cells. Each has the
-# edges of zones at other positions within the cells.
+# Coarse solves: description, fraction of the cells along a side, and number of additional cells.
+# The edges of contact and stick zone lie at other positions within the cells of each.
 SHARES = ("2/5 of the {}", 2 / 5, 0), ("half the {} plus 2", 1 / 2, 2)
-# A step with fewer increments is compared with finer histories, because halves of few increments do
-# not converge regularly.
+# A load step with fewer than FEW increments is compared with solves of MANY increments, because
+# half of a few increments is outside the range of regular convergence.
 FEW, MANY = 4, (32, 8)
 LEAST_TOLERANCE = 1e-13
 
 
-# Largest part of the difference between two levels that the tolerance of coarse solves may cause.
+# Largest fraction of the difference between two levels that the tolerance of coarse solves may
+# cause.
 NEGLIGIBLE = 1e-2
 
-# Refinement factors by the part of the error.
+# Refinement factor of each discretisation parameter, by the part of the error that it causes.
 Refinement: TypeAlias = Mapping[Part, float]
-# A result with its numbers.
+# A result with its scalars at the end of each load step.
 Solved: TypeAlias = tuple[Any, Sequence[Values]]
-# Numbers of two solves that differ in one parameter: of the finer and of the coarser one.
+# Scalars of two solves that differ in one parameter: of the finer and of the coarser solve.
 Effect: TypeAlias = tuple[Sequence[Values], Sequence[Values]]
 
 
@@ -103,8 +104,8 @@ class DiscretisedSolver(ABC):
     discretisation: Any
     chosen_plan: Any = None
 
-    # Part of the error, name of the cells, their largest number along a side (over the radius, or
-    # multiple of the rings), and coarse solves.
+    # Part of the error that the cells cause, name of the cells, their largest number along a side
+    # (elements: over the contact radius; rings: multiple of the default), and coarse solves.
     part: ClassVar[Part]
     cells: ClassVar[str]
     most: ClassVar[float]
@@ -127,8 +128,7 @@ class DiscretisedSolver(ABC):
     @property
     @abstractmethod
     def plan(self) -> Any:
-        """Plan of the solve: the modelled effects, and the number of increments of each load
-        step."""
+        """Plan of the solve: modelled effects, and number of increments of each load step."""
 
     @abstractmethod
     def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Any:
@@ -150,7 +150,7 @@ class DiscretisedSolver(ABC):
 
     @abstractmethod
     def coarser(self, result: Any, share: float, more: int) -> Any:
-        """Return a coarser grid, mesh or ring factor for an error estimate.
+        """Return a coarser grid, mesh or ring factor than that of a result, for its error estimate.
 
         share  fraction of the cells of the result along a side
         more   number of cells that are added to this fraction
@@ -186,8 +186,10 @@ class DiscretisedSolver(ABC):
 
     @abstractmethod
     def features(self, result: Any) -> Sequence[Features]:
-        """Measure the size of contact, stick zone and layers in cells at the end of each load
-        step."""
+        """Measure contact, stick zone and layers in cells at the end of each load step.
+
+        The sizes decide if the cells resolve the contact, and which convergence order applies.
+        """
 
     def residuals(self, result: Any) -> Sequence[float]:
         """Return the relative residual of each load step, for the tolerance part of the errors.
@@ -197,8 +199,7 @@ class DiscretisedSolver(ABC):
         return [result.tolerance] * len(result.steps)
 
     def neglected(self, result: Any) -> Mapping[str, float]:
-        """Return relative errors, by name of the scalar, due to effects that the solver
-        neglects."""
+        """Return relative errors of scalars, by name, due to effects that the solver neglects."""
         return {}
 
     # ---- refinement
@@ -337,9 +338,9 @@ def coarse_tolerance(features: Sequence[Features]) -> float:
 
 
 def changed(space: Any, changes: Mapping[str, Any] | None) -> Any:
-    """Return a finite-element discretisation with other values of some parameters.
+    """Return the mesh parameters of a finite-element solve with some values changed.
 
-    changes  new values by name; None for no change
+    changes  new values by name of the parameter; None for no change
     """
     return space.model_copy(update=changes) if changes else space
 
@@ -378,7 +379,8 @@ def at_ends(result: Any, resolved: Callable[[Any], Features]) -> Sequence[Featur
 def slip_zone(end: Any, per_length: float) -> tuple[float | None, float | None]:
     """Return stick radius and width of the slip annulus of an axisymmetric contact, in cells.
 
-    The radius is None without friction, and the width is None in full stick.
+    Radius and width are None if the state has no stick radius, as without friction. The width is
+    None in full stick.
 
     end         state at the end of a load step
     per_length  number of cells per unit of length [1/length]
@@ -421,12 +423,12 @@ def recounted(counts: Sequence[int], matters: Sequence[bool]) -> list[tuple[int,
 def ratios(
     counts: Sequence[int], others: Sequence[int], matters: Sequence[bool]
 ) -> tuple[float, ...]:
-    """Compute the coarsening factor of the increments at the end of each load step.
+    """Compute the coarsening factor of the increments between two solves, for each load step.
 
-    A load step whose end state depends on the history receives the factor nearest to 1 of all steps
-    up to it. The factor is 1 if no step up to it has an increment error.
+    A load step receives the ratio of the numbers of increments that is nearest to 1 among all steps
+    up to it that have an increment error. Without such a step, its factor is 1.
 
-    counts, others  numbers of increments of each load step in the two compared solves
+    counts, others  numbers of increments of each load step in the two solves
     matters         for each load step, true if it has an increment error
     """
     found, nearest = [], 1.0
@@ -439,8 +441,10 @@ def ratios(
 
 
 def _pair(count: int) -> tuple[int, int]:
-    """Choose two other numbers of increments for a load step: coarser if it has many, finer if
-    few."""
+    """Choose two other numbers of increments for a load step, to measure its increment error.
+
+    The numbers are coarser for a step with many increments, and finer for a step with few.
+    """
     if count < FEW:
         return MANY
     if count < 2 * FEW:

@@ -25,12 +25,12 @@ EXPONENT = 1.1
 # Unknowns whose work equals the overhead of an operation. The scenes of `tests/cost_record.json`
 # fit 9000 to 27 000 on cells, and 600 to 2900 by elements.
 CELL_OVERHEAD, ELEMENT_OVERHEAD = 128.0**2, 32.0**2
-# Factorisations of a history by elements take as long as this number of increments.
+# The factorisations of a finite-element solve take as long as this number of increments.
 SET_UP_INCREMENTS = 50
-# Shares of the cells along a side in the two coarse solves of an error estimate.
+# Fractions of the cells along a side in the two coarse solves of an error estimate.
 COARSE = 1 / 2, 2 / 5
-# Limits of the coarse solve: cells along the longer side, elements over the contact radius, load
-# steps from the first, and increments of these together.
+# Limits of the measured coarse solve: cells along the longer side, elements over the contact
+# radius, number of first load steps, and sum of their increments.
 MAX_CELLS, MAX_ELEMENTS, MAX_STEPS, MAX_INCREMENTS = 32, 8, 12, 48
 
 

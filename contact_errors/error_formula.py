@@ -44,29 +44,32 @@ from contact_scene.stepping.increment_error import near_gross_slip
 from contact_scene.stepping.load_path import ControlKind
 
 Numbers = NDArray[np.float64]
-# A scalar is (1,), a vector (2,).
+# Scalars of a state by name: arrays of shape (1,), or (2,) for a vector.
 Values: TypeAlias = Mapping[str, Numbers]
 
 BELIEVED = 0.6
-# Means of smooth fields; values at the edge of a zone that lies within a cell; square roots.
+# Convergence orders in the cell size: of means of smooth fields, of values at the edge of a zone
+# that lies within a cell, and of values near a square-root singularity.
 SMOOTH, EDGE, ROOT = 2.0, 1.0, 0.5
-# Orders of all numbers in the parameters other than the cells.
+# Convergence orders of all scalars in the parameters other than the cells.
 ORDERS: Mapping[str, float] = MappingProxyType(
     {"increments": 1.0, "section": 2.0, "penalty": 1.0, "harmonics": 2.0, "tolerance": 1.0}
 )
-# An error is about ten times the residuals that cause it.
+# Ratio of the relative error of a scalar to the relative residual that causes this error.
 PER_TOLERANCE = 10.0
-# Largest sum of parts over the number for an error estimate.
+# Largest ratio of error to scalar at which the error estimate counts as converged.
 LARGEST_SHARE = 0.5
 
-# Smallest features in cells. Elements and rings count twice: their shape functions are linear.
+# Smallest resolved size of each feature in cells. Elements and rings count as two cells, because
+# their shape functions are linear.
 LIMITS: Mapping[str, float] = MappingProxyType(
     {"contact": 4.0, "wave": 4.0, "layer": 1.0, "stick": 3.0, "cusp": 1.0, "annulus": 0.5}
 )
 
 CONTACT_EDGE = frozenset({"contact_radius", "contact_area"})
 STICK_EDGE = frozenset({"stick_radius", "stick_area", "stick_centre"})
-# Largest values in cells, which the edge divides at any position.
+# Scalars that are largest values of cells at the contact edge, which divides the cells at any
+# position.
 AT_EDGES, PEAK = frozenset({"slip_amplitude", "ruiz_f1", "ruiz_f2"}), "peak_pressure"
 OF_SLIP = frozenset(
     {
@@ -114,7 +117,10 @@ class Features:
     left: Mapping[str, float] = field(default_factory=dict)
 
     def order(self, name: str) -> float:
-        """Return the convergence order of a scalar in the cell size: 2, 1 or ½."""
+        """Return the convergence order of a scalar in the cell size: 2, 1 or ½.
+
+        name  name of the scalar
+        """
         if self.sharp:
             return EDGE
         if name in AT_EDGES or (name == PEAK and self.cusp):
@@ -167,7 +173,7 @@ def values_of(result: Any) -> tuple[Values, ...]:
 
 
 def prescribed(ramp: LoadRamp, rig: Rig | None) -> frozenset[str]:
-    """Return the names of the scalars that a load step prescribes, which therefore have no error.
+    """Return the names of the scalars that a load step prescribes at its end, which have no error.
 
     With a test rig, the prescribed motions are those of its actuator.
     """
@@ -243,13 +249,13 @@ class Comparison:
     def part_of(self, step: int, name: str, order: float) -> Numbers | None:
         """Compute the part of the error of a scalar that one discretisation parameter causes.
 
-        The result is None if the parameter has no effect, or if one of the two solves lacks the
-        scalar.
+        The result is None if the parameter has no effect up to the load step, or if one of the two
+        solves lacks the scalar.
 
-        step   load step, from 0
+        step   load step at whose end the scalar is compared, from 0
         name   name of the scalar
-        order  convergence order of the scalar in the cells; other parameters have an order of their
-               own in `ORDERS`
+        order  convergence order of the scalar in the cell size; the orders in other parameters are
+               those of `ORDERS`
         """
         here, there = self.base[step].get(name), self.coarse[step].get(name)
         if self.ratios[step] == 1 or here is None or there is None:
@@ -325,12 +331,15 @@ class SolvedRun:
 
     @cached_property
     def _nearly(self) -> Sequence[bool]:
-        """For each load step, true if the tangential force has come close to the friction limit."""
+        """Flags of the load steps: true once the tangential force has come close to the friction
+        limit.
+
+        Errors of slip are unreliable from this load step on.
+        """
         return near_gross_slip(self.scene)
 
     def order(self, name: str) -> float:
-        """Return the smallest convergence order of a scalar in the cell size over all load
-        steps."""
+        """Return the smallest convergence order of a scalar in the cell size over all steps."""
         return min(features.order(name) for features in self.features)
 
     def _parts(self, step: int, name: str, largest: Numbers) -> dict[Part, Numbers] | None:
@@ -376,9 +385,10 @@ def largest_so_far(values: Sequence[Values]) -> tuple[Values, ...]:
 
 
 def stated(parts: Mapping[Part, Numbers], converged: bool) -> StatedError:
-    """Sum the parts of an error to a stated error.
+    """Build the stated error of a scalar as the sum of its parts.
 
-    converged  false for an error that is an order of magnitude at best
+    parts      size of the error by source, such as cells and increments, in the unit of the scalar
+    converged  false for an unreliable error, which is an order of magnitude at best
     """
     status = ErrorStatus.ESTIMATED if converged else ErrorStatus.NOT_CONVERGED
     total = np.sum(list(parts.values()), axis=0)

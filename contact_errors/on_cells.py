@@ -43,12 +43,12 @@ PER_RADIUS = 11
 HIGHEST = 3.0
 # Cells along the shorter side of the first level: 11 per radius on a fitted window.
 FIRST_CELLS = 24
-# Increment error of the shear on the first level.
+# Requested relative increment error of the shear on the first level.
 FIRST_PATH_ACCURACY = 4e-2
 MAX_CELLS = 16384
-# Numbers with the error of the approach that the edge correction leaves.
+# Scalars to which the remaining error of the approach in the edge correction applies.
 MOTIONS = "approach", "normal_force", "tilt", "moment", "elastic_energy", "input_work"
-# Enlargement of a fitted window with equal cells, if the contact reaches its edge.
+# Factor and largest number of enlargements of a fitted window whose edge the contact reaches.
 ROOM, MAX_ENLARGEMENTS = 1.25, 5
 
 
@@ -76,8 +76,7 @@ class CellSolver(DiscretisedSolver):
 
     @property
     def plan(self) -> Plan:
-        """Plan of the solve: that of the result, or the effects and increments of the first
-        level."""
+        """Plan of the solve: that of the result, or that of the first refinement level."""
         return self.chosen_plan or semi_analytical.plan(
             self.scene, FIRST_PATH_ACCURACY, self.discretisation.edge
         )
@@ -101,8 +100,8 @@ class CellSolver(DiscretisedSolver):
     def coarser(self, result: Result, share: float, more: int) -> SurfaceGrid:
         """Return a grid with fewer cells on the window of the result, for an error estimate.
 
-        If the contact comes within a coarse cell of the edge of a fitted window, cells are added
-        around the grid.
+        Cells are added around the grid if the window was fitted by the program, and if the contact
+        comes within a coarse cell of its edge.
 
         share  fraction of the cells of the result along a side
         more   number of cells added along each side
@@ -153,7 +152,8 @@ class CellSolver(DiscretisedSolver):
             cells, report = resolved[end.step - 1], end.edge_report
             if report is not None and report.cause is not None:
                 report = None
-            # The square root of a half-space is fitted to more cells than the film is thick.
+            # The fit assumes the square-root pressure edge of a half-space, over more cells than
+            # the layer is thick.
             thin = cells.layer is not None and cells.layer < WIDE.reach
             ridge = report is not None and report.ridge
             sliding = end.status is ContactStatus.GROSS_SLIDING
@@ -197,6 +197,8 @@ class CellSolver(DiscretisedSolver):
 def _left(report: EdgeReport) -> Mapping[str, float]:
     """Return the relative errors of scalars that remain when the edge-correction iteration stops.
 
+    The edge correction computes the pressure at the contact edge with sub-cell resolution.
+
     report  outcome of the edge correction at the end of a load step
     """
     motions = dict.fromkeys(MOTIONS, report.response)
@@ -214,8 +216,10 @@ def _to_edge(end: Increment) -> float:
 def _may_hide_stick(end: Increment) -> bool:
     """Return true if a contact whose cells all slip may have a stick zone smaller than a cell.
 
-    A stick zone is possible if the smallest slip of a cell is at most half of the largest slip of
-    the adjacent cells.
+    A stick zone is possible if the smallest slip increment of a cell is at most half of the largest
+    slip increment of the adjacent cells.
+
+    end  state at the end of a load step
     """
     slip = np.hypot(*np.asarray(end.slip_increment)) * end.in_contact
     i, j = np.unravel_index(np.argmin(np.where(end.in_contact, slip, np.inf)), slip.shape)

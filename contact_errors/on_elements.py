@@ -33,7 +33,8 @@ from fem_reference import Increment, Method, Path, Plan, Result
 from fem_reference.expected_radius import sections_of
 from fem_reference.memory import largest_bytes
 
-# With friction acting on the pressure, the pressure has a cusp on the axis.
+# Solution paths in which friction changes the pressure, so that the pressure has a cusp on the
+# axis.
 CUSPED = (Path.PRESSING_WITH_FRICTION, Path.HARMONICS)
 FEWEST_ELEMENTS, SMALLEST_BOX, FEWEST_HARMONICS, LARGEST_OVERLAP = 4, 5.0, 2, 1.0
 LINEAR = 2.0  # linear elements resolve a feature as twice their number of cells do
@@ -187,7 +188,7 @@ class ElementSolver(DiscretisedSolver):
 
 
 def _with(mesh: FiniteElementDiscretisation, **update: object) -> FiniteElementDiscretisation:
-    """Return a finite-element discretisation with other values of some parameters."""
+    """Return the settings of a finite-element solve with some values replaced."""
     return mesh.model_copy(update=update)
 
 

@@ -28,9 +28,9 @@ from contact_scene.quantities.summary import ContactStatus
 from radial import Increment, Plan, Result
 from radial.memory import estimated_bytes
 
-# Of double precision, with round-off of a few hundred rows.
+# Relative round-off of double precision, in systems of a few hundred equations.
 PRECISION = 1e-13
-# linear interpolation between rings resolves a feature as twice the number of cells does
+# Linear interpolation between rings resolves a feature as well as twice the number of cells.
 LINEAR = 2.0
 FIRST_FINENESS, MAX_FINENESS = 0.5, 4.0
 
@@ -120,7 +120,7 @@ class RingSolver(DiscretisedSolver):
             annulus=annulus,
             fitted=not plan.circle,
             stick_fitted=not plan.circle,
-            # Values at rings are biased: all numbers converge with the first order.
+            # Values at rings are biased, so that all scalars converge with the first order.
             sharp=self.counted and (plan.circle is None or indenter.rim is not None),
             infinite=is_singular(indenter),
             cusp=plan.coupled,

@@ -9,13 +9,13 @@ inside, and at the surface adjacent to the edge of the contact. The error of the
 
 - Inside the body the stress has the convergence order 2. For a maximum between the depth levels,
   twice the excess of a parabola through three levels is added.
-- Adjacent to a fitted contact edge the stress has the order 1, adjacent to another edge the order
-  ½.
-- The tensile stress half a cell inside an edge, at which the tractions end like a square root, is
-  too small by m^-½ of its true value, for m cells per contact radius.
-- At a fitted edge the error is at least that of another fit. If an edge that is not fitted may have
-  the largest tensile stress, the error has not converged.
-- Other stresses are compared at the edge only if their maximum was found there.
+- Adjacent to the contact edge the order is 1 if the edge is fitted within the cells, else ½.
+- Let the tractions end like a square root at the edge, with m cells per contact radius. Half a cell
+  inside the edge the computed tensile stress is then too small by m^-½ of its true value.
+- At a fitted edge the error is at least the difference from another fit.
+- If an edge that is not fitted may have the largest tensile stress, the error has not converged.
+- Other stresses than the tensile stress are compared at the edge only if their maximum was found
+  near the surface.
 """
 
 from collections.abc import Collection, Mapping, Sequence
@@ -59,10 +59,10 @@ Key = tuple[str, str]
 
 # Regions that contain the edge of the contact.
 AT_SURFACE = "body", "layer 1", SURFACE
-# Depth in cells up to which a stress depends on the edge of the tractions.
+# Depth in cells up to which the contact edge determines the error of a stress.
 NEAR = 2.0
 COARSE = 2.0  # coarsening factor of the tractions
-# Of double precision, with cancellation in sums of a few hundred waves.
+# Relative round-off of double precision, with cancellation in sums of a few hundred waves.
 PRECISION = 1e-13
 
 
@@ -142,7 +142,7 @@ def _field(state: LoadedBodies, *, indenter: bool = False, depths: Any = None) -
 
 
 def _is_fitted(field: StressField) -> bool:
-    """Return true if the contact edge of a stress field is fitted within the cells or elements."""
+    """Return true if the contact edge of a stress field is fitted with sub-cell accuracy."""
     edge = field.edge
     return bool(field.how.get("edges")) if edge is None else edge.determined
 
@@ -150,13 +150,15 @@ def _is_fitted(field: StressField) -> bool:
 def stress_errors(
     state: LoadedBodies, field: StressField, found: Sequence[Extreme], *, indenter: bool = False
 ) -> tuple[StatedError, ...]:
-    """Estimate the errors of the largest stresses found in a stress field.
+    """Estimate the errors of the largest stresses found in the stress field of a body.
 
-    The increment error of the tractions is included. Their error by the cells is not, because it is
-    far smaller than the effect of the coarse tractions on the stress.
+    The stresses are compared with those of coarse tractions. The increment error of the tractions
+    is added. Their error by the cells is not, because it is far smaller than the effect of the
+    coarse tractions on the stress.
 
     state     bodies and tractions
-    found     largest stress of each region and measure
+    field     stress field
+    found     largest stress of each region and measure in this field
     indenter  true for the indenter, false for the lower body
     """
     if state.pressed is not None:
@@ -203,11 +205,10 @@ def stress_errors(
 def _places(field: StressField, body: Body, near: float) -> Mapping[bool, Mapping[Key, float]]:
     """Find the largest stress of each region and measure, separately near the surface and below.
 
-    Points near the surface include the fitted contact edge.
+    Points near the surface include the fitted contact edge. The largest stresses near the surface
+    are returned with the key True, those below with the key False.
 
     near  depth that divides the points [length]
-
-    Returns the stresses by region and measure; the key is true near the surface, false below.
     """
     shallow, found = field.points.depth < near, {}
     for at_edge, chosen in ((True, shallow), (False, ~shallow)):
@@ -244,8 +245,10 @@ def _between_levels(points: StressPoints, values: Field, extreme: Extreme) -> fl
 
 
 def _growth(order: float) -> float:
-    """Return the divisor r^(0.6 p) - 1 of the error formula, for r = 2 and the convergence order
-    p."""
+    """Return the divisor r^(0.6 p) - 1 of the error formula, for the coarsening factor r = 2.
+
+    order  convergence order p of the stress
+    """
     return float(COARSE ** (BELIEVED * order) - 1)
 
 
@@ -256,7 +259,7 @@ def _side(state: LoadedBodies) -> float:
 
 
 def on_wide_cells(state: LoadedBodies, shift: int = 0) -> LoadedBodies:
-    """Average the tractions of cells over cells twice as wide, with the same total force.
+    """Return a state with tractions averaged over cells twice as wide, with the same total force.
 
     The stress below these coarse tractions is compared with that of the fine tractions.
 
@@ -278,14 +281,16 @@ def on_wide_cells(state: LoadedBodies, shift: int = 0) -> LoadedBodies:
 
 
 def on_half_the_elements(state: LoadedBodies, every: int = 1) -> LoadedBodies:
-    """Coarsen a finite-element state: half the elements per radius, and fewer rings of tractions.
+    """Return a finite-element state with half the elements per radius and fewer rings of tractions.
+
+    The stress of this state is compared with that of the fine mesh, for its error estimate.
 
     every  1 to keep the tractions of all rings, 2 to keep those of every second ring
     """
     asked, radii = state.discretisation, state.axes["radii"]
     assert asked is not None
     half = max(2, asked.elements_per_radius // 2)
-    # One more unloaded ring preserves the last one.
+    # An additional unloaded ring preserves the last ring if their number is even.
     pad = (len(radii) - 1) % every
     more = [*radii, *[2 * radii[-1] - radii[-2]] * pad]
     tractions = {}
@@ -303,11 +308,11 @@ def on_half_the_elements(state: LoadedBodies, every: int = 1) -> LoadedBodies:
 def _on_disc(
     state: LoadedBodies, found: Sequence[Extreme], indenter: bool
 ) -> tuple[StatedError, ...]:
-    """Estimate the errors of largest stresses below the tractions of the radial solver.
+    """Estimate the errors of the largest stresses below the tractions of the radial solver.
 
     The stresses are computed again with twice the numbers of Legendre orders and quadrature points.
 
-    found     largest stress of each region and measure
+    found     largest stress of each region and measure in the body
     indenter  true for the indenter, false for the lower body
     """
     from contact_results.stress.radial_body import RadialBody, is_sheared

@@ -156,7 +156,7 @@ def _centre(values: Numbers) -> float:
 
 
 def _loops(theirs: _Loop, run: StoredRun, motion: str) -> Iterator[Compared]:
-    """Compare a measured loop with the last load cycle of a run.
+    """Compare a measured loop of force over shift with the last load cycle of a run.
 
     Yields the comparisons of centre, slope and area, and then of the forces along the loop. Raises
     NothingToCompare if no load cycle of the run closes with slip.
@@ -220,7 +220,8 @@ def _profiles(table: Mapping[str, Numbers], run: StoredRun, step: int) -> Iterat
         parts = np.stack([profiles[f"{name}{axis}"].array[here] for axis in "xy"])
         return np.asarray(np.array(run.direction) @ parts)
 
-    # Tractions are as accurate as the peak pressure, and shear as the tangential load and shift.
+    # The relative error of tractions is that of the peak pressure; that of shear includes the
+    # errors of tangential force and shift.
     shares = [_share(end, "peak_pressure")]
     for name in (PRESSURE, SHEAR):
         if name not in table:

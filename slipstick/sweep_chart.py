@@ -44,7 +44,7 @@ class SweptQuantity:
 
     @property
     def in_order(self) -> SweptQuantity:
-        """The quantity with the values of a sample sorted in ascending order, as columns (n, 1)."""
+        """The quantity for a single sample, sorted in ascending order, as a column (n, 1)."""
         order = np.argsort(self.values)[:, None]
         return replace(self, values=self.values[order], errors=self.errors[order])
 

@@ -46,7 +46,7 @@ MostSecondsOption: TypeAlias = Annotated[
     ),
 ]
 
-# Checkpoints of the solves of a refinement, next to the results.
+# Start of the names of the checkpoints of refinement levels, which are next to the results.
 OF_LEVEL = "checkpoint-"
 
 
@@ -76,8 +76,10 @@ def requested_accuracy(
 
 
 def leave_unless_met(accuracy: AccuracyReached | None) -> None:
-    """Exit with code 4 if a requested accuracy was not reached; None for a run without a
-    request."""
+    """Exit with code 4 if a requested accuracy was not reached.
+
+    accuracy  outcome of the refinement; None for a run without a requested accuracy
+    """
     if accuracy is not None and not accuracy.met:
         tell(f"error: the accuracy was not reached: {accuracy.stopped}; the best result is stored")
         raise typer.Exit(ExitCode.RESOURCES_REFUSED)

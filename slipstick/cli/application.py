@@ -17,8 +17,7 @@ LONGEST = 600  # characters of a message
 
 
 class WordedCommand(TyperCommand):
-    """Command of the command line that words invalid values of options in the style of
-    slipstick."""
+    """Typer command that reports invalid values of options in the wording of slipstick."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Parse the arguments of the command; raises BadParameter with a reworded message."""
@@ -131,7 +130,7 @@ MAINTENANCE = _commands(
 )
 
 
-# All commands by their words on the command line.
+# All commands by name, as given on the command line.
 ALL_COMMANDS = COMMANDS | {f"{MAINTAIN} {name}": each for name, each in MAINTENANCE.items()}
 
 
@@ -217,7 +216,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         with cleaned_up_when_stopped():
             command(args=arguments, prog_name="slipstick")
     except SystemExit:
-        # Typer exits with code 1 after its output was closed, with this replacement of stdout.
+        # Typer replaces stdout by this class, and exits with code 1, after its output was closed.
         if type(sys.stdout).__name__ == "PacifyFlushWrapper":
             raise SystemExit(ExitCode.NOBODY_READS) from None
         raise

@@ -33,7 +33,7 @@ SECONDS_BETWEEN_LINES = 10.0
 
 @contextmanager
 def solve_progress(increments: Sequence[int]) -> Iterator[Observer]:
-    """Show the progress of a solve: a bar on a terminal, lines in a log file.
+    """Show the progress of a solve on stderr: a bar on a terminal, lines in a log file.
 
     Yields the function that the solver calls after every increment.
 

@@ -26,9 +26,7 @@ class SolverName(StrEnum):
 
     @property
     def method(self) -> Method | None:
-        """Contact method of the finite elements, penalty or complementarity; None for other
-        solvers.
-        """
+        """Contact method of the finite elements, penalty or complementarity; else None."""
         if not self.is_fem:
             return None
         from fem_reference import Method

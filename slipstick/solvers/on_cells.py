@@ -29,7 +29,8 @@ from slipstick.solvers.solver import (
     time_of_run,
 )
 
-# Load steps, with one increment each, of the solves that measure the saving of the plan.
+# Number of load steps, with one increment each, of the coarse solves that measure the convolutions
+# saved by the plan.
 FORCED_INCREMENTS = 4
 LEAST_SAVING = 1.1  # smallest ratio of convolutions that is reported
 FEWEST = 8  # smallest number of cells along a side of the coarse solve for the time estimate
@@ -110,9 +111,10 @@ class OnCells(Solver):
             return self._time(scene, fineness, grid, plan, 2 * most)
 
     def reasons(self, plan: Plan) -> Sequence[tuple[str, str, str]]:
-        """Return number, increments and reason of the increments of the first load steps, as texts.
+        """Return load step, number of increments and reason of this number, as texts for a table.
 
-        The sequence is empty if no load step has an increment error.
+        The first load steps are listed. The sequence is empty if no load step has an increment
+        error.
         """
         if not any(step.path_matters for step in plan.path):
             return ()
@@ -153,8 +155,7 @@ def _saving(scene: Scene, fineness: SurfaceDiscretisation, grid: SurfaceGrid, pl
 
 
 def _grid_text(grid: SurfaceGrid) -> str:
-    """Return the text of the cells and the window of a grid, such as "64 x 64 cells on 2 x 2
-    mm"."""
+    """Return the text of cells and window of a grid, such as "64 x 64 cells on 2 x 2 mm"."""
     (nx, ny), (Lx, Ly) = grid.cells, grid.window
     length = engineering_unit(max(Lx, Ly), "m")
     return f"{nx} x {ny} cells on {Lx / length.size:.4g} x {length.text(Ly)}"

@@ -57,8 +57,7 @@ class OnElements(Solver):
         return ElementSolver(scene, fineness, method=self.method)
 
     def work(self, scene: Scene, fineness: FiniteElementDiscretisation, plan: Plan) -> Pairs:
-        """Yield names and texts of mesh, increments, factorisations, time and memory of a planned
-        solve.
+        """Yield names and texts of mesh, increments, factorisations, time and memory of a solve.
 
         The time is estimated by a coarse solve.
         """

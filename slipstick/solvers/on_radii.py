@@ -1,5 +1,4 @@
-"""Adapter of the radial solver, for bodies of revolution, to the solver interface of the
-commands."""
+"""Adapter of the radial solver, for bodies of revolution, to the interface of the commands."""
 
 from __future__ import annotations
 
@@ -40,8 +39,7 @@ class OnRadii(Solver):
         return RingSolver(scene, fineness)
 
     def work(self, scene: Scene, fineness: RadialDiscretisation, plan: Plan) -> Pairs:
-        """Yield names and texts of rings, tolerance, increments, time and memory of a planned
-        solve.
+        """Yield names and texts of rings, tolerance, increments, time and memory of a solve.
 
         The time is estimated by a solve of the first load steps.
         """

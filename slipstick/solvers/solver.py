@@ -108,7 +108,7 @@ class Solver(ABC):
         """Yield names and texts of discretisation, time and memory of a planned solve."""
 
     def reasons(self, plan: Any) -> Sequence[tuple[str, str, str]]:
-        """Return number, increments and reason of the increments of each load step, as texts.
+        """Return load step, number of increments and reason of this number, as texts for a table.
 
         The sequence is empty if the solver states no reasons.
         """

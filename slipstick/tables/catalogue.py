@@ -73,7 +73,7 @@ def _punch(place: Sequence[float], fineness: int) -> Found:
     """Compute the stiffness of a rigid flat punch on a bonded layer over that on a half-space.
 
     place     punch radius over layer thickness, and Poisson's ratio of the layer
-    fineness  factor of the numbers of orders and quadrature points
+    fineness  factor of the numbers of Legendre orders and quadrature points
     """
     over, ratio = place
     shear = (1 - ratio) / 2  # E* = 2G/(1-ν) = 1

@@ -39,7 +39,9 @@ OF_RING = 2e-5  # smallest discretisation error of a traction, in p_H
 
 
 def scene(place: Sequence[float]) -> Scene:
-    """Build the scene of one row: a rigid paraboloid pressed on a coated half-space with friction.
+    """Build the scene of a table row: frictional indentation of a coated half-space.
+
+    The indenter is a rigid paraboloid.
 
     place  E1/E2, h/a_H, ν and µ: modulus of the layer over that of the substrate, layer thickness
            over Hertz's contact radius on the substrate, Poisson's ratio of both, coefficient of
@@ -61,7 +63,9 @@ def scene(place: Sequence[float]) -> Scene:
 
 @lru_cache(maxsize=CACHED)
 def pressed(place: tuple[float, ...], increments: int, fineness: int) -> FrictionalState:
-    """Solve the contact of one row, and return its state at the full normal force.
+    """Solve the frictional indentation of a coated half-space by a rigid paraboloid.
+
+    Returns the state at the full normal force.
 
     place       E1/E2, h/a_H, ν and µ, as in `scene`
     increments  number of increments of the normal force
@@ -75,8 +79,9 @@ def pressed(place: tuple[float, ...], increments: int, fineness: int) -> Frictio
 
 
 def scalars(place: Sequence[float], fineness: int) -> Found:
-    """Compute contact radius and approach in Hertz units, and stick radius over contact radius.
+    """Compute contact radius, approach and stick radius of a frictional indentation.
 
+    Radius and approach are in Hertz units, and the stick radius is relative to the contact radius.
     The additional uncertainty of the stick radius is the resolution of the rings.
 
     place     E1/E2, h/a_H, ν and µ, as in `scene`
@@ -89,7 +94,7 @@ def scalars(place: Sequence[float], fineness: int) -> Found:
 
 
 def tractions(place: Sequence[float], fineness: int) -> Found:
-    """Compute pressure p and radial shear over friction, q/µ, at one radius of the contact.
+    """Compute pressure p and q/µ, radial shear over friction, at a radius of an indentation.
 
     Tractions are in units of Hertz's pressure on the bare substrate. Near the stick radius, the
     change of the tractions over a distance of `FRONT` contact radii is stated as additional
@@ -103,7 +108,10 @@ def tractions(place: Sequence[float], fineness: int) -> Found:
     end, friction = found.end, contact[-1]
 
     def both(at: float) -> tuple[float, float]:
-        """Return p and q/µ at a radius, which is given in contact radii."""
+        """Compute pressure p and radial shear over friction, q/µ, at one radius.
+
+        at  radius over the contact radius
+        """
         places = np.array([at])
         p = pressure(end.contact, places) + end.rings.at(end.pressure_change, places)
         return float(p[0]), float(end.rings.at(end.shear, places)[0]) / friction

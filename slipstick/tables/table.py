@@ -37,7 +37,7 @@ class Axis:
 
 @dataclass(frozen=True)
 class Found:
-    """Computed quantities of one row of a table, for one fineness of the discretisation.
+    """Computed quantities of one row of a table of reference numbers.
 
     values  quantities in the order of the table
     missed  relative difference of the computed normal force from the prescribed force
@@ -139,7 +139,7 @@ class Table:
 
 
 def _digits(column: str, value: Any) -> str:
-    """Format a value for CSV: uncertainties with 2 digits, other floats with 15."""
+    """Format a value for CSV: uncertainties with 2 digits, other floats with 15 digits."""
     if not isinstance(value, float):
         return str(value)
     return f"{value:.1e}" if column.endswith("uncertainty") else f"{value:.15g}"

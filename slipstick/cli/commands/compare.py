@@ -78,7 +78,10 @@ def compare(
 
 
 def exit_code_of(report: Report) -> ExitCode:
-    """Return the exit code of `slipstick maintain compare` for a report with changes.
+    """Return the exit code of `slipstick maintain compare` for a report with its changes.
+
+    The code is 1 for a number outside its tolerance, 7 for a regression, 5 for other changes and
+    for cases without a baseline, else 0.
 
     report  verification report that was compared with a baseline
     """
@@ -102,8 +105,9 @@ def _baselines(place: Path | None) -> dict[str, Baseline]:
 
 
 def _print_changes(report: Report) -> None:
-    """Print the changes of a verification report since its baseline, and a command to reproduce
-    them.
+    """Print the changes of a verification report since its baseline.
+
+    A command that reproduces the changed cases is printed as well.
     """
     for case in report.cases:
         for verdict in case.verdicts:

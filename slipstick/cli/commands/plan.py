@@ -60,8 +60,10 @@ def plan(
 
 
 def by_radii(scene: Scene) -> str | None:
-    """Describe the solution of a scene by the radial solver; None if it does not support the
-    scene."""
+    """Return the kind of solution by which the radial solver can solve a scene.
+
+    The result is None for a scene that the radial solver does not support.
+    """
     from radial.angular_grid import Circle
     from radial.plan import plan
 

@@ -75,12 +75,12 @@ def run(
 ) -> None:
     """Solve a scene and write summary, fields, tables, a figure and a page into DIR.
 
-    DIR is written atomically. Results of an earlier run in DIR are replaced; other files remain.
-    A run of more than some seconds stores checkpoints next to DIR: after it was killed, the same
+    DIR is written atomically. Results of an earlier run in DIR are replaced; other files remain. A
+    run of more than some seconds stores checkpoints next to DIR: after it was killed, the same
     command resumes it.
 
-    With --accuracy, or a table [accuracy] in the scene, cells and increments are refined, starting
-    from those of the scene, until the stated errors meet the request.
+    With --accuracy, or a table [accuracy] in the scene, the scene is first solved on a coarse grid
+    or mesh. Cells and increments are then refined until the stated errors meet the request.
     """
     from contact_results.directory.checkpoint import checkpointed
     from contact_results.directory.code_digest import solve_identity

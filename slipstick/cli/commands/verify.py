@@ -195,8 +195,7 @@ def judged(
 
 
 def _verdict(end: CaseEnd) -> str:
-    """Return the line for a finished case: status, name, numbers of verdicts and solves,
-    seconds."""
+    """Return the line about a finished case: status, name, verdicts, solves and seconds."""
     if not isinstance(end.record, JudgedCase):
         return how_it_ended(end)
     outcome, seconds = end.record.outcome, f"{end.record.seconds:6.1f} s"
