@@ -1,1 +1,1 @@
-"""The files of a run: summary, fields, tables and figures, written whole or not at all."""
+"""The files of a run: summary, fields, tables and figures, each written atomically."""

@@ -1,4 +1,4 @@
-"""Number of BLAS threads: one, unless the environment sets another."""
+"""Number of threads of the BLAS library: 1, unless the environment sets another number."""
 
 import os
 
@@ -7,11 +7,11 @@ VARIABLES = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
 def one_thread(*, always: bool = False) -> None:
-    """Set the environment variables for one thread per process.
+    """Set the environment variables that limit BLAS and OpenMP to one thread per process.
 
-    Call this function before the numerical libraries are imported. One thread gives equal bits in
-    every run on one processor; OPENBLAS_CORETYPE fixes the instructions across processors. The
-    dense systems of contact are small, and waiting threads would make them ten times slower.
+    Call this function before the numerical libraries are imported. With one thread, every run on
+    one processor gives equal bits; OPENBLAS_CORETYPE selects the instructions across processors.
+    The dense systems of contact are small, and waiting threads would make them ten times slower.
 
     always  replace values that the environment already has
     """
@@ -21,5 +21,5 @@ def one_thread(*, always: bool = False) -> None:
 
 
 def is_one_thread() -> bool:
-    """Return True if all variables are set to one thread."""
+    """Return True if all environment variables limit BLAS and OpenMP to one thread."""
     return all(os.environ.get(name) == ONE for name in VARIABLES)

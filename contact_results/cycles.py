@@ -1,8 +1,8 @@
 """Slip amplitude, dissipated energy and Ruiz's parameters of load cycles.
 
-Ruiz, Boddington and Chen (1984, Exp. Mech. 24, 208-217) rank points of a fretting contact by
-F1 = τ δ and F2 = σ_T τ δ. At every point, δ is half the range of slip over one cycle, τ the largest
-shear and σ_T the largest tensile stress along the surface in the cycle. With the full range for δ,
+Ruiz, Boddington and Chen (1984, Exp. Mech. 24, 208-217) rank the points of a fretting contact by F1
+= τ δ and F2 = σ_T τ δ. At every point, δ is half the range of slip over one cycle, τ the largest
+shear, and σ_T the largest tensile stress along the surface in the cycle. With the full range for δ,
 both parameters are twice as large.
 """
 
@@ -45,14 +45,17 @@ MAX_IN_CACHE = 1 << 14  # numbers that fit into the cache of a core
 
 @dataclass(frozen=True)
 class FrettingCycle(WithFields):
-    """One closed cycle of loads; fields are scalars of the surface.
+    """Energies and surface fields of one closed load cycle.
 
-    cycle            load steps at its start and end
-    input_work       None if a motion is undefined
-    dissipation      None if the solver does not compute it
-    loop             numbers of `loop_numbers`
-    surface_tension  σ_T, at the ends of the steps in the cycle, tension positive. None on rings,
-                     or if the tangential force is constant
+    The fields are scalar fields of the surface grid, (nx, ny) on cells.
+
+    cycle            numbers of the load steps at whose ends the cycle begins and closes
+    input_work       None if a displacement of the indenter is undefined
+    dissipation      None if the solver does not compute this field
+    loop             numbers of the fretting loop from `loop_numbers`, by name
+    surface_tension  σ_T of Ruiz [force/length^2]: largest normal stress of the surface along the
+                     change of the tangential force, over the ends of the load steps in the cycle;
+                     positive if tensile. None on rings, or if the tangential force is constant
     """
 
     cycle: LoadCycle
@@ -74,7 +77,11 @@ class FrettingCycle(WithFields):
 
     @property
     def numbers(self) -> dict[str, Any]:
-        """The cycle by the names of `contact_scene.quantities.summary.Closed`."""
+        """Scalars of the load cycle for the summary of a run.
+
+        The names are those of `contact_scene.quantities.summary.Closed`. A field is represented by
+        its largest value on the surface.
+        """
         f2 = self.ruiz_f2
         return {
             "cycle_start": self.cycle.start,
@@ -87,7 +94,7 @@ class FrettingCycle(WithFields):
 
     @property
     def ruiz_f1(self) -> Annotated[Field, Reported("Pa m", "Largest shear times amplitude.", F)]:
-        """F1 = τ δ [force/length]."""
+        """Ruiz's parameter F1 = τ δ: largest shear times slip amplitude [force/length]."""
         return self.largest_shear * self.slip_amplitude
 
     @property
@@ -99,20 +106,24 @@ class FrettingCycle(WithFields):
             "Pa^2 m", "F1 times the tensile stress along the surface, zero under compression.", F
         ),
     ]:
-        """F2 = σ_T τ δ [force^2/length^3]; None without σ_T."""
+        """Ruiz's parameter F2 = σ_T τ δ [force^2/length^3]; None if σ_T is None.
+
+        F2 is zero where σ_T is compressive.
+        """
         if self.surface_tension is None:
             return None
         return np.maximum(self.surface_tension, 0.0) * self.ruiz_f1
 
 
 def fretting_cycles(result: Result) -> tuple[FrettingCycle, ...]:
-    """Compute all closed load cycles of a result, in the order of their ends.
+    """Compute energies and fields of all closed load cycles of a result, in the order of their
+    ends.
 
-    Cycles without shear are left out. Cycles that reach the friction limit under force control are
-    left out as well, because their slip is undefined.
+    Cycles that contain an increment without dissipated energy are omitted: cycles without shear,
+    and cycles that reach the friction limit under force control, whose slip is undefined.
 
     On cells, σ_T and F2 require the stress at the surface of the lower body, or of the indenter if
-    the lower body is rigid. It adds 2 to 5 % to the time of the solve.
+    the lower body is rigid. This stress adds 2 to 5 % to the time of the solve.
     """
     surface = surface_of(result)
     closed = load_cycles(result.scene.load_path())
@@ -140,6 +151,11 @@ def fretting_cycles(result: Result) -> tuple[FrettingCycle, ...]:
 def _fretting_cycle(
     surface: Surface, cycle: LoadCycle, path: Sequence[Increment], tension: Field | None
 ) -> FrettingCycle:
+    """Compute the energies and fields of one load cycle, without the numbers of its loop.
+
+    path     increments of the cycle, preceded by the increment at whose end the cycle begins
+    tension  σ_T of Ruiz [force/length^2], see `FrettingCycle`
+    """
     start, end = path[0], path[-1]
     shears = (reduce(np.hypot, shear) for shear in _along(surface, path, "shear"))
     dissipated = _gain(start.dissipated_energy, end.dissipated_energy)
@@ -156,19 +172,32 @@ def _fretting_cycle(
 
 
 def _gain(start: Value | None, end: Value | None) -> Value | None:
-    """Return end - start, or None if either is None."""
+    """Return the change of a cumulative quantity over a load cycle, end minus start.
+
+    Returns None if either value is None.
+    """
     return None if start is None or end is None else end - start
 
 
 def _along(surface: Surface, path: Sequence[Increment], name: str) -> Iterator[Field]:
-    """Yield the components of shear or slip of each increment that has them."""
+    """Yield the vector components (n, …) of the shear or the slip at the end of each increment.
+
+    Increments without this vector are skipped.
+
+    path  increments of a load cycle
+    name  "shear" or "slip"
+    """
     return (found for i in path if (found := surface.components(i, name)) is not None)
 
 
 def _slip_amplitude(slips: Callable[[], Iterable[Field]]) -> Field:
-    """Compute half the largest distance between any two slips, point by point.
+    """Compute the slip amplitude: at each point, half the largest distance between two slips.
 
-    The points are processed in blocks of at most MAX_AT_ONCE numbers.
+    The distance is that of the slip vectors at the ends of two increments of one load cycle; the
+    pair with the largest distance counts. Points with constant slip have amplitude zero. The other
+    points are processed in blocks of at most MAX_AT_ONCE numbers, which limits the memory.
+
+    slips  function that iterates over the slip vectors of the increments (components, …) [length]
     """
     first, count = next(iter(slips())), sum(1 for _ in slips())
     moves = reduce(np.logical_or, (np.any(slip != first, axis=0) for slip in slips()))
@@ -182,7 +211,13 @@ def _slip_amplitude(slips: Callable[[], Iterable[Field]]) -> Field:
 
 
 def _half_diameter(path: NDArray[np.float64]) -> Vector:
-    """Compute half the largest distance in each set of points (points, components, sets)."""
+    """Compute half the largest distance between any two points of each set.
+
+    path  coordinates of the points (points, components, sets); here the slips of one surface point
+          at all increments form a set
+
+    Returns one number per set (sets,).
+    """
     largest = np.zeros(path.shape[-1])
     width = max(1, MAX_IN_CACHE // max(1, len(path) * path.shape[1]))
     for begin in range(0, path.shape[-1], width):

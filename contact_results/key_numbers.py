@@ -1,4 +1,7 @@
-"""Key numbers of load steps as texts: units that suit them, errors, round-off as zero."""
+"""Key numbers of load steps and load cycles as texts, for tables, pages and figures.
+
+Each number has a suitable unit and its stated error. Round-off is shown as zero.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +34,15 @@ Shown = TypeVar("Shown")
 
 
 def natural_size(ends: Sequence[State], unit: str) -> float:
-    """Return the typical size of a quantity with this unit under these loads; 0 if unknown."""
+    """Estimate the magnitude of a scalar in a given unit from the largest loads of a history.
+
+    The estimate is the largest normal force W for "N", W times contact radius a for "N m", the
+    approach ω_z for "m", W ω_z for "J", and ω_z/a for "rad". Other units, and unloaded contacts,
+    give 0. Much smaller values are round-off.
+
+    ends  states at the ends of the load steps
+    unit  SI unit
+    """
     force, radius, approach = (
         max((abs(getattr(end, name)) for end in ends), default=0.0)
         for name in ("normal_force", "contact_radius", "approach")
@@ -42,7 +53,13 @@ def natural_size(ends: Sequence[State], unit: str) -> float:
 
 
 class _Column(NamedTuple):
-    """Values of one number in all steps, with their errors."""
+    """Column of the table of key numbers: one scalar at the shown load steps, with its errors.
+
+    heading  name of the scalar, with a line break
+    like     group of the column; columns of one group share their engineering unit
+    unit     SI unit of the entries
+    entries  value and stated error at each shown load step
+    """
 
     heading: str
     like: str  # columns of equal names share their unit
@@ -53,11 +70,13 @@ class _Column(NamedTuple):
 def outcome_columns(
     ends: Sequence[State], errors: Sequence[Errors] | None = None
 ) -> dict[str, list[str]]:
-    """Return the columns of a table with one row per load step, by heading.
+    """Return the table of key numbers with one row per load step, as columns by heading.
 
-    Effects that are off have no column. Of a long history, the first and last steps are shown.
+    An effect that is off has no column. A long history shows its first and last load steps.
 
-    errors  stated errors of every step; errors that have not converged get a question mark
+    ends    states at the ends of the load steps
+    errors  stated errors of every load step, by name; a question mark follows an error that has not
+            converged
     """
     stated: Sequence[Errors] = errors if errors is not None else [{}] * len(ends)
     numbered, gap = _shown(list(enumerate(zip(ends, stated, strict=True), 1)))
@@ -71,9 +90,12 @@ def outcome_columns(
 
 
 def key_numbers(history: Sequence[State], errors: Errors | None) -> Iterator[tuple[str, str]]:
-    """Yield names and texts of the key numbers at the end of a history.
+    """Yield name and text of each key number at the end of a load history.
 
-    errors  stated errors; None if they were left out
+    The text contains value, stated error and unit.
+
+    history  states at the ends of the load steps
+    errors   stated errors of the last load step, by name; None if they were not computed
     """
     for heading, unit, (text,) in _texts([(history[-1], errors or {})], history):
         yield heading.replace("\n", " ").strip(), f"{text} {unit}"
@@ -82,7 +104,11 @@ def key_numbers(history: Sequence[State], errors: Errors | None) -> Iterator[tup
 def _texts(
     steps: Sequence[tuple[State, Errors]], history: Sequence[State]
 ) -> Iterator[tuple[str, str, list[str]]]:
-    """Yield heading, unit and texts of every column."""
+    """Yield heading, unit and number texts of each column of the table of key numbers.
+
+    steps    rows of the table: state at the end of a load step, and its stated errors
+    history  states at the ends of all load steps, which determine the limit of round-off
+    """
     shown = list(_columns(steps, history))
     for column in shown:
         alike = [other.entries for other in shown if other.like == column.like]
@@ -93,16 +119,25 @@ def _texts(
 
 
 def _shown(steps: Sequence[Shown]) -> tuple[list[Shown], int | None]:
-    """Return the steps to show, and the position of the gap; None without a gap."""
+    """Select the table rows of a long history: the first FIRST and the last LAST.
+
+    steps  all rows, of load steps or load cycles
+
+    Returns the selected rows and the index of the omitted part. A short history is returned whole,
+    with None as the index.
+    """
     if len(steps) <= FIRST + LAST + 1:
         return list(steps), None
     return [*steps[:FIRST], *steps[-LAST:]], FIRST
 
 
 def _columns(steps: Sequence[tuple[State, Errors]], history: Sequence[State]) -> Iterator[_Column]:
-    """Yield a column for every key quantity of the steps, with round-off replaced by 0.
+    """Yield the table column of each key quantity that has a value, with round-off replaced by 0.
 
-    The y component of a vector has a column if it is not zero in all steps.
+    The y component of a vector has a column only if a shown load step has a non-zero value.
+
+    steps    rows of the table: state at the end of a load step, and its stated errors
+    history  states at the ends of all load steps, which determine the limit of round-off
     """
     rows = [numbers(step) for step, _ in steps]
     for name, mark in SCALARS.items():
@@ -125,6 +160,7 @@ def _columns(steps: Sequence[tuple[State, Errors]], history: Sequence[State]) ->
 
 
 def _cut(value: float | None, negligible: float) -> float | None:
+    """Replace a value by 0 if its magnitude does not exceed a negligible amount; keep None."""
     return 0.0 if value is not None and abs(value) <= negligible else value
 
 
@@ -142,9 +178,11 @@ PRODUCTS = {"Pa m": EngineeringUnit(1e3, "MPa mm"), "Pa^2 m": EngineeringUnit(1e
 def cycle_columns(
     cycles: Sequence[FrettingCycle], errors: Sequence[Errors] | None = None
 ) -> dict[str, list[str]]:
-    """Headings and texts of the closed load cycles, one row each; of many the first and the last.
+    """Return the table of closed load cycles with one row per cycle, as columns by heading.
 
-    errors  of the numbers of every step
+    A long history shows its first and last cycles.
+
+    errors  stated errors of the scalars of every load step, by name; None if they were not computed
     """
     shown, gap = _shown(cycles)
     rows = [cycle.numbers for cycle in shown]

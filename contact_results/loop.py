@@ -1,9 +1,14 @@
-"""Numbers of a load cycle as a fretting test has them, from forces and shifts of its increments.
+"""Numbers of one load cycle as in a fretting test, from forces and shifts of its increments.
 
-All are along the largest change of the tangential force. Q* and δ are half ranges of force and
-shift, δ* that of the actuator of a rig. δ_g is half the opening of the loop at the middle force.
-A = E_d/4Q*δ* and the friction of the energy, µ_e = E_d/4Wδ_g, compare the energy per cycle E_d with
-that of rectangular loops. Mindlin's loop reaches gross slip at E_d/4Q*δ = 1/5.
+All quantities are components along the largest change of the tangential force. Symbols:
+
+- Q* is half the range of the tangential force in the cycle, - δ is half the range of the tangential
+shift, δ* that of the shift of the actuator of a test rig, - δ_g is half the opening of the loop of
+force over shift, at the mean of the extreme forces, - E_d is the energy lost to friction per cycle,
+W the normal force, - A = E_d/4Q*δ* compares E_d with the energy of a rectangular loop, - µ_e =
+E_d/4Wδ_g is the coefficient of friction of a rectangular loop with this energy and opening.
+
+Mindlin's loop of a sphere reaches gross slip at E_d/4Q*δ = 1/5.
 """
 
 from __future__ import annotations
@@ -29,10 +34,15 @@ AT_GROSS_SLIP = 0.2  # E_d/4Q*δ
 def loop_numbers(
     path: Sequence[Increment], dissipated: float, friction: CoulombFriction | None, surface: Surface
 ) -> dict[str, Any]:
-    """Numbers of a cycle by the names of `contact_scene.quantities.summary.Closed`.
+    """Compute the numbers of one load cycle: slip regime, amplitudes, energy ratios, stick centre.
 
-    path        increments, from the one at whose end the cycle begins
-    dissipated  energy per cycle [force length]
+    path        increments of the cycle, preceded by the increment at whose end the cycle begins
+    dissipated  energy lost to friction in the cycle [force length]
+    friction    friction law of the scene; None without friction
+    surface     surface grid of the increments
+
+    Returns the numbers by the names of `contact_scene.quantities.summary.Closed`. A cycle with
+    constant tangential force has only the regime and the stick centre.
     """
     end = path[-1]
     numbers: dict[str, Any] = {"stick_centre": _stick_centre(end, surface)}
@@ -67,7 +77,14 @@ def loop_numbers(
 
 
 def _along(path: Sequence[Increment], name: str, direction: Vector) -> Vector | None:
-    """Component of a vector of all increments; None where they have none."""
+    """Return the component of a vector quantity along a direction, for each increment (n,).
+
+    path       increments of a load cycle
+    name       name of the quantity, such as "tangential_shift"
+    direction  unit vector (2,)
+
+    Returns None if any increment lacks the quantity.
+    """
     values = [getattr(increment, name) for increment in path]
     if any(value is None for value in values):
         return None
@@ -75,12 +92,20 @@ def _along(path: Sequence[Increment], name: str, direction: Vector) -> Vector | 
 
 
 def _half_range(values: Vector) -> float:
+    """Return half the difference between the largest and the smallest of the values (n,)."""
     return float(np.ptp(values)) / 2
 
 
 def _opening(forces: Vector, shifts: Vector) -> float:
-    """Half the distance of the shifts at the middle force. Within a branch the shift is a smooth
-    function of the force: cubic through the two increments on either side."""
+    """Compute half the opening of a fretting loop at the middle of its force range [length].
+
+    The tangential shift is interpolated at each point where the loop passes the mean of the extreme
+    forces. Within a branch of the loop the shift is a smooth function of the force. Therefore the
+    interpolation is a cubic through the two increments on either side of the point, with fewer
+    increments next to the end of a branch. The result is half the range of the interpolated shifts.
+
+    forces, shifts  tangential force and shift at the ends of the increments (n,)
+    """
     apart = forces - (np.max(forces) + np.min(forces)) / 2
     rises = np.sign(np.diff(apart))
     found = []
@@ -94,7 +119,11 @@ def _opening(forces: Vector, shifts: Vector) -> float:
 
 
 def _stick_centre(end: Increment, surface: Surface) -> tuple[float, float] | None:
-    """Centre of the stick zone at the end of the cycle [length]; None without one."""
+    """Compute the centroid (x, y) of the stick zone at the end of a load cycle [length].
+
+    Coordinates that are round-off relative to the contact radius become 0. Returns None if no point
+    of the contact sticks.
+    """
     stick = surface.scalar(end, "in_stick")
     if stick is None or not np.any(stick):
         return None

@@ -16,14 +16,24 @@ MAX_DECIMALS = 12
 
 
 class Uncertainty(NamedTuple):
-    """Stated error of one number; size None if the error is unknown."""
+    """Stated error of one number.
+
+    size       error in the SI unit of the number; None if the error is unknown
+    converged  False if the error estimate is unreliable
+    """
 
     size: float | None
     converged: bool
 
 
 def uncertainty(stated: StatedError | None, axis: str = "x") -> Uncertainty | None:
-    """Return the stated error of a scalar or of a vector component; None if absent or exact."""
+    """Return the stated error of a scalar, or of one component of a vector.
+
+    stated  stated error of the scalar or the vector; None if there is none
+    axis    component of a vector, "x" or "y"; ignored for a scalar
+
+    Returns None if there is no stated error, or if the number is exact.
+    """
     if stated is None or stated.status is ErrorStatus.EXACT:
         return None
     size = stated.error
@@ -33,7 +43,15 @@ def uncertainty(stated: StatedError | None, axis: str = "x") -> Uncertainty | No
 
 
 def number_text(value: float | None, error: Uncertainty | None, unit: float) -> str:
-    """Return the text of a number in a unit, with its error; `?` marks an unconverged error."""
+    """Return the text of a number in a unit, with its stated error.
+
+    The error has two digits, and the number the same decimals. A question mark follows an error
+    that has not converged.
+
+    value  number in its SI unit; None gives a dash
+    error  stated error in the SI unit; None gives the number alone
+    unit   SI value of the unit of the text, such as 1e-3 for mm
+    """
     if value is None:
         return "–"
     if error is None:
@@ -53,5 +71,8 @@ def number_text(value: float | None, error: Uncertainty | None, unit: float) -> 
 
 
 def measured_like(name: str) -> str:
-    """Return the name of the group of quantities that share a unit in a table: all radii."""
+    """Return the name of the group of quantities that share a unit in a table.
+
+    All names that end in `_radius` form the group "radius". Other names form a group each.
+    """
     return "radius" if name.endswith("_radius") else name

@@ -1,4 +1,4 @@
-"""All files of a result, or of the stress below a contact, in one call."""
+"""Writers of all files of a result, or of the stress below a contact, in one call."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ def write_result(
     accuracy: AccuracyReached | None = None,
     all_fields: bool = False,
 ) -> dict[str, list[str]]:
-    """Write summary, fields, tables, figures and their page into an empty directory.
+    """Write summary, fields, tables, figures and their HTML page into an empty directory.
 
     figures     "overview": one figure and the page; "all": all figures and the page; "none"
-    errors      stated errors; None if they were left out
+    errors      stated errors; None if they were not computed
     accuracy    requested and reached accuracy; None if none was requested
     all_fields  store the fields of all increments, not only of the last one of each load step
 
-    Returns the columns of `cycle_columns`; empty without load cycles.
+    Returns the table of load cycles, see `cycle_columns`; empty without load cycles.
     """
     cycles = fretting_cycles(result)
     stated = errors.steps if errors else None
@@ -67,11 +67,16 @@ def write_stress(
     errors: Sequence[StatedError] | None = None,
     accuracy: AccuracyReached | None = None,
 ) -> None:
-    """Write tables, their meanings, meshes, figures, page and summary atomically.
+    """Write the stress below a contact: tables, column descriptions, meshes, figures, page,
+    summary.
 
-    which     "body" or "indenter"
+    The files replace earlier ones atomically.
+
+    state     bodies and tractions that cause the stress
+    which     "body" for the lower body, or "indenter"
+    field     computed stress
     found     largest stresses
-    errors    stated errors of `found`; None if they were left out
+    errors    stated errors of `found`; None if they were not computed
     accuracy  requested and reached accuracy; None if none was requested
     """
     from contact_results.stress.files import VOLUME, write_files

@@ -37,7 +37,7 @@ NO_BORDER = (
 
 
 def warnings_of(result: Result) -> tuple[str, ...]:
-    """Return all warnings about a result, one clause each."""
+    """Return all warnings about a result of any solver, one clause each."""
     found = (
         *unlikely(result.scene),
         *beyond_linear_theory(result.scene, result.steps),
@@ -51,7 +51,10 @@ def warnings_of(result: Result) -> tuple[str, ...]:
 
 
 def _near_gross_slip(result: Result) -> Iterator[str]:
-    """Warn of a load step near gross slip, whose shift and energy depend on the increments."""
+    """Yield a warning if a tangential force is prescribed close to the friction limit.
+
+    Close to gross slip, the tangential shift and the dissipated energy depend on the increments.
+    """
     near = near_gross_slip(result.scene)
     if any(near):
         yield (
@@ -62,7 +65,13 @@ def _near_gross_slip(result: Result) -> Iterator[str]:
 
 
 def _first_cycle(result: Result) -> Iterator[str]:
-    """Warn of a first load cycle, which starts from the virgin state of the surfaces."""
+    """Yield a warning about the first load cycle, which starts from the virgin state of the
+    surfaces.
+
+    This cycle may dissipate several times the energy of later cycles. There is no warning without
+    load cycles, or if the state at the end of the cycle does not depend on the number of
+    increments.
+    """
     path = result.scene.load_path()
     cycles = load_cycles(path)
     if cycles and with_error(result.scene)[cycles[0].end - 1]:
@@ -75,6 +84,7 @@ def _first_cycle(result: Result) -> Iterator[str]:
 
 
 def _left_out(result: semi_analytical.Result) -> Iterator[str]:
+    """Yield a warning if the cells do not resolve the roughness of the height map."""
     share, indenter = left_out(result), result.scene.indenter
     if share > NEGLIGIBLE and isinstance(indenter, HeightMap):
         nx, ny = (int(np.ceil(n)) for n in np.divide(result.grid.window, indenter.spacing))
@@ -86,6 +96,11 @@ def _left_out(result: semi_analytical.Result) -> Iterator[str]:
 
 
 def _edges_left(result: semi_analytical.Result) -> Iterator[str]:
+    """Yield a warning for each cause that prevented the edge correction at the end of a load step.
+
+    Load steps with equal cause share a warning. The edge correction resolves the border of the
+    contact and of the stick zone below the cell size.
+    """
     if result.plan.edge == "off":
         return
     left: dict[str, list[str]] = {}
@@ -100,11 +115,13 @@ def _edges_left(result: semi_analytical.Result) -> Iterator[str]:
 
 
 def left_out(result: semi_analytical.Result) -> float:
-    """Estimate the pressure that flattens the roughness between cells, over the peak pressure.
+    """Estimate the pressure that flattens the roughness between cell centres, over the peak
+    pressure.
 
-    It is E* √(mean square slope) / 2 (Persson 2001), the root mean square over the largest contact;
-    a wave of amplitude h and wavenumber k takes E* k h / 2 (Johnson 1985, eq. 13.7). Returns 0 if
-    the cells are no wider than the spacing of the height map.
+    The roughness is the height map minus its interpolation from the cell centres, within the
+    largest contact. The root mean square pressure is E* √(mean square slope) / 2 (Persson 2001)
+    with the contact modulus E*: a wave of amplitude h and wavenumber k requires E* k h / 2 (Johnson
+    1985, eq. 13.7). Returns 0 if the cells are no wider than the spacing of the height map.
     """
     indenter, grid = result.scene.indenter, result.grid
     if not isinstance(indenter, HeightMap):
@@ -128,6 +145,12 @@ def left_out(result: semi_analytical.Result) -> float:
 
 
 def _points(count: int, spacing: float, within: Field) -> Field:
-    """Return the coordinates of map points along one axis within a range of places [length]."""
+    """Return the coordinates of the height-map points along one axis that lie in the contact
+    [length].
+
+    count    number of map points along the axis
+    spacing  distance of adjacent map points [length]
+    within   coordinates of the cells in contact along this axis [length]
+    """
     points = (np.arange(count) - (count - 1) / 2) * spacing
     return np.asarray(points[(points >= np.min(within)) & (points <= np.max(within))])

@@ -1,4 +1,4 @@
-"""Stress at chosen points over the increments of a load history: table and figure."""
+"""Stress at chosen points over the increments of a load history: CSV table and figure."""
 
 from __future__ import annotations
 
@@ -39,10 +39,13 @@ COLUMNS = (
 
 @dataclass(frozen=True, eq=False)
 class StressIncrement:
-    """Stress at points (n,) at the end of an increment.
+    """Stress at chosen points of a body at the end of one increment.
 
-    index   increment within the step, from 1; None for the end of the step alone
-    errors  stated error of every component (n,) [force/length^2]
+    step    load step, from 1
+    index   increment within the load step, from 1; None if the history has the ends of load steps
+            only
+    points  stress at the n points
+    errors  stated error of every stress component, one number per point (n,) [force/length^2]
     """
 
     step: int
@@ -54,7 +57,16 @@ class StressIncrement:
 def write_history(
     history: Sequence[StressIncrement], body: Body, directory: Path, convention: str, title: str
 ) -> None:
-    """Write the stress of every point over the increments; the files are written atomically."""
+    """Write the table and the figure of the stress at chosen points over all increments.
+
+    The files replace earlier ones atomically.
+
+    history     stress at the points at the end of each increment
+    body        lower body or indenter, which contains the points
+    directory   output directory
+    convention  text about axes and signs, for the table of columns
+    title       title of the figure
+    """
     layers, count = len(body.layers), len(history[0].errors)
     rows = (
         (
@@ -85,7 +97,14 @@ def write_history(
 
 
 def _draw(ax: Any, history: Sequence[StressIncrement], n: int, layers: int) -> None:
-    """Draw components and the largest principal stress of a point, with errors."""
+    """Draw σ_xx, σ_zz, σ_xz and the largest principal stress of one point over the increments.
+
+    The stated errors are drawn as error bars. Dotted lines mark the ends of load steps.
+
+    ax      axes of matplotlib
+    n       index of the point
+    layers  number of layers of the body
+    """
     values = {
         f"$σ_{{{name}}}$": [each.points.components[name][n] for each in history] for name in SHOWN
     }
@@ -107,4 +126,5 @@ def _draw(ax: Any, history: Sequence[StressIncrement], n: int, layers: int) -> N
 
 
 def _material(points: StressPoints, n: int, layers: int) -> str:
+    """Return the name of the material at point n: a layer, the base, or "body" without layers."""
     return layer_name(int(points.material[n]), layers) if layers else "body"

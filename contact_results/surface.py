@@ -1,6 +1,8 @@
-"""Surface grids of the fields of a result: cells, or rings around the z axis.
+"""Surface grids of a result: the points that carry tractions, gap and slip.
 
-Files, figures and sums use the protocol `Surface` for the results of all solvers.
+`Cells` holds the rectangular cells of the semi-analytical solver. `Rings` holds the rings around
+the z axis of the finite elements and of the radial solver. Files, figures and sums read the results
+of all solvers through the protocol `Surface`.
 """
 
 from __future__ import annotations
@@ -24,10 +26,10 @@ if TYPE_CHECKING:
 
 
 class Line(NamedTuple):
-    """The line through the axis on which profiles are shown.
+    """Line through the z axis on the surface, on which profiles of the fields are drawn.
 
-    places      (n,) [length]
-    label       axis label of the places
+    places      coordinates of the points along the line (n,) [length]
+    label       text for the axis of a figure that shows these coordinates
     components  names of the vector components along and across the line
     """
 
@@ -37,11 +39,18 @@ class Line(NamedTuple):
 
 
 class Surface(Protocol):
-    """Points that carry the fields of a result. A scalar field has the shape of `weights`."""
+    """Points on the surface that carry the fields of a result, for the results of any solver.
+
+    A scalar field has the array shape of `weights`: (nx, ny) on cells; (rings,) or (rings, angles)
+    on rings.
+    """
 
     @property
     def axes(self) -> Mapping[str, Field]:
-        """Coordinates of each index of a scalar field, by name [length; angles radian]."""
+        """Coordinates of the points for each array index, by name.
+
+        The names are x and y of cells [length], or radii [length] and angles [radian] of rings.
+        """
 
     @property
     def positions(self) -> Field:
@@ -49,41 +58,63 @@ class Surface(Protocol):
 
     @property
     def weights(self) -> Field:
-        """Quadrature weights of the points [length^2]."""
+        """Quadrature weights of the points [length^2].
+
+        The sum of weight times field over all points is the integral of the field over the surface.
+        """
 
     @property
     def line(self) -> Line:
-        """The line on which `along` evaluates fields."""
+        """Line through the z axis on which `along` and `vector_along` evaluate fields."""
 
     @property
     def direction(self) -> tuple[float, float]:
-        """Unit vector along the line."""
+        """Unit vector (x, y) along the line of the profiles."""
 
     def scalar(self, increment: Increment, name: str) -> NDArray[Any] | None:
-        """Return a scalar field of an increment, or None if the increment has no such field."""
+        """Return a scalar field of an increment, such as the pressure, at all points.
+
+        name  name of the field, an attribute of the increment
+
+        Returns None if the increment has no such field.
+        """
 
     def components(self, increment: Increment, name: str) -> Field | None:
-        """Return the orthonormal components (n, …) of shear or slip that the solver computed.
+        """Return the vector components of shear or slip that the solver itself computed.
 
-        They have no round-off of a rotation. None if the increment has no such vector.
+        These components are orthonormal, shape (n, …): x and y on cells; radial, circumferential
+        and along the load on rings. They have no round-off from a rotation to other axes. Returns
+        None if the increment has no such vector.
+
+        name  "shear" or "slip"
         """
 
     def vector(self, increment: Increment, name: str) -> Field | None:
-        """Return the x and y components (2, …) of shear or slip, or None if there are none."""
+        """Return the x and y components (2, …) of the shear or the slip of an increment.
+
+        name  "shear" or "slip"
+
+        Returns None if the increment has no such vector.
+        """
 
     def along(self, field: Field) -> Field:
-        """Evaluate a scalar field on the line (n,)."""
+        """Evaluate a scalar field at the n points of the line of the profiles (n,)."""
 
     def vector_along(self, vector: Field) -> Field:
-        """Evaluate a vector field on the line: components (2, n) along and across it."""
+        """Evaluate a vector field (2, …) at the n points of the line of the profiles.
+
+        Returns the components along and across the line (2, n).
+        """
 
 
 @dataclass(frozen=True, eq=False)
 class Cells:
-    """Equal rectangles, index [i, j] = (x_i, y_j); the line is y = 0.
+    """Surface grid of equal rectangular cells; index [i, j] is the cell centred at (x_i, y_j).
 
-    x, y       centres (nx,), (ny,) [length]
-    cell_area  [length^2]
+    Profiles are drawn on the line y = 0.
+
+    x, y       coordinates of the cell centres (nx,), (ny,) [length]
+    cell_area  area of one cell [length^2]
     """
 
     x: Field
@@ -92,41 +123,47 @@ class Cells:
 
     @property
     def axes(self) -> Mapping[str, Field]:
-        """Centres along x and y."""
+        """Coordinates of the cell centres by name: x (nx,) and y (ny,) [length]."""
         return {"x": self.x, "y": self.y}
 
     @property
     def positions(self) -> Field:
-        """Centres (2, nx, ny) [length]."""
+        """Coordinates x and y of the cell centres (2, nx, ny) [length]."""
         return np.stack(np.meshgrid(self.x, self.y, indexing="ij"))
 
     @property
     def weights(self) -> Field:
-        """The area of a cell (nx, ny) [length^2]."""
+        """Quadrature weights: the area of one cell at every cell centre (nx, ny) [length^2]."""
         return np.full((len(self.x), len(self.y)), self.cell_area)
 
     @property
     def line(self) -> Line:
-        """All x at y = 0."""
+        """Line of the profiles: all centres x, at y = 0."""
         return Line(self.x, "x at y = 0", ("x", "y"))
 
     @property
     def direction(self) -> tuple[float, float]:
-        """Unit vector along x."""
+        """Unit vector along the line of the profiles: the x axis."""
         return 1.0, 0.0
 
     def scalar(self, increment: Increment, name: str) -> NDArray[Any] | None:
-        """Return the field of the increment without change."""
+        """Return a field of an increment on the cells, as the solver stored it.
+
+        name  name of the field, an attribute of the increment
+
+        Returns None if the increment has no such field.
+        """
         field: NDArray[Any] | None = getattr(increment, name, None)
         return field
 
     components = vector = scalar
 
     def along(self, field: Field) -> Field:
-        """Evaluate a field (…, nx, ny) on y = 0.
+        """Evaluate a field (…, nx, ny) of the cells at all x on the line y = 0.
 
-        If ny is even, this is the mean of the two central rows. Its error is h^2/8 times the second
-        derivative along y, with the cell width h.
+        If ny is odd, the result is the central row of cells. If ny is even, it is the mean of the
+        two rows next to y = 0. The error of this mean is h^2/8 times the second derivative along y,
+        with the cell width h.
         """
         ny = field.shape[-1]
         return np.asarray((field[..., (ny - 1) // 2] + field[..., ny // 2]) / 2)
@@ -136,17 +173,19 @@ class Cells:
 
 @dataclass(frozen=True, eq=False)
 class Rings:
-    """Rings around the z axis, fields linear in between; index [ring] or [ring, angle].
+    """Surface grid of rings around the z axis; fields are linear between the rings.
 
-    Without angles, the points lie on the ray along the load. With angles, the points cover either
-    a half circle including both ends, and represent their mirror images as well, or the full
-    circle at equal spacing from 0.
+    A field has the index [ring] or [ring, angle]. Without angles, the points lie on the ray in the
+    direction of the load. With angles, the points cover one of two ranges:
 
-    radii      ascending (rings,) [length]
-    angles     from the direction of the tangential load (angles,) [radian]; None if the fields
-               depend on the radius alone
+    - a half circle with both ends; the points then represent their mirror images as well, - the
+    full circle, equally spaced from 0.
+
+    radii      radii of the rings, ascending (rings,) [length]
+    angles     angles from the direction of the tangential load (angles,) [radian]; None if the
+               fields depend on the radius alone
     direction  unit vector of the tangential load
-    polar      whether all vectors have constant radial and circumferential components on each ring
+    polar      True if all vectors have constant radial and circumferential components on each ring
     """
 
     radii: Field
@@ -156,17 +195,20 @@ class Rings:
 
     @property
     def whole(self) -> bool:
-        """Return True if the angles cover a full circle."""
+        """True if the angles of the points cover the full circle.
+
+        False if they cover a half circle, or if there are none.
+        """
         return self.angles is not None and bool(self.angles[-1] > 1.25 * np.pi)
 
     @property
     def axes(self) -> Mapping[str, Field]:
-        """Radii, and the angles if there are any."""
+        """Radii of the rings [length], and angles [radian] if the fields have any, by name."""
         return {"radii": self.radii} | ({} if self.angles is None else {"angles": self.angles})
 
     @property
     def positions(self) -> Field:
-        """Coordinates x and y, shape (2, rings) or (2, rings, angles) [length]."""
+        """Coordinates x and y of the points, shape (2, rings) or (2, rings, angles) [length]."""
         if self.angles is None:
             return self._turned(np.stack([self.radii, np.zeros_like(self.radii)]))
         around = np.stack([np.cos(self.angles), np.sin(self.angles)])
@@ -174,9 +216,11 @@ class Rings:
 
     @property
     def weights(self) -> Field:
-        """Quadrature weights 2π∫ψ r dr times the angular share of each point [length^2].
+        """Quadrature weights of the points on the rings [length^2].
 
-        The hat function ψ of the first ring is constant towards the axis.
+        The weight is ∫ψ r dr times the range of angles that a point represents (2π without angles).
+        ψ is the hat function of a ring: 1 on this ring, linear, 0 on the adjacent rings. Inside the
+        first ring its hat function stays 1 up to the axis.
         """
         inner, outer = self.radii[:-1], self.radii[1:]
         area = np.zeros_like(self.radii)
@@ -192,7 +236,9 @@ class Rings:
 
     @property
     def line(self) -> Line:
-        """The radius; for fields with angles, the diameter along the load."""
+        """Line of the profiles: a radius if the fields depend on the radius alone, else the
+        diameter along the load.
+        """
         along_x = self.direction == (1.0, 0.0)
         load = ("x", "y") if along_x else (r"\parallel", r"\perp")
         if self.angles is None:
@@ -202,13 +248,23 @@ class Rings:
         return Line(places, label, load)
 
     def scalar(self, increment: Increment, name: str) -> NDArray[Any] | None:
-        """Return the field, repeated at every angle if the surface has angles."""
+        """Return a scalar field of an increment on the rings.
+
+        If the grid has angles, a field that depends on the radius alone is repeated at every angle.
+
+        name  name of the field, an attribute of the increment
+
+        Returns None if the increment has no such field.
+        """
         return self._everywhere(getattr(increment, name, None))
 
     def components(self, increment: Increment, name: str) -> Field | None:
-        """Return the radial, circumferential and along-load components (3, …).
+        """Return three components (3, …) of shear or slip: radial, circumferential, along the load.
 
-        A result has either the first two or the last; missing components are zero.
+        A result stores either the first two or the last one. Missing components are zero. Returns
+        None if the increment has no such vector.
+
+        name  "shear" or "slip"
         """
         parts = [
             self._everywhere(getattr(increment, f"{name}_{component}"))
@@ -220,7 +276,13 @@ class Rings:
         return np.stack([np.zeros_like(given[0]) if part is None else part for part in parts])
 
     def vector(self, increment: Increment, name: str) -> Field | None:
-        """Return the x and y components, transformed from those of `components`."""
+        """Return the x and y components (2, …) of shear or slip on the rings.
+
+        The method transforms the radial, circumferential and along-load components that the solver
+        stored. It returns None if the increment has no such vector.
+
+        name  "shear" or "slip"
+        """
         components = self.components(increment, name)
         if components is None:
             return None
@@ -232,36 +294,60 @@ class Rings:
         )
 
     def on_both_sides(self) -> Rings:
-        """Return the surface with angles; without angles, add those of the two rays of the line."""
+        """Return rings whose line of the profiles is the whole diameter along the load.
+
+        Rings without angles get the angles 0 and π, which are the two rays of this diameter. Rings
+        with angles are returned unchanged.
+        """
         return self if self.angles is not None else replace(self, angles=np.array([0.0, np.pi]))
 
     def along(self, field: Field) -> Field:
-        """Evaluate a field on the line, from the ray at angle π to the ray at angle 0."""
+        """Evaluate a field at the points of the line of the profiles.
+
+        Without angles, the field itself is returned. With angles, the values follow the diameter
+        from the outermost ring on the ray at angle π to the outermost ring on the ray at angle 0.
+        """
         if self.angles is None:
             return field
         behind = len(self.angles) // 2 if self.whole else -1
         return np.concatenate([field[..., ::-1, behind], field[..., :, 0]], axis=-1)
 
     def vector_along(self, vector: Field) -> Field:
-        """Evaluate a vector on the line: components along and across the load."""
+        """Evaluate a vector field (2, …) at the points of the line of the profiles.
+
+        vector  x and y components of the vector
+
+        Returns the components along and across the tangential load.
+        """
         return self.along(self._turned(vector, -1))
 
     def _everywhere(self, field: NDArray[Any] | None) -> NDArray[Any] | None:
+        """Repeat a field that depends on the radius alone at every angle of the grid.
+
+        Other fields, and None, are returned unchanged.
+        """
         if field is None or self.angles is None or field.ndim > 1:
             return field
         return np.broadcast_to(field[:, None], (len(self.radii), len(self.angles)))
 
     def _turned(self, vector: Field, sense: int = 1) -> Field:
-        """Rotate from axes along and across the load to x and y; with sense −1, rotate back."""
+        """Rotate a vector field (2, …) from load axes to scene axes, or back.
+
+        vector  components along and across the tangential load; x and y components for the rotation
+                back
+        sense   1 rotates to x and y; −1 rotates back to the load axes
+        """
         (x, y), (along, across) = self.direction, vector
         y *= sense
         return np.stack([along * x - across * y, along * y + across * x])
 
 
 def surface_on(axes: Mapping[str, Field], direction: tuple[float, float]) -> Surface:
-    """Return the surface with the given axes.
+    """Create the surface grid with the given coordinates of its points.
 
-    direction  unit vector of angle 0; used for rings
+    axes       coordinates by name: x and y of cell centres, or radii and, optionally, angles of
+               rings
+    direction  unit vector of the tangential load, which points at angle 0; used for rings only
     """
     if "radii" in axes:
         return Rings(axes["radii"], axes.get("angles"), direction, polar=False)
@@ -270,7 +356,7 @@ def surface_on(axes: Mapping[str, Field], direction: tuple[float, float]) -> Sur
 
 
 def surface_of(result: Result) -> Surface:
-    """Return the surface of the fields of a result."""
+    """Create the surface grid that carries the fields of a result of any solver."""
     if hasattr(result, "grid"):
         return Cells(result.grid.x, result.grid.y, result.grid.cell_area)
     increments = result.increments

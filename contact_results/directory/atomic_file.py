@@ -8,19 +8,19 @@ from pathlib import Path
 
 
 class Refused(Exception):
-    """A file cannot be used by the command; the message has its name and the reason."""
+    """A command cannot use a file or directory; the message has its name and the reason."""
 
 
 class OutputRefused(Refused):
-    """The directory cannot be written, is in use, or contains files of other programs."""
+    """The output directory cannot be written, is in use, or contains files of other programs."""
 
 
 @contextmanager
 def atomic_file(path: Path) -> Iterator[Path]:
-    """Yield a temporary path in the same directory; rename it to `path` if the block succeeds.
+    """Yield a temporary path in the directory of `path`, and rename the file to `path` at the end.
 
-    An existing file `path` is replaced. An OSError of the block, such as that of a full disk, gets
-    the name `path`.
+    The rename takes place only if the block succeeds. It replaces an existing file. An OSError of
+    the block, such as that of a full disk, gets the name `path` instead of the temporary name.
 
     Raises OutputRefused if the parent directory cannot be created, or if `path` exists and is not a
     regular file.
@@ -57,7 +57,7 @@ def _refuse_occupied(path: Path) -> None:
 
 
 def create_parents(target: Path) -> list[Path]:
-    """Create the missing parent directories of `target`; return them, innermost first.
+    """Create the missing parent directories of `target`; return the missing ones, innermost first.
 
     Raises OutputRefused if a directory cannot be created.
     """
@@ -70,7 +70,10 @@ def create_parents(target: Path) -> list[Path]:
 
 
 def remove_empty(directories: Sequence[Path]) -> None:
-    """Remove directories in order, up to the first that is not empty."""
+    """Remove directories in the given order, and stop at the first that is not empty.
+
+    directories  directories that `create_parents` has created, innermost first
+    """
     for directory in directories:
         try:
             directory.rmdir()

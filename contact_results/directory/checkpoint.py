@@ -1,4 +1,4 @@
-"""Checkpoints of a run in a hidden directory next to its results, to resume a killed run.
+"""Checkpoint files of a run in a hidden directory next to its results, to resume a killed run.
 
 A checkpoint is a sequence of atomic files. Each file contains the increments since the preceding
 file. The files are removed at the end of the run.
@@ -34,11 +34,12 @@ MAX_IN_PART = 16 << 20  # bytes of fields in a file, which limits the memory of 
 
 @dataclass(frozen=True)
 class _Part:
-    """Contents of one file: the increments since the preceding file.
+    """Contents of one checkpoint file: the increments since the preceding file.
 
-    before    number of increments in the preceding files
-    standing  checkpoint after these increments, without increments of its own; None if the
-              increments of the checkpoint continue in the next file
+    before      number of increments in all preceding files
+    increments  completed increments of the load history in this file
+    standing    checkpoint after these increments, with an empty list of increments; None if further
+                increments of this checkpoint follow in the next file
     """
 
     before: int
@@ -47,9 +48,14 @@ class _Part:
 
 
 class CheckpointDirectory:
-    """Checkpoint files of one solve; implements `CheckpointStore` of `contact_scene.stepping`.
+    """Directory with the checkpoint files of one solve.
 
-    seconds_between  shortest time between two files
+    The class implements `CheckpointStore` of `contact_scene.stepping`.
+
+    directory        hidden directory of the files, created at the first write
+    identity         digest of the input and the code of the solve
+    say              function called with messages for the user
+    seconds_between  shortest time between two files [s]
     """
 
     def __init__(
@@ -74,7 +80,11 @@ class CheckpointDirectory:
         self._extent: Any = None
 
     def last(self) -> Checkpoint | None:
-        """Return the checkpoint that an earlier process stored for this solve; it is read once."""
+        """Return the checkpoint that an earlier process stored for this solve; None if there is
+        none.
+
+        The files are read at the first call only.
+        """
         if not self._read:
             self._read, self._written = True, time.monotonic()
             if self._directory.is_dir() and self._locked():
@@ -83,7 +93,10 @@ class CheckpointDirectory:
         return self._standing
 
     def keep(self, standing: Checkpoint) -> None:
-        """Store a checkpoint if the last one is old enough; a failed write disables checkpoints."""
+        """Store a checkpoint if enough time has passed since the last one was stored.
+
+        A failed write disables further checkpoints of this solve, and the user gets a message.
+        """
         self.last()
         began = time.monotonic()
         # A negative time follows from a clock that was set back.
@@ -109,6 +122,10 @@ class CheckpointDirectory:
         self._pause = max(self._seconds_between, min(taken / SHARE, MAX_BETWEEN))
 
     def _write(self, standing: Checkpoint) -> None:
+        """Write the increments since the last stored checkpoint to one or more files.
+
+        A file has at most MAX_IN_PART bytes of fields, but at least one increment.
+        """
         new = standing.increments[self._kept :]
         self._extent = standing.extent
         at_once = max(1, MAX_IN_PART // stored_bytes(new[0]))
@@ -122,23 +139,29 @@ class CheckpointDirectory:
             self._kept += len(some)
 
     def remove(self) -> None:
-        """Remove all files at the end of the run."""
+        """Remove the checkpoint directory with all files at the end of the run."""
         if self._directory.is_dir() and self._locked():
             shutil.rmtree(self._directory, ignore_errors=True)
 
     def how_to_go_on(self) -> str:
-        """Return a message on stored increments for a stopped process; empty if there are none."""
+        """Return a message on the stored increments and how to resume, for a stopped process.
+
+        The message is empty if no increment is stored.
+        """
         if not (self._kept and self._parts):
             return ""
         return f"the same command goes on after increment {self._kept}, kept in {self._directory}"
 
     def close(self) -> None:
-        """Release the lock."""
+        """Release the lock of the checkpoint directory and disable further checkpoints."""
         release(self._lock)
         self._lock, self._open = None, False
 
     def _locked(self) -> bool:
-        """Lock the directory; return False if that is not possible."""
+        """Lock the checkpoint directory; return False if that is not possible.
+
+        A failed attempt disables checkpoints, and the user gets a message.
+        """
         if self._lock is None and self._open:
             self._lock = acquire(self._directory, wait=False)
             self._open = self._lock is not None
@@ -147,6 +170,11 @@ class CheckpointDirectory:
         return self._lock is not None
 
     def _standing_of_parts(self) -> Checkpoint | None:
+        """Read the last complete checkpoint from the sequence of files; None if there is none.
+
+        Reading ends at the first file that is damaged, belongs to another solve, or does not
+        continue the preceding file.
+        """
         standing: Checkpoint | None = None
         increments: list[Any] = []
         fields, number = FieldStore(), 0
@@ -168,7 +196,7 @@ class CheckpointDirectory:
         return standing
 
     def _settle(self) -> None:
-        """Remove unusable files, and report the increment that the run resumes from."""
+        """Remove unusable checkpoint files, and report from which increment the solve resumes."""
         self._drop_from(self._parts)
         if self._standing is None:
             return
@@ -178,6 +206,9 @@ class CheckpointDirectory:
         )
 
     def _drop_from(self, first: int) -> None:
+        """Remove all checkpoint files from the number `first` on, and any other files in the
+        directory.
+        """
         kept = {self._path(number).name for number in range(first)}
         for name in os.listdir(self._directory) if self._directory.is_dir() else ():
             if name not in kept:
@@ -185,6 +216,7 @@ class CheckpointDirectory:
         self._parts = first
 
     def _path(self, number: int) -> Path:
+        """Return the path of the checkpoint file with this number, from 0."""
         return self._directory / f"part-{number:06d}"
 
 
@@ -192,15 +224,15 @@ class CheckpointDirectory:
 def checkpointed(
     target: Path, identity: str, say: Callable[[str], None], name: str = "checkpoint"
 ) -> Iterator[CheckpointDirectory]:
-    """Provide the checkpoint directory of a run; remove it at the end of the block.
+    """Provide the checkpoint directory of a solve, and remove it at the end of the block.
 
     The directory remains if the process is killed or the block fails. After a SolverError it is
     removed, because a resumed solve would fail again.
 
     target    directory of the results
     identity  digest of the input and the code of the solve
-    say       called with messages for the user
-    name      distinguishes the solves of one run
+    say       function called with messages for the user
+    name      part of the directory name that distinguishes the solves of one run
     """
     target = Path(os.path.realpath(target))
     directory = (target if target.is_dir() else target.parent) / f".{target.name}.{name}"

@@ -1,8 +1,8 @@
 """Pickle file of a checkpoint, with the identity of the solve and a check sum.
 
-The file has a line with the format, a line with the identity of the solve, a line with the SHA-256
-of the rest, and a pickle. Arrays are stored as bytes with a data type from a list. The reader
-resolves frozen classes of the solvers only, so that a foreign file cannot execute code.
+The file has four parts: a line with the format, a line with the identity of the solve, a line with
+the SHA-256 of the rest, and a pickle. Arrays are stored as bytes with a data type from a list. The
+reader resolves frozen classes of the solvers only, so that a foreign file cannot execute code.
 """
 
 from __future__ import annotations
@@ -35,11 +35,17 @@ FAR_FIELDS = "fem_reference.elasticity.motion"  # its pure functions are in stor
 
 
 class Unusable(Exception):
-    """The file cannot be used; the message has its name and the reason."""
+    """A checkpoint file cannot be used; the message has its name and the reason."""
 
 
 def pack(value: Any, identity: str, path: Path) -> None:
-    """Write a value to a file, with one array in memory at a time. May raise OSError."""
+    """Write a value to a checkpoint file, with one array in memory at a time.
+
+    value     contents, made of frozen classes of the solvers
+    identity  digest of the input and the code of the solve
+
+    Raises OSError if the file cannot be written.
+    """
     with open(path, "wb") as file:
         file.write(FORMAT + b"\n" + identity.encode() + b"\n")
         before, content = file.tell(), _Digested(file)
@@ -50,19 +56,24 @@ def pack(value: Any, identity: str, path: Path) -> None:
 
 
 class _Digested:
-    """Writer to a file that computes the SHA-256 of its content."""
+    """Writer to a binary file that computes the SHA-256 of the bytes it writes."""
 
     def __init__(self, file: BinaryIO) -> None:
         self.file, self.digest = file, hashlib.sha256()
 
     def write(self, content: bytes) -> int:
-        """Write all bytes; return their number."""
+        """Write all bytes to the file and add them to the digest; return their number."""
         self.digest.update(content)
         return self.file.write(content)
 
 
 def unpacked(path: Path, identity: str) -> Any:
-    """Read the value of a file; raise Unusable if it is damaged or of another solve."""
+    """Read the value of a checkpoint file.
+
+    identity  digest of the input and the code of the solve that the file must have
+
+    Raises Unusable if the file is damaged, belongs to another solve, or exceeds the free memory.
+    """
     try:
         with open_own(path) as file:
             name, whose, digest = (file.readline(LONGEST_LINE).rstrip(b"\n") for _ in range(3))
@@ -86,7 +97,7 @@ def unpacked(path: Path, identity: str) -> Any:
 
 
 class _Writer(pickle.Pickler):
-    """Pickler that writes arrays as plain bytes."""
+    """Pickler that writes numpy arrays as plain bytes with data type and shape."""
 
     def reducer_override(self, value: Any) -> tuple[Callable[..., Any], tuple[Any, ...]]:
         if isinstance(value, StoredArray):
@@ -101,7 +112,14 @@ class _Writer(pickle.Pickler):
 
 
 def array(dtype: str, content: bytes, shape: tuple[int, ...], by_columns: bool) -> NDArray[Any]:
-    """Return an array from its bytes; raises ValueError for another data type or size."""
+    """Create a numpy array from the bytes in a checkpoint file.
+
+    dtype       data type, one of DTYPES
+    content     bytes of the values
+    by_columns  True if the bytes are in Fortran order; `shape` is then that of the transpose
+
+    Raises ValueError for another data type, or if shape and number of bytes differ.
+    """
     if dtype not in DTYPES:
         raise ValueError(f"a checkpoint may not contain an array of data type {dtype!r}")
     lines = np.frombuffer(content, dtype).reshape(shape).copy()
@@ -109,12 +127,18 @@ def array(dtype: str, content: bytes, shape: tuple[int, ...], by_columns: bool) 
 
 
 def scalar(dtype: str, content: bytes) -> Any:
-    """Return a number of numpy from its bytes; raises ValueError as `array` does."""
+    """Create a numpy scalar from the bytes in a checkpoint file.
+
+    dtype    data type, one of DTYPES
+    content  bytes of the value
+
+    Raises ValueError for another data type or number of bytes.
+    """
     return array(dtype, content, (), by_columns=False)[()]
 
 
 class _Reader(pickle.Unpickler):
-    """Unpickler that resolves only frozen classes of the solvers."""
+    """Unpickler that resolves only frozen classes of the solvers, numpy arrays, and floats."""
 
     def find_class(self, module: str, name: str) -> Any:
         if module == __name__ and name in ("array", "scalar"):
@@ -129,6 +153,11 @@ class _Reader(pickle.Unpickler):
 
 
 def _is_value(found: Any) -> bool:
+    """Return True if a checkpoint file may contain this class or function.
+
+    Allowed are frozen dataclasses that are not files, enumerations, the finite element settings,
+    and the functions of the module FAR_FIELDS.
+    """
     if isinstance(found, type):
         frozen = getattr(getattr(found, "__dataclass_params__", None), "frozen", False)
         plain = frozen and not issubclass(found, StoredArray)

@@ -17,9 +17,11 @@ LIBRARIES = ("numpy", "scipy", "scikit-fem", "pydantic")
 
 @cache
 def code_digest(packages: tuple[str, ...] = PACKAGES) -> bytes:
-    """Compute the digest of the sources of packages, their references, and the libraries.
+    """Compute the SHA-256 of the sources of packages, their reference values, and library versions.
 
-    Baselines are excluded, because they do not change a verdict.
+    Baselines of the regression tests are excluded, because they do not change a verdict.
+
+    packages  names of importable packages
     """
     digest = hashlib.sha256(platform.python_version().encode())
     for library in LIBRARIES:
@@ -37,5 +39,10 @@ def code_digest(packages: tuple[str, ...] = PACKAGES) -> bytes:
 
 
 def solve_identity(*asked: object) -> str:
-    """Compute the digest of the input of a solve, by its `repr`, and of the solvers' sources."""
+    """Compute a digest that identifies a solve by its input and by the sources of the solvers.
+
+    A checkpoint is read only by a solve with the digest under which the checkpoint was stored.
+
+    asked  objects that define the input, compared by their `repr`
+    """
     return hashlib.sha256(repr(asked).encode() + code_digest(SOLVERS)).hexdigest()

@@ -1,4 +1,4 @@
-"""Versions of the program and its libraries, and the machine, for `timing.json`."""
+"""Versions of the program and its libraries, and properties of the machine, for `timing.json`."""
 
 import os
 import platform
@@ -13,12 +13,15 @@ def program_version() -> str:
 
 
 def library_versions() -> dict[str, str | None]:
-    """Return the versions of the libraries that affect numbers or files."""
+    """Return the versions of the libraries that affect numbers or files, by library name.
+
+    A library that is not installed has the version None.
+    """
     return {name: version_of(name) for name in LIBRARIES}
 
 
 def machine() -> dict[str, str | int | None]:
-    """Return the properties of the machine that affect the run time."""
+    """Return the properties of the machine that affect the run time and round-off, by name."""
     return {
         "system": platform.platform(),
         "processor": _processor_name(),
@@ -30,7 +33,10 @@ def machine() -> dict[str, str | int | None]:
 
 
 def arithmetic() -> str:
-    """Return the BLAS kernels and the vector instructions in use, which affect round-off."""
+    """Return the names of the BLAS kernels and of the vector instructions in use.
+
+    Both affect round-off.
+    """
     import numpy as np
     from threadpoolctl import threadpool_info
 
@@ -42,7 +48,7 @@ def arithmetic() -> str:
 
 
 def version_of(distribution: str) -> str | None:
-    """Return the installed version of a distribution, or None."""
+    """Return the installed version of a Python distribution; None if it is not installed."""
     try:
         return version(distribution)
     except PackageNotFoundError:
@@ -50,6 +56,7 @@ def version_of(distribution: str) -> str | None:
 
 
 def _processor_name() -> str:
+    """Return the name of the processor."""
     try:
         with open("/proc/cpuinfo", encoding="utf-8") as lines:
             names = [line.partition(":")[2].strip() for line in lines if "model name" in line]

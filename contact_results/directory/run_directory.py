@@ -2,8 +2,8 @@
 
 All files are first written into a hidden directory on the same file system. A new directory then
 appears by one rename. In an existing directory, the old `summary.json` is removed first, the files
-are replaced one by one, and the new `summary.json` comes last: a directory with a summary is
-complete. Only files with the names of `file_names.RUN_FILES` are replaced or removed.
+are replaced one by one, and the new `summary.json` is written last. Therefore a directory with a
+summary is complete. Only files with the names of `file_names.RUN_FILES` are replaced or removed.
 """
 
 import json
@@ -25,7 +25,10 @@ PAUSES = (0.1, 0.4, 1.6)  # seconds between attempts to replace a file
 
 @contextmanager
 def run_directory(target: Path, *, overwrite: bool = False) -> Iterator[Path]:
-    """Yield an empty directory; publish it as `target` if the block succeeds.
+    """Yield an empty directory for the files of a run; publish it as `target` if the block
+    succeeds.
+
+    Other runs cannot use `target` during the block.
 
     target     directory of the results; missing parents are created
     overwrite  also replace files of the same names that no run of slipstick has written
@@ -54,10 +57,11 @@ def run_directory(target: Path, *, overwrite: bool = False) -> Iterator[Path]:
 def files_at_once(target: Path, summary: str, earlier: Sequence[str]) -> Iterator[Path]:
     """Yield an empty directory; move its files into `target` if the block succeeds.
 
-    Existing files of the same names are replaced. If the block fails, they remain.
+    Existing files of the same names are replaced. If the block fails, the existing files remain.
 
+    target   directory of the results; missing parents are created
     summary  name of the file that is removed first and written last
-    earlier  names of further files to remove
+    earlier  names of further files of an earlier run to remove
 
     Raises OutputRefused before the block is entered.
     """
@@ -75,7 +79,10 @@ def files_at_once(target: Path, summary: str, earlier: Sequence[str]) -> Iterato
 
 @contextmanager
 def _staging(target: Path) -> Iterator[Path]:
-    """Provide a hidden directory; remove it at the end of the block."""
+    """Provide a hidden, locked directory for new files, and remove it at the end of the block.
+
+    target  directory into which the files are moved later
+    """
     staging, lock = _create_staging(target)
 
     def clean() -> None:
@@ -93,7 +100,12 @@ def _staging(target: Path) -> Iterator[Path]:
 
 
 def _name_file(error: OSError, staging: Path, target: Path) -> None:
-    """Add the name of the file to a write error; the system omits it if the disk is full."""
+    """Add the name of the file to a write error, with the path in `target`.
+
+    The system omits the name if the disk is full. The file that was changed last is then named.
+
+    staging  hidden directory in which the files are written
+    """
     if error.filename is None:
         written = [
             (path.stat().st_mtime_ns, path.stat().st_size, path) for path in staging.iterdir()
@@ -107,13 +119,17 @@ def _name_file(error: OSError, staging: Path, target: Path) -> None:
 
 
 def refuse_files_above(target: Path) -> None:
-    """Raise OutputRefused if the target or a parent of it is not a directory."""
+    """Raise OutputRefused if `target` or one of its parents exists and is not a directory."""
     for place in (target, *target.parents):
         if place.exists() and not place.is_dir():
             raise OutputRefused(f"{place} is a file; --output needs a directory")
 
 
 def _refuse_occupied(target: Path, overwrite: bool) -> None:
+    """Raise OutputRefused if a result file exists in `target` that must not be replaced.
+
+    overwrite  allow to replace result files that no run of slipstick has written
+    """
     refuse_files_above(target)
     if not target.is_dir():
         return
@@ -132,6 +148,7 @@ def _refuse_occupied(target: Path, overwrite: bool) -> None:
 
 
 def _is_earlier_run(directory: Path) -> bool:
+    """Return True if slipstick has written the `timing.json` in this directory."""
     try:
         record = json.loads((directory / TIMING).read_text(encoding="utf-8"))
     except (OSError, ValueError):
@@ -140,10 +157,13 @@ def _is_earlier_run(directory: Path) -> bool:
 
 
 def _create_staging(target: Path) -> tuple[Path, int | None]:
-    """Create and lock a hidden directory; remove the unlocked ones of killed runs.
+    """Create and lock a hidden directory for new files; remove the unlocked ones of killed runs.
 
-    It is created inside a target that exists and is not empty, because the target may be a mount
-    point or the only writable directory; otherwise next to the target.
+    The hidden directory is inside `target` if `target` exists and is not empty, or if its parent is
+    not writable: `target` may be a mount point or the only writable directory. Otherwise it is next
+    to `target`.
+
+    Returns the directory and the descriptor of its lock, which is None without locks in the system.
     """
     prefix = f".{target.name}.partial-"
     for place in (target.parent, target):
@@ -163,6 +183,11 @@ def _create_staging(target: Path) -> tuple[Path, int | None]:
 
 
 def _remove_abandoned(place: Path, prefix: str) -> None:
+    """Remove the hidden directories of killed runs, which no process has locked.
+
+    place   directory that contains them
+    prefix  beginning of their names
+    """
     if not place.is_dir():
         return
     for name in os.listdir(place):
@@ -175,6 +200,12 @@ def _remove_abandoned(place: Path, prefix: str) -> None:
 
 
 def _publish(staging: Path, target: Path, summary: str, earlier: Sequence[str]) -> None:
+    """Move the new files into `target`: by one rename if possible, else file by file.
+
+    staging  hidden directory with the new files
+    summary  name of the file that is removed first and written last
+    earlier  names of further files of an earlier run to remove
+    """
     for path in staging.iterdir():
         _flush(path)
     _flush(staging)
@@ -191,7 +222,14 @@ def _publish(staging: Path, target: Path, summary: str, earlier: Sequence[str]) 
 
 
 def _replace_files(staging: Path, target: Path, summary: str, earlier: Sequence[str]) -> None:
-    """Replace earlier files; the summary is removed first and written last."""
+    """Replace the files in an existing `target` one by one; write the summary last.
+
+    The old summary is removed first, so that an incomplete directory has no summary.
+
+    staging  hidden directory with the new files
+    summary  name of the file that is removed first and written last
+    earlier  names of files to remove if there is no new file of this name
+    """
     new = {path.name for path in staging.iterdir()}
     ours = summary != SUMMARY or _is_earlier_run(target)
     lock = acquire(target, wait=True)
@@ -208,7 +246,11 @@ def _replace_files(staging: Path, target: Path, summary: str, earlier: Sequence[
 
 
 def _replace(new: Path, old: Path) -> None:
-    """Replace a file, with retries: Windows refuses while another program has the file open."""
+    """Replace the file `old` by the file `new`, with up to four attempts.
+
+    Windows refuses to replace a file that another program has open. Raises OutputRefused after the
+    last attempt.
+    """
     for pause in (*PAUSES, None):
         try:
             os.replace(new, old)
@@ -223,6 +265,10 @@ def _replace(new: Path, old: Path) -> None:
 
 
 def _flush(path: Path) -> None:
+    """Write a file or the entries of a directory to the disk.
+
+    They then survive a power failure.
+    """
     if os.name == "nt" and path.is_dir():
         return  # Windows cannot open a directory
     descriptor = os.open(path, os.O_RDONLY if path.is_dir() else os.O_RDWR)

@@ -1,7 +1,7 @@
 """Lock of a directory of results for one process.
 
 A hidden file is locked and contains the name of the process. The system releases the lock at the
-end of the process; the file of a killed process is reused by the next one.
+end of the process. The next process reuses the file of a killed process.
 """
 
 import os
@@ -20,7 +20,10 @@ DIRECTORY, NO_LINK, NO_WAITING = (
 
 
 def lock(descriptor: int, *, wait: bool) -> None:
-    """Lock an open file.
+    """Lock an open file for this process.
+
+    descriptor  file descriptor
+    wait        wait until another process releases the lock
 
     Raises BlockingIOError if another process has the lock and `wait` is False, and OSError if the
     system or the file system has no locks.
@@ -33,7 +36,7 @@ def lock(descriptor: int, *, wait: bool) -> None:
 
 
 def acquire(directory: Path, *, wait: bool) -> int | None:
-    """Lock a directory and return the descriptor of the lock.
+    """Lock a directory for this process and return the descriptor of the lock.
 
     Returns None if another process has the lock, if the system has no locks, or if the directory is
     a symbolic link, which another user may have created.
@@ -53,7 +56,7 @@ def acquire(directory: Path, *, wait: bool) -> int | None:
 
 
 def release(descriptor: int | None) -> None:
-    """Release a lock; do nothing for None."""
+    """Release the lock with this descriptor; do nothing for None."""
     if descriptor is not None:
         os.close(descriptor)
 
@@ -65,8 +68,8 @@ LONGEST_NAME = 300
 def in_sole_use(target: Path) -> Iterator[None]:
     """Lock a directory of results for the duration of the block.
 
-    The lock file is in `target`, or next to it while `target` does not exist. Without locks in the
-    system, other processes are not excluded.
+    The lock file is in `target`, or next to `target` while `target` does not exist. Without locks
+    in the system, other processes are not excluded.
 
     target  directory of the results; its parent exists
 
@@ -86,6 +89,11 @@ def in_sole_use(target: Path) -> Iterator[None]:
 
 @contextmanager
 def _locked(path: Path, target: Path) -> Iterator[None]:
+    """Lock a lock file for the duration of the block, and remove it at the end.
+
+    path    path of the lock file
+    target  directory of the results, for messages
+    """
     descriptor = _lock(path, target)
 
     def remove() -> None:
@@ -103,7 +111,13 @@ def _locked(path: Path, target: Path) -> Iterator[None]:
 
 
 def _lock(path: Path, target: Path) -> int | None:
-    """Lock a file and return its descriptor; None if the system has no locks."""
+    """Create and lock a lock file, and return its descriptor; None if the system has no locks.
+
+    path    path of the lock file
+    target  directory of the results, for messages
+
+    Raises OutputRefused if another process has the lock.
+    """
     while True:
         descriptor = _opened(path)
         if descriptor is None:
@@ -131,7 +145,10 @@ def _lock(path: Path, target: Path) -> int | None:
 
 
 def _opened(path: Path) -> int | None:
-    """Open or create the file; read-only if it belongs to another user. None if that fails."""
+    """Open or create a lock file and return its descriptor; None if that fails.
+
+    A file of another user is opened for reading only.
+    """
     for access in (os.O_RDWR | os.O_CREAT, os.O_RDONLY | NO_WAITING):
         with suppress(OSError):
             return os.open(path, access | NO_LINK, 0o666)
@@ -139,11 +156,15 @@ def _opened(path: Path) -> int | None:
 
 
 def _this_process() -> str:
+    """Return the number of this process and the name of its machine, for messages."""
     return f"process {os.getpid()} on {socket.gethostname()}"
 
 
 def _is_at(descriptor: int, path: Path) -> bool:
-    """Return True if the path still refers to the open file."""
+    """Return True if `path` still refers to the open file with this descriptor.
+
+    The result is False if another process has removed or replaced the file.
+    """
     try:
         there = os.stat(path)
     except FileNotFoundError:

@@ -1,4 +1,4 @@
-"""Handlers of signals that end a process: clean up first, and defer during file moves."""
+"""Handlers of signals that stop a process: clean up first, and wait for the end of file moves."""
 
 import os
 import signal
@@ -25,13 +25,14 @@ _begun: list[tuple[Callable[[], None], Callable[[], str]]] = []  # blocks, outer
 def cleaned_up_when_stopped(
     clean: Callable[[], None] = lambda: None, kept: Callable[[], str] = lambda: ""
 ) -> Iterator[None]:
-    """On a stop signal, clean up, print how to resume, and exit with 128 + signal number.
+    """On a stop signal in the block, clean up, print how to resume, and exit the process.
 
-    The handler exits the process, because an exception raised in it could be suppressed by Python
-    or a library, for example in a callback of the garbage collector.
+    The exit code is 128 plus the signal number. The handler exits the process, because an exception
+    raised in the handler could be suppressed by Python or a library, for example in a callback of
+    the garbage collector.
 
-    clean  called before the exit; inner blocks first
-    kept   returns one line on the stored work and how to resume, or an empty text
+    clean  function called before the exit; those of inner blocks are called first
+    kept   function that returns one line on the stored work and how to resume, or an empty text
     """
     block = (clean, kept)
     _begun.append(block)
@@ -43,6 +44,11 @@ def cleaned_up_when_stopped(
 
 
 def _leave(number: int, frame: FrameType | None) -> None:
+    """Handle a stop signal: clean up all blocks, print how to resume, and exit the process.
+
+    number  number of the signal
+    frame   stack frame of the interrupted code; not used
+    """
     hint = ""
     for clean, kept in reversed(_begun):
         with suppress(Exception):  # the process ends in any case
@@ -57,7 +63,7 @@ def _leave(number: int, frame: FrameType | None) -> None:
 
 @contextmanager
 def stop_signals_held() -> Iterator[None]:
-    """Defer stop signals to the end of the block.
+    """Defer stop signals that arrive in the block to its end.
 
     A handler records the signals. A signal mask would apply to one thread only, and threads of a
     numerical library would receive the signal instead.
@@ -73,7 +79,10 @@ def stop_signals_held() -> Iterator[None]:
 
 @contextmanager
 def _handled_by(handler: Handler) -> Iterator[None]:
-    """Replace the handlers, except those of ignored signals (nohup, `&`)."""
+    """Handle stop signals by the given function in the block, and restore the old handlers.
+
+    Ignored signals stay ignored (nohup, `&`). Outside the main thread nothing is changed.
+    """
     before: dict[int, Any] = {}
     if threading.current_thread() is threading.main_thread():  # others must not change handlers
         before = {number: signal.getsignal(number) for number in STOPS}

@@ -1,4 +1,4 @@
-"""`timing.json`: seconds, counters of the solver, machine and versions."""
+"""`timing.json`: seconds of a run, counters of the solver, machine and versions."""
 
 import json
 import sys
@@ -19,14 +19,14 @@ from contact_scene.quantities.increment import (
 
 @dataclass
 class Stopwatch:
-    """Wall and CPU seconds of the phases of a run."""
+    """Wall-clock and CPU seconds of the phases of a run, by the name of the phase."""
 
     wall_seconds: dict[str, float] = field(default_factory=dict)
     cpu_seconds: dict[str, float] = field(default_factory=dict)
 
     @contextmanager
     def phase(self, name: str) -> Iterator[None]:
-        """Measure the block under this name."""
+        """Measure wall-clock and CPU time of the block, as the phase with this name."""
         wall, cpu = time.perf_counter(), time.process_time()
         try:
             yield
@@ -38,7 +38,11 @@ class Stopwatch:
 def write_timing(
     stopwatch: Stopwatch, directory: Path, increments: Iterable[ReportedIncrement]
 ) -> None:
-    """Write times, machine, versions, and the counters of the solver by load step."""
+    """Write `timing.json`: times, peak memory, counters of the solver, machine, versions.
+
+    stopwatch   measured times of the phases of the run
+    increments  increments of the result, with the counters of the solver
+    """
     record = {
         "program": "slipstick",
         "version": program_version(),
@@ -53,7 +57,10 @@ def write_timing(
 
 
 def _counters(increments: Iterable[ReportedIncrement]) -> list[dict[str, int | None]]:
-    """Sum the counters over the increments of each load step; None if the solver has none."""
+    """Sum the counters of the solver, such as iterations, over the increments of each load step.
+
+    Returns one record per load step. A counter is None if the solver does not have it.
+    """
     steps = []
     for number, of_step in groupby(increments, lambda increment: increment.step):
         within = list(of_step)
@@ -66,6 +73,7 @@ def _counters(increments: Iterable[ReportedIncrement]) -> list[dict[str, int | N
 
 
 def _peak_memory() -> int | None:
+    """Return the largest memory of this process so far [byte]; None on Windows."""
     try:
         import resource
     except ImportError:  # on Windows

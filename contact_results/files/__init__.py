@@ -1,1 +1,1 @@
-"""The files of a run: summary, tables, fields, stress."""
+"""The files of a run: summary, tables, fields, and their readers."""

@@ -18,9 +18,11 @@ from contact_scene.quantities.field_metadata import CONVENTION, Reported
 
 @dataclass(frozen=True)
 class Column:
-    """A column of a table.
+    """Column of a CSV table: name, unit and meaning.
 
-    unit  SI unit, empty if dimensionless; None for words and for row numbers
+    name     name of the column, without the unit
+    unit     SI unit, empty if dimensionless; None for words and for row numbers
+    meaning  one sentence for the table of column meanings
     """
 
     name: str
@@ -29,7 +31,7 @@ class Column:
 
     @property
     def header(self) -> str:
-        """Name and unit, as in the first line of the table."""
+        """Name and unit, as in the first line of the table: `peak_pressure [Pa]`."""
         return self.name if self.unit is None else f"{self.name} [{self.unit or '1'}]"
 
 
@@ -38,12 +40,22 @@ STEP = Column("step", None, "Loading step, from 1.")
 
 
 def marked(name: str, mark: Reported, prefix: str = "") -> Column:
-    """Return the column of a reported value."""
+    """Create the table column of a value whose unit and meaning are declared in the code.
+
+    name    name of the column
+    mark    unit and meaning of the value
+    prefix  text in front of the meaning
+    """
     return Column(name, mark.unit, prefix + mark.meaning)
 
 
 def write_table(path: Path, columns: Sequence[Column], rows: Iterable[Sequence[object]]) -> None:
-    """Write a table atomically. None is an empty cell; numbers are written without loss."""
+    """Write a CSV table atomically.
+
+    columns  columns of the table, for its first line
+    rows     cells of each row; None is an empty cell, and numbers are written without loss of
+             digits
+    """
     with atomic_file(path) as temporary, open(temporary, "w", newline="", encoding="utf-8") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(column.header for column in columns)
@@ -53,7 +65,14 @@ def write_table(path: Path, columns: Sequence[Column], rows: Iterable[Sequence[o
 def write_meanings(
     path: Path, files: Mapping[str, Sequence[Column]], convention: str = CONVENTION
 ) -> None:
-    """Write the table of meanings: the convention, then a row for each column of each file."""
+    """Write the table with the units and meanings of the columns of other tables.
+
+    The first row is the convention of axes and signs. One row follows for each column of each file.
+
+    path        path of the table of meanings
+    files       columns of each described file, by file name
+    convention  text about units, axes and signs
+    """
     head = [Column(name, None, "") for name in ("file", "column", "unit", "meaning")]
     rows = [
         (file, column.name, "" if column.unit is None else column.unit or "1", column.meaning)

@@ -1,4 +1,4 @@
-"""`result.h5`: scalars of all increments, fields at the ends of load steps, with their units."""
+"""Writer of `result.h5`: scalars of all increments, fields at the ends of load steps."""
 
 from __future__ import annotations
 
@@ -50,13 +50,16 @@ def write_fields(
     *,
     all_fields: bool = False,
 ) -> None:
-    """Write scene, axes, scalars, fields, and the fields of the last load cycle.
+    """Write `result.h5`: scene, coordinates, scalars, surface fields, fields of the last load
+    cycle.
 
-    Equal results give equal bytes. The first index of a scalar is the increment; the first index of
-    a field is the load step, or the increment with `all_fields`. A field has one chunk per value of
-    its first index. An effect that is off has no dataset. If some increments have angles, fields
-    that depend on the radius alone are repeated at every angle.
+    Equal results give equal bytes. The first array index is the increment for scalars. For fields,
+    it is the load step, or the increment with `all_fields`. A field has one chunk per value of this
+    index. An effect that is off has no dataset. If some increments have angles, fields that depend
+    on the radius alone are repeated at every angle.
 
+    cycles      closed load cycles of the result
+    directory   directory of the run
     all_fields  store the fields of all increments, not only of the last one of each load step
     """
     surface = surface_of(result)
@@ -91,9 +94,9 @@ def write_fields(
 
 
 class _NeverFull(io.FileIO):
-    """File that records a write error and reports success.
+    """File that records its first write error and reports success to the HDF5 library.
 
-    The HDF5 library may crash the process after a write error, such as that of a full disk.
+    The library may crash the process after a write error, such as that of a full disk.
     """
 
     full: OSError | None = None
@@ -110,7 +113,7 @@ class _NeverFull(io.FileIO):
 
 @contextmanager
 def _fields_file(path: Path) -> Iterator[h5py.File]:
-    """Create an HDF5 file; raise the OSError of a full disk at the end."""
+    """Create an HDF5 file for writing in the block; raise a recorded write error at its end."""
     with _NeverFull(path, "w+") as disk:
         try:
             with h5py.File(disk, "w") as file:
@@ -121,7 +124,10 @@ def _fields_file(path: Path) -> Iterator[h5py.File]:
 
 
 def _write_scalars(group: h5py.Group, increments: Sequence[Increment]) -> None:
-    """Write scalars; NaN if an increment has no value, no dataset if no increment has one."""
+    """Write the scalars of all increments to a group of an HDF5 file.
+
+    An increment without a value gets NaN. A scalar without any value has no dataset.
+    """
     for name, meaning in PLACES.items():
         attribute = "index" if name == "increment" else name
         values = [getattr(i, attribute) for i in increments]
@@ -148,9 +154,14 @@ def _write_field(
     increments: Sequence[Increment],
     counted: tuple[str, ...],
 ) -> None:
-    """Write a field increment by increment; no dataset if no increment has the field.
+    """Write a field of all given increments to one dataset of an HDF5 file.
 
-    counted  label of the first index
+    There is no dataset if no increment has the field.
+
+    group    group of the dataset
+    name     name of the field, also that of the dataset
+    mark     unit and meaning of the field
+    counted  label of the first array index: increment or step
     """
     dataset = None
     for index, increment in enumerate(increments):
@@ -173,6 +184,10 @@ def _write_field(
 
 
 def _write_cycle(group: h5py.Group, cycle: FrettingCycle, places: tuple[str, ...]) -> None:
+    """Write the surface fields of one load cycle to a group of an HDF5 file.
+
+    places  labels of the array indices of the fields, such as ("x", "y")
+    """
     group.attrs["start_step"], group.attrs["end_step"] = cycle.cycle.start, cycle.cycle.end
     for name, mark in reported(type(cycle)).items():
         values = getattr(cycle, name)
@@ -188,11 +203,17 @@ def _write(
     indices: tuple[str, ...] = (),
     **how: Any,
 ) -> None:
+    """Write values to a new dataset of an HDF5 file, with unit, meaning and index labels.
+
+    mark     unit and meaning of the values
+    indices  label of each array index
+    how      further arguments of h5py, such as the compression
+    """
     _describe(group.create_dataset(name, data=values, track_times=False, **how), mark, indices)
 
 
 def _describe(dataset: h5py.Dataset, mark: Reported, indices: tuple[str, ...]) -> None:
-    """Add unit, meaning and the labels of the indices to a dataset."""
+    """Add unit, meaning and the labels of the array indices to an HDF5 dataset."""
     dataset.attrs["unit"] = mark.unit
     dataset.attrs["description"] = mark.meaning
     for number, index in enumerate(indices):

@@ -1,4 +1,4 @@
-"""Measured tables: columns of known names, converted from the units in their heads to SI."""
+"""Reader of measured tables: columns of known names, converted to SI."""
 
 from __future__ import annotations
 
@@ -34,7 +34,12 @@ NAMES: Mapping[str, tuple[Kind, frozenset[str]]] = {
 
 
 def read_measured(path: Path) -> Mapping[str, NDArray[np.float64]]:
-    """Read the columns with known names and convert them to SI; other columns are ignored.
+    """Read the columns with known names from a CSV table of measured values, in SI units.
+
+    Other columns are ignored. The head of a column contains its name and unit, such as `force [N]`.
+    NAMES lists the known names.
+
+    Returns the values of each column by the name of the quantity.
 
     Raises ValueError for an unknown unit, and for values that are not finite numbers.
     """

@@ -1,4 +1,4 @@
-"""VTU files of fields on a mesh, for ParaView, by meshio.
+"""VTU files of fields on a mesh, for ParaView, written and read by meshio.
 
 The name of an array contains its unit, `stress [Pa]`. Vectors have three components. Tensors have
 nine, the rows of the matrix xx, xy, xz, yx, ..., because VTK and Voigt order six components
@@ -27,12 +27,12 @@ HEAD = b"<UnstructuredGrid>"
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
-    """Fields at points or on cells.
+    """Mesh with fields at its points or on its cells.
 
-    points    x, y and z into the body (n, 3) [length]
-    cells     cell type of meshio, and point numbers of the corners (m, corners)
-    at_points point arrays (n,) or (n, components) by name with unit
-    on_cells  cell arrays (m,) or (m, components) by name with unit
+    points     coordinates x, y and z of the points (n, 3) [length]; z points into the body
+    cells      cell type of meshio, such as "quad", and point numbers of the corners (m, corners)
+    at_points  fields at the points, (n,) or (n, components), by name with unit
+    on_cells   fields on the cells, (m,) or (m, components), by name with unit
     """
 
     points: Values
@@ -42,14 +42,23 @@ class Mesh:
 
 
 def tensor(voigt: Values) -> Values:
-    """Convert symmetric tensors (6, n) in Voigt order to rows of the full tensor (n, 9)."""
+    """Convert symmetric tensors from Voigt order to the nine components of a VTU file.
+
+    voigt  components xx, yy, zz, yz, xz, xy (6, n)
+
+    Returns the rows xx, xy, xz, yx, yy, yz, zx, zy, zz of the full tensors (n, 9).
+    """
     return np.asarray(voigt[list(VOIGT)].T)
 
 
 def write_mesh(mesh: Mesh, path: Path, convention: str) -> None:
-    """Write a mesh with the convention of its axes and signs.
+    """Write a mesh with its fields to a VTU file, with the convention of axes and signs as a
+    comment.
 
     Infinite values become NaN, which ParaView excludes from its colour scale.
+
+    path        path of the file, which is written atomically
+    convention  text about units, axes and signs
     """
     whole = meshio.Mesh(
         mesh.points,
@@ -64,7 +73,7 @@ def write_mesh(mesh: Mesh, path: Path, convention: str) -> None:
 
 
 def read_mesh(path: Path) -> Mesh:
-    """Read a mesh written by `write_mesh`; raise ValueError for other files."""
+    """Read a VTU file that `write_mesh` has written; raise ValueError for other files."""
     try:
         if path.exists() and not path.is_file():
             raise OSError("not a regular file")
@@ -77,6 +86,7 @@ def read_mesh(path: Path) -> Mesh:
 
 
 def _finite(values: Values) -> Values:
+    """Convert the values of a field for a VTU file: infinity to NaN, True and False to 1 and 0."""
     if values.dtype == bool:
         return values.astype(np.int8)
     return np.where(np.isinf(values), np.nan, values) if values.dtype.kind == "f" else values

@@ -39,7 +39,11 @@ from contact_scene.reading.scene_error import SceneError
 
 
 class StoredGroup(Mapping[str, StoredValues]):
-    """Arrays of a group of an HDF5 file by name, read on access."""
+    """Arrays in one group of an HDF5 file, by name; an array is read on access.
+
+    path   path of the file
+    group  name of the group, such as "increments"; "/" for the arrays outside of groups
+    """
 
     def __init__(self, path: Path, group: str) -> None:
         self._path, self._group = path, group
@@ -64,7 +68,13 @@ class StoredGroup(Mapping[str, StoredValues]):
             return StoredValues(values(dataset), unit, meaning, indices if all(indices) else ())
 
     def at(self, name: str, increment: int) -> NDArray[Any]:
-        """Read an array at one increment, from 0; raise KeyError if it was not stored."""
+        """Read the values of one array of the group at one increment.
+
+        name       name of the array
+        increment  index of the increment in the whole history, from 0
+
+        Raises KeyError if the values at this increment were not stored.
+        """
         with opened(self._path) as file:
             dataset = file[self._group][name]
             return values(dataset, row_of(dataset, increment))
@@ -78,16 +88,18 @@ class StoredGroup(Mapping[str, StoredValues]):
 
 @dataclass(frozen=True)
 class StoredRun:
-    """Results of a run, as `slipstick run` wrote them.
+    """Results of a run in a directory that `slipstick run` has written.
 
-    summary      state at the end of every load step, effects, warnings
-    scene        the solved scene
-    coordinates  axes of the fields: x and y of cells, or radii and angles of rings
-    increments   scalars by increment; fields by load step, or by increment with --all-fields
-    last_cycle   fields of the last closed load cycle; empty if there is none
-    tables       profiles, increments and, if a load cycle closes, cycles
-    direction    unit vector of the tangential load, at angle 0
-    discretisation  settings of finite elements; None for other solvers
+    summary         state at the end of every load step, effects, warnings
+    scene           the solved scene
+    coordinates     coordinates of the surface points: x and y of cells, or radii and angles of
+                    rings
+    increments      scalars of every increment; fields of every load step, or of every increment
+                    with --all-fields
+    last_cycle      fields of the last closed load cycle; empty if there is none
+    tables          profiles, increments and, if a load cycle closes, cycles
+    direction       unit vector of the tangential load, at angle 0
+    discretisation  settings of the finite elements; None for other solvers
     """
 
     summary: RunSummary
@@ -101,7 +113,7 @@ class StoredRun:
 
     @property
     def convention(self) -> str:
-        """Units, axes and signs."""
+        """Text about units, axes and signs of the stored values."""
         return self.summary.convention
 
 

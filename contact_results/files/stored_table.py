@@ -16,11 +16,13 @@ from contact_results.files.csv_file import WITH_UNIT
 
 @dataclass(frozen=True, eq=False)
 class StoredValues:
-    """Array of a file.
+    """Array read from a file, with unit and meaning.
 
+    array    the values
     unit     SI unit; empty if dimensionless, and for words
-    indices  label of each index: increment, step, component, row, or the name of a coordinate;
-             empty if the file has no labels
+    meaning  one sentence about the values
+    indices  meaning of each array index: increment, step, component, row, or the name of a
+             coordinate; empty if the file does not state them
     """
 
     array: NDArray[Any]
@@ -33,7 +35,12 @@ StoredTable = Mapping[str, StoredValues]
 
 
 class StoredTables(Mapping[str, StoredTable]):
-    """Existing tables of a directory by file name without suffix, read on access."""
+    """Existing CSV tables of a directory by file name without suffix; a table is read on access.
+
+    directory  directory of the tables
+    names      names of the files that the directory may contain
+    meanings   name of the table with the meanings of all columns
+    """
 
     def __init__(self, directory: Path, names: Sequence[str], meanings: str) -> None:
         self._paths = {
@@ -55,7 +62,11 @@ class StoredTables(Mapping[str, StoredTable]):
 
 
 def read_table(path: Path, meanings: Mapping[str, str]) -> StoredTable:
-    """Read the columns of a table: integers, numbers with NaN for empty cells, or words.
+    """Read a CSV table as arrays by column name, with units and meanings.
+
+    A column contains integers, numbers with NaN for empty cells, or words.
+
+    meanings  meaning of each column, by name
 
     Raises ValueError if the file is no table of slipstick or has a column without meaning.
     """
@@ -79,7 +90,13 @@ def read_table(path: Path, meanings: Mapping[str, str]) -> StoredTable:
 
 
 def read_meanings(path: Path, file: str) -> Mapping[str, str]:
-    """Read the meanings of the columns of one file; raise ValueError if they are missing."""
+    """Read the meanings of the columns of one CSV table, by column name.
+
+    path  path of the table of meanings
+    file  name of the described table
+
+    Raises ValueError if the table of meanings is missing.
+    """
     if not path.is_file():
         raise ValueError(
             f"{path} with the meanings of the columns of {file} is missing: the files are of an "
@@ -90,7 +107,10 @@ def read_meanings(path: Path, file: str) -> Mapping[str, str]:
 
 
 def read_cells(path: Path) -> list[list[str]]:
-    """Read the cells of a table as texts, header first; raise ValueError for other files."""
+    """Read the cells of a CSV table as texts: one list per row, with the header first.
+
+    Raises ValueError if the file is not a CSV table, is empty, or has rows of unequal length.
+    """
     try:
         with open(path, newline="", encoding="utf-8") as file:
             rows = list(csv.reader(file, strict=True))
@@ -107,9 +127,11 @@ def read_cells(path: Path) -> list[list[str]]:
 
 
 def _numbers(cells: Sequence[str]) -> NDArray[Any]:
+    """Convert the cells of a column to numbers; an empty cell becomes NaN."""
     return np.array([float(cell or "nan") for cell in cells], dtype=np.float64)
 
 
 def _labels(cells: Sequence[str]) -> NDArray[Any]:
+    """Convert the cells of a column to integers if all are integers; else keep the words."""
     whole = all(cell.isascii() and cell.isdigit() for cell in cells)
     return np.array([int(cell) for cell in cells] if whole else cells)

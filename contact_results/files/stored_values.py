@@ -1,8 +1,8 @@
 """Safe reader of values in an HDF5 file.
 
-A file of a few bytes can declare a dataset of any size, as unwritten or compressed zeros take no
-space on disk. A dataset is refused before it is read if its declared size does not fit the size of
-the file. Links and references to other files are refused as well.
+A file of a few bytes can declare a dataset of any size, because unwritten or compressed zeros take
+no space on disk. Therefore a dataset is refused before reading if its declared size is too large
+for the size of the file. Links and references to other files are refused as well.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ STEP = "step"
 
 
 class FieldsAtEndsOnly(KeyError):
-    """Fields of an increment within a load step were not stored."""
+    """Error: the run has stored fields at the ends of load steps only, not at this increment."""
 
     def __str__(self) -> str:
         return str(self.args[0])
@@ -44,9 +44,10 @@ class FieldsAtEndsOnly(KeyError):
 
 @contextmanager
 def opened(path: Path) -> Iterator[h5py.File]:
-    """Open an HDF5 file for reading.
+    """Open an HDF5 file for reading in the block.
 
-    Raises ValueError if h5py cannot read the file, and for links and values in other files.
+    Raises ValueError if h5py cannot read the file, if another process uses it, or if it contains
+    links or values in other files.
     """
     try:
         with h5py.File(path) as file:
@@ -61,7 +62,10 @@ def opened(path: Path) -> Iterator[h5py.File]:
 
 
 def _refuse_foreign(group: h5py.Group, depth: int) -> None:
-    """Raise ValueError if a group contains a link or values in another file."""
+    """Raise ValueError if an HDF5 group contains a link, or a dataset with values in another file.
+
+    depth  number of levels of nested groups that are allowed in this group
+    """
     for name in group:
         place = f"{group.file.filename} has {name!r} in {group.name}, which"
         if not isinstance(group.get(name, getlink=True), h5py.HardLink):
@@ -76,18 +80,26 @@ def _refuse_foreign(group: h5py.Group, depth: int) -> None:
 
 
 def fields_digest(path: Path) -> str:
-    """Return the SHA-256 of a file."""
+    """Compute the SHA-256 of a file, which `summary.json` records for the file of fields."""
     with path.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def ends_of_steps(steps: NDArray[Any]) -> NDArray[np.intp]:
-    """Return the index of the last increment of each load step, from the step numbers."""
+    """Return the index of the last increment of each load step (steps,).
+
+    steps  load step number of each increment (increments,)
+    """
     return np.flatnonzero(np.diff(steps, append=steps[-1] + 1))
 
 
 def row_of(dataset: h5py.Dataset, increment: int) -> int:
-    """Return the first index of a dataset for an increment, counted from 0.
+    """Return the first array index of a dataset that contains the values of an increment.
+
+    Datasets of fields may have one entry per load step instead of one per increment.
+
+    dataset    dataset in the group of the increments
+    increment  index of the increment in the whole history, from 0
 
     Raises FieldsAtEndsOnly for an increment within a load step whose fields were not stored.
     """
@@ -139,6 +151,6 @@ def values(dataset: h5py.Dataset, row: int | None = None) -> NDArray[Any]:
 
 
 def text(dataset: h5py.Dataset) -> str:
-    """Read the text of a dataset; raises the errors of `values`."""
+    """Read a dataset that contains a text, such as the scene; raise the errors of `values`."""
     content: Any = values(dataset)
     return content.decode() if isinstance(content, bytes) else str(content)

@@ -1,4 +1,4 @@
-"""`summary.json`: the state at the end of every loading step, by the names of all solvers."""
+"""`summary.json`: scalars at the end of every load step, with equal names for all solvers."""
 
 from __future__ import annotations
 
@@ -39,7 +39,15 @@ def write_summary(
     errors: StatedErrors | None = None,
     accuracy: AccuracyReached | None = None,
 ) -> None:
-    """Write the summary with the digest of the file of fields; equal results give equal bytes."""
+    """Write `summary.json`, which contains the SHA-256 of the file of fields in the directory.
+
+    The file of fields must exist already. Equal results give equal bytes.
+
+    cycles     closed load cycles of the result
+    directory  directory of the run
+    errors     stated errors; None if they were not computed
+    accuracy   requested and reached accuracy; None if none was requested
+    """
     summary = summary_of(result, cycles, errors, accuracy)
     digest = fields_digest(directory / FIELDS)
     text = dump_summary(summary.model_copy(update={"fields_digest": digest}))
@@ -52,7 +60,12 @@ def summary_of(
     errors: StatedErrors | None = None,
     accuracy: AccuracyReached | None = None,
 ) -> RunSummary:
-    """Return the summary of a result of any solver; quantities that it lacks are None."""
+    """Create the summary of a result of any solver; quantities that the solver lacks are None.
+
+    cycles    closed load cycles of the result
+    errors    stated errors; None if they were not computed
+    accuracy  requested and reached accuracy; None if none was requested
+    """
     stated = errors.steps if errors else repeat(None)
     closed = {cycle.cycle.end: cycle for cycle in cycles}
     grid = getattr(result, "grid", None)
@@ -81,10 +94,11 @@ def _step_summary(
     cycle: FrettingCycle | None,
     errors: Mapping[str, StatedError] | None,
 ) -> StepSummary:
-    """Return the summary of the increments of a load step.
+    """Create the summary of one load step from its increments.
 
-    cycle   the load cycle that the step closes; None if it closes none
-    errors  stated errors at the end of the step
+    within  increments of the load step
+    cycle   load cycle that closes at the end of the load step; None if there is none
+    errors  stated errors at the end of the load step; None if they were not computed
     """
     end = within[-1]
     residuals: dict[str, Any] = {
@@ -103,7 +117,11 @@ def _step_summary(
 
 
 def _aggregate(kind: Kind, values: Sequence[Any]) -> Any:
-    """Return the largest of the values or the last one, depending on the kind."""
+    """Return the value of a scalar for a load step from its values at the increments.
+
+    kind    determines the result: the largest value for Kind.LARGEST, else the last value
+    values  value at each increment of the load step; None if an increment has no value
+    """
     known = [value for value in values if value is not None]
     if kind is Kind.LARGEST:
         return float(np.max(known)) if known else None

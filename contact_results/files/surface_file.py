@@ -1,4 +1,4 @@
-"""VTU files of the fields at the surface, for ParaView, and their collection over load steps."""
+"""VTU files of the surface fields of a run, for ParaView, and their collection over load steps."""
 
 from __future__ import annotations
 
@@ -39,10 +39,15 @@ Places = NDArray[np.float64]
 def write_surface(
     surface: Surface, fields: Fields, path: Path, convention: str, sense: float = 1.0
 ) -> None:
-    """Write the fields of one state: constant on cells, or linear between rings of a disc.
+    """Write the surface fields of one state to a VTU file.
 
-    fields  arrays by the names of an increment; missing ones are left out
-    sense   sign of tractions and slip: −1 for the indenter
+    Fields are constant on cells. On rings, they are linear on a mesh of the disc.
+
+    fields      arrays by the names of the attributes of an increment; None and missing names are
+                omitted
+    path        path of the file
+    convention  text about units, axes and signs
+    sense       sign of shear and slip: 1 for the lower body, −1 for the indenter
     """
     if isinstance(surface, Rings):
         surface, fields = _all_around(surface, fields)
@@ -65,19 +70,30 @@ def write_surface(
 
 
 def columns(fields: Fields) -> tuple[Column, ...]:
-    """Return the columns of the arrays that `write_surface` writes."""
+    """Return names, units and meanings of the arrays that `write_surface` writes for these fields.
+
+    fields  arrays by the names of the attributes of an increment; None for missing ones
+    """
     there = {name for name, field in fields.items() if field is not None}
     stems = {stem for stem in VECTORS for name in there if name.startswith(stem)}
     return tuple(c for name, c in (VECTORS | SCALARS).items() if name in stems | there)
 
 
 def _state(fields: Fields) -> SimpleNamespace:
+    """Create an object with all surface fields as attributes, as in an increment.
+
+    Fields that are not given are None.
+    """
     names = [f"{stem}_{part}" for stem in VECTORS for part in POLAR]
     return SimpleNamespace(**dict.fromkeys((*names, *VECTORS, *SCALARS)) | dict(fields))
 
 
 def _rectangles(cells: Surface) -> tuple[Places, tuple[str, NDArray[np.int64]]]:
-    """Return the corners of the cells, and the corner numbers of each cell."""
+    """Create the mesh of the cells of a surface grid.
+
+    Returns the corners of the cells (n, 3) [length], the cell type, and the corner numbers of each
+    cell (m, 4).
+    """
     x, y = (_between(centres) for centres in cells.axes.values())
     places = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
     index = np.arange(len(places)).reshape(len(x), len(y))
@@ -86,12 +102,19 @@ def _rectangles(cells: Surface) -> tuple[Places, tuple[str, NDArray[np.int64]]]:
 
 
 def _between(centres: Places) -> Places:
+    """Return the boundaries of cells along one axis (n + 1,) from the centres (n,) [length]."""
     half = (centres[-1] - centres[0]) / (len(centres) - 1) / 2
     return np.append(centres - half, centres[-1] + half)
 
 
 def _disc(rings: Rings) -> tuple[Places, tuple[str, NDArray[np.int64]]]:
-    """Return the points of the rings, and the quadrilaterals between adjacent rings."""
+    """Create the mesh of quadrilaterals between adjacent rings, closed around the axis.
+
+    rings  rings with angles over the full circle
+
+    Returns the points (n, 3) [length], the cell type, and the corner numbers of each quadrilateral
+    (m, 4).
+    """
     places = np.moveaxis(rings.positions, 0, -1)
     index = np.arange(places[..., 0].size).reshape(places.shape[:2])
     ahead = np.roll(index, -1, axis=1)
@@ -100,7 +123,11 @@ def _disc(rings: Rings) -> tuple[Places, tuple[str, NDArray[np.int64]]]:
 
 
 def _all_around(rings: Rings, fields: Fields) -> tuple[Rings, Fields]:
-    """Extend rings and fields to the full circle, by reflection or by repetition."""
+    """Extend rings and their fields to angles over the full circle.
+
+    A half circle is reflected about the direction of the load. Rings without angles get AROUND
+    angles, and their fields stay functions of the radius.
+    """
     if rings.whole:
         return rings, fields
     if rings.angles is None:
@@ -111,6 +138,13 @@ def _all_around(rings: Rings, fields: Fields) -> tuple[Rings, Fields]:
 
 
 def _mirrored(name: str, field: NDArray[Any] | None) -> NDArray[Any] | None:
+    """Extend a field on rings from the half circle to the full circle by reflection.
+
+    name   name of the field; circumferential components are odd in the angle, all others even
+    field  values (rings, angles) on the half circle
+
+    A field that depends on the radius alone, and None, are returned unchanged.
+    """
     if field is None or field.ndim == 1:
         return field
     image = field[:, -2:0:-1]
@@ -118,7 +152,7 @@ def _mirrored(name: str, field: NDArray[Any] | None) -> NDArray[Any] | None:
 
 
 def _flat(places: Places) -> Places:
-    """Append the depth coordinate 0 to the points."""
+    """Append the depth coordinate z = 0 to points on the surface: (n, 2) becomes (n, 3)."""
     return np.column_stack([places, np.zeros(len(places))]) + 0.0
 
 
@@ -127,7 +161,13 @@ NAMES = (*SCALARS, *VECTORS, *(f"{stem}_{part}" for stem in VECTORS for part in 
 
 
 def write_paraview(run: StoredRun, directory: Path) -> None:
-    """Write one file `surface_step_N.vtu` per load step, and `surface.pvd` with N as the time."""
+    """Write the surface fields of a stored run as VTU files for ParaView.
+
+    Each load step N gets a file `surface_step_N.vtu`. The file `surface.pvd` collects them, with N
+    as the time.
+
+    directory  output directory
+    """
     places = {name: values.array for name, values in run.coordinates.items()}
     surface, steps = surface_on(places, run.direction), run.increments["step"].array
     ends = ends_of_steps(steps)

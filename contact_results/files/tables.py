@@ -1,4 +1,4 @@
-"""The tables of a run: `profiles.csv`, `increments.csv` and `cycles.csv`, and their columns."""
+"""The CSV tables of a run: `profiles.csv`, `increments.csv`, `cycles.csv`, and column meanings."""
 
 from __future__ import annotations
 
@@ -55,9 +55,11 @@ PROFILE_COLUMNS = (
 
 
 def write_profiles(result: Result, directory: Path) -> None:
-    """Write one row per point of the line, with the same columns for every solver.
+    """Write `profiles.csv`: tractions, slip and gap along a line at the ends of the load steps.
 
-    Missing and infinite values are empty cells.
+    The table has one row per point and load step, and the same columns for every solver. The line
+    is y = 0 on cells, and the diameter along the tangential load on rings. Missing and infinite
+    values are empty cells.
     """
     surface = surface_of(result)
     if isinstance(surface, Rings):
@@ -67,6 +69,10 @@ def write_profiles(result: Result, directory: Path) -> None:
 
 
 def _profile_rows(surface: Surface, step: Increment) -> Iterator[tuple[object, ...]]:
+    """Yield the rows of `profiles.csv` for one load step, one row per point of the line.
+
+    step  increment at the end of the load step
+    """
     places = surface.line.places
     parts: list[Any] = [places * along for along in surface.direction]
     for name in PROFILE_VECTORS:
@@ -84,7 +90,13 @@ def _profile_rows(surface: Surface, step: Increment) -> Iterator[tuple[object, .
 
 
 def _shown(values: Any, size: int) -> list[float | None]:
-    """Convert to floats without negative zeros; None for missing and non-finite values."""
+    """Convert the values of a table column to floats, without negative zeros.
+
+    values  array (size,); None gives `size` empty cells
+    size    number of rows
+
+    Values that are not finite become None, which is an empty cell.
+    """
     if values is None:
         return [None] * size
     return [v + 0.0 if np.isfinite(v) else None for v in values.tolist()]
@@ -98,7 +110,10 @@ INCREMENT_COLUMNS = (
 
 
 def write_increments(result: Result, directory: Path) -> None:
-    """Write one row per increment; missing values are empty cells."""
+    """Write `increments.csv`: all scalars of the result, one row per increment.
+
+    Missing values are empty cells.
+    """
     rows = ((i.step, i.index, *numbers(i).values()) for i in result.increments)
     write_table(directory / INCREMENTS, INCREMENT_COLUMNS, rows)
 
@@ -113,6 +128,11 @@ LARGEST = "Largest value on the surface: "
 
 
 def _cycle_columns() -> tuple[Column, ...]:
+    """Return the columns of `cycles.csv`.
+
+    The columns contain energies, largest values of the fields, the places of Ruiz's parameters,
+    numbers of the loop, and stated errors.
+    """
     marks = reported(FrettingCycle)
     columns = [
         Column("start_step", None, "Step at whose end the cycle begins."),
@@ -136,12 +156,17 @@ def _cycle_columns() -> tuple[Column, ...]:
 
 
 def _parts(name: str) -> tuple[str, ...]:
+    """Return the column names of a scalar of a load cycle: two for a vector, else one."""
     vector = OF_CYCLES[name].kind is Kind.VECTOR
     return (f"{name}_x", f"{name}_y") if vector else (name,)
 
 
 def _values(name: str, value: Any) -> tuple[float | None, ...]:
-    """A number, or two of a vector; empty cells for None."""
+    """Return the table cells of a scalar of a load cycle: two for a vector, else one.
+
+    name   name of the scalar
+    value  number, or pair of numbers; None gives empty cells
+    """
     return value if isinstance(value, tuple) else (value,) * len(_parts(name))
 
 
@@ -154,10 +179,15 @@ def write_cycles(
     directory: Path,
     errors: Sequence[Mapping[str, StatedError]] | None = None,
 ) -> None:
-    """Write one row per cycle, fields by their largest value and Ruiz's parameters with its place;
-    no file if there is no cycle.
+    """Write `cycles.csv` with one row per closed load cycle; no file if there is no cycle.
 
-    errors  of the numbers of every step
+    A field is represented by its largest value, and Ruiz's parameters also by the place of this
+    value.
+
+    surface    surface grid of the fields
+    directory  directory of the run
+    errors     stated errors of the scalars of every load step, by name; None if they were not
+               computed
     """
     if not cycles:
         return
@@ -174,6 +204,10 @@ def write_cycles(
 def _loop_row(
     cycle: FrettingCycle, errors: Mapping[str, StatedError]
 ) -> Iterator[str | int | float | None]:
+    """Yield the cells of a row of `cycles.csv` from the slip regime to the stated errors.
+
+    errors  stated errors at the load step that closes the cycle, by name; empty if not computed
+    """
     numbers = cycle.numbers
     yield numbers["regime"].value
     yield int(numbers["from_virgin"])
@@ -185,6 +219,7 @@ def _loop_row(
 
 
 def _cycle_row(cycle: FrettingCycle, surface: Surface) -> list[int | float | None]:
+    """Return the first cells of a row of `cycles.csv`: load steps, energies, largest values."""
     tension = cycle.surface_tension
     return [
         cycle.cycle.start,
@@ -200,7 +235,10 @@ def _cycle_row(cycle: FrettingCycle, surface: Surface) -> list[int | float | Non
 
 
 def _largest(field: Field | None, surface: Surface) -> tuple[float | None, ...]:
-    """Return the largest value with x and y; no position if the field is zero."""
+    """Return the largest value of a field on the surface, and x and y of its point [length].
+
+    The coordinates are None if the field is zero. All three are None without a field.
+    """
     if field is None:
         return None, None, None
     largest = np.unravel_index(int(np.argmax(field)), field.shape)
@@ -216,9 +254,12 @@ def write_tables(
     directory: Path,
     errors: Sequence[Mapping[str, StatedError]] | None = None,
 ) -> None:
-    """Write the tables, and the meanings of their columns.
+    """Write the CSV tables of a run, and the table with the meanings of their columns.
 
-    errors  of the numbers of every step
+    cycles     closed load cycles of the result
+    directory  directory of the run
+    errors     stated errors of the scalars of every load step, by name; None if they were not
+               computed
     """
     write_profiles(result, directory)
     write_increments(result, directory)
