@@ -1,9 +1,9 @@
 """Slip amplitude, dissipated energy and Ruiz's parameters of load cycles.
 
-Ruiz, Boddington and Chen (1984, Exp. Mech. 24, 208-217) rank the points of a fretting contact by F1
-= τ δ and F2 = σ_T τ δ. At every point, δ is half the range of slip over one cycle, τ the largest
-shear, and σ_T the largest tensile stress along the surface in the cycle. With the full range for δ,
-both parameters are twice as large.
+Ruiz, Boddington and Chen (1984, Exp. Mech. 24, 208-217) rank the points of a fretting contact by
+the parameters F1 = τ δ and F2 = σ_T τ δ. At every point, δ is half the range of slip over one
+cycle, τ the largest shear, and σ_T the largest tensile stress along the surface in the cycle. With
+the full range for δ, both parameters are twice as large.
 """
 
 from __future__ import annotations
@@ -116,8 +116,7 @@ class FrettingCycle(WithFields):
 
 
 def fretting_cycles(result: Result) -> tuple[FrettingCycle, ...]:
-    """Compute energies and fields of all closed load cycles of a result, in the order of their
-    ends.
+    """Compute energies and fields of all closed load cycles of a result, ordered by their ends.
 
     Cycles that contain an increment without dissipated energy are omitted: cycles without shear,
     and cycles that reach the friction limit under force control, whose slip is undefined.
@@ -213,8 +212,9 @@ def _slip_amplitude(slips: Callable[[], Iterable[Field]]) -> Field:
 def _half_diameter(path: NDArray[np.float64]) -> Vector:
     """Compute half the largest distance between any two points of each set.
 
-    path  coordinates of the points (points, components, sets); here the slips of one surface point
-          at all increments form a set
+    A set contains the slip vectors of one surface point at all increments of a load cycle.
+
+    path  coordinates of the points (points, components, sets)
 
     Returns one number per set (sets,).
     """

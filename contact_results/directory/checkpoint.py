@@ -80,8 +80,7 @@ class CheckpointDirectory:
         self._extent: Any = None
 
     def last(self) -> Checkpoint | None:
-        """Return the checkpoint that an earlier process stored for this solve; None if there is
-        none.
+        """Return the checkpoint that an earlier process stored for this solve, or None.
 
         The files are read at the first call only.
         """
@@ -124,7 +123,7 @@ class CheckpointDirectory:
     def _write(self, standing: Checkpoint) -> None:
         """Write the increments since the last stored checkpoint to one or more files.
 
-        A file has at most MAX_IN_PART bytes of fields, but at least one increment.
+        A file has about MAX_IN_PART bytes of fields at most, but at least one increment.
         """
         new = standing.increments[self._kept :]
         self._extent = standing.extent
@@ -206,8 +205,9 @@ class CheckpointDirectory:
         )
 
     def _drop_from(self, first: int) -> None:
-        """Remove all checkpoint files from the number `first` on, and any other files in the
-        directory.
+        """Remove all checkpoint files from the number `first` on.
+
+        Other files in the directory are removed as well.
         """
         kept = {self._path(number).name for number in range(first)}
         for name in os.listdir(self._directory) if self._directory.is_dir() else ():

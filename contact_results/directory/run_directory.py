@@ -25,10 +25,9 @@ PAUSES = (0.1, 0.4, 1.6)  # seconds between attempts to replace a file
 
 @contextmanager
 def run_directory(target: Path, *, overwrite: bool = False) -> Iterator[Path]:
-    """Yield an empty directory for the files of a run; publish it as `target` if the block
-    succeeds.
+    """Yield an empty directory for the files of a run; publish it as `target` on success.
 
-    Other runs cannot use `target` during the block.
+    The directory `target` is locked during the block, so that no other run can use it.
 
     target     directory of the results; missing parents are created
     overwrite  also replace files of the same names that no run of slipstick has written

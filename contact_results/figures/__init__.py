@@ -1,1 +1,1 @@
-"""Figures of a run and of a stress, drawn with matplotlib."""
+"""Figures of a run and of a stress, drawn with matplotlib, and their HTML pages."""

@@ -38,11 +38,14 @@ def write_figures(
     *,
     everything: bool = False,
 ) -> None:
-    """Write the overview, or all figures of the result and of its last load cycle.
+    """Write the overview, or all figures of a result and of its last load cycle.
 
     Equal results give equal bytes with equal libraries.
 
-    errors      stated errors of the last step, for the numbers of the overview
+    cycles      closed load cycles of the result
+    directory   output directory
+    errors      stated errors of the last load step, for the numbers of the overview; None if they
+                were not computed
     everything  write all figures, not only the overview
     """
     with figure_style():
@@ -58,6 +61,13 @@ def write_figures(
 def _figures_called_for(
     result: Result, cycles: Sequence[FrettingCycle], errors: Mapping[str, StatedError] | None
 ) -> Iterator[tuple[str, Figure]]:
+    """Yield file name and figure of each figure of a result, with the overview first.
+
+    Figures of fields that are zero or missing are omitted.
+
+    cycles  closed load cycles of the result
+    errors  stated errors of the last load step, for the numbers of the overview
+    """
     surface = surface_of(result)
     above = seen_from_above(result)
     yield file_names.OVERVIEW_FIGURE, overview(result, above, errors)
@@ -72,7 +82,7 @@ def _figures_called_for(
 
 
 def seen_from_above(result: Result) -> Above:
-    """Return the cells of a result, or a sampling of its rings on cells."""
+    """Return the surface grid for the maps of a result: its cells, or a sampling of its rings."""
     surface = surface_of(result)
     if isinstance(surface, Cells):
         return surface

@@ -1,4 +1,4 @@
-"""Loads against motions: the fretting loop, and normal force against approach."""
+"""Plots of loads over displacements: the fretting loop, and normal force over approach."""
 
 from __future__ import annotations
 
@@ -19,10 +19,15 @@ Values = NDArray[np.float64]
 
 
 class Loop(NamedTuple):
-    """A load and its motion at the ends of all increments that have both, by name.
+    """A load and its displacement at the ends of all increments that have both.
 
-    along     in which direction, in words
-    actuator  motions of the actuator of a rig
+    path      these increments
+    force     name of the load: tangential_force or torque
+    forces    values of the load (n,)
+    motion    name of the displacement: tangential_shift or twist
+    motions   values of the displacement (n,)
+    along     direction of the force and the shift, in words; empty for torque
+    actuator  shift of the actuator of a test rig (n,); None without one
     """
 
     path: list[Increment]
@@ -35,19 +40,30 @@ class Loop(NamedTuple):
 
     @property
     def work(self) -> float:
-        """Work put in plus work taken out, by the trapezoidal rule."""
+        """Sum of the magnitudes of the work of the load over all increments, by the trapezoidal
+        rule.
+
+        Work put in and work recovered both count as positive.
+        """
         return float(np.sum(np.abs((self.forces[1:] + self.forces[:-1]) * np.diff(self.motions))))
 
 
 def moved(increments: Sequence[Increment]) -> int:
-    """Return the largest number of increments with a non-zero tangential load in a loop."""
+    """Return the number of increments with a non-zero tangential force or torque.
+
+    The number counts the load, force or torque, that more increments have.
+    """
     loops = _loops(increments)
     return max((int(np.count_nonzero(loop.forces)) for loop in loops), default=0)
 
 
 def draw_loop(ax: Any, result: Result) -> None:
-    """Force and shift of every increment along the direction of the largest force, or torque and
-    twist where they do more work."""
+    """Draw the fretting loop: tangential force over shift, or torque over twist.
+
+    The loop with more work is drawn. Force and shift are components along the largest force.
+
+    ax  axes of matplotlib
+    """
     path, force, forces, motion, motions, along, actuator = max(
         _loops(result.increments), key=lambda loop: loop.work
     )
@@ -73,6 +89,10 @@ def draw_loop(ax: Any, result: Result) -> None:
 
 
 def _loops(increments: Sequence[Increment]) -> list[Loop]:
+    """Return the loops of a load history: force over shift, and torque over twist.
+
+    A loop is omitted if its load is zero in all increments.
+    """
     found = []
     path = [i for i in increments if i.tangential_shift is not None]
     force = np.array([i.tangential_force for i in path])
@@ -94,6 +114,12 @@ def _loops(increments: Sequence[Increment]) -> list[Loop]:
 
 
 def _actuator(path: Sequence[Increment], direction: Values) -> Values | None:
+    """Return the shift of the actuator along a direction at each increment (n,).
+
+    Returns None if an increment has no such shift.
+
+    direction  unit vector (2,)
+    """
     shifts = [i.actuator_shift for i in path]
     if any(shift is None for shift in shifts):
         return None
@@ -101,20 +127,30 @@ def _actuator(path: Sequence[Increment], direction: Values) -> Values | None:
 
 
 def _direction(force: Values) -> Values:
-    """Return the unit vector along the largest force, with a positive largest component."""
+    """Return the unit vector along the largest force, with a positive largest component.
+
+    force  tangential force of each increment (n, 2)
+    """
     largest = force[np.argmax(np.hypot(force[:, 0], force[:, 1]))]
     largest = largest * np.sign(largest[np.argmax(np.abs(largest))])
     return np.asarray(largest / np.hypot(*largest))
 
 
 def _along(direction: Values) -> str:
+    """Return the name of a direction in the plane of contact, such as "along x".
+
+    direction  unit vector (2,)
+    """
     degrees = np.degrees(np.arctan2(direction[1], direction[0]))
     names = {0: "along x", 90: "along y"}
     return names.get(round(degrees, 3), f"at {degrees:.1f}° to x")
 
 
 def draw_loading(ax: Any, result: Result) -> None:
-    """Draw force over approach of every increment, from the first contact."""
+    """Draw normal force over approach at the end of every increment, from the first contact.
+
+    ax  axes of matplotlib
+    """
     path = [(0.0, 0.0), *((i.approach, i.normal_force) for i in result.increments)]
     approach, force = np.array(path).T
     x, along = on_axis("approach", approach)

@@ -37,9 +37,12 @@ RINGS_MARGIN = 1.3  # half side of the cells, relative to the largest contact ra
 
 @dataclass(frozen=True, eq=False)
 class RingsAbove:
-    """Sampling of rings at the centres of cells, linear between rings and angles.
+    """Surface grid of cells for maps, on which fields of rings are sampled.
 
-    x, y  cell centres (n,) [length]
+    The fields are linear between rings and angles.
+
+    rings  surface grid of the result
+    x, y   coordinates of the cell centres (n,) [length]
     """
 
     rings: Rings
@@ -48,14 +51,22 @@ class RingsAbove:
 
     @classmethod
     def around_contact(cls, result: Result, rings: Rings) -> RingsAbove:
-        """Return cells over the largest contact at the end of any step."""
+        """Create cells that cover the largest contact at the end of any load step.
+
+        rings  surface grid of the result
+        """
         touched = [_any_angle(rings.scalar(step, "in_contact")) for step in result.steps]
         reach = RINGS_MARGIN * float(rings.radii[np.any(touched, axis=0)].max())
         centres = np.linspace(-reach, reach, RINGS_ACROSS)
         return cls(rings, centres, centres)
 
     def scalar(self, step: Increment, name: str) -> NDArray[Any] | None:
-        """Return a scalar field (nx, ny), or None if the increment has no such field."""
+        """Sample a scalar field of an increment at the cell centres (nx, ny).
+
+        Returns None if the increment has no such field.
+
+        name  name of the field, an attribute of the increment
+        """
         field = self.rings.scalar(step, name)
         if field is None:
             return None
@@ -63,7 +74,12 @@ class RingsAbove:
         return sampled > 0.5 if field.dtype == bool else sampled
 
     def vector(self, step: Increment, name: str) -> Field | None:
-        """Return the x and y components (2, nx, ny) of shear or slip, or None without them."""
+        """Sample the x and y components of shear or slip at the cell centres (2, nx, ny).
+
+        Returns None if the increment has no such vector.
+
+        name  "shear" or "slip"
+        """
         components = self.rings.components(step, name)
         if components is None:
             return None
@@ -77,12 +93,18 @@ class RingsAbove:
         return np.stack([x * along - y * across, y * along + x * across])
 
     def _polar(self) -> tuple[Field, Field]:
-        """Radius, and angle from the load in (-π, π], of every cell (nx, ny)."""
+        """Return radius [length] and angle from the load, in (-π, π], of every cell centre (nx,
+        ny).
+        """
         x, y = np.meshgrid(self.x, self.y, indexing="ij")
         cos, sin = self.rings.direction
         return np.hypot(x, y), np.arctan2(cos * y - sin * x, cos * x + sin * y)
 
     def _sampled(self, field: Field) -> Field:
+        """Interpolate a field of the rings at the cell centres (nx, ny).
+
+        field  values (rings,) or (rings, angles)
+        """
         radius, angle = self._polar()
         at = [np.interp(radius, self.rings.radii, np.arange(len(self.rings.radii)))]
         if field.ndim > 1:
@@ -97,15 +119,21 @@ class RingsAbove:
 
 
 def _any_angle(field: NDArray[Any] | None) -> NDArray[np.bool_]:
+    """Return a mask of the rings at which a field is true at any angle (rings,).
+
+    field  mask (rings,) or (rings, angles)
+    """
     assert field is not None
     return np.asarray(field.any(axis=tuple(range(1, field.ndim))))
 
 
 @dataclass(frozen=True)
 class MapFrame:
-    """Common properties of the panels of a figure: cells, limits, unit of length.
+    """Common properties of the maps in one figure: cells, limits, unit of length.
 
+    cells  surface grid of the maps
     shown  half sides of the visible rectangle along x and y [length]
+    unit   unit of length of the axes
     """
 
     cells: Above
@@ -114,7 +142,10 @@ class MapFrame:
 
     @classmethod
     def around_contact(cls, result: Result, cells: Above) -> MapFrame:
-        """Return the frame around all cells in contact at the end of any step."""
+        """Create the frame of maps that show all cells in contact at the end of any load step.
+
+        cells  surface grid of the maps
+        """
         touching: list[Any] = [cells.scalar(step, "in_contact") for step in result.steps]
         touched = np.any(touching, axis=0)
         shown = (
@@ -124,7 +155,10 @@ class MapFrame:
         return cls(cells, shown, engineering_unit(max(shown), "m"))
 
     def show(self, ax: Any) -> None:
-        """Set the limits of axes, with equal scales."""
+        """Set the limits of the axes of a map, with equal scales of x and y.
+
+        ax  axes of matplotlib
+        """
         x, y = (half / self.unit.size for half in self.shown)
         ax.set_aspect("equal")
         ax.set_xlim(-x, x)
@@ -132,12 +166,15 @@ class MapFrame:
 
     @property
     def extent(self) -> tuple[float, float, float, float]:
-        """Outer edges of the cells, in the unit of the axes."""
+        """Outer boundaries of the cells (left, right, bottom, top), in the unit of the axes."""
         x, y = (_edge(centres) / self.unit.size for centres in (self.cells.x, self.cells.y))
         return -x, x, -y, y
 
     def figure_size(self, panels: int) -> tuple[float, float]:
-        """Return width and height of a figure with these panels and a colour bar [inch]."""
+        """Return width and height of a figure with a number of maps and a colour bar [inch].
+
+        panels  number of maps
+        """
         columns = COLUMNS.get(panels, 3)
         rows = math.ceil(panels / columns)
         width, height = (max(PANEL * side / max(self.shown), NARROWEST) for side in self.shown)
@@ -145,18 +182,30 @@ class MapFrame:
 
 
 def _edge(centres: Field) -> float:
-    """Return the edge of the window: half a cell beyond the last centre."""
+    """Return the coordinate of the window boundary, half a cell beyond the last centre [length].
+
+    centres  coordinates of the cell centres along one axis (n,) [length]
+    """
     return float(centres[-1] + (centres[1] - centres[0]) / 2)
 
 
 def _half_extent(centres: Field, touched: NDArray[np.bool_]) -> float:
+    """Return the half side of a map along one axis, just larger than the contact [length].
+
+    centres  coordinates of the cell centres along the axis (n,) [length]
+    touched  mask of the centres that have a cell in contact (n,)
+    """
     edge = _edge(centres)
     reach = np.max(np.abs(centres[touched]), initial=0.0) + edge - centres[-1]
     return float(min(MARGIN * reach, edge))
 
 
 def map_axes(figure: FigureBase, frame: MapFrame, count: int) -> list[Any]:
-    """Return `count` panels in rows, with labels at the left and at the bottom only."""
+    """Create axes of matplotlib for maps in rows, with labels at the left and at the bottom only.
+
+    frame  cells, limits and unit of length
+    count  number of maps
+    """
     columns = COLUMNS.get(count, 3)
     rows = math.ceil(count / columns)
     grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
@@ -174,14 +223,27 @@ def map_axes(figure: FigureBase, frame: MapFrame, count: int) -> list[Any]:
 
 
 def draw_cells(ax: Any, frame: MapFrame, values: NDArray[Any], **colours: Any) -> Any:
-    """Draw one coloured square per cell, without interpolation."""
+    """Draw the values of the cells, one coloured rectangle per cell; return the image of
+    matplotlib.
+
+    ax       axes of matplotlib
+    frame    cells, limits and unit of length
+    values   values of the cells (nx, ny)
+    colours  arguments of `Axes.imshow`
+    """
     return ax.imshow(
         values.T, extent=frame.extent, origin="lower", interpolation="nearest", **colours
     )
 
 
 def outline(ax: Any, frame: MapFrame, inside: NDArray[np.bool_], colour: str) -> None:
-    """Draw the border of a set of cells, if there is one."""
+    """Draw the border of a set of cells, if it has one.
+
+    ax      axes of matplotlib
+    frame   cells, limits and unit of length
+    inside  mask of the cells (nx, ny)
+    colour  colour of the line
+    """
     if inside.any() and not inside.all():
         x, y = frame.cells.x / frame.unit.size, frame.cells.y / frame.unit.size
         ax.contour(x, y, inside.T.astype(float), levels=[0.5], colors=[colour], linewidths=0.8)
@@ -190,8 +252,17 @@ def outline(ax: Any, frame: MapFrame, inside: NDArray[np.bool_], colour: str) ->
 def draw_arrows(
     ax: Any, frame: MapFrame, vector: Field, inside: NDArray[np.bool_], colour: str = "white"
 ) -> None:
-    """Arrows as long as a vector field (2, nx, ny) on some of the cells in a set, at their centres;
-    the longest reaches to the next."""
+    """Draw arrows of a vector field at the centres of some cells in a set.
+
+    The length of an arrow is proportional to the vector. The longest arrow is as long as the
+    spacing of the arrows.
+
+    ax      axes of matplotlib
+    frame   cells, limits and unit of length
+    vector  vector field (2, nx, ny)
+    inside  mask of the set of cells (nx, ny)
+    colour  colour of the arrows
+    """
     size = np.where(inside, np.hypot(*vector), 0.0)
     longest = float(size.max())
     if longest == 0.0:

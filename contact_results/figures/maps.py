@@ -49,11 +49,13 @@ ZONES = (
 
 @dataclass(frozen=True, eq=False)
 class Panel:
-    """One map.
+    """Contents of one map of the surface.
 
+    title     title of the map
     values    values of the cells (nx, ny); NaN shows the background
-    arrows    vector field (2, nx, ny), and mask of the cells with arrows
-    outlined  mask of the cells with a line around them
+    arrows    vector field (2, nx, ny), and mask of the cells that may have arrows; None without
+              arrows
+    outlined  mask of the cells with a line around them; None without a line
     """
 
     title: str
@@ -63,7 +65,13 @@ class Panel:
 
 
 def draw_panel(ax: Any, frame: MapFrame, panel: Panel, largest: float) -> Any:
-    """Draw one map and return its image."""
+    """Draw one map of the surface, and return its image of matplotlib for the colour bar.
+
+    ax       axes of matplotlib
+    frame    cells, limits and unit of length
+    panel    contents of the map
+    largest  value at the upper end of the colour scale
+    """
     image = draw_cells(ax, frame, panel.values, cmap=style.MAGNITUDE_MAP, vmin=0.0, vmax=largest)
     ax.set_facecolor(style.OUTSIDE_COLOUR)
     ax.set_title(panel.title)
@@ -75,9 +83,14 @@ def draw_panel(ax: Any, frame: MapFrame, panel: Panel, largest: float) -> Any:
 
 
 def field_map(result: Result, cells: Above, name: str) -> Figure | None:
-    """Draw a field of `FIELDS` at the end of the load steps, with the border of the stick zone.
+    """Draw maps of a surface field at the ends of load steps, with the border of the stick zone.
 
-    A vector is drawn by its magnitude in colours, and arrows. Returns None if the field is zero.
+    A vector is drawn by its magnitude in colours, and by arrows.
+
+    cells  surface grid of the maps
+    name   name of the field, see `FIELDS`
+
+    Returns None if the field is missing or zero at the ends of all load steps.
     """
     frame = MapFrame.around_contact(result, cells)
     label, symbol, is_vector = FIELDS[name]
@@ -112,7 +125,10 @@ def field_map(result: Result, cells: Above, name: str) -> Figure | None:
 
 
 def fretting_map(result: Result, cells: Cells, cycle: FrettingCycle) -> Figure:
-    """Draw slip, dissipation and Ruiz's parameters of one load cycle, with separate scales."""
+    """Draw maps of slip amplitude, dissipated energy and Ruiz's parameters of one load cycle.
+
+    Each map has a separate colour scale.
+    """
     frame = MapFrame.around_contact(result, cells)
     fields = list(_fields_of(cycle))
     width, height = frame.figure_size(len(fields))
@@ -132,7 +148,7 @@ def fretting_map(result: Result, cells: Cells, cycle: FrettingCycle) -> Figure:
 
 
 def _fields_of(cycle: FrettingCycle) -> Iterator[tuple[str, EngineeringUnit, Field]]:
-    """Yield title, unit and values of every map."""
+    """Yield title, unit and field of each map of a load cycle."""
     for title, symbol, values in (
         ("slip amplitude δ", "m", cycle.slip_amplitude),
         ("dissipated per area", "J/m²", cycle.dissipation),
@@ -149,7 +165,12 @@ def _fields_of(cycle: FrettingCycle) -> Iterator[tuple[str, EngineeringUnit, Fie
 
 
 def stick_slip_map(result: Result, cells: Above) -> Figure:
-    """Draw the zones of stick and slip at the end of the load steps, and the latest slip."""
+    """Draw the stick and slip zones at the ends of load steps, with arrows of the slip.
+
+    The arrows show the slip in the last increment of each load step.
+
+    cells  surface grid of the maps
+    """
     frame = MapFrame.around_contact(result, cells)
     steps = selected([step for step in result.steps if step.in_stick is not None])
     width, height = frame.figure_size(len(steps))
@@ -163,12 +184,17 @@ def stick_slip_map(result: Result, cells: Above) -> Figure:
 
 
 def zone_patches() -> list[Patch]:
-    """Return the colours of the zones with their names, for a legend."""
+    """Return colour patches with the names of the zones, for a legend: no contact, slip, stick."""
     return [Patch(facecolor=c, edgecolor=style.GREY, label=name) for name, c in ZONES]
 
 
 def draw_zones(ax: Any, frame: MapFrame, result: Result, step: Increment) -> None:
-    """Draw contact, stick and slip at the end of a step, with arrows of its latest slip."""
+    """Draw the stick and slip zones at the end of a load step, with arrows of its latest slip.
+
+    ax     axes of matplotlib
+    frame  cells, limits and unit of length
+    step   last increment of the load step
+    """
     touching = frame.cells.scalar(step, "in_contact")
     sticking = frame.cells.scalar(step, "in_stick")
     assert touching is not None
@@ -183,7 +209,13 @@ def draw_zones(ax: Any, frame: MapFrame, result: Result, step: Increment) -> Non
 
 
 def latest_slip(result: Result, cells: Above, step: Increment) -> Field | None:
-    """Compute the slip within the increment (2, nx, ny), which opposes the shear [length]."""
+    """Compute the slip within one increment (2, nx, ny) [length].
+
+    This slip opposes the shear. Returns None if the increment has no slip.
+
+    cells  surface grid of the maps
+    step   increment of the result
+    """
     now = cells.vector(step, "slip")
     number = next(n for n, increment in enumerate(result.increments) if increment is step)
     before = cells.vector(result.increments[number - 1], "slip") if number else None

@@ -1,4 +1,4 @@
-"""Overview of a run at the end of its history, in six panels."""
+"""Overview figure of a run at the end of its history, in six panels."""
 
 from __future__ import annotations
 
@@ -47,12 +47,13 @@ def overview(
     above: Above,
     errors: Mapping[str, StatedError] | None = None,
 ) -> Figure:
-    """Draw profile, zones, history, stress on the section and along the surface, and key numbers.
+    """Draw the overview: profile, zones, history, stress on section and surface, key numbers.
 
     A result with a single increment has the stress on the z axis instead of a history. The stress
-    is left out if `section_stress` is None. Call within `figure_style`.
+    is omitted if `section_stress` is None. Call within `figure_style`.
 
-    errors  stated errors of the last step; None if they were left out
+    above   surface grid of the maps
+    errors  stated errors of the last load step; None if they were not computed
     """
     field = section_stress(result)
     columns = 3 if field else 2
@@ -92,12 +93,13 @@ def overview(
 
 
 def section_stress(result: Result) -> StressField | None:
-    """Compute the stress in the body under the final tractions, with a fitted contact edge.
+    """Compute the stress in the lower body under the final tractions, for the overview.
 
-    On cells, the tractions are averaged to at most `MAX_CELLS` cells along a side. Returns None
+    On cells, the tractions are averaged to at most `MAX_CELLS` cells along a side, and the contact
+    edge is fitted. Returns None
     - for finite elements, whose mesh would take longer than the run,
-    - for a rigid body and without contact,
-    - if the number of cells has no small common divisor,
+    - for a rigid lower body and without contact,
+    - if the numbers of cells have no small common divisor,
     - for shear of the radial solver.
     """
     if not result.scene.body.deforms or not result.steps[-1].contact_area:
@@ -128,7 +130,11 @@ def section_stress(result: Result) -> StressField | None:
 def coarser(state: LoadedBodies, most: int) -> LoadedBodies:
     """Average the tractions over blocks of cells, up to `most` cells along a side.
 
-    The averages keep forces. The loop ends early if the cell numbers have no common divisor 2 to 7.
+    The averages preserve the forces. The result has more cells if the cell numbers have no common
+    divisor 2, 3, 5 or 7.
+
+    state  bodies and tractions on cells
+    most   requested largest number of cells along a side
     """
     while max(shape := state.tractions["pressure"].shape) > most:
         by = next((p for p in (2, 3, 5, 7) if not any(n % p for n in shape)), None)
@@ -145,6 +151,11 @@ def coarser(state: LoadedBodies, most: int) -> LoadedBodies:
 
 
 def _draw_seen(figure: Figure, ax: Any, result: Result, above: Above) -> None:
+    """Draw the map of the overview: stick and slip zones, or the pressure without friction.
+
+    ax     axes of matplotlib
+    above  surface grid of the map
+    """
     end, frame = result.steps[-1], MapFrame.around_contact(result, above)
     frame.show(ax)
     ax.set_xlabel(frame.unit.labelled("x"))
@@ -163,6 +174,11 @@ def _draw_seen(figure: Figure, ax: Any, result: Result, above: Above) -> None:
 
 
 def _draw_axis(ax: Any, field: StressField, body: Body) -> None:
+    """Draw the stress over depth on the z axis, for the overview.
+
+    ax    axes of matplotlib
+    body  layers and base, for the interfaces
+    """
     depth = field.shown[1]
     length = engineering_unit(depth, "m")
     draw_depth(ax, field.axis, body, depth, length)
@@ -171,6 +187,12 @@ def _draw_axis(ax: Any, field: StressField, body: Body) -> None:
 
 
 def _draw_stress(figure: Figure, axes: Any, along: Any, result: Result, field: StressField) -> None:
+    """Draw the von Mises stress on the section, and the stress along the surface, for the overview.
+
+    A note states if the contact edge was not fitted on cells.
+
+    axes, along  axes of matplotlib for the section and for the surface
+    """
     body, mises = result.scene.body, field.section.von_mises
     length = draw_section(figure, axes, field, body, mises, "von Mises", bar=BAR)
     axes.set_xlabel(length.labelled(field.label))
@@ -185,6 +207,11 @@ def _draw_stress(figure: Figure, axes: Any, along: Any, result: Result, field: S
 
 
 def _write_numbers(ax: Any, result: Result, errors: Mapping[str, StatedError] | None) -> None:
+    """Write status and key numbers of the last load step into a panel of the overview.
+
+    ax      axes of matplotlib
+    errors  stated errors of the last load step; None if they were not computed
+    """
     ax.set_axis_off()
     lines = [f"status: {result.steps[-1].status.value}"]
     lines += [f"{name}: {text}" for name, text in key_numbers(result.steps, errors)]

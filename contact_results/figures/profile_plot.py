@@ -1,4 +1,4 @@
-"""Profiles of pressure and shear on the line through the axis."""
+"""Profiles of pressure and shear on the line through the z axis."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ MARGIN = 1.15  # half length of the line, relative to the extent of the contact
 
 @dataclass(frozen=True, eq=False)
 class Component:
-    """Curves of one traction component along y = 0, one curve per load step.
+    """Curves of one traction component along the line of the profiles, one per load step.
 
     name   label of the axis
-    lines  values (n,) by load step
-    unit   of the axis
+    lines  values (n,) by load step [force/length^2]
+    unit   unit of the axis
     """
 
     name: str
@@ -38,7 +38,11 @@ class Component:
     unit: EngineeringUnit
 
     def draw(self, ax: Any, x: Field) -> None:
-        """Draw a line for every step."""
+        """Draw one curve for every load step.
+
+        ax  axes of matplotlib
+        x   coordinates along the line in the unit of the figure (n,)
+        """
         for number, (step, values) in enumerate(self.lines.items()):
             ax.plot(x, values / self.unit.size, label=f"step {step}", **style.line(number))
         ax.axhline(0.0, color="black", linewidth=0.5)
@@ -47,9 +51,10 @@ class Component:
 
 
 def profile_plot(result: Result, surface: Surface) -> Figure:
-    """Draw pressure and shear at the end of the load steps, one panel per component.
+    """Draw profiles of pressure and shear at the ends of load steps, one panel per component.
 
-    The panels of shear show ± µp at the end of the history. Components that are zero have no panel.
+    The panels of shear show the friction limit ± µp at the end of the history. Components that are
+    zero have no panel.
     """
     steps: list[Increment] = selected([*result.steps])
     shears = _shears(surface, steps)
@@ -68,9 +73,12 @@ def profile_plot(result: Result, surface: Surface) -> Figure:
 
 
 def draw_end(ax: Any, result: Result, surface: Surface) -> None:
-    """Draw the pressure and q/µ at the end of the history; the curves coincide in the slip zone.
+    """Draw pressure p and shear over coefficient of friction, q/µ, at the end of the history.
 
-    Shear is left out if the coefficient of friction varies.
+    The curves coincide in the slip zone. The shear is omitted if the coefficient of friction varies
+    on the surface.
+
+    ax  axes of matplotlib
     """
     length, end = _line_axis(ax, result, surface), result.steps[-1]
     x, pressure = surface.line.places / length.size, _pressures(surface, [end])
@@ -89,13 +97,17 @@ def draw_end(ax: Any, result: Result, surface: Surface) -> None:
 
 
 def _pressures(surface: Surface, steps: Sequence[Increment]) -> Component:
+    """Return the profiles of the pressure at the ends of the given load steps."""
     lines = {step.step: surface.along(_pressure(step, surface)) for step in steps}
     unit = engineering_unit(max(step.peak_pressure for step in steps), "Pa")
     return Component("pressure p", lines, unit)
 
 
 def _shears(surface: Surface, steps: Sequence[Increment]) -> list[Component]:
-    """Return the components of shear along and across the line that exceed round-off."""
+    """Return the profiles of the shear components along and across the line.
+
+    Components that are round-off at the ends of all given load steps are omitted.
+    """
     found = ((step.step, surface.vector(step, "shear")) for step in steps)
     lines = {step: surface.vector_along(vector) for step, vector in found if vector is not None}
     sizes = [np.max(np.abs(vector), axis=1) for vector in lines.values()]
@@ -112,7 +124,12 @@ def _shears(surface: Surface, steps: Sequence[Increment]) -> list[Component]:
 
 
 def _line_axis(ax: Any, result: Result, surface: Surface) -> EngineeringUnit:
-    """Label the axis of the line and limit it to the contact; return the unit of length."""
+    """Label the axis along the line of the profiles and limit it to the contact.
+
+    ax  axes of matplotlib
+
+    Returns the unit of length of this axis.
+    """
     places = surface.line.places
     touched = [surface.along(_pressure(step, surface)) > 0 for step in result.steps]
     inside = np.flatnonzero(np.any(touched, axis=0))
@@ -125,6 +142,7 @@ def _line_axis(ax: Any, result: Result, surface: Surface) -> EngineeringUnit:
 
 
 def _pressure(step: Increment, surface: Surface) -> Field:
+    """Return the pressure at the end of a load step, at all points of the surface grid."""
     pressure = surface.scalar(step, "pressure")
     assert pressure is not None
     return pressure

@@ -1,4 +1,4 @@
-"""Self-contained pages of a run and of a stress, without scripts and external files."""
+"""HTML pages of a run and of a stress, self-contained, without scripts and external files."""
 
 from __future__ import annotations
 
@@ -64,10 +64,13 @@ def write_page(
     errors: Mapping[str, StatedError] | None = None,
     cycles: Mapping[str, Sequence[str]] | None = None,
 ) -> None:
-    """Write the page of a run whose figures are in the directory; equal results give equal bytes.
+    """Write the HTML page of a run, with the figures that are in its directory.
 
-    errors  of the last step; None where they were left out
-    cycles  columns of `cycle_columns`
+    Equal results give equal bytes.
+
+    directory  directory of the run
+    errors     stated errors of the last load step; None if they were not computed
+    cycles     columns of `cycle_columns`; None or empty without load cycles
     """
     parts = [
         f"<h2>At the end of step {result.steps[-1].step}</h2><table>",
@@ -90,9 +93,12 @@ def write_page(
 def write_stress_page(
     columns: Mapping[str, Sequence[str]], title: str, figures: Sequence[str], directory: Path
 ) -> None:
-    """Write the page of a stress whose figures are in the directory.
+    """Write the HTML page of a stress, with the figures that are in its directory.
 
-    columns  headings and texts of the largest stresses
+    columns    table of the largest stresses, as columns by heading
+    title      title of the page
+    figures    file names of the figures
+    directory  output directory
     """
     parts = [
         *("<h2>Largest stresses</h2>", *_table(columns), f'<p class="soft">{OF_STRESS}</p>'),
@@ -102,6 +108,10 @@ def write_stress_page(
 
 
 def _write(path: Path, title: str, parts: Iterable[str]) -> None:
+    """Write an HTML page.
+
+    parts  pieces of HTML below the title
+    """
     title = escape(title)
     page = [
         '<!doctype html><html lang="en"><head><meta charset="utf-8">',
@@ -116,6 +126,7 @@ def _write(path: Path, title: str, parts: Iterable[str]) -> None:
 
 
 def _settings(result: Result) -> Iterator[tuple[str, str]]:
+    """Yield name and text of each setting of a run: solver, tolerance, grid, increments, effects."""
     yield "solver", result.solver
     yield "tolerance of every residual", f"{result.tolerance:.3g}"
     grid = getattr(result, "grid", None)
@@ -128,13 +139,20 @@ def _settings(result: Result) -> Iterator[tuple[str, str]]:
 
 
 def _cycles(columns: Mapping[str, Sequence[str]]) -> Iterator[str]:
-    """The table of load cycles."""
+    """Yield the HTML of the section on load cycles, with table and legend.
+
+    columns  table of the load cycles, as columns by heading
+    """
     yield "<h2>Load cycles</h2>"
     yield from _table(columns)
     yield f'<p class="soft">{LOOPS}</p>'
 
 
 def _table(columns: Mapping[str, Sequence[str]]) -> Iterator[str]:
+    """Yield the HTML of a table.
+
+    columns  texts of the cells by heading of their column
+    """
     yield "<table><tr>"
     yield from (f'<th scope="col">{escape(heading)}</th>' for heading in columns)
     for texts in zip(*columns.values(), strict=True):
@@ -143,16 +161,22 @@ def _table(columns: Mapping[str, Sequence[str]]) -> Iterator[str]:
 
 
 def _row(name: str, text: str) -> str:
+    """Return the HTML of a table row with a name and a text."""
     return f'<tr><th scope="row">{escape(name)}</th><td>{escape(text)}</td></tr>'
 
 
 def _figures(paths: Iterable[Path]) -> Iterator[str]:
+    """Yield the HTML of the figures whose files exist.
+
+    paths  paths of image files
+    """
     yield '<div class="figures">'
     yield from (_figure(path) for path in paths if path.is_file())
     yield "</div>"
 
 
 def _figure(path: Path) -> str:
+    """Return the HTML of one figure, with the image data included and a link that enlarges it."""
     name = HEADINGS.get(path.stem, path.stem.replace("_", " ").capitalize())
     data = b64encode(path.read_bytes()).decode("ascii")
     # The link enlarges the figure by CSS, since the page has no scripts.

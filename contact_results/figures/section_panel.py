@@ -45,9 +45,14 @@ def draw_section(
     *,
     bar: Mapping[str, Any] | None = None,
 ) -> EngineeringUnit:
-    """Draw values at the points of the section, z downward; return the unit of length.
+    """Draw contours of a stress on the section, z downward; return the unit of length.
 
-    bar  arguments of `Figure.colorbar`
+    figure, ax  figure and axes of matplotlib
+    field       stress below a contact, with the points of the section
+    body        layers and base, for the interfaces
+    values      stress at the points of the section [force/length^2]
+    name        label of the colour bar
+    bar         arguments of `Figure.colorbar`
     """
     points, (reach, depth) = field.section, field.shown
     length = engineering_unit(reach, "m")
@@ -76,12 +81,22 @@ def draw_section(
 
 
 def stretches(body: Body, deepest: float) -> bool:
-    """Return True if the depth axis stretches thin layers."""
+    """Return True if the depth axis must be stretched to show thin layers.
+
+    deepest  largest depth of the figure [length]
+    """
     return 0 < sum(layer.thickness for layer in body.layers) < THIN * deepest
 
 
 def show_depths(ax: Any, body: Body, deepest: float, length: EngineeringUnit) -> bool:
-    """Draw a line at every interface and scale the depth axis; return `stretches`."""
+    """Draw a line at every interface, and scale the depth axis so that thin layers are visible.
+
+    ax       axes of matplotlib
+    deepest  largest depth of the figure [length]
+    length   unit of the depth axis
+
+    Returns True if the depth axis stretches thin layers.
+    """
     stretched = stretches(body, deepest)
     if stretched:
         films = sum(layer.thickness for layer in body.layers) / deepest
@@ -107,7 +122,10 @@ def show_depths(ax: Any, body: Body, deepest: float, length: EngineeringUnit) ->
 
 
 def even_levels(low: float, high: float) -> Values:
-    """Return evenly spaced round levels that enclose all values."""
+    """Return evenly spaced round contour levels that enclose all values.
+
+    low, high  smallest and largest value
+    """
     if low == high:
         low, high = min(low, 0.0), max(high, 0.0) or 1.0
     rounded = MaxNLocator(MAX_LEVELS, steps=[1, 2, 2.5, 5, 10])
@@ -117,7 +135,14 @@ def even_levels(low: float, high: float) -> Values:
 def _triangles(
     points: StressPoints, values: Values, length: EngineeringUnit, reach: float, depth: float
 ) -> tuple[Triangulation, Values]:
-    """Divide each visible quadrilateral into four triangles; return them and the nodal values."""
+    """Divide each visible quadrilateral of the section into four triangles around its centre.
+
+    values        stress at the points of the section
+    length        unit of the axes
+    reach, depth  extent of the figure to the sides and in depth [length]
+
+    Returns the triangles, and the stress at their nodes; a centre has the mean of its corners.
+    """
     quads = _quadrilaterals(points, reach, depth)
     x, z, drawn = (
         np.concatenate([part.ravel(), part.ravel()[quads].mean(axis=1)])
@@ -130,7 +155,10 @@ def _triangles(
 
 
 def _quadrilaterals(points: StressPoints, reach: float, depth: float) -> NDArray[np.int64]:
-    """Return the corners (n, 4) of the quadrilaterals of cells that are partly visible."""
+    """Return the corners (n, 4) of the quadrilaterals of all cells that are partly visible.
+
+    reach, depth  extent of the figure to the sides and in depth [length]
+    """
     assert points.cells is not None
     kind, cells = points.cells
     across, down = np.abs(points.x.ravel()), points.depth.ravel()

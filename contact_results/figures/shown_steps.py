@@ -24,7 +24,10 @@ Step = TypeVar("Step")
 
 
 def selected(steps: Sequence[Step]) -> list[Step]:
-    """Return at most AT_MOST evenly spaced steps, including the first and the last."""
+    """Select at most AT_MOST evenly spaced load steps, including the first and the last.
+
+    steps  items of any type, one per load step
+    """
     if len(steps) <= AT_MOST:
         return list(steps)
     positions = np.linspace(0, len(steps) - 1, AT_MOST).round().astype(int)
@@ -32,13 +35,20 @@ def selected(steps: Sequence[Step]) -> list[Step]:
 
 
 def on_axis(name: str, values: Field, which: str = "") -> tuple[Field, str]:
-    """Return the values of a scalar in a suitable unit, and the label of their axis."""
+    """Return the values of a scalar for the axis of a figure, and the label of this axis.
+
+    The values are in a suitable unit, which the label names.
+
+    name    name of the scalar
+    values  values in the SI unit
+    which   further text for the label
+    """
     unit = engineering_unit(float(np.max(np.abs(values))), SCALARS[name].unit)
     return values / unit.size, unit.labelled(f"{name.replace('_', ' ')} {which}".rstrip())
 
 
 def step_title(step: Increment) -> str:
-    """Return the number of a load step and the forces at its end."""
+    """Return the number of a load step and the forces at its end, as the title of a map."""
     title = f"step {step.step}: W = {quantity(step.normal_force, 'N', 3)}"
     force = np.zeros(2) if step.tangential_force is None else np.asarray(step.tangential_force)
     largest = float(np.max(np.abs(force)))

@@ -27,7 +27,13 @@ SECTION, AXIS, SURFACE = "stress_section.png", "stress_axis.png", "stress_surfac
 def write_stress_figures(
     field: StressField, body: Body, directory: Path, title: str
 ) -> Sequence[str]:
-    """Write the three figures of a stress; return their names."""
+    """Write the three figures of the stress below a contact; return their file names.
+
+    field      computed stress
+    body       layers and base of the stressed body
+    directory  output directory
+    title      title of each figure
+    """
     figures: dict[str, Callable[[StressField, Body, str], Figure]] = {
         SECTION: section_plot,
         AXIS: axis_plot,
@@ -44,7 +50,7 @@ def write_stress_figures(
 def section_plot(field: StressField, body: Body, title: str) -> Figure:
     """Draw four stresses on the section, z downward, with dashed interfaces.
 
-    Call within `figure_style`.
+    The stresses are von Mises, σ_xx, σ_xz and the tensile stress. Call within `figure_style`.
     """
     points = field.section
     panels = {
@@ -71,8 +77,8 @@ def section_plot(field: StressField, body: Body, title: str) -> Figure:
 def axis_plot(field: StressField, body: Body, title: str) -> Figure:
     """Draw stresses over depth, on the z axis and below the trailing contact edge.
 
-    The trailing edge has the larger σ_xx at the surface. There is one line per material. Call
-    within `figure_style`.
+    The trailing edge is the edge with the larger σ_xx at the surface. There is one line per stress
+    and material. Call within `figure_style`.
     """
     depth = field.shown[1]
     lines = {"on the z axis": field.axis, **_below_edge(field)}
@@ -89,7 +95,7 @@ def axis_plot(field: StressField, body: Body, title: str) -> Figure:
 
 
 def surface_plot(field: StressField, body: Body, title: str) -> Figure:
-    """Draw stresses along the surface. Call within `figure_style`."""
+    """Draw σ_xx and σ_yy along the surface. Call within `figure_style`."""
     figure = _titled(6.4, 3.4, title)
     place = {"left": 0.12, "right": 0.97, "bottom": 0.15, "top": 0.8}
     draw_surface(figure.subplots(gridspec_kw=place), field)
@@ -97,7 +103,12 @@ def surface_plot(field: StressField, body: Body, title: str) -> Figure:
 
 
 def draw_surface(ax: Any, field: StressField) -> None:
-    """Draw σ_xx and σ_yy at z = 0, including a fitted contact edge, with lines at the edges."""
+    """Draw σ_xx and σ_yy at the surface z = 0, with dotted lines at the contact edges.
+
+    The stress at a fitted contact edge is included.
+
+    ax  axes of matplotlib
+    """
     reach = field.shown[0]
     length = engineering_unit(reach, "m")
     surface, ends = _at_surface(field), _ends(field)
@@ -122,9 +133,10 @@ def draw_surface(ax: Any, field: StressField) -> None:
 
 
 def _ends(field: StressField) -> StressPoints | None:
-    """Return the points of the fitted edge nearest to y = 0, along x; None without a fit.
+    """Select the points of the fitted contact edge at which it crosses y = 0, along x.
 
-    The stress at these points represents that at y = 0.
+    Each crossing is represented by the fitted point nearest to y = 0. Returns None if no edge was
+    fitted or if the fit does not determine the stress.
     """
     if field.edge is None or not field.edge.determined:
         return None
@@ -138,7 +150,10 @@ def _ends(field: StressField) -> StressPoints | None:
 
 
 def _places_of_ends(field: StressField) -> Sequence[float]:
-    """Return the coordinates x of the contact edge at y = 0, or ± the radius without a fit."""
+    """Return the coordinates x of the contact edge at y = 0 [length].
+
+    Without a fitted edge, these are ± the contact radius.
+    """
     ends = _ends(field)
     if ends is None:
         return (-_radius(field), _radius(field))
@@ -146,19 +161,23 @@ def _places_of_ends(field: StressField) -> Sequence[float]:
 
 
 def _radius(field: StressField) -> float:
-    """Return the contact radius on cells, or the loaded radius on rings."""
+    """Return the contact radius, or the loaded radius of a finite element mesh [length]."""
     return float(str(field.how.get("contact_radius", field.how.get("loaded_radius"))))
 
 
 def _at_surface(field: StressField) -> StressPoints:
-    """Return the points of the section at the smallest depth, along x."""
+    """Select the points of the section at its smallest depth, along x."""
     points = field.section
     at = np.flatnonzero(points.depth == points.depth.min())
     return points.chosen(at[np.argsort(points.x.flat[at], kind="stable")])
 
 
 def _below_edge(field: StressField) -> dict[str, StressPoints]:
-    """Return the points of the section below the trailing edge, downward, by a title."""
+    """Select the points of the section below the trailing contact edge, downward.
+
+    The trailing edge is the edge with the larger σ_xx at the surface. The points are returned by
+    the title of their panel.
+    """
     surface, points = _at_surface(field), field.section
     ends = [int(np.argmin(np.abs(surface.x - x))) for x in _places_of_ends(field)]
     edge = float(surface.x[max(ends, key=lambda k: surface.components["xx"][k])])
@@ -175,7 +194,16 @@ def draw_depth(
     deepest: float,
     length: EngineeringUnit,
 ) -> None:
-    """Draw stresses over depth, z downward, one line per material."""
+    """Draw stress components and the von Mises stress over depth, z downward.
+
+    There is one line per stress and material.
+
+    ax       axes of matplotlib
+    points   points on a vertical line
+    body     layers and base, for the interfaces
+    deepest  largest depth of the figure [length]
+    length   unit of the depth axis
+    """
     line = points.chosen(points.depth <= deepest)
     lines = {_named(name): line.components[name] for name in ("xx", "yy", "zz", "xz")}
     lines["von Mises"] = line.von_mises
@@ -195,10 +223,15 @@ def draw_depth(
 
 
 def _named(component: str) -> str:
+    """Return the label of a stress component, such as σ_xx, in the notation of matplotlib."""
     return f"$σ_{{{component}}}$"
 
 
 def _titled(width: float, height: float, title: str) -> Figure:
+    """Create a figure with a title that is wrapped to its width.
+
+    width, height  size of the figure [inch]
+    """
     figure = style.new_figure(width, height, arranged=False)
     figure.suptitle(fill(title, int(13 * width)), fontsize=9.0)
     return figure

@@ -43,7 +43,7 @@ COLOURS = 256
 
 @contextmanager
 def figure_style() -> Iterator[None]:
-    """Apply `STYLE` in the block, independent of the matplotlibrc of the user."""
+    """Apply the style of all figures in the block, independent of the matplotlibrc of the user."""
     with matplotlib.rc_context():
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(STYLE)
@@ -51,19 +51,30 @@ def figure_style() -> Iterator[None]:
 
 
 def new_figure(width: float, height: float, *, arranged: bool = True) -> Figure:
-    """Return an empty figure, sides in inches, that arranges its contents by default."""
+    """Create an empty figure that arranges its contents by default.
+
+    width, height  size of the figure [inch]
+    arranged       use the constrained layout of matplotlib
+    """
     figure = Figure(figsize=(width, height), layout="constrained" if arranged else None)
     FigureCanvasAgg(figure)
     return figure
 
 
 def line(number: int) -> dict[str, Any]:
-    """Return colour and dashes of a line, distinct in colour and in grey print."""
+    """Return colour and dash pattern of a curve, distinct in colour and in grey print.
+
+    number  number of the curve in its figure, from 0
+    """
     return {"color": LINE_COLOURS[number], "linestyle": LINE_STYLES[number]}
 
 
 def legend_above(ax: Any, **given: Any) -> None:
-    """Add a legend in one row above the axes."""
+    """Add a legend in one row above the axes.
+
+    ax     axes of matplotlib
+    given  further arguments of `Axes.legend`
+    """
     ax.legend(
         loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=5, fontsize="small",
         handlelength=1.6, columnspacing=1.0, **given,
@@ -71,14 +82,19 @@ def legend_above(ax: Any, **given: Any) -> None:
 
 
 def legend_beside(ax: Any) -> None:
-    """Add a legend at the right of the axes."""
+    """Add a legend at the right of the axes.
+
+    ax  axes of matplotlib
+    """
     ax.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), handlelength=2.6)
 
 
 def save(figure: Figure, path: Path, dots_per_inch: int = DOTS_PER_INCH) -> None:
-    """Write a figure to a file without date and version, so that its bytes are reproducible.
+    """Write a figure to a PNG or SVG file without date and version: the bytes are reproducible.
 
     A PNG is reduced to 256 colours, which takes a third of the bytes.
+
+    dots_per_inch  resolution of a PNG
     """
     if path.suffix == ".svg":
         figure.savefig(path, metadata={"Date": None, "Creator": None})

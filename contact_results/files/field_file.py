@@ -50,13 +50,15 @@ def write_fields(
     *,
     all_fields: bool = False,
 ) -> None:
-    """Write `result.h5`: scene, coordinates, scalars, surface fields, fields of the last load
-    cycle.
+    """Write `result.h5`: scene, coordinates, scalars and surface fields of a result.
 
-    Equal results give equal bytes. The first array index is the increment for scalars. For fields,
-    it is the load step, or the increment with `all_fields`. A field has one chunk per value of this
-    index. An effect that is off has no dataset. If some increments have angles, fields that depend
-    on the radius alone are repeated at every angle.
+    The file also contains the surface fields of the last load cycle. Equal results give equal
+    bytes.
+
+    The first array index is the increment for scalars. For fields, it is the load step, or the
+    increment with `all_fields`. A field has one chunk per value of this index. An effect that is
+    off has no dataset. If some increments have angles, fields that depend on the radius alone are
+    repeated at every angle.
 
     cycles      closed load cycles of the result
     directory   directory of the run

@@ -52,13 +52,12 @@ def tensor(voigt: Values) -> Values:
 
 
 def write_mesh(mesh: Mesh, path: Path, convention: str) -> None:
-    """Write a mesh with its fields to a VTU file, with the convention of axes and signs as a
-    comment.
+    """Write a mesh with its fields to a VTU file.
 
     Infinite values become NaN, which ParaView excludes from its colour scale.
 
     path        path of the file, which is written atomically
-    convention  text about units, axes and signs
+    convention  text about units, axes and signs, written as a comment
     """
     whole = meshio.Mesh(
         mesh.points,

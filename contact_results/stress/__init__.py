@@ -1,1 +1,1 @@
-"""Stress below a contact: points, maxima, files."""
+"""Stress below a contact, for the results of any solver: points, largest values, files."""

@@ -1,4 +1,4 @@
-"""Regions of a body below a contact, and the depths of the stress points."""
+"""Regions of a body below a contact of the radial solver, and the depths of the stress points."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ FIRST = 1e-3  # first depth below infinite pressure, relative to radius or outer
 
 @dataclass(frozen=True)
 class BodyRegions:
-    """Regions and depths of one body below a contact.
+    """Regions of one body below a contact, and the depths at which the stress is computed.
 
     radius   contact radius [length]
     layers   number of layers
-    named    material, smallest and largest depth [length] of each region, by name
+    named    material index, smallest and largest depth [length] of each region, by name
     deepest  largest depth in the base [length]; None if the base is rigid
-    first    smallest depth [length]; positive below infinite pressure
+    first    smallest depth [length]; positive if the pressure is infinite at a point
     down     number of depth intervals within `REACH` radii
     """
 
@@ -47,9 +47,12 @@ class BodyRegions:
 
     @classmethod
     def of(cls, body: Body, radius: float, down: int, *, infinite: bool = False) -> BodyRegions:
-        """Return the regions of a body.
+        """Determine regions and depths of a body.
 
-        infinite  whether the pressure is infinite at a point
+        body      layers and base
+        radius    contact radius [length]
+        down      number of depth intervals within `REACH` radii
+        infinite  True if the pressure is infinite at a point
         """
         count = len(body.layers)
         tops = [0.0, *np.cumsum([layer.thickness for layer in body.layers]).tolist()]
@@ -70,7 +73,7 @@ class BodyRegions:
 
     @property
     def depths(self) -> Field:
-        """Depths, denser towards the surface [length]."""
+        """Default depths of the stress points, denser towards the surface (n,) [length]."""
         near = REACH * self.radius * (np.arange(self.down + 1) / self.down) ** 2
         if self.deepest is None:
             return np.asarray(near)
@@ -79,7 +82,9 @@ class BodyRegions:
     def levels(self, depths: Sequence[float] | None) -> Iterator[Level]:
         """Yield the levels of the given depths and of both sides of every interface, downward.
 
-        depths  [length]; None chooses them from the contact and the layers
+        A level is a depth in one material.
+
+        depths  depths [length]; None chooses them from the contact radius and the layers
 
         Raises ValueError for a depth outside the body.
         """
@@ -107,6 +112,10 @@ class BodyRegions:
 
 
 def spacing(places: Field, at: float) -> float:
-    """Return the larger of the two intervals next to a place [length]."""
+    """Return the larger of the two intervals of a grid that are adjacent to a place [length].
+
+    places  ascending grid coordinates (n,) [length]
+    at      coordinate of the place [length]
+    """
     k = int(np.clip(np.searchsorted(places, at), 1, len(places) - 2))
     return float(np.max(np.diff(places[k - 1 : k + 2])))

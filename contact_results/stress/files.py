@@ -82,7 +82,16 @@ def write_files(
     errors: Sequence[StatedError] | None,
     accuracy: AccuracyReached | None,
 ) -> None:
-    """Write tables, their meanings, meshes and summary of the `body` or the `indenter`."""
+    """Write tables, column descriptions, meshes and summary of the stress in one body.
+
+    state      bodies and tractions that cause the stress
+    which      "body" for the lower body, or "indenter"
+    field      computed stress
+    found      largest stresses
+    directory  output directory
+    errors     stated errors of `found`; None if they were not computed
+    accuracy   requested and reached accuracy; None if none was requested
+    """
     of_indenter = which == "indenter"
     body = state.indenter if of_indenter else state.body
     convention = OF_THE_INDENTER if of_indenter else CONVENTION
@@ -118,9 +127,13 @@ def write_files(
 
 
 def write_points(points: StressPoints, path: Path, convention: str) -> None:
-    """Write points, their cells, and the fields at the points.
+    """Write points, the cells between them, and the stress at the points to a VTU file.
 
     An interface has two points at each place, because the stress jumps there.
+
+    points      points with cells
+    path        path of the file
+    convention  text about units, axes and signs
     """
     assert points.cells is not None
     places = np.stack([points.x, points.y, points.depth], axis=-1).reshape(-1, 3)
@@ -136,7 +149,11 @@ def write_points(points: StressPoints, path: Path, convention: str) -> None:
 
 
 def sides(field: StressField, body: Body) -> Iterator[tuple[int, str, StressPoints]]:
-    """Yield number and side of every interface, with the points of the section along x."""
+    """Yield number, side and points of every interface, in the section along x.
+
+    Interfaces count from 1 for the outermost. The side is "above", nearer to the contact surface,
+    or "below".
+    """
     for number, name, depth, material in interface_sides(body):
         points = field.section
         on_it = np.flatnonzero(points.on_side(depth, material))
@@ -153,7 +170,16 @@ def write_stress_summary(
     convention: str,
     directory: Path,
 ) -> None:
-    """Write `stress.json`: settings, and the largest stresses with their errors."""
+    """Write `stress.json`: settings, and the largest stresses with their errors.
+
+    which       "body" for the lower body, or "indenter"
+    field       computed stress, with the settings of its computation
+    found       largest stresses
+    errors      stated errors of `found`; None if they were not computed
+    accuracy    requested and reached accuracy; None if none was requested
+    convention  text about units, axes and signs
+    directory   output directory
+    """
     stated = [None] * len(found) if errors is None else [e.model_dump(mode="json") for e in errors]
     record = {
         "convention": convention,
@@ -174,6 +200,7 @@ def write_stress_summary(
 
 
 def _rows(points: StressPoints, body: Body) -> Iterator[tuple[object, ...]]:
+    """Yield the table rows of stress points: place, material, displacement, stress, invariants."""
     numbers = np.vstack([points.displacement, points.stress, points.von_mises, points.principal])
     materials = [layer_name(material, len(body.layers)) for material in points.material.tolist()]
     # A zero has no sign.

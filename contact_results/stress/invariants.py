@@ -1,4 +1,4 @@
-"""Invariants of the stress tensor, components (6, …) in the order of CONVENTIONS.md."""
+"""Invariants of the stress tensor, whose components (6, …) are xx, yy, zz, yz, xz, xy."""
 
 from itertools import combinations
 
@@ -10,7 +10,10 @@ BLOCK = 1 << 14  # points whose intermediate numbers fit into the cache
 
 
 def von_mises(stress: Field) -> Field:
-    """Compute the equivalent stress of von Mises (1913), shape (…) [force/length^2]."""
+    """Compute the equivalent stress of von Mises (1913), shape (…) [force/length^2].
+
+    stress  components xx, yy, zz, yz, xz, xy (6, …) [force/length^2]
+    """
     xx, yy, zz, yz, xz, xy = stress
     normal = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
     return np.asarray(np.sqrt(normal / 2 + 3 * (yz**2 + xz**2 + xy**2)))
@@ -19,11 +22,13 @@ def von_mises(stress: Field) -> Field:
 def principal_stresses(stress: Field) -> Field:
     """Compute the principal stresses, most tensile first, shape (3, …) [force/length^2].
 
-    They are the roots of the characteristic cubic by its angle θ, cos 3θ = (27/4)^½ J3/J2^(3/2).
-    The arccosine loses half the digits if two roots are nearly equal, as on the axis of every
-    axisymmetric contact. Therefore sin 3θ is computed from the discriminant 4 J2³ - 27 J3² as a sum
-    of squares: the Gram determinant of 1, s and s² by the formula of Cauchy and Binet (Parlett
-    2002), with the deviatoric stress s.
+    The principal stresses are the roots of the characteristic cubic by its angle θ, cos 3θ =
+    (27/4)^½ J3/J2^(3/2), with the invariants J2 and J3 of the deviatoric stress s. The arccosine
+    loses half the digits if two roots are nearly equal, as on the axis of every axisymmetric
+    contact. Therefore sin 3θ is computed from the discriminant 4 J2³ - 27 J3² as a sum of squares:
+    the Gram determinant of 1, s and s² by the formula of Cauchy and Binet (Parlett 2002).
+
+    stress  components xx, yy, zz, yz, xz, xy (6, …) [force/length^2]
     """
     flat = stress.reshape(6, -1)
     found = np.empty((3, flat.shape[1]))
@@ -34,6 +39,10 @@ def principal_stresses(stress: Field) -> Field:
 
 
 def _roots(stress: Field) -> Field:
+    """Compute the principal stresses of a block of points, most tensile first (3, n).
+
+    stress  components xx, yy, zz, yz, xz, xy (6, n) [force/length^2]
+    """
     xx, yy, zz, yz, xz, xy = stress
     mean = (xx + yy + zz) / 3
     a, b, c = xx - mean, yy - mean, zz - mean

@@ -49,22 +49,24 @@ ROUNDING = 1e-9  # relative to the approach: smaller shifts are round-off
 
 @dataclass(frozen=True)
 class LoadedBodies:
-    """The two bodies of a scene, and the tractions between them.
+    """The two bodies of a scene, and the tractions between them at the end of an increment.
 
+    title           title of the scene
+    body, indenter  layers and base material of the lower body and of the indenter
     step            load step, from 1
     axes            coordinates of the tractions, as in `Surface`
     tractions       pressure and shear on the lower body by name, if present [force/length^2]
-    discretisation  settings of finite elements; None for other solvers
-    no_root         reason why the tractions may not fall like the root of the distance from the
-                    contact edge; None if they do
-    direction       unit vector of angle 0 of rings
+    discretisation  settings of the finite elements; None for other solvers
+    no_root         reason why the tractions may not fall like the square root of the distance from
+                    the contact edge; None if they do
+    edges           True if the tractions are cell means and the contact edge runs inside the cells
+    by_increments   increment error of the tractions relative to the tractions; None if not stated
+    direction       unit vector of the tangential load, at angle 0 of rings
     pressed         indenter, contact radius [length] and approach [length], if they determine the
-                    pressure at every radius; None if it is known on cells or rings only
-    contact_radius, peak_pressure
-                    scalars of the run [length], [force/length^2]; None if unknown
-    edges           whether the tractions are cell means with edges inside the cells
+                    pressure at every radius; None if the pressure is known on cells or rings only
+    contact_radius  [length]; None if unknown
+    peak_pressure   [force/length^2]; None if unknown
     strain          bulk strain of the lower body; None if there is none
-    by_increments   increment error of the tractions relative to them; None if not stated
     """
 
     title: str
@@ -85,20 +87,27 @@ class LoadedBodies:
 
     @property
     def on_rings(self) -> bool:
-        """Whether the tractions are given on rings."""
+        """True if the tractions are given on rings, False if on cells."""
         return "radii" in self.axes
 
     def bulk_stress(self, layer: int, indenter: bool) -> Field:
-        """Return the stress of a layer or of the base from the bulk strain (6,) [force/length^2].
+        """Return the stress that the bulk strain causes in a layer or in the base (6,)
+        [force/length^2].
 
-        It is zero in the indenter and without bulk strain.
+        The stress is zero in the indenter and without bulk strain.
+
+        layer     index of the layer, 0 for the outermost; the number of layers denotes the base
+        indenter  True for the indenter, False for the lower body
         """
         if self.strain is None or indenter:
             return np.zeros(6)
         return stress_by(self.strain, self.body, layer)
 
     def strained(self, points: StressPoints, indenter: bool) -> StressPoints:
-        """Add the stress from the bulk strain at points of a body."""
+        """Add the stress from the bulk strain to the stress at points of one body.
+
+        indenter  True if the points are in the indenter, which has no bulk strain
+        """
         if self.strain is None:
             return points
         layers = range(int(np.max(points.material)) + 1)
@@ -114,12 +123,12 @@ class LoadedBodies:
 def state_of_result(
     result: Result, step: int | None, errors: StatedErrors | None = None
 ) -> LoadedBodies:
-    """Return the state at the end of a load step of a result.
+    """Return bodies and tractions at the end of a load step of a result.
 
-    step    from 1; None for the last
-    errors  stated errors of the result
+    step    load step, from 1; None for the last
+    errors  stated errors of the result; None if they were not computed
 
-    Raises NoSuchState if there is no such step, or if the bodies are separated.
+    Raises NoSuchState if there is no such load step, or if the bodies are separated.
     """
     ends = {end.step: end for end in result.steps}
     end = _in_contact(ends[_existing(step, sorted(ends))])
@@ -127,7 +136,11 @@ def state_of_result(
 
 
 def states_of_result(result: Result) -> Iterator[tuple[int, int, LoadedBodies | None]]:
-    """Yield load step, increment and state of every increment; None for separated bodies."""
+    """Yield load step, increment, bodies and tractions at the end of every increment of a result.
+
+    Load steps and increments within a load step count from 1. For separated bodies, the third item
+    is None.
+    """
     for increment in result.increments:
         state = _of_result(result, increment, None) if increment.contact_area else None
         yield increment.step, increment.index, state
@@ -136,6 +149,10 @@ def states_of_result(result: Result) -> Iterator[tuple[int, int, LoadedBodies | 
 def _of_result(
     result: Result, increment: Any, errors: Mapping[str, StatedError] | None
 ) -> LoadedBodies:
+    """Return bodies and tractions at the end of an increment of a result.
+
+    errors  stated errors at the end of the load step, by name; None if not needed
+    """
     surface = surface_of(result)
     fields = {name: surface.scalar(increment, name) for name in TRACTIONS}
     return _state(
@@ -152,12 +169,13 @@ def _of_result(
 
 
 def state_of_run(directory: Path, step: int | None) -> LoadedBodies:
-    """Return the state at the end of a load step of a stored run.
+    """Return bodies and tractions at the end of a load step of a stored run.
 
-    step  from 1; None for the last
+    directory  directory of the run
+    step       load step, from 1; None for the last
 
-    Raises NoSuchState if there is no readable run, no such step, or no contact, and ResourceRefused
-    if the fields do not fit into memory.
+    Raises NoSuchState if there is no readable run, no such load step, or no contact, and
+    ResourceRefused if the fields do not fit into memory.
     """
     run = _run_of(directory)
     chosen = _existing(step, list(range(1, len(run.summary.steps) + 1)))
@@ -168,10 +186,16 @@ def state_of_run(directory: Path, step: int | None) -> LoadedBodies:
 
 
 def states_of_run(directory: Path) -> Iterator[tuple[int, int, LoadedBodies | None]]:
-    """Yield load step, increment and state of every increment of a stored run.
+    """Yield load step, increment, bodies and tractions at the end of every increment of a stored
+    run.
 
-    The state of separated bodies is None. Raises NoSuchState if there is no readable run, or if it
-    has no fields of all increments, and ResourceRefused.
+    Load steps and increments within a load step count from 1. For separated bodies, the third item
+    is None.
+
+    directory  directory of the run
+
+    Raises NoSuchState if there is no readable run, or if the run has no fields of all increments,
+    and ResourceRefused if the fields do not fit into memory.
     """
     run = _run_of(directory)
     with _reading(directory):
@@ -186,7 +210,10 @@ def states_of_run(directory: Path) -> Iterator[tuple[int, int, LoadedBodies | No
 
 @contextmanager
 def _reading(directory: Path) -> Iterator[None]:
-    """Raise NoSuchState for the errors of reading the fields of a run."""
+    """Convert errors of reading the fields of a run in the block to NoSuchState.
+
+    directory  directory of the run, for messages
+    """
     try:
         yield
     except FieldsAtEndsOnly as error:
@@ -196,6 +223,7 @@ def _reading(directory: Path) -> Iterator[None]:
 
 
 def _run_of(directory: Path) -> StoredRun:
+    """Read a stored run; raise NoSuchState if the directory has no readable run."""
     try:
         return load(directory)
     except (FileNotFoundError, ValueError) as error:
@@ -209,7 +237,13 @@ def _of_run(
     errors: Mapping[str, StatedError] | None,
     step: int,
 ) -> LoadedBodies:
-    """Read the state of an increment, from 0, with its scalars."""
+    """Read bodies and tractions at the end of an increment of a stored run.
+
+    increment  index of the increment in the whole history, from 0
+    end        scalars at the end of the increment
+    errors     stated errors of these scalars, by name; None if not needed
+    step       load step, from 1
+    """
     # A file lists names alphabetically; fields have the radii first.
     order = sorted(run.coordinates, key=lambda name: name == "angles")
     axes = {name: run.coordinates[name].array for name in order}
@@ -239,7 +273,13 @@ def _state(
     errors: Mapping[str, StatedError] | None,
     **of_result: Any,
 ) -> LoadedBodies:
-    """Combine the fields of a result with the data of its scene and the scalars of an increment."""
+    """Combine the fields of a result with the data of its scene and the scalars of an increment.
+
+    solver     name of the solver
+    end        scalars at the end of the increment
+    errors     stated errors of these scalars, by name; None if not needed
+    of_result  further attributes of `LoadedBodies`
+    """
     pressed = (scene.indenter, end.contact_radius, end.approach or 0.0)
     return LoadedBodies(
         title=scene.title,
@@ -257,10 +297,15 @@ def _state(
 
 
 def _by_increments(end: State, errors: Mapping[str, StatedError]) -> float | None:
-    """Return the increment error of the tractions relative to them; None if it is unknown.
+    """Estimate the relative error of the tractions that is due to finite increments.
 
-    It is the largest relative increment error of peak pressure, approach and tangential shift. If
-    the peak pressure has no error because it is infinite, the contact radius replaces it.
+    The estimate is the largest relative increment error of peak pressure, approach and tangential
+    shift. If the peak pressure has no error because it is infinite, the contact radius replaces it.
+
+    end     scalars at the end of the increment
+    errors  stated errors of these scalars, by name
+
+    Returns None if the error of any of the three is unknown.
     """
     peak = errors.get("peak_pressure")
     of_pressure = "contact_radius" if peak is None or peak.error is None else "peak_pressure"
@@ -278,6 +323,12 @@ def _by_increments(end: State, errors: Mapping[str, StatedError]) -> float | Non
 
 
 def _no_root(indenter: ShapedBody, friction: CoulombFriction | None) -> str | None:
+    """Return the reason why the tractions may not fall to zero like a square root at the contact
+    edge.
+
+    Returns None for a smooth indenter without rim and with uniform friction, where the tractions
+    fall like the square root of the distance from the edge.
+    """
     if indenter.rim is not None:
         return "the contact ends at the rim of the indenter"
     if indenter.extent is not None or indenter.gap_exponent is None:
@@ -288,7 +339,10 @@ def _no_root(indenter: ShapedBody, friction: CoulombFriction | None) -> str | No
 
 
 def _in_contact(end: Any) -> Any:
-    """Return the end of a load step; raise NoSuchState if the bodies are separated."""
+    """Return the given scalars at the end of a load step if the bodies are in contact.
+
+    Raises NoSuchState if the bodies are separated.
+    """
     if not end.contact_area:
         raise NoSuchState(
             "the bodies are separated at the end of this step, and the stress is zero everywhere; "
@@ -298,6 +352,11 @@ def _in_contact(end: Any) -> Any:
 
 
 def _existing(step: int | None, steps: list[int]) -> int:
+    """Return the given load step, or the last one for None; raise NoSuchState if it does not exist.
+
+    step   requested load step, from 1
+    steps  load steps of the run, ascending
+    """
     if step is None:
         return steps[-1]
     if step not in steps:

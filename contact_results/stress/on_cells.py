@@ -42,7 +42,10 @@ COMPUTED, WRITTEN = 9 + 9 + 8, 3 + 3 + 9 + 4
 
 
 def estimated_bytes(grid: SurfaceGrid) -> int:
-    """Estimate the largest memory of the stress below a contact that fills the grid [byte]."""
+    """Estimate the peak memory of the stress computation for a contact that fills the grid [byte].
+
+    The memory is that of one level, without the fixed memory of the program.
+    """
     from semi_analytical.stress.field import FIXED, required_bytes
 
     nx, ny = (round(MARGIN * cells) for cells in grid.cells)
@@ -53,7 +56,17 @@ def estimated_bytes(grid: SurfaceGrid) -> int:
 def stress_at_cells(
     state: LoadedBodies, x: Field, y: Field, levels: Sequence[Level], *, indenter: bool = False
 ) -> StressPoints:
-    """Interpolate the stress at points (n,) cubically between the cells of their levels."""
+    """Compute the stress at given points below tractions on cells.
+
+    The stress at a point is interpolated cubically between the positions of the cells at its depth.
+
+    state     bodies and tractions that cause the stress
+    x, y      coordinates of the points (n,) [length]
+    levels    depth and layer of each point (n,)
+    indenter  True for the stress in the indenter, False for the lower body
+
+    Raises ResourceRefused if a point is too far from the contact, or for too little memory.
+    """
     from semi_analytical.stress import subsurface
 
     body = state.indenter if indenter else state.body
@@ -88,17 +101,21 @@ def stress_on_cells(
 ) -> StressField:
     """Compute the stress on levels below a window that extends beyond the contact.
 
-    Near the edge of a smooth contact, the tractions fall like the root of the distance from the
-    edge, and the field has points on the fitted edge. `how` of the field states the cause if no
-    edge was fitted.
+    A level is a depth in one material. Near the edge of a smooth contact, the tractions fall like
+    the square root of the distance from the edge. The contact edge is then fitted between the
+    cells, and the result has additional points on the fitted edge. `how` of the result states the
+    cause if no edge was fitted. If a maximum lies at the edge of the window, its level is computed
+    again on a wider window.
 
-    depths    [length], without both sides of every interface, which are always included; None
-              chooses them from the contact and the layers
-    volume    return the points and cells of the volume as well
-    see_edge  fit the contact edge
-    section_only  restrict the largest values to the section
+    state         bodies and tractions that cause the stress
+    indenter      True for the stress in the indenter, False for the lower body
+    depths        depths [length], without both sides of every interface, which are always included;
+                  None chooses them from the contact and the layers
+    volume        return the points and cells of the volume as well
+    see_edge      fit the contact edge
+    section_only  search the largest values in the section only
 
-    Raises ValueError for a depth outside the body, and ResourceRefused.
+    Raises ValueError for a depth outside the body, and ResourceRefused for too little memory.
     """
     below = partial(_below, state, indenter)
     field = below(depths, MARGIN, volume=volume, see_edge=see_edge, section_only=section_only)
@@ -126,7 +143,16 @@ def _below(
     see_edge: bool = True,
     section_only: bool = False,
 ) -> StressField:
-    """Compute the stress on a window of at least `margin` half extents of the contact."""
+    """Compute the stress on one window of at least `margin` half extents of the contact.
+
+    state         bodies and tractions that cause the stress
+    indenter      True for the stress in the indenter, False for the lower body
+    depths        depths [length]; None chooses them from the contact and the layers
+    margin        smallest half width of the window in half extents of the contact
+    volume        return the points and cells of the volume as well
+    see_edge      fit the contact edge
+    section_only  search the largest values in the section only
+    """
     from semi_analytical.stress import SubsurfaceField, refuse_beyond_memory
 
     body = state.indenter if indenter else state.body
@@ -183,7 +209,15 @@ def _below(
 def _rows(
     grid: SurfaceGrid, pressure: Field, shear: Field | None, section_only: bool
 ) -> Indices | None:
-    """Return the rows of cells for the section, and for y > 0 if y = 0 is a mirror plane."""
+    """Return the indices of the rows of cells along y on which the stress is computed.
+
+    The rows are those next to y = 0 for the section alone, and the rows from there to the largest y
+    if y = 0 is a mirror plane of the tractions. None means all rows.
+
+    pressure      pressure of the cells (nx, ny) [force/length^2]
+    shear         shear of the cells (2, nx, ny) [force/length^2]; None without shear
+    section_only  compute the stress in the section y = 0 only
+    """
     from semi_analytical.stress.convolution import mirror_planes
     from semi_analytical.stress.depths import line_weights
 
@@ -202,7 +236,15 @@ def _edge(
     pressure: Field,
     shear: Field | None,
 ) -> tuple[NearEdge | None, str]:
-    """Fit the edge of the contact. If it is not determined, return the fit so far and the cause."""
+    """Fit the edge of the contact, near which the tractions fall like a square root.
+
+    levels    depths and layers of the stress; without a level near the surface no edge is fitted
+    pressure  pressure of the cells (nx, ny) [force/length^2]
+    shear     shear of the cells (2, nx, ny) [force/length^2]; None without shear
+
+    Returns the fitted edge and an empty text. If the tractions do not determine the stress at the
+    edge, returns the edge as far as it was fitted, or None, and the cause.
+    """
     from semi_analytical.frf.stack import stack_of
     from semi_analytical.stress import EdgeNotSeen, near_edge, near_surface
 
@@ -226,7 +268,16 @@ def _each_level(
     edge: NearEdge | None,
     rows: Indices | None,
 ) -> Iterator[SubsurfaceField]:
-    """Yield the fields level by level, with the stress near a fitted edge."""
+    """Yield displacement and stress below the cells level by level.
+
+    Near the fitted contact edge, the stress is corrected for tractions that vary within the cells.
+
+    levels    depth and layer of each level
+    pressure  pressure of the cells (nx, ny) [force/length^2]
+    shear     shear of the cells (2, nx, ny) [force/length^2]; None without shear
+    edge      fitted contact edge; None without correction
+    rows      indices of the rows of cells along y; None for all
+    """
     from semi_analytical.stress import fields_by_level
 
     far = _far_field_tractions(state, pressure, shear)
@@ -248,9 +299,14 @@ def _each_level(
 def _far_field_tractions(
     state: LoadedBodies, pressure: Field, shear: Field | None
 ) -> tuple[Field, Field | None]:
-    """Return constant tractions on cells with the far field of the tractions.
+    """Return constant tractions on cells with the same stress far from the cells as the true
+    tractions.
 
-    Tractions of a solver on cells are returned unchanged; cell means are sharpened.
+    Tractions of a solver with constant tractions on cells are returned unchanged. Cell means of
+    tractions that vary within the cells are sharpened.
+
+    pressure  pressure of the cells (nx, ny) [force/length^2]
+    shear     shear of the cells (2, nx, ny) [force/length^2]; None without shear
     """
     if not state.edges:
         return pressure, shear
@@ -261,8 +317,12 @@ def _far_field_tractions(
 def _sharpened(means: Field, loaded: NDArray[np.bool_]) -> Field:
     """Subtract 1/12 of the second differences from cell means, within the loaded cells.
 
-    Cell means as constants act like the tractions times sinc²(kh/2) = 1 - k²h²/12 + … per axis. The
-    correction is a flux between loaded cells, so that the sum is unchanged.
+    Cell means, applied as constant tractions, act like the true tractions times sinc²(kh/2) = 1 -
+    k²h²/12 + … per axis, with wavenumber k and cell width h. The subtraction compensates the term
+    k²h². It is a flux between loaded cells, so that the total force is unchanged.
+
+    means   mean traction of each cell (…, nx, ny) [force/length^2]
+    loaded  mask of the cells with pressure (nx, ny)
     """
     found = means.copy()
     for axis in (-2, -1):
@@ -274,14 +334,21 @@ def _sharpened(means: Field, loaded: NDArray[np.bool_]) -> Field:
 
 
 def _how(edge: NearEdge | None, why: str) -> dict[str, object]:
-    """Return the record of the edge fit for `stress.json`."""
+    """Return the record of the edge fit for `stress.json`.
+
+    edge  fitted contact edge; None if there is none
+    why   cause if the edge is not determined, else empty
+    """
     if edge is None or why:
         return {"fitted": False, "because": why}
     return {"fitted": True, "points": len(edge.x), "fits_apart": edge.apart}
 
 
 def _on_edge(edge: NearEdge, stress: Field) -> StressPoints:
-    """Return points (n,) on the edge at the surface, with displacements NaN."""
+    """Return the points on the fitted contact edge at the surface (n,); displacements are NaN.
+
+    stress  stress at these points (6, n) [force/length^2]
+    """
     nothing = np.zeros(len(edge.x))
     return StressPoints(
         edge.x,
@@ -297,7 +364,9 @@ def _on_edge(edge: NearEdge, stress: Field) -> StressPoints:
 def _with_margin(
     state: LoadedBodies, margin: float, reach: Sequence[float] = (0.0, 0.0)
 ) -> tuple[SurfaceGrid, Field, Field | None]:
-    """Return grid, pressure and shear on a window that contains the given one.
+    """Return grid, pressure and shear on a window that contains the window of the contact solve.
+
+    The added cells have no traction.
 
     margin  smallest half width of the window in half extents of the contact
     reach   smallest half widths of the window along x and y [length]
@@ -316,7 +385,12 @@ def _with_margin(
 
 
 def _margin(pressure: Field, axis: int, margin: float) -> int:
-    """Return the number of cells to add on each side."""
+    """Return the number of cells to add on each side of the window along one axis.
+
+    pressure  pressure of the cells (nx, ny)
+    axis      0 for x, 1 for y
+    margin    smallest half width of the window in half extents of the contact
+    """
     cells = pressure.shape[axis]
     loaded = np.flatnonzero(np.any(pressure > 0, axis=1 - axis))
     reach = np.abs(loaded - (cells - 1) / 2).max() + 0.5 if loaded.size else 0.0
@@ -324,7 +398,13 @@ def _margin(pressure: Field, axis: int, margin: float) -> int:
 
 
 def _levels(body: Body, depths: Sequence[float] | None, radius: float) -> tuple[Level, ...]:
-    """Return the levels of the given depths and of both sides of every interface, downward."""
+    """Return the levels of the given depths and of both sides of every interface, downward.
+
+    A level is a depth in one material.
+
+    depths  depths [length]; None chooses them from the contact radius and the layers
+    radius  contact radius [length]
+    """
     from semi_analytical.frf.stack import stack_of
     from semi_analytical.stress import default_depths, interfaces
     from semi_analytical.stress.depths import levels_of
@@ -337,7 +417,12 @@ def _levels(body: Body, depths: Sequence[float] | None, radius: float) -> tuple[
 
 
 def _points(field: SubsurfaceField, grid: SurfaceGrid) -> StressPoints:
-    """Return the points (levels, nx, ny); `at_edge` marks the edge of the window."""
+    """Convert fields on levels to stress points of shape (levels, nx, ny).
+
+    `at_edge` marks the points at the edge of the window.
+
+    grid  surface grid of the window
+    """
     places = np.meshgrid(field.depths, field.x, field.y, indexing="ij", copy=False)
     depth, x, y = places
     layers = np.array([level.layer for level in field.levels])
@@ -353,7 +438,7 @@ def _points(field: SubsurfaceField, grid: SurfaceGrid) -> StressPoints:
 
 
 def _axis(section: SubsurfaceField) -> StressPoints:
-    """Interpolate the section on the z axis (levels,)."""
+    """Interpolate displacement and stress of the section on the z axis, one point per level."""
     displacement, stress = section.below()
     nothing = np.zeros(len(section.levels))
     return StressPoints(

@@ -1,4 +1,4 @@
-"""Stress below the tractions of the radial solver, in a plane through the axis."""
+"""Stress below the tractions of the radial solver, in a plane through the z axis."""
 
 from __future__ import annotations
 
@@ -25,12 +25,16 @@ SHOWN = 3.0  # extent of figures to the sides and in depth, in contact radii
 def stress_on_disc(
     state: LoadedBodies, *, indenter: bool = False, depths: Sequence[float] | None = None
 ) -> StressField:
-    """Compute the stress on levels in the plane of the load, and the points of its maxima.
+    """Compute the stress in the plane of the load below the tractions of the radial solver.
 
-    depths  [length], without both sides of every interface, which are always included; None chooses
-            them from contact and layers, and refines the maxima
+    The stress is computed on levels, each a depth in one material, and at points around its maxima.
 
-    Raises ValueError for a depth outside the body, UnsupportedScene as `RadialBody.of` does.
+    state     bodies and tractions that cause the stress
+    indenter  True for the stress in the indenter, False for the lower body
+    depths    depths [length], without both sides of every interface, which are always included;
+              None chooses them from contact and layers, and refines the maxima
+
+    Raises ValueError for a depth outside the body, and UnsupportedScene as `RadialBody.of` does.
     """
     body = RadialBody.of(state, indenter)
     levels, x, radius = tuple(body.parts.levels(depths)), body.section, body.parts.radius
@@ -71,9 +75,13 @@ def stress_at_radii(
     indenter: bool = False,
     fineness: int = 1,
 ) -> StressPoints:
-    """Compute the stress at points (n,) below the tractions of the radial solver.
+    """Compute the stress at given points below the tractions of the radial solver.
 
-    fineness  multiplies the number of orders and points
+    state     bodies and tractions that cause the stress
+    x, y      coordinates of the points (n,) [length]
+    levels    depth and layer of each point (n,)
+    indenter  True for the stress in the indenter, False for the lower body
+    fineness  factor on the numbers of orders and points of the computation
 
     Raises UnsupportedScene as `RadialBody.of` does.
     """
@@ -92,9 +100,11 @@ def stress_at_radii(
 
 
 def _both_sides(right: StressPoints) -> StressPoints:
-    """Mirror the points of x >= 0 to x < 0.
+    """Extend points of an axisymmetric stress from x >= 0 to x < 0 by reflection.
 
-    There r points along -x and θ along -y, so the signs of some components change.
+    At x < 0, r points along -x and θ along -y, so the signs of some components change.
+
+    right  points of the section with x >= 0 (levels, n)
     """
     behind = replace(
         right,

@@ -1,4 +1,4 @@
-"""Stress below tractions on rings by finite elements, in the plane of the load."""
+"""Stress below tractions on rings by finite elements, in the plane through z axis and load."""
 
 from __future__ import annotations
 
@@ -24,9 +24,14 @@ SHOWN = (2.0, 3.0)  # extent of figures to the sides and in depth, in loaded rad
 
 @one_thread()
 def stress_on_section(state: LoadedBodies, *, indenter: bool = False) -> StressField:
-    """Compute the stress at the nodes of a new mesh.
+    """Compute the stress in one body below tractions on rings by finite elements.
 
-    It has as many elements over the loaded radius as the contact solve has over the contact radius.
+    The result is the stress at the nodes of a new mesh. The mesh has as many elements over the
+    loaded radius as the mesh of the contact solve has over the contact radius.
+
+    state     bodies and tractions that cause the stress
+    indenter  True for the stress in the indenter, False for the lower body
+
     Raises the errors of `fem_reference.stress.subsurface`.
     """
     from fem_reference.compliance.ring_edge import beyond_pressure
@@ -72,9 +77,11 @@ def stress_on_section(state: LoadedBodies, *, indenter: bool = False) -> StressF
 
 
 def _section(field: SectionField) -> StressPoints:
-    """Return the points of both halves of the section, at θ = 0 and π.
+    """Return the points of both halves of the section, on the rays in and against the load
+    direction.
 
-    No point is `at_edge`, because the far mesh represents the half-space.
+    Components of the cylindrical axes become those of x, along the load, y and z. `at_edge` is
+    False everywhere, because the mesh reaches so far that it represents a half-space.
     """
     halves = (0.0, pi)
     count = field.points.shape[1]
@@ -99,7 +106,11 @@ def _section(field: SectionField) -> StressPoints:
 
 
 def _axis(section: StressPoints, reach: float) -> StressPoints:
-    """Return the points on the axis, downward, without the duplicates of the second half."""
+    """Return the points on the z axis, downward, without the duplicates of the second half.
+
+    section  points of both halves of the section
+    reach    largest depth [length]
+    """
     on_it = np.flatnonzero((section.x == 0.0) & (section.depth <= reach))
     places = np.stack([section.depth[on_it], section.material[on_it]])
     return section.chosen(on_it[np.unique(places, axis=1, return_index=True)[1]])

@@ -30,16 +30,18 @@ ON_INTERFACES = frozenset({"interface_shear", "interface_tensile_stress"})
 
 @dataclass(frozen=True, eq=False)
 class StressPoints:
-    """Fields at points of any array shape (…), z into the body.
+    """Displacement and stress at points of a body; the points form an array of any shape (…).
 
-    An interface has two points at each place, one on each side.
+    An interface has two points at each place, one on each side. z points into the body.
 
-    x, y, depth   (…) [length]
-    material      (…) 0 for the outermost layer
-    displacement  u_x, u_y, u_z (3, …) [length]
-    stress        tension positive (6, …) [force/length^2]: xx, yy, zz, yz, xz, xy
-    cells         cell type and corners (m, corners) of the cells between the points; None without
-    at_edge       whether a point is at the edge of the computed region (…)
+    x, y, depth   coordinates of the points (…) [length]
+    material      index of the material (…), 0 for the outermost layer; the highest index is the
+                  base
+    displacement  components u_x, u_y, u_z (3, …) [length]
+    stress        components xx, yy, zz, yz, xz, xy (6, …), positive if tensile [force/length^2]
+    at_edge       True if a point is at the edge of the computed region (…)
+    cells         cell type of meshio and corners (m, corners) of the cells between the points; None
+                  without cells
     """
 
     x: Field
@@ -53,17 +55,19 @@ class StressPoints:
 
     @cached_property
     def von_mises(self) -> Field:
-        """Equivalent stress (…) [force/length^2]."""
+        """Equivalent stress of von Mises at the points (…) [force/length^2]."""
         return von_mises(self.stress)
 
     @cached_property
     def principal(self) -> Field:
-        """Principal stresses, largest first (3, …) [force/length^2]."""
+        """Principal stresses at the points, most tensile first (3, …) [force/length^2]."""
         return principal_stresses(self.stress)
 
     @property
     def measures(self) -> Mapping[str, Field]:
-        """Values (…) of the stress measures, by the names of `MEASURES`."""
+        """Values of the stress measures at the points (…) [force/length^2], by the names of
+        `MEASURES`.
+        """
         first, _, last = self.principal
         of = self.components
         across = np.hypot(of["xz"], of["yz"])
@@ -72,11 +76,14 @@ class StressPoints:
 
     @property
     def components(self) -> Mapping[str, Field]:
-        """The stress (…) by the names of its components."""
+        """Stress components at the points (…) [force/length^2], by name: xx, yy, zz, yz, xz, xy."""
         return dict(zip(COMPONENTS, self.stress, strict=True))
 
     def turned(self, direction: tuple[float, float]) -> StressPoints:
-        """Transform from axes with x along `direction` to the axes of the scene."""
+        """Transform places, displacement and stress to the axes of the scene.
+
+        direction  unit vector of the present x axis in the axes of the scene
+        """
         if direction == (1.0, 0.0):
             return self
         c, s = direction
@@ -94,7 +101,7 @@ class StressPoints:
 
     @staticmethod
     def joined(parts: Sequence[StressPoints]) -> StressPoints:
-        """Concatenate points along their last index, without cells."""
+        """Concatenate arrays of stress points along their last index, without cells."""
 
         def concatenated(name: str) -> Any:
             return np.concatenate([getattr(part, name) for part in parts], axis=-1)
@@ -102,12 +109,19 @@ class StressPoints:
         return StressPoints(**{name: concatenated(name) for name in FIELDS})
 
     def columns(self, which: slice) -> StressPoints:
-        """Select along the last index, without cells."""
+        """Select stress points along their last index, without cells.
+
+        which  slice of the last index
+        """
         return StressPoints(**{name: getattr(self, name)[..., which] for name in FIELDS})
 
     def with_cells(self) -> StressPoints:
-        """Add the cells between adjacent levels of one material: quadrilaterals of a section
-        (levels, n), hexahedra of a volume (levels, nx, ny)."""
+        """Add the cells between adjacent levels of the same material.
+
+        A level is a depth in one material, and the first index of the points. The cells are
+        quadrilaterals for the points of a section (levels, n), and hexahedra for those of a volume
+        (levels, nx, ny).
+        """
         index: Any = np.arange(self.x.size).reshape(self.x.shape)
         index = index[..., 0] if index.shape[2:] == (1,) else index
         layer = self.material.reshape(len(index), -1)[:, 0]
@@ -123,11 +137,14 @@ class StressPoints:
         return replace(self, cells=(kind, np.stack(corners, axis=-1).reshape(-1, len(corners))))
 
     def with_largest(self) -> StressPoints:
-        """Return the points (n,) with the largest value of each measure, without cells."""
+        """Select the points at which each stress measure is largest (measures,), without cells."""
         return self.chosen(np.array([np.argmax(values) for values in self.measures.values()]))
 
     def near(self, reach: float) -> StressPoints:
-        """Return the cells with a corner within a distance to the sides and in depth."""
+        """Select the cells that have a corner near the contact, with the points of these cells.
+
+        reach  largest |x| and largest depth of such a corner [length]
+        """
         assert self.cells is not None
         kind, cells = self.cells
         inside = np.maximum(np.abs(self.x), self.depth) <= reach
@@ -135,7 +152,10 @@ class StressPoints:
         return replace(self.chosen(kept), cells=(kind, corners.reshape(-1, cells.shape[1])))
 
     def chosen(self, points: NDArray[np.bool_] | Indices) -> StressPoints:
-        """Select points by flat index or mask; returns a flat array (n,) without cells."""
+        """Select stress points by flat index or by mask.
+
+        Returns a flat array of points (n,) without cells.
+        """
         which = points.ravel()
         return StressPoints(
             self.x.ravel()[which],
@@ -153,19 +173,24 @@ class StressPoints:
         return self.chosen(np.arange(self.x.size))
 
     def on_side(self, depth: float, material: int) -> NDArray[np.bool_]:
-        """Return a mask (…) of the points on one side of an interface."""
+        """Return a mask (…) of the points on one side of an interface.
+
+        depth     depth of the interface [length]
+        material  index of the material on this side
+        """
         near = np.abs(self.depth - depth) <= 1e-9 * depth
         return np.asarray(near & (self.material == material))
 
 
 @dataclass(frozen=True, eq=False)
 class FittedEdge:
-    """Contact edge at the surface, fitted between the cells.
+    """Edge of the contact at the surface, fitted between the cell centres.
 
-    points  on the edge (n,)
-    apart   difference of the largest principal stress between two fits [force/length²]
-    determined
-            whether the fit determines the stress; the points are candidates for maxima in any case
+    points      stress points on the edge (n,)
+    apart       difference of the largest principal stress on the edge between two fits
+                [force/length²]
+    determined  True if the fit determines the stress; the points are candidates for maxima in any
+                case
     """
 
     points: StressPoints
@@ -175,16 +200,17 @@ class FittedEdge:
 
 @dataclass(frozen=True, eq=False)
 class StressField:
-    """Stress in a body below a contact.
+    """Stress in a body below a contact, at the points of a section and optionally of a volume.
 
-    points   candidates for the largest values: on cells those of each level, else all
-    edge     fitted contact edge; None if there is none
-    section  points and cells in the plane y = 0 near the contact
-    axis     points on the z axis
-    volume   all points with their cells; None if not requested
-    label    axis label of x in the section
-    shown    extent of figures to the sides and in depth [length]
-    how      settings of the computation, for `stress.json`
+    points     candidates for the largest values: on cells those of each level, else all points
+    edge       fitted contact edge; None if there is none
+    section    points and cells in the plane y = 0 near the contact, in axes with x along
+               `direction`
+    axis       points on the z axis, downward
+    volume     all points with their cells; None if not requested
+    label      axis label of x in the section
+    shown      extent of figures to the sides and in depth [length]
+    how        settings of the computation, for `stress.json`
     direction  unit vector, in the scene, of the x axis of the section
     """
 

@@ -1,4 +1,4 @@
-"""Body below the tractions of the radial solver: regions, points and largest stresses."""
+"""Stress in a body below the tractions of the radial solver: regions, points, largest values."""
 
 from __future__ import annotations
 
@@ -27,11 +27,13 @@ Fields = Callable[[Sequence["Level"], Field, Field], Field]
 
 
 class Sampling(NamedTuple):
-    """Numbers of points.
+    """Numbers of the points at which the stress below a circular contact is computed.
 
-    inside, beside, down  points of a section inside and outside the radius, and in depth
-    about, rounds         search for a maximum: points on each side, and number of refinements; each
-                          refinement divides the spacing by `about`
+    inside  points of the section within the contact radius
+    beside  intervals of the section outside the contact radius
+    down    depth intervals
+    about   points on each side of a maximum in a search
+    rounds  refinements of this search, each of which divides the spacing by `about`
     """
 
     inside: int
@@ -51,12 +53,13 @@ RADII, ANGLES, EVERY = np.array([0.3, 0.6, 0.8, 0.95, 1.0, 1.15, 1.5]), 7, 2
 class RadialBody:
     """One body below a circular contact, in axes in which x points along the load.
 
-    fields     function of levels, x and y (n,): displacement and stress (levels, 9, n)
-    parts      regions of the body, and the depths
+    fields     function of levels, x and y (n,) that computes displacement and stress (levels, 9, n)
+    parts      regions of the body, and the depths of the points
+    sampling   numbers of points
     strained   function that adds the stress from a bulk strain
-    direction  unit vector of the load in the scene
+    direction  unit vector of the load in the axes of the scene
     centre     coordinate x of the contact centre [length]
-    is_round   whether the fields depend on the radius alone and are computed at x >= 0, y = 0
+    is_round   True if the fields depend on the radius alone and are computed at x >= 0, y = 0
     """
 
     fields: Fields
@@ -69,12 +72,15 @@ class RadialBody:
 
     @classmethod
     def of(cls, state: LoadedBodies, indenter: bool, fineness: int = 1) -> RadialBody:
-        """Return the body or the indenter of a state.
+        """Prepare the computation of the stress in the lower body or in the indenter.
 
-        fineness  multiplies the number of orders and points; above 1 the edge has another fit
+        state     bodies and tractions that cause the stress
+        indenter  True for the indenter, False for the lower body
+        fineness  factor on the numbers of orders and points of the computation; above 1 the contact
+                  edge has another fit
 
-        Raises UnsupportedScene for too few rings, for shear with infinite pressure, and for a load
-        with changing direction.
+        Raises UnsupportedScene for too few rings, for shear with infinite pressure, and for a
+        tangential load that changes direction.
         """
         from semi_analytical.frf.stack import stack_of
 
@@ -86,6 +92,12 @@ class RadialBody:
     def _below_pressure(
         cls, state: LoadedBodies, indenter: bool, fineness: int, body: Body, stack: Stack
     ) -> RadialBody:
+        """Prepare the stress of a contact without shear, from indenter shape and contact radius.
+
+        indenter     True for the indenter, False for the lower body
+        fineness     factor on the numbers of orders and points of the computation
+        body, stack  the body in which the stress is computed
+        """
         from contact_scene import Scene
         from radial.normal.disc import disc
         from radial.response.bodies import Bodies
@@ -113,6 +125,12 @@ class RadialBody:
     def _below_shear(
         cls, state: LoadedBodies, indenter: bool, fineness: int, body: Body, stack: Stack
     ) -> RadialBody:
+        """Prepare the stress of a contact with shear, from the tractions on rings.
+
+        indenter     True for the indenter, False for the lower body
+        fineness     factor on the numbers of orders and points of the computation
+        body, stack  the body in which the stress is computed
+        """
         from radial.stress.circle_fit import (
             ANOTHER,
             USUAL,
@@ -146,20 +164,32 @@ class RadialBody:
 
     @property
     def radii(self) -> Field:
-        """Distances of the points of the section from the centre, denser at the edge [length]."""
+        """Distances of the points of the section from the contact centre, denser at its edge
+        [length].
+        """
         inside = np.sin(0.5 * np.pi * np.arange(self.sampling.inside) / self.sampling.inside)
         beside = np.arange(self.sampling.beside + 1) / self.sampling.beside
         return self.parts.radius * np.concatenate([inside, 1 + (REACH - 1) * beside**2])
 
     @property
     def section(self) -> Field:
-        """Coordinates x (n,) of the section; x >= 0 if all fields depend on the radius [length]."""
+        """Coordinates x of the points of the section (n,) [length].
+
+        If all fields depend on the radius alone, these are x >= 0.
+        """
         if self.is_round:
             return self.radii
         return np.unique(np.concatenate([self.centre - self.radii, [0], self.centre + self.radii]))
 
     def points(self, levels: Sequence[Level], x: Field, y: Field) -> StressPoints:
-        """Compute displacement and stress at x and y (n,) on every level; shape (levels, n)."""
+        """Compute displacement and stress at positions x, y on every level.
+
+        levels  depth and layer of each level
+        x, y    positions (n,) [length]
+
+        Returns points of shape (levels, n). `at_edge` marks the outer and the lower end of the
+        computed region, and the first depth below infinite pressure.
+        """
         found = np.moveaxis(self.fields(levels, x, y), 1, 0)
         depth = np.array([[level.depth] for level in levels])
         layer = np.array([[level.layer] for level in levels])
@@ -178,7 +208,12 @@ class RadialBody:
         return self.strained(points)
 
     def beside(self, levels: Sequence[Level]) -> StressPoints:
-        """Compute the stress at points outside the plane of the section."""
+        """Compute the stress at points outside the plane of the section, on some of the levels.
+
+        The tensile stress at the bottom of a layer may be largest at these points.
+
+        levels  depth and layer of each level, downward
+        """
         angles = np.pi * np.arange(1, ANGLES + 1) / (ANGLES + 1)
         r = self.parts.radius * RADII[:, None]
         x, y = self.centre + r * np.cos(angles), r * np.sin(angles)
@@ -191,7 +226,9 @@ class RadialBody:
         return self.points([levels[n] for n in sides], x.ravel(), y.ravel())
 
     def largest(self, extreme: Extreme) -> StressPoints:
-        """Refine the maximum of a measure in a region by search around a computed maximum.
+        """Refine the maximum of a stress measure in a region, by search around a computed maximum.
+
+        extreme  largest value so far, with its place, region and measure
 
         Returns the points (n,) of the last refinement.
         """
@@ -224,14 +261,15 @@ class RadialBody:
 
 
 def is_sheared(state: LoadedBodies) -> bool:
-    """Return whether the surface carries shear."""
+    """Return True if the surface carries a shear traction that is not zero."""
     return any(np.any(t) for name, t in state.tractions.items() if name != "pressure")
 
 
 def refuse_infinite(indenter: ShapedBody, radius: float) -> None:
-    """Raise UnsupportedScene for shear with infinite pressure.
+    """Raise UnsupportedScene for shear together with infinite pressure, at a tip or a rim.
 
-    radius  approximate contact radius [length]
+    indenter  shape of the indenter
+    radius    approximate contact radius [length]
     """
     from radial.normal.profile import profile
 
@@ -244,7 +282,7 @@ def refuse_infinite(indenter: ShapedBody, radius: float) -> None:
 
 
 def refuse_turned() -> None:
-    """Raise UnsupportedScene for shear without mirror symmetry."""
+    """Raise UnsupportedScene for a tangential load that changes direction or acts with torsion."""
     raise UnsupportedScene(
         "the tangential load changes direction or acts together with torsion: the radial solver "
         "computes the stress below loads along one line or torsion alone; use the semi-analytical "

@@ -1,4 +1,4 @@
-"""Reader of the directory of a stress: tables and meshes with units and meanings."""
+"""Reader of the output directory of a stress: tables and meshes with units and meanings."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ from contact_results.stress.files import (
 
 @dataclass(frozen=True, eq=False)
 class StoredMesh:
-    """A mesh with its fields.
+    """Mesh read from a VTU file, with its fields.
 
-    points  x, y and z into the body (n, 3) [m]
-    cells   point numbers of the corners (m, corners)
-    fields  arrays by name; the first index is the point, or the cell of cell-wise tractions
+    points  coordinates x, y and z of the points (n, 3) [m]; z points into the body
+    cells   point numbers of the corners of each cell (m, corners)
+    fields  arrays by name; the first index is the point, or the cell if tractions are cell-wise
     """
 
     points: StoredValues
@@ -40,13 +40,13 @@ class StoredMesh:
 
 @dataclass(frozen=True)
 class StoredStress:
-    """Results of a stress, as `slipstick stress` wrote them.
+    """Stress below a contact in a directory that `slipstick stress` has written.
 
-    record    content of `stress.json`: settings and largest values
-    tables    stress_maxima, stress_axis and stress_interfaces
-    section   stress and displacement in the plane of the load
-    surface   tractions
-    volume    stress and displacement in the volume; None without --volume
+    record   content of `stress.json`: settings and largest stresses
+    tables   stress_maxima, stress_axis and stress_interfaces
+    section  stress and displacement in the plane y = 0 (cells) or in the plane of the load (rings)
+    surface  tractions on the body
+    volume   stress and displacement in the volume; None without --volume
     """
 
     record: Mapping[str, Any]
@@ -57,7 +57,7 @@ class StoredStress:
 
     @property
     def convention(self) -> str:
-        """Units, axes and signs."""
+        """Text about units, axes and signs of the stored values."""
         return str(self.record["convention"])
 
 
@@ -98,6 +98,10 @@ def load_stress(directory: str | PathLike[str]) -> StoredStress:
 
 
 def _mesh(directory: Path, name: str) -> StoredMesh:
+    """Read a VTU file of a stress with the units and meanings of its fields.
+
+    name  file name
+    """
     mesh = read_mesh(directory / name)
     meanings = read_meanings(directory / MEANINGS, name)
     fields = {}

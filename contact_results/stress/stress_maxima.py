@@ -20,11 +20,15 @@ SURFACE = "surface"
 
 @dataclass(frozen=True)
 class Extreme:
-    """Largest value of a measure in a region, at a computed point.
+    """Largest value of a stress measure in a region of a body, at a computed point.
 
-    at_window_edge  whether the point is at the edge of the computed region, so that the true
+    region          whole body, surface, a layer, the base, or a side of an interface
+    measure         name of the stress measure, see `MEASURES`
+    value           largest value [force/length^2]
+    x, y, depth     place of the point [length]
+    at_window_edge  True if the point is at the edge of the computed region, so that the true
                     maximum may lie outside
-    on_edge         whether the point is on the fitted edge of the contact
+    on_edge         True if the point is on the fitted edge of the contact
     """
 
     region: str
@@ -38,7 +42,13 @@ class Extreme:
 
 
 def extremes(field: StressField, body: Body) -> tuple[Extreme, ...]:
-    """Find the largest value of every measure in every region."""
+    """Find the largest value of every stress measure in every region of a body.
+
+    Points on the fitted edge of the contact are included.
+
+    field  computed stress
+    body   lower body or indenter, in which the stress was computed
+    """
     found = {(e.region, e.measure): e for e in _extremes(field.points, field.direction, body)}
     if field.edge is not None:
         for extreme in _extremes(field.edge.points, field.direction, body):
@@ -51,6 +61,13 @@ def extremes(field: StressField, body: Body) -> tuple[Extreme, ...]:
 def _extremes(
     points: StressPoints, direction: tuple[float, float], body: Body
 ) -> Iterator[Extreme]:
+    """Yield the largest value of every stress measure in every region at the given points.
+
+    The measures of interfaces are evaluated on the upper side of each interface only.
+
+    points     stress in axes with x along `direction`
+    direction  unit vector in the axes of the scene, to which the places are transformed
+    """
     along, across = direction
     for region, inside in _regions(points, body):
         if not np.any(inside):
@@ -69,12 +86,20 @@ def _extremes(
 
 
 def layer_name(layer: int, layers: int) -> str:
-    """Return `layer 1` for the outermost layer, and `base` below the last one."""
+    """Return the name of a material of a layered body: `layer 1` for the outermost layer, or
+    `base`.
+
+    layer   index of the layer, from 0; the number of layers denotes the base
+    layers  number of layers
+    """
     return f"layer {layer + 1}" if layer < layers else "base"
 
 
 def interface_sides(body: Body) -> list[tuple[int, str, float, int]]:
-    """Return number, side, depth and material of each elastic side of every interface."""
+    """Return number, side, depth and material index of each elastic side of every interface.
+
+    Interfaces count from 1 for the outermost. A rigid base has no elastic side.
+    """
     depths = np.cumsum([layer.thickness for layer in body.layers])
     sides = []
     for k, depth in enumerate(depths.tolist()):
@@ -85,7 +110,10 @@ def interface_sides(body: Body) -> list[tuple[int, str, float, int]]:
 
 
 def _regions(points: StressPoints, body: Body) -> Iterator[tuple[str, NDArray[np.bool_]]]:
-    """Yield the regions by name, each with the mask of its points."""
+    """Yield the name of each region of a body, and the mask of the given points that lie in it.
+
+    A body without layers has the region "body" only.
+    """
     yield "body", np.ones(points.x.shape, dtype=bool)
     if not body.layers:
         return
@@ -99,11 +127,12 @@ def _regions(points: StressPoints, body: Body) -> Iterator[tuple[str, NDArray[np
 def maxima_columns(
     found: Sequence[Extreme], errors: Sequence[StatedError] | None
 ) -> dict[str, list[str]]:
-    """Return the columns of a table of the largest stresses, by heading.
+    """Return a table of the largest stresses, as columns by heading.
 
     Regions with the same maximum share a row.
 
-    errors  stated errors of `found`; None if they were left out
+    found   largest stresses
+    errors  stated errors of `found`; None if they were not computed
     """
     unit = engineering_unit(max(abs(e.value) for e in found), "Pa")
     length = engineering_unit(max(abs(x) for e in found for x in (e.x, e.y, e.depth)), "m")
