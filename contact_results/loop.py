@@ -2,13 +2,14 @@
 
 All quantities are components along the largest change of the tangential force. Symbols:
 
-- Q* is half the range of the tangential force in the cycle, - δ is half the range of the tangential
-shift, δ* that of the shift of the actuator of a test rig, - δ_g is half the opening of the loop of
-force over shift, at the mean of the extreme forces, - E_d is the energy lost to friction per cycle,
-W the normal force, - A = E_d/4Q*δ* compares E_d with the energy of a rectangular loop, - µ_e =
-E_d/4Wδ_g is the coefficient of friction of a rectangular loop with this energy and opening.
+- Q* is half the range of the tangential force in the cycle,
+- δ is half the range of the tangential shift, δ* that of the actuator of a test rig,
+- δ_g is half the opening of the loop of force over shift, at the mean of the extreme forces,
+- E_d is the energy lost to friction per cycle, W the normal force,
+- A = E_d/4Q*δ* compares E_d with the energy of a rectangular loop,
+- µ_e = E_d/4Wδ_g is the coefficient of friction of a rectangular loop with E_d and δ_g.
 
-Mindlin's loop of a sphere reaches gross slip at E_d/4Q*δ = 1/5.
+Mindlin's loop reaches gross slip at E_d/4Q*δ = 1/5.
 """
 
 from __future__ import annotations

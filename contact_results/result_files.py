@@ -67,17 +67,19 @@ def write_stress(
     errors: Sequence[StatedError] | None = None,
     accuracy: AccuracyReached | None = None,
 ) -> None:
-    """Write the stress below a contact: tables, column descriptions, meshes, figures, page,
-    summary.
+    """Write all files of the stress below a contact.
 
-    The files replace earlier ones atomically.
+    These are tables, column descriptions, meshes, figures, HTML page and summary. The files replace
+    earlier ones atomically.
 
-    state     bodies and tractions that cause the stress
-    which     "body" for the lower body, or "indenter"
-    field     computed stress
-    found     largest stresses
-    errors    stated errors of `found`; None if they were not computed
-    accuracy  requested and reached accuracy; None if none was requested
+    state         bodies and tractions that cause the stress
+    which         "body" for the lower body, or "indenter"
+    field         computed stress
+    found         largest stresses
+    directory     output directory
+    with_figures  also write figures and page
+    errors        stated errors of `found`; None if they were not computed
+    accuracy      requested and reached accuracy; None if none was requested
     """
     from contact_results.stress.files import VOLUME, write_files
     from contact_results.stress.stress_maxima import maxima_columns

@@ -65,8 +65,7 @@ def _near_gross_slip(result: Result) -> Iterator[str]:
 
 
 def _first_cycle(result: Result) -> Iterator[str]:
-    """Yield a warning about the first load cycle, which starts from the virgin state of the
-    surfaces.
+    """Yield a warning about the first load cycle, which starts from virgin surfaces.
 
     This cycle may dissipate several times the energy of later cycles. There is no warning without
     load cycles, or if the state at the end of the cycle does not depend on the number of
@@ -115,13 +114,13 @@ def _edges_left(result: semi_analytical.Result) -> Iterator[str]:
 
 
 def left_out(result: semi_analytical.Result) -> float:
-    """Estimate the pressure that flattens the roughness between cell centres, over the peak
-    pressure.
+    """Estimate the pressure that flattens the roughness between the centres of the cells.
 
-    The roughness is the height map minus its interpolation from the cell centres, within the
-    largest contact. The root mean square pressure is E* √(mean square slope) / 2 (Persson 2001)
-    with the contact modulus E*: a wave of amplitude h and wavenumber k requires E* k h / 2 (Johnson
-    1985, eq. 13.7). Returns 0 if the cells are no wider than the spacing of the height map.
+    The estimate is relative to the peak pressure. The roughness is the height map minus its
+    interpolation from the cell centres, within the largest contact. The root mean square pressure
+    is E* √(mean square slope) / 2 (Persson 2001) with the contact modulus E*: a wave of amplitude h
+    and wavenumber k requires E* k h / 2 (Johnson 1985, eq. 13.7). Returns 0 if the cells are no
+    wider than the spacing of the height map.
     """
     indenter, grid = result.scene.indenter, result.grid
     if not isinstance(indenter, HeightMap):
@@ -145,8 +144,7 @@ def left_out(result: semi_analytical.Result) -> float:
 
 
 def _points(count: int, spacing: float, within: Field) -> Field:
-    """Return the coordinates of the height-map points along one axis that lie in the contact
-    [length].
+    """Return the coordinates of the height-map points along one axis within the contact [length].
 
     count    number of map points along the axis
     spacing  distance of adjacent map points [length]

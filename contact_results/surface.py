@@ -178,8 +178,8 @@ class Rings:
     A field has the index [ring] or [ring, angle]. Without angles, the points lie on the ray in the
     direction of the load. With angles, the points cover one of two ranges:
 
-    - a half circle with both ends; the points then represent their mirror images as well, - the
-    full circle, equally spaced from 0.
+    - a half circle with both ends; the points then represent their mirror images as well,
+    - the full circle, equally spaced from 0.
 
     radii      radii of the rings, ascending (rings,) [length]
     angles     angles from the direction of the tangential load (angles,) [radian]; None if the
@@ -236,8 +236,10 @@ class Rings:
 
     @property
     def line(self) -> Line:
-        """Line of the profiles: a radius if the fields depend on the radius alone, else the
-        diameter along the load.
+        """Line of the profiles on the rings.
+
+        The line is a radius if the fields depend on the radius alone, else the diameter along the
+        load.
         """
         along_x = self.direction == (1.0, 0.0)
         load = ("x", "y") if along_x else (r"\parallel", r"\perp")

@@ -40,7 +40,7 @@ class Loop(NamedTuple):
 
     @property
     def work(self) -> float:
-        """Sum of the magnitudes of the work of the load over all increments, by the trapezoidal
+        """Sum over all increments of the magnitude of the work of the load, by the trapezoidal
         rule.
 
         Work put in and work recovered both count as positive.

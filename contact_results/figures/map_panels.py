@@ -93,8 +93,9 @@ class RingsAbove:
         return np.stack([x * along - y * across, y * along + x * across])
 
     def _polar(self) -> tuple[Field, Field]:
-        """Return radius [length] and angle from the load, in (-π, π], of every cell centre (nx,
-        ny).
+        """Return the polar coordinates of every cell centre, each of shape (nx, ny).
+
+        These are the radius [length] and the angle from the load, in (-π, π].
         """
         x, y = np.meshgrid(self.x, self.y, indexing="ij")
         cos, sin = self.rings.direction
@@ -223,13 +224,14 @@ def map_axes(figure: FigureBase, frame: MapFrame, count: int) -> list[Any]:
 
 
 def draw_cells(ax: Any, frame: MapFrame, values: NDArray[Any], **colours: Any) -> Any:
-    """Draw the values of the cells, one coloured rectangle per cell; return the image of
-    matplotlib.
+    """Draw the values of the cells, one coloured rectangle per cell.
 
     ax       axes of matplotlib
     frame    cells, limits and unit of length
     values   values of the cells (nx, ny)
     colours  arguments of `Axes.imshow`
+
+    Returns the image of matplotlib.
     """
     return ax.imshow(
         values.T, extent=frame.extent, origin="lower", interpolation="nearest", **colours

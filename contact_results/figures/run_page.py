@@ -126,7 +126,7 @@ def _write(path: Path, title: str, parts: Iterable[str]) -> None:
 
 
 def _settings(result: Result) -> Iterator[tuple[str, str]]:
-    """Yield name and text of each setting of a run: solver, tolerance, grid, increments, effects."""
+    """Yield name and text of each setting of a run, such as solver, tolerance and cells."""
     yield "solver", result.solver
     yield "tolerance of every residual", f"{result.tolerance:.3g}"
     grid = getattr(result, "grid", None)

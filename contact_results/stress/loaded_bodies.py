@@ -91,10 +91,10 @@ class LoadedBodies:
         return "radii" in self.axes
 
     def bulk_stress(self, layer: int, indenter: bool) -> Field:
-        """Return the stress that the bulk strain causes in a layer or in the base (6,)
-        [force/length^2].
+        """Return the stress that the bulk strain causes in one layer or in the base.
 
-        The stress is zero in the indenter and without bulk strain.
+        The stress has the components xx, yy, zz, yz, xz, xy (6,) [force/length^2]. It is zero in
+        the indenter and without bulk strain.
 
         layer     index of the layer, 0 for the outermost; the number of layers denotes the base
         indenter  True for the indenter, False for the lower body
@@ -136,10 +136,10 @@ def state_of_result(
 
 
 def states_of_result(result: Result) -> Iterator[tuple[int, int, LoadedBodies | None]]:
-    """Yield load step, increment, bodies and tractions at the end of every increment of a result.
+    """Yield bodies and tractions at the end of every increment of a result.
 
-    Load steps and increments within a load step count from 1. For separated bodies, the third item
-    is None.
+    Each item contains load step, increment within the load step, both from 1, and the bodies with
+    their tractions. For separated bodies, the third part is None.
     """
     for increment in result.increments:
         state = _of_result(result, increment, None) if increment.contact_area else None
@@ -186,11 +186,10 @@ def state_of_run(directory: Path, step: int | None) -> LoadedBodies:
 
 
 def states_of_run(directory: Path) -> Iterator[tuple[int, int, LoadedBodies | None]]:
-    """Yield load step, increment, bodies and tractions at the end of every increment of a stored
-    run.
+    """Yield bodies and tractions at the end of every increment of a stored run.
 
-    Load steps and increments within a load step count from 1. For separated bodies, the third item
-    is None.
+    Each item contains load step, increment within the load step, both from 1, and the bodies with
+    their tractions. For separated bodies, the third part is None.
 
     directory  directory of the run
 
@@ -323,11 +322,10 @@ def _by_increments(end: State, errors: Mapping[str, StatedError]) -> float | Non
 
 
 def _no_root(indenter: ShapedBody, friction: CoulombFriction | None) -> str | None:
-    """Return the reason why the tractions may not fall to zero like a square root at the contact
-    edge.
+    """Return the reason why the tractions may not fall like a root at the contact edge.
 
-    Returns None for a smooth indenter without rim and with uniform friction, where the tractions
-    fall like the square root of the distance from the edge.
+    For a smooth indenter without rim and with uniform friction, the tractions fall like the square
+    root of the distance from the contact edge, and the result is None.
     """
     if indenter.rim is not None:
         return "the contact ends at the rim of the indenter"

@@ -299,11 +299,10 @@ def _each_level(
 def _far_field_tractions(
     state: LoadedBodies, pressure: Field, shear: Field | None
 ) -> tuple[Field, Field | None]:
-    """Return constant tractions on cells with the same stress far from the cells as the true
-    tractions.
+    """Return constant tractions on cells that cause the true stress far from the cells.
 
     Tractions of a solver with constant tractions on cells are returned unchanged. Cell means of
-    tractions that vary within the cells are sharpened.
+    tractions that vary within the cells are sharpened, see `_sharpened`.
 
     pressure  pressure of the cells (nx, ny) [force/length^2]
     shear     shear of the cells (2, nx, ny) [force/length^2]; None without shear

@@ -77,11 +77,11 @@ def stress_on_section(state: LoadedBodies, *, indenter: bool = False) -> StressF
 
 
 def _section(field: SectionField) -> StressPoints:
-    """Return the points of both halves of the section, on the rays in and against the load
-    direction.
+    """Return the stress points of both halves of a finite element section through the z axis.
 
-    Components of the cylindrical axes become those of x, along the load, y and z. `at_edge` is
-    False everywhere, because the mesh reaches so far that it represents a half-space.
+    One half is on the ray along the load, the other on the opposite ray. The components of
+    cylindrical axes become those of x, along the load, y and z. `at_edge` is False everywhere,
+    because the mesh reaches so far that it represents a half-space.
     """
     halves = (0.0, pi)
     count = field.points.shape[1]

@@ -65,9 +65,7 @@ class StressPoints:
 
     @property
     def measures(self) -> Mapping[str, Field]:
-        """Values of the stress measures at the points (…) [force/length^2], by the names of
-        `MEASURES`.
-        """
+        """Stress measures at the points (…) [force/length^2], by the names of `MEASURES`."""
         first, _, last = self.principal
         of = self.components
         across = np.hypot(of["xz"], of["yz"])

@@ -164,8 +164,9 @@ class RadialBody:
 
     @property
     def radii(self) -> Field:
-        """Distances of the points of the section from the contact centre, denser at its edge
-        [length].
+        """Distances of the points of the section from the contact centre [length].
+
+        The points are denser at the contact edge.
         """
         inside = np.sin(0.5 * np.pi * np.arange(self.sampling.inside) / self.sampling.inside)
         beside = np.arange(self.sampling.beside + 1) / self.sampling.beside

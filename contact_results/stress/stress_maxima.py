@@ -86,10 +86,9 @@ def _extremes(
 
 
 def layer_name(layer: int, layers: int) -> str:
-    """Return the name of a material of a layered body: `layer 1` for the outermost layer, or
-    `base`.
+    """Return the name of a material of a layered body, such as `layer 1` or `base`.
 
-    layer   index of the layer, from 0; the number of layers denotes the base
+    layer   index of the layer, 0 for the outermost; the number of layers denotes the base
     layers  number of layers
     """
     return f"layer {layer + 1}" if layer < layers else "base"
