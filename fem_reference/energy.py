@@ -97,7 +97,7 @@ def _changed(name: str, before: Increment | None, increment: Increment) -> Field
         now = getattr(increment, f"{name}_{component}")
         last = getattr(before, f"{name}_{component}", None)
         if now is not None:
-            # A field without angles so far is axisymmetric.
+            # A previous field without angles is axisymmetric.
             start = np.zeros_like(now) if last is None else last
             changes.append(now - (start[:, None] if start.ndim < now.ndim else start))
     return np.asarray(np.hypot.reduce(np.abs(changes), axis=0))

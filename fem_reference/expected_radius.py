@@ -25,15 +25,15 @@ from fem_reference.model import ContactModel, outermost_modulus
 from fem_reference.plan import plan
 from fem_reference.scales import Scales
 
-# Elements per radius of the first mesh of bodies with layers that are not thick.
+# Elements per radius of the coarse mesh for bodies with layers that are not thick.
 COARSE = 8
 GROWTH, TOO_SMALL = 1.5, 0.5
 MAX_TRIALS = 30
 COARSE_TOLERANCE = 1e-8
-# In contact radii. Coatings much stiffer than their substrate require far larger sections, and more
-# work, for stresses; the radius does not.
+# Largest outer radius of the coarse mesh, in contact radii. Coatings much stiffer than their
+# substrate require larger sections for accurate stresses, but not for the contact radius.
 LARGEST_COARSE_BOX = 1e4
-# In contact radii: the material below a thicker layer has hardly any effect on the contact.
+# Layer thickness in contact radii, above which the material below the layer is neglected.
 DEEP = 100.0
 
 

@@ -5,12 +5,13 @@ import numpy as np
 from contact_scene.machine import available_bytes
 from contact_scene.solver_errors import ResourceRefused
 
-# Entries of both factors per component, unknown and bisection of the mesh; with unknown pressures.
+# Entries of both factors, divided by components × unknowns × log2(unknowns): without, and with
+# unknown pressures.
 FILL, FILL_WITH_PRESSURE = 5.0, 11.0
 BYTES_PER_ENTRY = 24  # values and indices, and a copy during the condensation on the contact zone
 COPIES_OF_ELEMENTS = 8
-# Of a whole run: libraries, figures, and the measured fraction of the bound that factors use, for
-# sections from 2000 to 13 000 elements.
+# Memory of a whole run: libraries [byte], figures [byte], and the measured ratio of the memory in
+# use to the estimate for the factors, for sections of 2000 to 13 000 elements.
 LIBRARIES = 85 << 20
 DRAWING = 60 << 20
 PART_IN_USE = 0.62

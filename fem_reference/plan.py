@@ -18,15 +18,15 @@ from contact_scene.reading.scene_text import shape_text
 from contact_scene.solver_errors import UnsupportedScene
 from contact_scene.stepping.load_path import first_direction
 
-# Largest ratio of shear moduli within a body. Above it the stiffness matrix loses the softest
-# material.
+# Largest ratio of shear moduli within a body. Above this ratio the stiffness of the softest
+# material is lost in round-off.
 MAX_CONTRAST = 1e8
 ROUND_OFF = 1e-9
-# Increments of a path-dependent step. Errors are proportional to their inverse.
+# Number of increments of a path-dependent load step. Errors are proportional to its inverse.
 PATH_INCREMENTS = 20
 LARGEST_SHARE = 0.05
 
-# Largest sine of an angle between loads along one line, with round-off.
+# Largest sine of the angle between two loads that count as parallel, because of round-off.
 STRAIGHT = 1e-9
 
 

@@ -10,8 +10,8 @@ import numpy as np
 
 from contact_scene.array_types import Field
 
-# Least slip over the displacement of the surfaces that has a direction. Less slip is measured
-# relative to the displacement.
+# Least ratio of slip to the displacement of the surfaces for which the direction of slip is
+# defined. Smaller slip is measured relative to the displacement.
 LEAST_SLIP = 1e-3
 
 

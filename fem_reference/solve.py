@@ -26,8 +26,8 @@ Progress = Callable[[Increment], None]
 
 GROWTH = 1.2
 MAX_ENLARGEMENTS = 8
-# Largest ratio of the radius of the mesh to the contact radius found. Above it most fine elements
-# lie outside of the contact.
+# Largest ratio of the radius of the mesh to the computed contact radius. Above this ratio most fine
+# elements are outside of the contact, and the scene is solved again on another mesh.
 TOO_LARGE = 1.5
 
 

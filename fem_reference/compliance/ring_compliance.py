@@ -87,7 +87,8 @@ def ring_compliance(
                 for j, b in enumerate(condensed.motion.components):
                     A[a, :, b] = basis.compliance(condensed.matrix[i, :, j])
     else:
-        # Without coupling: normal compliance, and that of the one component of shear, if any.
+        # Without coupling only the normal compliance is required, and that of the one component of
+        # shear, if there is one.
         (A,) = harmonics
         A[Z, :, Z] = basis.compliance(model.compliance(0).matrix[1, :, 1])
         if path is Path.TWISTING:

@@ -28,13 +28,14 @@ from contact_scene.body import Body
 
 Beyond = tuple[float, ...]
 
-# Distance of the edge from the last ring, in elements, as a polynomial in the ratio of the last two
-# values: a cubic through plane contact, with an error of 2e-5. A ring just passed by the edge has
-# no pressure, so the edge is at most `FURTHEST` beyond the last ring with pressure.
+# Distance of the edge from the last ring with pressure, in elements: coefficients of a cubic in the
+# ratio of the last two values, fitted to plane contact with an error of 2e-5. A ring that the edge
+# has just passed has no pressure yet. The distance is therefore limited by `FURTHEST`.
 BEYOND = (0.02807, 1.00215, 0.12215, 0.01960)
 
-# Correction for square elements: powers of the ratio by rows, of Poisson's ratio by columns. It is
-# extrapolated from Hertz contacts with 36 and 72 elements over the radius, with an error of 3e-4.
+# Correction of these coefficients for square elements. Rows are powers of the ratio, columns powers
+# of Poisson's ratio. The correction is extrapolated from Hertz contacts with 36 and 72 elements per
+# contact radius, with an error of 3e-4.
 BY_ELEMENTS = (
     (0.0173, -0.0439, -0.0072),
     (-0.0019, 0.0013, 0.0011),
@@ -43,12 +44,14 @@ BY_ELEMENTS = (
 )
 FURTHEST = 1.05
 
-# The previous two values distinguish the powers: their ratio is at most 0.54 for 3/2 and at least
-# 0.77 for 1/2. For 3/2, the last ratio has this value if the edge is at the next ring.
+# Values may decrease to zero like the distance to the power 1/2 or 3/2. The ratio of the preceding
+# two values distinguishes the powers: it is at most 0.54 for 3/2 and at least 0.77 for 1/2.
+# For 3/2, the ratio of the last two values is AT_NEXT_RING if the edge is at the next ring.
 GAINING = 0.66
 AT_NEXT_RING = 0.3
 
-# At Gauss points: distances of the fitted points from the last one, in elements, and least number.
+# Fit at Gauss points: least and largest distance of fitted points from the last point with a
+# positive value, in elements, and least number of points.
 FITTED = (1.2, 5.9)
 FEWEST = 5
 
@@ -208,8 +211,8 @@ def stick_area(
         area = pi * min(outer, contact_radius) ** 2
     for ring in np.flatnonzero(stuck[1:] != stuck[:-1]).tolist():
         at, beside, step = (ring, ring + 1, 1) if stuck[ring] else (ring + 1, ring, -1)
-        # Difference from slip in the direction of the adjacent ring: after a reversal the other
-        # limit may be nearer.
+        # Difference from the friction limit in the direction of the shear of the adjacent slipping
+        # ring. After a load reversal the limit in the opposite direction may be nearer.
         direction = shear[:, beside] / (np.hypot.reduce(shear[:, beside]) or 1.0)
         missing = bound - direction @ shear
         area += step * pi * at_stick.radius(radii, missing, at, step) ** 2

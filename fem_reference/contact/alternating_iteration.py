@@ -32,7 +32,7 @@ from fem_reference.loads import NormalTarget, TangentialTarget
 from fem_reference.residuals import over
 
 MAX_TURNS = 60
-LOOSEST = 1e-4  # first tolerance of the shear
+LOOSEST = 1e-4  # tolerance of the shear in the first iterations
 REMEMBERED = 30
 DEPENDENT = 1e-10  # relative size of a difference below which it depends linearly on the others
 
@@ -290,5 +290,5 @@ class _Anderson:
         if self._force is None:
             return np.asarray(guess)
         carried = float(np.sum(self._areas * guess))
-        # An extrapolation without any pressure is not usable.
+        # An extrapolation without any pressure cannot carry the force.
         return np.asarray(guess * (self._force / carried)) if carried > 0 else answer

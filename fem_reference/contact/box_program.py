@@ -26,8 +26,8 @@ from contact_scene.solver_errors import NotConverged
 Sides = NDArray[np.int8]
 
 MAX_STEPS = 60
-MAX_RELEASES = 50  # per component
-# Over the largest value: smaller violations of a bound are round-off.
+MAX_RELEASES = 50  # steps of the primal active-set method, per component
+# Violation of a bound over the largest value, below which the violation is round-off.
 ROUND_OFF = 1e-13
 
 

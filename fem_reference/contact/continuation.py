@@ -24,12 +24,12 @@ from fem_reference.contact.natural_map import Equations, Iterate
 
 MAX_STEPS = 1000
 SOFT = 10.0  # initial compliance of the springs over that of the bodies at a point
-ON_PATH = 1e-7  # residual on the path
+ON_PATH = 1e-7  # tolerance of the residual norm on the path, before its end
 FIRST_LENGTH, SHORTEST, LONGEST = 0.05, 1e-7, 1.0
 BEYOND_KINK = 1e-6  # relative distance of the search on the other side of a kink
 MAX_CORRECTIONS = 8
 GROWTH = 1.5
-LITTLE_FRICTION = 0.1  # least divisor of the error of shear, over the pressure
+LITTLE_FRICTION = 0.1  # least friction coefficient in the unit of the shear
 
 
 def solve_by_continuation(

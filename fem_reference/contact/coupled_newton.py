@@ -24,7 +24,7 @@ from fem_reference.contact.natural_map import Equations, Iterate
 
 MAX_STEPS = 200
 MAX_HALVINGS = 7
-REMEMBERED = 4  # residuals; a step below the largest of them is not shortened
+REMEMBERED = 4  # number of last residuals; a step to less than their maximum is not shortened
 SUFFICIENT = 1e-3
 
 

@@ -6,8 +6,8 @@ from contact_scene.array_types import Mask
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import GrossSliding
 
-# Relative distance from the friction limit of a force that counts as gross slip. The remaining
-# stick zone, with a radius of 1 % (the cube root), is smaller than an element.
+# Relative distance from the friction limit within which a load counts as gross slip. The radius of
+# the remaining stick zone is 1 % of the contact radius (the cube root), less than an element.
 AT_LIMIT = 1e-6
 
 

@@ -43,11 +43,11 @@ MAX_ATTEMPTS = 4
 # Relative change of the pressure by an alternating iteration, below which Newton's method starts.
 # From 1e-2 to 1e-4 the time of an increment varies by 25 %.
 NEAR = 1e-3
-# Over the approach: smaller tangential displacements are round-off of uncoupled bodies.
+# Smallest tangential displacement over the approach that is not round-off of uncoupled bodies.
 ROUND_OFF = 1e-6
-# Overlap over approach, up to which springs have no visible effect on the edge of the contact.
+# Largest ratio of overlap to approach at which penalty springs do not affect the contact edge.
 AT_EDGE = 5e-3
-# Largest ratio of the zone of equal elements of a mesh to its contact.
+# Largest ratio of the radius of the zone of equal elements to the contact radius.
 WIDEST_ZONE = 1.25
 
 
@@ -69,7 +69,7 @@ def advance(
     increment = _Increment(contact, before, loads, tolerance)
     passes = [increment.first()]
     if contact.penalty is not None:
-        # Stiff springs need one update at Gauss points to reach the accuracy of the mesh.
+        # With stiff springs at Gauss points, one update is necessary for the accuracy of the mesh.
         fewest = int(contact.at_gauss_points)
         passes = augmented(passes[0], increment.again, increment.left, contact.penalty, fewest)
     return increment.state(passes)
@@ -272,7 +272,8 @@ class _Increment:
         """
         contact, before, loads = self.contact, self.before, self.loads
         compliance = contact.compliance
-        # At Gauss points the strain remaining in springs is omitted: bodies cannot follow it.
+        # At Gauss points the strain of the springs at the start is omitted, because the
+        # displacements of the bodies cannot follow it.
         strained = 0.0 if contact.at_gauss_points else before.shear - before.multiplier[:2]
         memory = before.displacement + compliance.springs * (multiplier[:2] + strained)
         problem = CoupledProblem(
@@ -319,14 +320,14 @@ class _Increment:
         """
         compliance, motion = problem.compliance, solution.shift
         if motion is None and not np.any(problem.bound(solution.pressure)):
-            # Without any friction limit the indenter does not move.
+            # Without friction at any point the motion of the indenter is indeterminate and is kept.
             motion = self.before.motion
         u_t, u_z = compliance.displacement(solution.pressure, solution.shear)
         passed = np.zeros_like(u_t)
         if motion is not None:
             passed = motion * compliance.motion + problem.target - u_t
         gap = problem.gap + u_z - solution.approach
-        # The strain of the springs is no displacement of the bodies.
+        # The tangential strain of the springs is not a displacement of the bodies.
         displacement = u_t - compliance.springs * solution.shear
         residuals = self._residuals(problem, solution, gap, passed if motion is not None else None)
         return _Pass(

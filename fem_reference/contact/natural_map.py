@@ -18,7 +18,7 @@ import numpy as np
 from contact_scene.array_types import Field, Mask, Matrix, Vector
 from fem_reference.contact.alternating_iteration import CoupledProblem, CoupledSolution
 
-LEAST_FRICTION = 1e-6  # least divisor of the error of shear, over the pressure
+LEAST_FRICTION = 1e-6  # least friction coefficient by which the residual of shear is divided
 
 
 @dataclass(frozen=True)
@@ -83,7 +83,7 @@ class Equations:
         safe = np.where(length > 0, length, 1.0)
         normal = np.where(in_slip, z_t / safe, 0.0)
         factor = np.where(in_slip, bound / safe, 1.0)
-        # Outside of contact p and q are zero: their rows of the derivative are those of the
+        # Outside of the contact the equations are p = 0 and q = 0. Their derivative is the
         # identity.
         on = np.flatnonzero(z_z > 0)
         points, count = np.arange(len(on)), 3 * n + 3

@@ -23,7 +23,7 @@ from fem_reference.memory import require_memory
 from fem_reference.model import ContactModel
 from fem_reference.plan import Path
 
-COPIES = 4  # of the matrix between all points, during its assembly and restriction
+COPIES = 4  # copies of the compliance matrix of all points during assembly and restriction
 
 
 @dataclass(frozen=True)

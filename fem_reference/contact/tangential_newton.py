@@ -16,9 +16,10 @@ from fem_reference.contact.admissible_shear import project
 from fem_reference.loads import TangentialTarget
 
 MAX_STEPS = 100
-# Below, the energy along a step is round-off, and a Newton step is taken without line search.
+# Relative residual below which the decrease of the energy is round-off. Newton steps are then
+# taken without line search.
 ENERGY_ROUND_OFF = 1e-5
-# Least fraction of the limit at which the shear is a scale of its own error.
+# Least shear, as a fraction of the friction limit, to which the residual is relative.
 LEAST_SHEAR = 1e-6
 GRADIENT_STEPS = 2
 

@@ -20,7 +20,7 @@ from fem_reference.elasticity.motion import Motion
 from fem_reference.mesh.section_mesh import SectionMesh
 
 PACKAGE = Path(__file__).resolve().parents[1]
-# Folders that determine a compliance to the last bit, from the mesh to the condensed matrix.
+# Folders whose source code determines a compliance matrix to the last bit.
 FOLDERS = ("mesh", "elasticity")
 
 

@@ -19,7 +19,7 @@ Indices = NDArray[np.int64]
 EVERYWHERE = slice(None)
 
 BLOCK = 64
-"""Right-hand sides solved at once: more need more memory and are not faster."""
+"""Number of right-hand sides that are solved at once. More need more memory and save no time."""
 
 
 class FactoredSection:
@@ -53,7 +53,7 @@ class FactoredSection:
             matrix, np.zeros_like(prescribed), prescribed, I=self._numbering.order
         )
         self._lu = splu(
-            inner.T,  # symmetric, and by columns
+            inner.T,  # the symmetric matrix, stored by columns
             permc_spec="NATURAL",
             diag_pivot_thresh=0.0,
             options={"SymmetricMode": True},

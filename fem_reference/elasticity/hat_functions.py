@@ -15,7 +15,8 @@ from skfem import Basis, BilinearForm, ElementLineP1, ElementLineP2, LinearForm,
 
 from contact_scene.array_types import Field, Matrix
 
-# Order of the integrals: exact for the products below, and for smooth gaps to round-off.
+# Order of the quadrature. It is exact for the products of basis functions, and accurate to
+# round-off for smooth gaps.
 ORDER = 11
 SAME = 1e-9
 
@@ -100,7 +101,7 @@ def hats_on(nodes: Field, reach: float = np.inf) -> Hats:
     outwards = np.argsort(traces.doflocs[0])
     products = np.zeros((len(nodes), len(radii)))
     products[: traces.N] = product.assemble(hats, traces).toarray()[outwards]
-    # The sum of the quadratics is 1.
+    # The sum of all quadratic trace functions is 1, so that a column sum is the integral of a hat.
     return Hats(radii, products, products.sum(axis=0), _integrals(hats, lambda r: r))
 
 

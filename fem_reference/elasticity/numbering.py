@@ -18,7 +18,7 @@ from fem_reference.mesh.section_mesh import SectionMesh
 Indices = NDArray[np.int64]
 Dofs = NDArray[np.int32]
 
-LEAF = 4  # elements that are not divided further
+LEAF = 4  # number of elements in a subtree that is not divided further
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,7 +15,7 @@ from skfem.refdom import RefQuad
 from fem_reference.mesh.section_mesh import SectionMesh
 
 EXACT = 5
-"""Order of the 3 x 3 Gauss points, which integrate every energy exactly."""
+"""Order of the quadrature with 3 x 3 Gauss points, which integrates every energy exactly."""
 
 
 class ElementQuadLinear(Element):  # type: ignore[misc]

@@ -24,10 +24,10 @@ from fem_reference.elasticity.section_basis import pressure_basis
 from fem_reference.mesh.section_mesh import SectionMesh
 
 Components = tuple[int, ...]
-"""Which of u_r (0), u_theta (1) and u_z (2) take part."""
+"""Indices of the displacement components in a motion: u_r (0), u_theta (1), u_z (2)."""
 
 STIFFEST = 1e4
-"""Largest lambda / mu of an element whose pressure is no unknown."""
+"""Largest ratio lambda / mu of Lamé's constants for which the pressure is not an unknown."""
 
 NORMAL = ("rr", "tt", "zz")
 
@@ -66,7 +66,8 @@ def element_stiffness(
     """
     strain = _strains_of(basis, harmonic, components)
     volume = _projected_volume(basis, strain)
-    # The distortional energy 2 mu e : e contains the shear g = 2 e of two entries once.
+    # An engineering shear strain g = 2 e occurs in two entries of e, so that the energy
+    # 2 mu e : e contains mu g^2.
     weight = np.sqrt(shear_moduli(section)[:, None] * basis.dx)[:, None]
     for name, field in strain.items():
         field *= np.sqrt(2.0) * weight if name in NORMAL else weight

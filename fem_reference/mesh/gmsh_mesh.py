@@ -30,7 +30,7 @@ DEBIAN_PACKAGES = (
 )
 
 FAR_ELEMENTS = 8
-"""Along the far sides of the box: there elements are about as large as graded ones are."""
+"""Number of elements along a far side of the box. Graded elements have about this size there."""
 
 _FRONTAL_FOR_QUADS, _SIMPLE_WITH_QUADS_ONLY = 8, 2
 OPTIONS = {
@@ -38,7 +38,7 @@ OPTIONS = {
     "Mesh.Algorithm": _FRONTAL_FOR_QUADS,
     "Mesh.RecombinationAlgorithm": _SIMPLE_WITH_QUADS_ONLY,
 }
-_QUADRILATERAL = 3  # gmsh's number of the element with four nodes
+_QUADRILATERAL = 3  # gmsh's number for the type of the quadrilateral with 4 nodes
 
 
 class GmshMissing(SolverError):
@@ -62,13 +62,13 @@ def gmsh_section_mesh(
         kinds, cells, corners = gmsh.model.mesh.getElements(2)
     found = {int(kind): len(cell) for kind, cell in zip(kinds, cells, strict=True)}
     if set(found) != {_QUADRILATERAL}:
-        # A reader of quadrilaterals would omit other elements and leave holes in the section.
+        # Other elements would be omitted below and leave holes in the section.
         raise SolverError(f"gmsh made elements other than quadrilaterals, by type: {found}")
     place = np.zeros(int(tags.max()) + 1, dtype=np.int64)
     place[tags] = np.arange(tags.size)
     points = coordinates.reshape(-1, 3)[:, :2].T.copy()
     for axis, lines in ((0, (0.0, outline.box)), (1, (0.0, *outline.interfaces))):
-        for line in lines:  # gmsh computes points on a line, to round-off
+        for line in lines:  # gmsh places points on a line with round-off errors
             points[axis, np.abs(points[axis] - line) < 1e-12 * outline.box] = line
     contact = (points[1] == 0.0) & (points[0] < outline.zone + outline.size / 2.0)
     points[0, contact] = np.round(points[0, contact] / outline.size) * outline.size
@@ -114,7 +114,10 @@ def _restore_broken_pipes() -> None:
 
     gmsh replaces Python's handler, so that a broken pipe would terminate the process.
     """
-    if threading.current_thread() is threading.main_thread():  # others must not change handlers
+    if (
+        threading.current_thread() is threading.main_thread()
+        # Python permits a change of signal handlers in the main thread only.
+    ):
         signal.signal(signal.SIGPIPE, signal.getsignal(signal.SIGPIPE))
 
 

@@ -12,11 +12,13 @@ from contact_scene.solver_errors import SolverError
 from fem_reference.mesh.section_outline import CONTACT_ZONE, SectionOutline, graded, section_outline
 
 SHRINK, SHRINKS = 1 / 4, 8
-"""Of the elements towards an edge of the tractions, each to the one before: the stress there falls
-like the root of the distance, and 1.5e-5 of an element leaves 0.4 % of what an element would."""
+"""Ratio of successive distances of mesh lines from an edge of the tractions, and number of lines.
+
+The stress varies like the root of the distance from the edge. A smallest element of 4^-8 = 1.5e-5
+of the regular size has 0.4 % (the root) of the error of a regular element."""
 
 CLOSEST = 0.25
-"""Of lines, in distances from the next edge."""
+"""Least spacing of adjacent mesh lines, over their distance from the nearest edge of tractions."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,22 +10,23 @@ from contact_scene.material import IsotropicMaterial
 from contact_scene.solver_errors import SolverError, UnsupportedScene
 
 GROWTH = 1.2
-"""Ratio of neighbouring elements away from the contact."""
+"""Ratio of the sizes of neighbouring elements outside the contact zone."""
 
 CONTACT_ZONE = 1.1
-"""Equal elements reach at least to this multiple of the contact radius."""
+"""Least outer radius of the zone of equal elements, in contact radii."""
 
 LAYER_ELEMENTS = 2
-"""Fewest elements across a layer. Two are five quadratic nodes: enough for a film that bends and
-shears while the load varies over many thicknesses, and a thicker one gets more."""
+"""Least number of elements across a layer. Two elements have five nodes. They suffice for bending
+and shear of a film under a load that varies over many thicknesses. Thicker layers have more."""
 
 SMALLEST_BOX = 2.0
 THINNEST_LAYER = 1e-4
-"""In units of the element beside it: flatter elements than that spoil the matrix."""
+"""Least layer thickness, in element sizes of the contact zone. Flatter elements cause an
+ill-conditioned matrix."""
 
 DEEPEST_LAYERS = 1e6
-"""In contact radii: what lies below moves the surface by a millionth of what the contact does, and
-elements down to it take memory and time without end."""
+"""Largest total thickness of layers, in contact radii. Material at greater depth contributes 1e-6
+of the surface displacement, and elements down to this depth take much memory and time."""
 
 
 @dataclass(frozen=True)

@@ -33,7 +33,7 @@ from fem_reference.stress.section_field import Amplitude
 Indices = NDArray[np.int64]
 
 ORDER = ("rr", "tt", "zz", "tz", "rz", "rt")
-"""As in CONVENTIONS at theta = 0."""
+"""Order of the stress components. At theta = 0 it is the order of CONVENTIONS."""
 
 GAUSS = 0.5 + np.array([-0.5, 0.5]) / np.sqrt(3.0)
 

@@ -14,7 +14,7 @@ from fem_reference.elasticity.motion import Motion
 Indices = NDArray[np.int64]
 
 AS_SINE = (3, 5)
-"""Components of the stress that go as sin n theta: tz and rt."""
+"""Indices of the stress components that are ∝ sin n theta: tz and rt."""
 
 SAME_DEPTH = 1e-9
 

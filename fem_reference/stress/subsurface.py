@@ -24,7 +24,7 @@ from fem_reference.stress.section_field import SectionField
 from fem_reference.stress.surface_tractions import SurfaceTractions
 
 POINTS_BETWEEN = 4
-# Amplitudes below this fraction of the largest are round-off.
+# Ratio of a traction amplitude to the largest one, below which the amplitude is round-off.
 ROUND_OFF = 1e-12
 
 

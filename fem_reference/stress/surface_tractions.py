@@ -25,12 +25,12 @@ from fem_reference.compliance.ring_edge import (
 from fem_reference.elasticity.motion import PRESSING, SHEARING, TORSION, Motion, motion
 from fem_reference.fields import Increment
 
-# The last element with pressure does not determine the smooth factor. Hats that do not end at the
-# edge have oscillating errors before it, with a factor of -0.3 from ring to ring: a line and this
-# oscillation are fitted to this number of elements before the last.
+# The smooth factor near the edge is fitted without the last element with pressure. Hat functions
+# that do not end at the edge have oscillating errors, with a factor of -0.3 from ring to ring. A
+# line and this oscillation are fitted to FITTED elements before the last.
 FITTED, OSCILLATION = 8, -0.3
 FEWEST_RINGS = 4
-BETWEEN_RAYS = 2  # rays of the tractions per computed ray
+BETWEEN_RAYS = 2  # number of rays for the tractions per ray of the solution
 
 
 @dataclass(frozen=True, eq=False)
