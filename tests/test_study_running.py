@@ -280,7 +280,7 @@ def test_a_study_that_is_stopped_leaves_no_record_of_an_earlier_one(
     stored(tmp_path, "coated-tractions")
     directory = tmp_path / "coated-tractions"
 
-    def stopped(*_: object) -> None:
+    def stopped(*_: object, **__: object) -> None:
         assert stored_studies(tmp_path) == ()
         raise KeyboardInterrupt
 
