@@ -1,4 +1,4 @@
-"""Kernels between rings of tractions of harmonic m on a half-space, in closed form.
+"""Kernels between rings of tractions of angular harmonic m on a half-space, in closed form.
 
 G_m(r, s) = ∫₀^∞ J_m(kr) J_m(ks) dk = Q_{m-½}(χ)/(π√(rs)), χ = (r² + s²)/(2rs) (Watson, Bessel
 Functions 13.22), is logarithmic at r = s. It is computed with the recurrence of Q in its stable
@@ -6,6 +6,8 @@ direction. Two other integrals follow:
 
     ∫₀^∞ J_{m-1}(kr) J_{m+1}(ks) dk = (2m-1) G_{m-1} - 2m (r/s) G_m
     ∫₀^∞ J_m(kr) J_{m+1}(ks) dk     = r^m / s^{m+1} for r < s, else 0
+
+`ring_energies` integrates these kernels over the rings.
 """
 
 from __future__ import annotations
@@ -24,9 +26,13 @@ UPWARDS, ROUND_OFF = 3.0, 18.0
 
 
 def equal_order(highest: int, r: Array, s: Array, apart: Array) -> Array:
-    """Return G_m for m = 0 … highest, r > 0 and s > 0, shape (highest + 1, …) [1/length].
+    """Compute the kernels G_m = ∫₀^∞ J_m(kr) J_m(ks) dk for m = 0 … highest [1/length].
 
-    apart  |r - s|, given separately to avoid cancellation
+    The shape is (highest + 1, …).
+
+    highest  largest m
+    r, s     radii of pairs of points, above 0 (…) [length]
+    apart    |r - s|, given separately to avoid cancellation (…) [length]
     """
     total = r + s
     small = (apart / total) ** 2
@@ -59,7 +65,19 @@ def _upwards(
     whole: Array,
     small: Array,
 ) -> None:
-    """Compute G_m, m ≥ 1, for r near s: (m+½) Q_{m+½} = 2mχ Q_{m-½} - (m-½) Q_{m-3/2}."""
+    """Compute the kernels G_m, m ≥ 1, of pairs with r near s, by the upward recurrence.
+
+        (m+½) Q_{m+½} = 2mχ Q_{m-½} - (m-½) Q_{m-3/2}
+
+    The result is written into `found`, which contains G_0.
+
+    found          kernels of all pairs (highest + 1, …)
+    near           true for the pairs to be computed (…)
+    chi            χ = (r² + s²)/(2rs) of these pairs
+    moment, total  r s and r + s of these pairs
+    whole          complete elliptic integral K of the modulus √(1 - `small`)
+    small          (r - s)²/(r + s)² of these pairs
+    """
     if len(found) > 1:
         once = 2 * chi * moment / total * whole - total * ellipe(1 - small)
         found[1, near] = once / (np.pi * moment)

@@ -6,8 +6,9 @@ these variables. Layers add
 
     ∫ k dk ¼[(F_11 + F_sh)(P² + Q²) + 2 (F_sh - F_11) P Q] + ½ C (P - Q) p + F_22 p²
 
-where letters denote transforms. The closed forms and their combination originate here.
-Weber–Schafheitlin integrals (DLMF 10.22.56) verify them.
+where P, Q, p denote transforms, and F and C are the frequency responses of the layers. The closed
+forms and their combination originate here. Weber–Schafheitlin integrals (DLMF 10.22.56) verify
+them.
 """
 
 from __future__ import annotations
@@ -26,14 +27,16 @@ from radial.tangential.ring_energies import (
 def ring_compliance(
     coupling: Coupling, nodes: tuple[float, ...], radius: float, highest: int
 ) -> Array:
-    """Compute the Galerkin matrices of hat functions, symmetric.
+    """Compute the symmetric Galerkin matrices of hat functions on rings, for every harmonic.
 
-    Their shape is (M + 1, 3, 3, n + 1, n + 1) [length^6/force]: displacement along the row's
-    direction, integrated with its hat and r dr, by the column's traction. The directions are r, θ,
-    z. Harmonic 0 of q_θ is torsion, which is not coupled to r and z.
+    Their shape is (M + 1, 3, 3, n + 1, n + 1) [length^6/force]. An entry is the displacement by the
+    traction of the column, along the direction of the row, integrated with the hat of the row and r
+    dr. The directions are r, θ, z. Harmonic 0 of q_θ is torsion, which is not coupled to r and z.
 
-    nodes    x = r/radius, from 0 on
-    highest  M
+    coupling  elastic response of both bodies
+    nodes     x = r/radius, from 0 on (n + 1,)
+    radius    unit of the nodes [length]
+    highest   highest harmonic M
     """
     unit = unit_energies(nodes, highest)
     found = np.zeros((highest + 1, 3, 3, len(nodes), len(nodes)))
@@ -62,9 +65,10 @@ def ring_compliance(
 
 
 def _of_layers(coupling: Coupling, nodes: tuple[float, ...], radius: float, highest: int) -> Array:
-    """Return the contribution of layers to PP, QQ, PQ, zz, zP and zQ (M + 1, 6, n + 1, n + 1).
+    """Compute the contribution of layers to the Galerkin matrices of PP, QQ, PQ, zz, zP and zQ.
 
-    Lengths are in units of the radius.
+    P = q_r - q_θ and Q = q_r + q_θ are sums of shear components, z is the pressure. The shape is (M
+    + 1, 6, n + 1, n + 1), and lengths are in units of the radius.
     """
     found = np.zeros((highest + 1, 6, len(nodes), len(nodes)))
     waves = coupling.bodies.waves(radius, max(1.0, nodes[-1]))

@@ -1,8 +1,9 @@
 """Galerkin integrals of hat functions on rings, for each harmonic, on a unit half-space.
 
-The integrals ∬ φ_i K φ_j r s dr ds have hats φ that are linear between nodes x = r/a. Pairs of
-elements with a common node use Duffy's triangles, other pairs Gauss quadrature. The error is below
-1e-10 if the widths of adjacent elements differ by less than a factor of 2.5.
+The integrals ∬ φ_i K φ_j r s dr ds contain a kernel K of `harmonic_kernels` and hats φ that are
+linear between nodes x = r/a. Pairs of elements with a common node use Duffy's triangles, other
+pairs Gauss quadrature. The error is below 1e-10 if the widths of adjacent elements differ by less
+than a factor of 2.5.
 """
 
 from __future__ import annotations
@@ -33,11 +34,14 @@ MAX_AT_ONCE = 1 << 21  # numbers: 16 MiB
 
 
 class Unit(NamedTuple):
-    """Galerkin integrals of hats i and j (harmonics, n + 1, n + 1), lengths in units of the radius.
+    """Galerkin integrals of hats i and j on rings, for kernels of all harmonics.
 
-    equal_order  of G_m, m = 0 … M + 1
-    shifted      of ∫ J_{m-1}(kr_i) J_{m+1}(ks_j) dk, m = 1 … M; for m = 0 it is -equal_order[1]
-    stepped      of ∫ J_m(kr_i) J_{m+1}(ks_j) dk, m = 0 … M
+    The shapes are (harmonics, n + 1, n + 1). Lengths are in units of the radius.
+
+    equal_order  kernel G_m = ∫ J_m(kr_i) J_m(ks_j) dk, m = 0 … M + 1
+    shifted      kernel ∫ J_{m-1}(kr_i) J_{m+1}(ks_j) dk, m = 1 … M; the entry m = 0 is
+                 -equal_order[1]
+    stepped      kernel ∫ J_m(kr_i) J_{m+1}(ks_j) dk, m = 0 … M
     """
 
     equal_order: Array
@@ -47,7 +51,11 @@ class Unit(NamedTuple):
 
 @lru_cache(maxsize=CACHED)
 def unit_energies(nodes: tuple[float, ...], highest: int) -> Unit:
-    """Compute the integrals for nodes 0 = x_0 < … < x_n and harmonics 0 … M = highest."""
+    """Compute the Galerkin integrals of hat functions on rings for all harmonics.
+
+    nodes    radii 0 = x_0 < … < x_n over the unit of length
+    highest  highest harmonic M
+    """
     x = np.array(nodes)
     size = (len(x), len(x))
     products = np.zeros((highest + 2, *size))
@@ -72,13 +80,23 @@ def unit_energies(nodes: tuple[float, ...], highest: int) -> Unit:
 
 
 def _shapes(x: Array, element: Numbers, r: Array) -> tuple[Array, Array]:
-    """Return the hats of an element's inner and outer node at points (elements, points)."""
+    """Evaluate the hats of the inner and the outer node of elements at points (elements, points).
+
+    x        nodes
+    element  index of each element
+    r        points in each element (elements, points)
+    """
     inner, outer = x[element, None], x[element + 1, None]
     return (outer - r) / (outer - inner), (r - inner) / (outer - inner)
 
 
 def _pairs(x: Array) -> Iterator[Pairs]:
-    """Yield pairs of points r < s: elements (k,) of each, and r, s, s - r, weights (k, points)."""
+    """Yield quadrature points r < s of all pairs of elements, in groups with equal quadrature.
+
+    A group contains the elements of r and of s (k,), and r, s, s - r and weights (k, points).
+
+    x  nodes
+    """
     count = len(x) - 1
     length = np.diff(x)
     each = np.arange(count)
@@ -107,14 +125,24 @@ def _pairs(x: Array) -> Iterator[Pairs]:
 
 
 def _square(first: int, second: int) -> tuple[Array, Array, Array]:
-    """Return Gauss points and weights of the unit square, flattened."""
+    """Return Gauss points and weights of the unit square, as flat arrays.
+
+    first, second  number of points in each direction
+    """
     v, of_v = unit_gauss(first)
     u, of_u = unit_gauss(second)
     return np.repeat(v, second), np.tile(u, first), np.outer(of_v, of_u).ravel()
 
 
 def transforms(nodes: tuple[float, ...], highest: int, kappa: Array) -> Array:
-    """Compute ∫ φ J_m(κx) x dx for m = 0 … M + 1, shape (M + 2, κ, n + 1)."""
+    """Compute the Hankel transforms ∫ φ J_m(κx) x dx of hats on rings, for m = 0 … M + 1.
+
+    The shape is (M + 2, κ, n + 1).
+
+    nodes    radii x of the nodes (n + 1,)
+    highest  highest harmonic M
+    kappa    wavenumbers κ
+    """
     x = np.array(nodes)
     length = np.diff(x)[:, None]
     v, weights = unit_gauss(WAVE_POINTS)
@@ -129,10 +157,10 @@ def transforms(nodes: tuple[float, ...], highest: int, kappa: Array) -> Array:
 
 
 def bessel_functions(highest: int, at: Array) -> Iterator[Array]:
-    """Yield J_0 … J_highest.
+    """Yield the Bessel functions J_0 … J_highest at the points `at`.
 
-    The upward recurrence is used for orders below the argument. Above, ratios of adjacent orders
-    follow from the downward recurrence (Gautschi 1967).
+    The upward recurrence is used for orders below the argument. For other orders, ratios of
+    adjacent orders follow from the downward recurrence (Gautschi 1967).
     """
     last, now = j0(at), j1(at)
     yield last
@@ -152,7 +180,11 @@ def bessel_functions(highest: int, at: Array) -> Iterator[Array]:
 
 
 def blocks(kappa: Array, nodes: int, highest: int) -> Iterator[slice]:
-    """Yield blocks of wavenumbers that limit the memory of the transforms."""
+    """Yield slices of the wavenumbers that limit the memory of `transforms`.
+
+    nodes    number of nodes
+    highest  highest harmonic
+    """
     points = WAVE_POINTS * nodes + (highest + 2) * nodes
     step = max(MAX_AT_ONCE // points, 1)
     for start in range(0, len(kappa), step):

@@ -4,9 +4,10 @@ The laws apply to means over the hat function of every node,
 
     p = max(p - g/d, 0),    q = P(q - Δs/d),
 
-with P the projection onto vectors not longer than µ max(p - g/d, 0) (Alart and Curnier 1991). Each
-Newton step has fixed active sets: open points have no traction, and points that slip along w
-satisfy w·q = µp and the linearised law across w.
+with the gap g, the slip Δs of the increment, the compliance d of the point, and P the projection
+onto vectors not longer than µ max(p - g/d, 0) (Alart and Curnier 1991). Each Newton step has fixed
+active sets: open points have no traction, and points that slip along w satisfy w·q = µp and the
+linearised law across w.
 """
 
 from __future__ import annotations
@@ -54,13 +55,17 @@ def solved_state(
     tolerance: float,
     smooth: Array | None = None,
 ) -> PointState:
-    """Solve the state under loads.
+    """Solve contact and friction at the end of an increment.
 
+    points     points of the contact and their compliance
+    friction   friction law
+    loads      prescribed loads and motions
     before     state at the start of the increment; None before first contact
-    tolerance  of the residual relative to the largest pressure, limit and loads
+    tolerance  bound of the residual relative to the largest pressure, friction limit and loads
     smooth     tractions and motion without friction, as an initial guess; None if unknown
     raises     NotConverged; GrossSliding if T reaches the friction limit, or if T and M exceed the
-               limit load of the contact without them; ContactAtZoneEdge at the last ring
+               limit load of the contact without them; ContactAtZoneEdge if the contact reaches the
+               last ring
     """
     force, W = float(np.hypot(*_given(loads)[:2])), loads.forces[NORMAL]
     most = None if W is None else friction.carried(W)
@@ -87,10 +92,12 @@ def solved_state(
 def _initial_guesses(
     laws: Laws, before: PointState | None, tolerance: float, smooth: Array | None
 ) -> Iterator[Array]:
-    """Yield initial guesses: those of `Laws.initial_guesses`, then a state with the previous rigid
-    motion.
+    """Yield initial guesses of tractions and rigid motion for Newton's method, the best one first.
 
-    The last one helps if all points slip during the iteration, so that the motion is undetermined.
+    Before first contact they are the frictionless state and `Laws.closed_guess`. Later they are
+    those of `Laws.initial_guesses`, then a state with the rigid motion at the start of the
+    increment. The last guess helps if all points slip during the iteration, so that the motion is
+    undetermined.
     """
     if before is None:
         if smooth is not None:
@@ -106,7 +113,10 @@ def _initial_guesses(
 
 
 def _given(loads: Loads) -> Array:
-    """Return the prescribed T along and across, and M (3,); 0 for prescribed motions."""
+    """Return the prescribed T along and across θ = 0, and M (3,) [force, force length].
+
+    Components with a prescribed motion are 0.
+    """
     return np.array([force or 0.0 for force in loads.forces[:NORMAL]])
 
 
@@ -117,7 +127,10 @@ def _refuse_sliding(
     before: PointState | None,
     tolerance: float,
 ) -> None:
-    """Raise GrossSliding if T and M exceed the limit load of the contact without them."""
+    """Raise GrossSliding if the prescribed T and M exceed the limit load of the contact.
+
+    The limit load is that of the pressure without T and M.
+    """
     normal_contact = solved_state(points, friction, loads.without_shear, before, tolerance)
     given = _given(loads)
     limit = friction.limit(np.maximum(normal_contact.pressure, 0.0))
@@ -140,9 +153,13 @@ def _refuse_sliding(
 
 
 def _limited_step(laws: Laws, at: At, aim: Array) -> Array:
-    """Shorten the step of rigid motions to the range in which the slip zone is representative.
+    """Shorten a Newton step if its rigid motion is too large for the current slip and approach.
 
-    If nearly all points slip, the step under a prescribed force grows without bound.
+    If nearly all points slip, the step under a prescribed force grows without bound, and the slip
+    zone does not represent the motion.
+
+    at   current iterate
+    aim  tractions and motion after the whole step
     """
     points, inside = laws.points, at.z > 0
     prescribed = np.array([force is not None for force in laws.loads.forces[:NORMAL]])
@@ -159,7 +176,14 @@ def _limited_step(laws: Laws, at: At, aim: Array) -> Array:
 
 
 def _line_search(laws: Laws, at: At, aim: Array, shortest: float) -> At:
-    """Halve the step until the residual decreases or the step is shortest."""
+    """Halve a Newton step until the residual decreases or the step is shortest.
+
+    Returns the new iterate.
+
+    at        current iterate
+    aim       tractions and motion after the whole step
+    shortest  least fraction of the step
+    """
     moved = laws.points.compliance @ aim[:-4]
     size, length = np.linalg.norm(at.residual), 1.0
     trial = laws.at(aim, moved)
@@ -170,6 +194,11 @@ def _line_search(laws: Laws, at: At, aim: Array, shortest: float) -> At:
 
 
 def _slides(force: float, carried: float) -> GrossSliding:
+    """Create the error GrossSliding of a tangential force.
+
+    force    prescribed tangential force [N]
+    carried  friction limit [N]
+    """
     return GrossSliding(
         f"T = {force:g} N is not below the friction limit {carried:g} N: the indenter slides. "
         "Reduce it, or prescribe the shift"
@@ -177,6 +206,12 @@ def _slides(force: float, carried: float) -> GrossSliding:
 
 
 def _end_state(laws: Laws, at: At, before: PointState | None, steps: int) -> PointState:
+    """Create the state at the end of an increment from the converged iterate.
+
+    before  state at the start of the increment; None before first contact
+    steps   number of Newton steps
+    raises  ContactAtZoneEdge if the contact reaches the last ring
+    """
     points, size = laws.points, len(at.z)
     if np.any(at.limit.reshape(-1, points.count)[-1] > 0):
         raise ContactAtZoneEdge(
@@ -197,13 +232,13 @@ def _end_state(laws: Laws, at: At, before: PointState | None, steps: int) -> Poi
 
 
 def limit_load_factor(points: Points, limit: Array, given: Array, free: NDArray[np.bool_]) -> float:
-    """Return the factor of the given loads at gross slip.
+    """Compute the factor by which given loads reach gross slip [1].
 
     It is the least dissipation of a rigid slip on which the given loads do unit work (upper bound
     theorem; Goyal, Ruina and Papadopoulos 1991).
 
-    limit  µp at the points (N,)
-    given  T along and across, and M, not all zero (3,)
+    limit  friction limit µp at the points (N,) [force/length²]
+    given  T along and across θ = 0, and M, not all zero (3,)
     free   true for motions that are not prescribed (3,)
     """
     free = free & np.any(points.rigid_motions, axis=1)
@@ -214,6 +249,10 @@ def limit_load_factor(points: Points, limit: Array, given: Array, free: NDArray[
     across = null_space(loads[None])
 
     def dissipated(part: Array) -> float:
+        """Return the dissipation of a rigid slip on which the given loads do unit work.
+
+        part  components of the slip motion perpendicular to the loads
+        """
         motion = loads / loads_size**2 + across @ part / loads_size
         return float(limit @ np.hypot(*(motion @ motions).reshape(2, -1)))
 

@@ -1,4 +1,7 @@
-"""Contact and friction laws of one increment at points, as equations."""
+"""Contact and friction laws of one increment at points, as a nonsmooth system of equations.
+
+`ring_friction` solves the system.
+"""
 
 from __future__ import annotations
 
@@ -28,9 +31,15 @@ REST, FURTHEST, ASIDE = 1e-6, 2.1, 0.5
 
 
 class At(NamedTuple):
-    """Iterate: tractions and motion x, residuals, trial tractions z and y, limit, displacements u.
+    """Newton iterate, with the terms of the contact and friction laws. N points.
 
-    worst  largest dimensionless residual
+    x         tractions and rigid motion (3 N + 4,)
+    residual  error of the laws (3 N,) [force/length²]
+    z         trial pressure p - g/d with the gap g and the compliance d (N,)
+    y         trial shear q - Δs/d with the slip Δs of the increment (2, N)
+    limit     friction limit of the trial pressure (N,)
+    u         displacements by the tractions, times areas (3 N,) [length³]
+    worst     largest dimensionless residual
     """
 
     x: Array
@@ -44,9 +53,13 @@ class At(NamedTuple):
 
 @dataclass(frozen=True)
 class Laws:
-    """Contact and friction laws of an increment as equations.
+    """Contact and friction laws of an increment, as equations for tractions and rigid motion.
 
-    moved, motion  displacements times areas and rigid motion at the start of the increment
+    points    points of the contact and their compliance
+    friction  friction law
+    loads     prescribed loads and motions at the end
+    moved     tangential displacements times areas at the start of the increment (2 N,) [length³]
+    motion    rigid motion at the start of the increment (4,)
     """
 
     points: Points
@@ -59,13 +72,20 @@ class Laws:
     def of(
         cls, points: Points, friction: CoulombFriction, loads: Loads, before: PointState | None
     ) -> Laws:
+        """Create the laws of an increment.
+
+        before  state at the start of the increment; None before first contact
+        """
         if before is None:
             return cls(points, friction, loads, np.zeros(2 * len(points.areas)), np.zeros(4))
         return cls(points, friction, loads, before.moved, before.motion)
 
     def closed_guess(self) -> Array:
-        """Return an initial guess whose approach closes the gap wherever the load may cause
-        contact."""
+        """Return an initial guess of tractions and motion without a preceding state.
+
+        The approach closes the gap wherever the load may cause contact. Under a prescribed force
+        the pressure is uniform.
+        """
         points, size, loads = self.points, len(self.points.areas), self.loads
         depth = points.gap_areas / points.areas
         force, approach = loads.forces[NORMAL], loads.motions[NORMAL]
@@ -79,9 +99,11 @@ class Laws:
         return np.append(t, [0.0, 0.0, 0.0, np.max(open_by)])
 
     def initial_guesses(self, before: PointState) -> list[Array]:
-        """Return initial guesses: the extrapolated last increment, and the previous state.
+        """Return initial guesses: the extrapolated last increment, then the state at the start.
 
         The last increment is extrapolated only if the loads continue in its direction.
+
+        before  state at the start of the increment
         """
         leads = [force is not None for force in self.loads.forces]
         ends = zip(self.loads.forces, self.loads.motions, strict=True)
@@ -108,9 +130,10 @@ class Laws:
         return [x + share * before.changed, x]
 
     def at(self, x: Array, u: Array) -> At:
-        """Evaluate the laws at x.
+        """Evaluate the contact and friction laws and their residuals at an iterate.
 
-        u  displacements times areas by the tractions of x
+        x  tractions and rigid motion (3 N + 4,)
+        u  displacements by these tractions, times areas (3 N,) [length³]
         """
         points, size, loads = self.points, len(self.points.areas), self.loads
         t, motion = x[:-4], x[-4:]
@@ -141,13 +164,21 @@ class Laws:
         return At(x, residual, z, y, limit, u, float(worst))
 
     def slip_increment(self, u: Array, motion: Array) -> Array:
-        """Return Δs of the increment times area (2 N,) [length³]."""
+        """Return the slip Δs of the increment times the area of each point (2 N,) [length³].
+
+        u       displacements times areas at the end (3 N,) [length³]
+        motion  rigid motion at the end (4,)
+        """
         tangential = motion[:NORMAL] - self.motion[:NORMAL]
         return u[: 2 * len(self.points.areas)] - self.moved - tangential @ self.points.rigid_motions
 
 
 def _shortened(y: Array, limit: Array) -> Array:
-    """Return factors that shorten vectors (2, …) to the limit."""
+    """Return factors that shorten trial shear vectors to the friction limit.
+
+    y      vectors (2, …)
+    limit  largest length
+    """
     length = np.hypot(*y)
     longer = length > limit
     return np.where(longer, limit / np.where(longer, length, 1.0), 1.0)

@@ -1,4 +1,4 @@
-"""Layout of rings for a contact with a nearly constant edge, and its points."""
+"""Layout of the rings of a contact with a nearly constant edge, and creation of its points."""
 
 from __future__ import annotations
 
@@ -24,11 +24,14 @@ POINTS = 6  # Gauss points of an element
 
 
 def places(count: int, reach: float, edges: Sequence[float]) -> tuple[float, ...]:
-    """Return nodes over the radius of the largest contact: even inside, dense at edges.
+    """Return the radii of rings over the radius of the largest contact, from 0 on.
 
-    count  inside, apart from those at edges
-    reach  least radius of the last node
-    edges  radii of smaller contacts over the largest
+    The rings are even inside the largest contact, dense at the edges of contacts, and wider
+    outside.
+
+    count  number of rings inside, without those at edges
+    reach  least radius of the last ring
+    edges  radii of smaller contacts over that of the largest one
     """
     near = 0.5 ** np.arange(1, GRADED + 1) / count
     outside = [1 / count]
@@ -59,12 +62,16 @@ def lay_out(
     friction: float,
     rig: Rig | None = None,
 ) -> Points:
-    """Create points for contacts of these radii [length].
+    """Create the points (rings × angles) of a contact, and their compliance.
 
-    count     rings inside the largest contact
-    highest   harmonic, and number of angles of a half circle
-    friction  µ
-    rig       springs, which displace all points equally
+    coupling  elastic response of both bodies
+    indenter  shape of the indenter
+    edges     contact radii at which rings are dense; the largest determines the layout [length]
+    count     number of rings inside the largest contact
+    highest   highest harmonic, and number of angles of a half circle
+    circle    angles of a ring
+    friction  coefficient of friction µ
+    rig       springs of the test machine, which displace all points equally; None without springs
     """
     edge = max(edges)
     over = places(count, REACH + BY_FRICTION * friction, [other / edge for other in edges])
@@ -76,7 +83,10 @@ def lay_out(
     r = radii[:-1, None] + length * v
 
     def integral(field: Array) -> Array:
-        """Return ∫ φ field dr."""
+        """Return the integral of a field with the hat φ of every node, ∫ φ field dr (n,).
+
+        field  values at the Gauss points of the elements
+        """
         part = field * length * weights
         return np.append(part @ (1 - v), 0.0) + np.append(0.0, part @ v)
 

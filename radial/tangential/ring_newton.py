@@ -26,16 +26,17 @@ Numbers = NDArray[np.int64]
 
 
 class _Free(NamedTuple):
-    """Slipping and open points.
+    """Free points of a Newton step: slipping and open points.
 
-    points  indices (n,)
+    Their displacements are unknown. Share, slopes and rests of open points are zero.
+
+    points  indices of the points (n,)
     slips   true for slipping, false for open points (n,)
-    c, s    cosine and sine of the angle of the shear direction w from r (n, 1)
-    share   limit over the length of the trial shear (n, 1)
-    slopes  of the limit, scaled as the tractions (n, 1)
-    rests   limit minus slope times pressure, scaled likewise (n, 1)
-
-    Share, slopes and rests of open points are zero.
+    c, s    cosine and sine of the angle between the trial shear and the radial direction (n, 1)
+    share   friction limit over the length of the trial shear (n, 1)
+    slopes  derivative of the friction limit with respect to pressure, scaled as the tractions (n,
+            1)
+    rests   friction limit minus slope times pressure, scaled as the tractions (n, 1)
     """
 
     points: Numbers
@@ -47,13 +48,24 @@ class _Free(NamedTuple):
     rests: Array
 
     def displacements(self, m: int) -> Numbers:
-        """Return the indices of the free displacements among 3 m: r and θ of all, z of open
-        points."""
+        """Return the indices of the free displacements in a vector of 3 m displacements.
+
+        Slipping and open points have free displacements r and θ. Open points also have a free
+        displacement z.
+
+        m  number of points
+        """
         apart = self.points[~self.slips]
         return np.concatenate([self.points, m + self.points, 2 * m + apart])
 
 
 def _free(at: At, m: int, friction: CoulombFriction, units: Array) -> _Free:
+    """Find the slipping and open points of an iterate, and the terms of their friction law.
+
+    at     current iterate
+    m      number of points on the rings with contact
+    units  square roots of the compliance of each component and point, as scales (3 m,)
+    """
     y, limit = at.y[:, :m], at.limit[:m]
     length = np.hypot(*y)
     points = np.flatnonzero((at.z[:m] <= 0) | (length > limit))
@@ -70,10 +82,13 @@ def _free(at: At, m: int, friction: CoulombFriction, units: Array) -> _Free:
 
 
 def newton_iterate(laws: Laws, at: At) -> Array | None:
-    """Return tractions and motion after one step.
+    """Return tractions and rigid motion after one Newton step (3 N + 4,).
 
-    Return None if the system is singular, or if the normal force is prescribed and all points are
+    Returns None if the system is singular, or if the normal force is prescribed and all points are
     open.
+
+    laws  contact and friction laws of the increment
+    at    current iterate
     """
     points, size = laws.points, len(at.z)
     if laws.loads.forces[NORMAL] is not None and not np.any(at.z > 0):
@@ -109,8 +124,15 @@ def newton_iterate(laws: Laws, at: At) -> Array | None:
 
 
 def _imposed(laws: Laws, at: At, rings: int, t: Array) -> Array:
-    """Return displacements times areas by unit rigid motions, and the misfit of tractions t (3 m,
-    5)."""
+    """Return the displacements by unit rigid motions and the misfit of the iterate, times areas.
+
+    The shape is (3 m, 5). The first four columns are the rigid motions. The last column is the
+    displacement that contact and stick require at the motion of the iterate, minus that of its
+    tractions.
+
+    rings  number of innermost rings, with m points
+    t      tractions of these points (3 m,)
+    """
     points, m = laws.points, rings * laws.points.count
     whole = np.zeros((3, len(at.z)))
     whole[:, :m] = t.reshape(3, m)
@@ -127,11 +149,14 @@ def _imposed(laws: Laws, at: At, rings: int, t: Array) -> Array:
 def _whole(
     laws: Laws, at: At, free: _Free, K: Array, carried: Array, residual: Array
 ) -> tuple[Array, Array]:
-    """Return the laws of free points as a matrix of the unknowns, and their residuals.
+    """Return the linear equations of the laws of free points: matrix of the unknowns and constants.
 
-    Slipping points have the limit along w and the law across w. Open points have zero pressure.
+    A slipping point has the friction limit along its shear direction w, and the linearised friction
+    law across w. An open point has zero pressure.
 
-    carried   tractions by unit rigid motions, and at the iterate
+    free      slipping and open points
+    K         stiffness: scaled tractions by scaled displacements (3 m, 3 m)
+    carried   tractions by unit rigid motions, and at the iterate (3 m, 5)
     residual  misfit of the free displacements
     """
     n, m = len(free.points), len(K) // 3
@@ -157,7 +182,14 @@ def _whole(
 
 
 def _loads(laws: Laws, at: At, carried: Array, by_motion: Array) -> Array:
-    """Return prescribed loads and motions as rows of the unknowns, with their residuals."""
+    """Return the linear equations of the four loads and motions, with their constants last.
+
+    A prescribed force gives an equation of equilibrium. A prescribed motion gives the value of this
+    motion.
+
+    carried    tractions of the free displacements by unit rigid motions, and at the iterate
+    by_motion  loads of these tractions in the directions of the motions (5, 5)
+    """
     rows = np.concatenate([carried, by_motion]).T[:4]
     ends = zip(laws.loads.forces, laws.loads.motions, strict=True)
     for i, (force, motion) in enumerate(ends):
@@ -171,7 +203,11 @@ def _loads(laws: Laws, at: At, carried: Array, by_motion: Array) -> Array:
 
 
 def _solved(laws: tuple[Array, Array], loads: Array) -> Array | None:
-    """Return the unknowns; None if the system is singular."""
+    """Solve the linear system of a Newton step; return None if it is singular.
+
+    laws   equations of the free points, see `_whole`
+    loads  equations of loads and motions, see `_loads`
+    """
     rows, left = laws
     n = len(rows)
     whole = np.empty((n + 4, n + 4))

@@ -1,4 +1,4 @@
-"""Points of a contact: nodes of rings times angles, and their compliance."""
+"""Points of a contact with tangential load (nodes of rings times angles), and their compliance."""
 
 from __future__ import annotations
 
@@ -25,17 +25,19 @@ INVERSES, ROOM, ROUND_OFF = 3, 1 << 23, 1e-12
 
 @dataclass(frozen=True, eq=False)
 class Points:
-    """Nodes of rings times angles, and the compliance of both bodies at these points.
+    """Points of a contact (nodes of rings times angles), and their compliance.
 
-    radii     of the nodes (n,) [length]
+    The compliance is that of both bodies and the rig's springs.
+
+    φ are the hat functions of the nodes. Fields have the shape (n count,), with the angle as the
+    fast index. Vectors have the shape (3 n count,), with the components r, θ, z as the slow index.
+
+    radii     radii of the nodes (n,) [length]
     energies  Galerkin matrices of `ring_compliance` up to harmonic J (J + 1, 3, 3, n, n)
     weights   ∫ φ r dr (n,) [length²]
     arms      ∫ φ r² dr (n,) [length³]
-    gap       ∫ φ f r dr at first contact (n,) [length³]
+    gap       ∫ φ f r dr with the undeformed gap f at first contact (n,) [length³]
     circle    angles of a ring
-
-    Fields of points have the shape (n count,), with the angle as the fast index. Vectors have the
-    shape (3 n count,), with the components r, θ, z as the slow index.
     """
 
     radii: Array
@@ -47,43 +49,47 @@ class Points:
 
     @property
     def count(self) -> int:
-        """Number of angles of a ring."""
+        """Return the number of angles of a ring."""
         return len(self.angles)
 
     @property
     def highest(self) -> int:
-        """J, the highest harmonic."""
+        """Return the highest angular harmonic J."""
         return len(self.energies) - 1
 
     @cached_property
     def angles(self) -> Array:
-        """Angles of the points on a ring."""
+        """Return the angles of the points on a ring (count,) [radian]."""
         return self.circle.angles(self.highest)
 
     @cached_property
     def areas(self) -> Array:
-        """Area of every point, including its symmetric counterparts."""
+        """Return the area of every point (n count,) [length²].
+
+        The area includes that of the mirror image if the angles cover half a circle.
+        """
         return self._at_points(self.weights)
 
     @cached_property
     def gap_areas(self) -> Array:
-        """f times the area of every point."""
+        """Return the undeformed gap times the area of every point (n count,) [length³]."""
         return self._at_points(self.gap)
 
     @cached_property
     def levers(self) -> Array:
-        """r times the area of every point."""
+        """Return the distance from the axis times the area of every point (n count,) [length³]."""
         return self._at_points(self.arms)
 
     def _at_points(self, of_nodes: Array) -> Array:
+        """Distribute integrals over the rings (n,) among the angles of each ring (n count,)."""
         return np.repeat(of_nodes, self.count) * (2 * np.pi / self.count)
 
     @cached_property
     def rigid_motions(self) -> Array:
-        """Areas times the displacement (r, θ) by unit rigid motions (3, 2 n count).
+        """Return the displacements (r, θ) by unit rigid motions, times areas (3, 2 n count).
 
-        The motions are a shift along θ = 0, a shift across, and a twist. Rows excluded by symmetry
-        are 0.
+        The motions are a shift along θ = 0, a shift across it, and a twist. Motions that symmetry
+        excludes are 0.
         """
         nodes, nothing = len(self.weights), np.zeros_like(self.areas)
         cos, sin = np.tile(np.cos(self.angles), nodes), np.tile(np.sin(self.angles), nodes)
@@ -98,13 +104,17 @@ class Points:
 
     @cached_property
     def compliance(self) -> Array:
-        """Matrix from tractions to displacements times areas (3 n count,) * 2 [length^5/force]."""
+        """Return the matrix from tractions to displacements times areas [length^5/force].
+
+        The shape is (3 n count, 3 n count).
+        """
         return self._over_harmonics(self._harmonics, self._harmonic_energies)
 
     @cached_property
     def softness(self) -> Array:
-        """Diagonal of the compliance (3 n count,) [length^5/force].
+        """Return the diagonal of the compliance (3 n count,) [length^5/force].
 
+        An entry is the displacement of a point, times its area, by a unit traction at this point.
         Both components of shear have their mean, which does not depend on the direction.
         """
         outward, around, down = np.diagonal(self.compliance).reshape(3, -1)
@@ -112,22 +122,30 @@ class Points:
         return np.concatenate([tangential, tangential, down])
 
     def of_rings(self, field: Array, rings: int) -> Array:
-        """Restrict a vector (3 n count,) to the innermost rings."""
+        """Restrict a vector at all points (3 n count,) to the innermost rings (3 rings count,).
+
+        rings  number of rings
+        """
         return np.ascontiguousarray(field.reshape(3, -1)[:, : rings * self.count]).ravel()
 
     @cached_property
     def tractions(self) -> Callable[[int], Array]:
-        """Function of a number of rings that returns the inverse of the compliance on the innermost
-        rings.
+        """Return a function that gives the inverse of the compliance on the innermost rings.
 
-        The inverse (3 rings count,) * 2 maps displacements times areas to tractions, if no other
-        ring carries any. It is scaled by √`softness` on both sides [1].
+        The argument of the function is the number of rings. The inverse (3 rings count, 3 rings
+        count) maps displacements times areas to tractions, if no other ring carries any. It is
+        scaled by √`softness` on both sides [1]. The inverses are cached.
         """
         count = max(INVERSES, ROOM // self.compliance.nbytes)
         return lru_cache(maxsize=count)(self._tractions)
 
     def _tractions(self, rings: int) -> Array:
-        """Invert the compliance harmonic by harmonic. Harmonics are not coupled."""
+        """Compute the inverse of the compliance on the innermost rings, harmonic by harmonic.
+
+        Harmonics are not coupled. The inverse is scaled by √`softness` on both sides [1].
+
+        rings  number of rings
+        """
         back = np.zeros_like(self._harmonics)
         norms = np.sum(self._harmonics**2, axis=2)
         has = norms > ROUND_OFF * np.max(norms)
@@ -149,12 +167,19 @@ class Points:
 
     @cached_property
     def _harmonics(self) -> Array:
-        """Matrices from values at the angles to harmonics (3, families × (J + 1), count)."""
+        """Return matrices from values at the angles of a ring to amplitudes of harmonics.
+
+        The shape is (3, families × (J + 1), count), with the components r, θ, z.
+        """
         return np.concatenate(self.circle.families(self.highest), axis=1)
 
     @cached_property
     def _harmonic_energies(self) -> Array:
-        """Energies of the harmonics of `_harmonics`, times their norms (…, 3, 3, n, n)."""
+        """Return the Galerkin matrix of every harmonic of `_harmonics`, times the harmonic's norm.
+
+        The shape is (families × (J + 1), 3, 3, n, n). The norm is π, or 2π for the harmonics 0 and
+        J.
+        """
         norms = np.full(len(self.energies), np.pi)
         norms[[0, -1]] = 2 * np.pi
         families = self._harmonics.shape[1] // len(norms)
@@ -162,7 +187,11 @@ class Points:
 
     @staticmethod
     def _over_harmonics(rigid_motions: Array, harmonic_matrices: Array) -> Array:
-        """Assemble a matrix between points from the matrices of all harmonics."""
+        """Assemble a matrix between points from the matrices of all harmonics.
+
+        rigid_motions      matrices from values at the angles to harmonics (3, harmonics, count)
+        harmonic_matrices  matrices between nodes (harmonics, 3, 3, n, n)
+        """
         (_, count, angles), nodes = rigid_motions.shape, harmonic_matrices.shape[-1]
         whole = np.empty((3, nodes, angles, 3, nodes, angles))
         for a, b in np.ndindex(3, 3):
@@ -173,26 +202,33 @@ class Points:
 
     @cached_property
     def round(self) -> Points:
-        """Points with the same nodes and one angle, for axisymmetric fields."""
+        """Return points with the same nodes and one angle, for axisymmetric fields."""
         return replace(self, energies=self.energies[:1], circle=Circle.ONE)
 
     def every_angle(self, field: Array) -> Array:
-        """Repeat a field (…, n) of `round` at all angles.
+        """Repeat an axisymmetric field at all angles of these points (…, n count).
 
         Divide quantities that are multiplied by the area of a point by the number of angles
         afterwards.
+
+        field  values at the points of `round` (…, n)
         """
         return np.repeat(field, self.count, axis=-1)
 
     def is_resolved(self, pressure: Array) -> bool:
-        """Return true if the contact has enough rings to resolve its edge and stick zone."""
+        """Return true if the contact covers enough rings to resolve its edge and stick zone.
+
+        pressure  pressure at the points (n count,)
+        """
         return bool(np.any(pressure[FEWEST * self.count :] > 0))
 
     def contact_area(self, pressure: Array) -> float:
-        """Return the contact area within the edge, where p² extrapolates to zero [length²].
+        """Return the contact area, bounded by the radius where p² extrapolates to zero [length²].
 
         An axisymmetric contact has dense nodes at its edge: p² is linear in r² through the last two
         nodes. Otherwise p² is a parabola in r², fitted to the nodes near the edge of every ray.
+
+        pressure  pressure at the points (n count,)
         """
         p, r = pressure.reshape(-1, self.count), self.radii
         area = 0.0
@@ -213,9 +249,13 @@ class Points:
         return area / self.count
 
     def _fitted_edge(self, ray: Array, last: int) -> float:
-        """Return r² of the edge on a ray with its last node with pressure [length²].
+        """Return the square of the contact radius on a ray, from a fit of the pressure [length²].
 
-        Return r² of this node if too few nodes have pressure, or if the fit has no zero near it.
+        If too few nodes have pressure, or the fit has no zero near the edge, the square of the
+        radius of the last node with pressure is returned.
+
+        ray   pressure at the nodes of the ray (n,)
+        last  index of the last node with pressure
         """
         r = self.radii
         first = min(int(np.searchsorted(r, (1 - BESIDE_EDGE) * r[last])), last + 1 - FITTED)
@@ -232,12 +272,12 @@ class Points:
     def stick_area(self, share: Array, shear: Array, bound: Array) -> float:
         """Return the area of the stick zone, resolved below the distance of points [length²].
 
-        The stick zone of an axisymmetric contact ends where the share of the limit, linear in r, is
-        1. See `stick_border` for other contacts.
+        The stick zone of an axisymmetric contact ends where `share`, linear in r, is 1. See
+        `stick_border` for other contacts.
 
-        share  |q - Δs/d| over the limit, see `PointState`
-        shear  q_r and q_θ (2, n count)
-        bound  µp
+        share  trial shear |q - Δs/d| over the friction limit, see `PointState` (n count,)
+        shear  q_r and q_θ (2, n count) [force/length²]
+        bound  friction limit µp (n count,) [force/length²]
         """
         sticks = share.reshape(-1, self.count) < 1
         if self.circle is Circle.ONE:
@@ -255,28 +295,38 @@ class Points:
         return stick_area(self.radii, q, p, sticks)
 
     def shown(self, field: Array, sense: float) -> Array:
-        """Interpolate a field to `output_angles` by a periodic spline in θ (n, angles).
+        """Interpolate a field to the output angles by a periodic spline in θ (n, angles).
 
-        sense  1 for a field that is even about θ = 0, -1 for an odd one
+        field  values at the points (n count,)
+        sense  1 for a field that is even about θ = 0, -1 for an odd field
         """
         return self._around(field.reshape(-1, self.count), sense, self.output_angles)
 
     @property
     def output_angles(self) -> Array:
-        """Output angles; they include the direction of the load."""
+        """Return the angles at which fields are output, which include the direction of the load."""
         return self.circle.shown(self.highest)
 
     def _around(self, field: Array, sense: float, angles: Array) -> Array:
-        """Interpolate a field (n, count) to other angles."""
+        """Interpolate a field (n, count) to other angles by a periodic spline in θ.
+
+        sense  1 for a field that is even about θ = 0, -1 for an odd field
+        """
         return field @ self._spline(sense, tuple(angles))
 
     @cached_property
     def _spline(self) -> Callable[[float, tuple[float, ...]], Array]:
-        """Function that returns the interpolation matrix from `angles` to other angles (count,
-        …)."""
+        """Return a function that gives the interpolation matrix from `angles` to other angles.
+
+        The shape of the matrix is (count, others).
+        """
 
         @lru_cache
         def weights(sense: float, others: tuple[float, ...]) -> Array:
+            """Return the interpolation matrix from `angles` to other angles (count, others).
+
+            sense  1 for fields that are even about θ = 0, -1 for odd fields
+            """
             every, whole = self.angles, np.eye(self.count)
             if self.circle is Circle.HALF:
                 every = np.concatenate([every, 2 * np.pi - every[::-1]])

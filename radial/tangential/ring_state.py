@@ -16,10 +16,12 @@ Prescribed = tuple[float | None, ...]
 
 @dataclass(frozen=True)
 class Loads:
-    """Prescribed loads and motions at the end of an increment. One of each pair is None.
+    """Prescribed loads and rigid motions at the end of an increment.
+
+    Of each load and its conjugate motion one is None.
 
     forces   T along θ = 0 and across it, M about the axis, W [force, force length]
-    motions  in the same order: shifts, twist, approach [length, radian]
+    motions  shifts along and across, twist, approach [length, radian]
     """
 
     forces: Prescribed
@@ -27,12 +29,15 @@ class Loads:
 
     @property
     def without_shear(self) -> Loads:
-        """Loads with prescribed T and M replaced by zero."""
+        """Return the loads with prescribed tangential force and torque replaced by zero."""
         tangential = (None if force is None else 0.0 for force in self.forces[:NORMAL])
         return Loads((*tangential, self.forces[NORMAL]), self.motions)
 
     def resting(self, motion: Array) -> Loads:
-        """Return loads with prescribed T and M replaced by the motion given."""
+        """Return the loads with prescribed tangential force and torque replaced by a rigid motion.
+
+        motion  shifts along and across, twist (and approach, which is not used)
+        """
         prescribed = zip(self.forces[:NORMAL], self.motions[:NORMAL], motion, strict=False)
         tangential = (float(was) if force is not None else now for force, now, was in prescribed)
         return Loads((*(None,) * NORMAL, self.forces[NORMAL]), (*tangential, self.motions[NORMAL]))
@@ -40,17 +45,19 @@ class Loads:
 
 @dataclass(frozen=True)
 class PointState:
-    """State at the end of an increment. N points.
+    """State of a contact at points at the end of an increment. N points.
 
     tractions       q_r, q_θ, p (3 N,) [force/length²]
-    moved           u_r, u_θ times area (2 N,) [length³]
-    slip_increment  Δs of the increment times area (2 N,) [length³]
-    motion          shifts along and across, twist, approach (4,) [length, radian]
+    moved           tangential displacements u_r, u_θ times area (2 N,) [length³]
+    slip_increment  slip Δs of the increment times area (2 N,) [length³]
+    motion          rigid motion: shifts along and across, twist, approach (4,) [length, radian]
     changed         change of tractions and motion in the increment (3 N + 4,)
-    share           |q - Δs/d| over the limit: ≤ 1 at sticking points, infinite outside of contact
-    energy          ½ ∫ (p u_z + q·u) dA [force length]
-    residual        residual of the laws over the largest pressure, limit and load
-    steps           of Newton's method
+    share           trial shear |q - Δs/d| over the friction limit, d the compliance of the point
+                    (N,); ≤ 1 at sticking points, infinite outside the contact
+    energy          elastic energy ½ ∫ (p u_z + q·u) dA of the bodies and the rig's springs [force
+                    length]
+    residual        residual of the laws over the largest pressure, friction limit and load [1]
+    steps           number of Newton steps
     """
 
     tractions: Array
@@ -65,27 +72,31 @@ class PointState:
 
     @property
     def pressure(self) -> Array:
-        """p (N,) [force/length²]."""
+        """Return the pressure at the points (N,) [force/length²]."""
         return self.tractions[2 * len(self.share) :]
 
     @property
     def shear(self) -> Array:
-        """q_r and q_θ (2, N) [force/length²]."""
+        """Return the radial and circumferential shear at the points (2, N) [force/length²]."""
         return self.tractions[: 2 * len(self.share)].reshape(2, -1)
 
     @property
     def approach(self) -> float:
-        """Approach [length]."""
+        """Return the approach of the indenter [length]."""
         return float(self.motion[NORMAL])
 
     def forces(self, points: Points) -> Array:
-        """Return T along and across, M and W of the tractions (4,)."""
+        """Return the resultants of the tractions: T along and across θ = 0, M and W (4,)."""
         return carried(points, self.tractions)
 
     def every_angle(self, points: Points) -> PointState:
-        """Extend an axisymmetric state to all angles of points."""
+        """Extend an axisymmetric state to all angles of the points of a contact."""
 
         def parts(field: Array, count: int) -> Array:
+            """Repeat each component of a field at all angles.
+
+            count  number of components
+            """
             return points.every_angle(field.reshape(count, -1)).ravel()
 
         return replace(
@@ -99,6 +110,9 @@ class PointState:
 
 
 def carried(points: Points, tractions: Array) -> Array:
-    """Return T along and across, M and W of tractions (4,)."""
+    """Return the resultants of tractions: T along and across θ = 0, M and W (4,).
+
+    tractions  q_r, q_θ, p (3 N,) [force/length²]
+    """
     q, p = np.split(tractions, [2 * len(points.areas)])
     return np.append(points.rigid_motions @ q, points.areas @ p)

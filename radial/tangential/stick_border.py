@@ -1,11 +1,11 @@
 """Area of the stick zone of a contact with tangential load, with its border between the points.
 
-The distance from full slip, d = µp - q·n with n the direction of slip outside, is zero at the
-border. It is proportional to the root of the distance where slip spreads (Cattaneo 1938), and to
-its power of 3/2 where stick spreads. The ratio of d at the last points determines the position of
-the border between two points: from plane contact of a parabola with the same hats (Johnson 1985,
-section 4.2), and of a wave with the same harmonics (Westergaard 1939). The border is interpolated
-on rings and rays, and is straight between them.
+The distance from full slip is d = µp - q·n, with n the direction of the shear in the slip zone. d
+is zero at the border. It is proportional to the root of the distance from the border where slip
+spreads (Cattaneo 1938), and to its power of 3/2 where stick spreads. The ratio of d at the last
+sticking points determines the position of the border between two points: from plane contact of a
+parabola with the same hats (Johnson 1985, section 4.2), and of a wave with the same harmonics
+(Westergaard 1939). The border is interpolated on rings and rays, and is straight between them.
 """
 
 from __future__ import annotations
@@ -28,11 +28,11 @@ UNTOLD = 0.5  # position between points without sufficient data
 
 
 def stick_area(radii: Array, shear: Array, bound: Array, sticks: Mask) -> float:
-    """Compute the area of the stick zone [length²].
+    """Compute the area of the stick zone, with its border interpolated between points [length²].
 
-    radii   of the rings, from the axis (n,) [length]
-    shear   q_r and q_θ at equidistant angles of the full circle (2, n, J)
-    bound   µp (n, J), zero outside of contact
+    radii   radii of the rings, from the axis (n,) [length]
+    shear   q_r and q_θ at J equidistant angles of the full circle (2, n, J)
+    bound   friction limit µp, zero outside of contact (n, J)
     sticks  true for sticking points (n, J)
     """
     turn = sticks.shape[1]
@@ -62,17 +62,20 @@ def _borders(
     places: Array,
     deep: int,
 ) -> Array:
-    """Return the position of the border between adjacent points of the first axis, 0 to 1 (n - 1,
-    …).
+    """Return the position of the border of the stick zone between adjacent points (n - 1, …).
 
-    It has no meaning where both points stick or both do not.
+    Points are adjacent on the first axis. The position is 0 at the first and 1 at the second of two
+    points. It has no meaning where both points stick or both do not.
 
-    directions  angles of the shear
-    size        of the shear
-    table       polynomial of the distance
-    places      of the points along the axis (n,)
-    deep        number of further sticking points required to distinguish the powers. In a narrow
-                zone d decreases towards its other side
+    directions  angle of the shear of each point
+    size        magnitude of the shear
+    bound       friction limit
+    sticks      true for sticking points
+    table       coefficients of the polynomial that gives the distance of the border from the ratio
+                of d
+    places      coordinates of the points along the axis (n,)
+    deep        number of further sticking points required to distinguish the powers 1/2 and 3/2; in
+                a narrow zone d decreases towards its other side
     """
     found = np.full((len(bound) - 1, *bound.shape[1:]), UNTOLD)
     slips = (bound > 0) & ~sticks
@@ -102,7 +105,13 @@ def _missing(
     j: NDArray[np.intp],
     direction: Array,
 ) -> Array:
-    """Return d of points (near, j) along angles, NaN where no point sticks."""
+    """Return the distance d of sticking points from full slip, NaN for other points.
+
+        d = µp - q·n
+
+    near, j    indices of the points
+    direction  angle of n, the direction of the shear in the slip zone
+    """
     known = (near >= 0) & (near < len(bound))
     near = np.clip(near, 0, len(bound) - 1)
     d = bound[near, j] - size[near, j] * np.cos(directions[near, j] - direction)
@@ -114,9 +123,12 @@ def _off(
 ) -> Array:
     """Return the distance of the border from the last sticking point over that of the next point.
 
-    last, before, further  d of the last three sticking points
-    deep                   true where the powers can be distinguished
-    even                   distance to the next point over that to the previous point
+    d is the distance of a point from full slip.
+
+    last, before, further  d of the last three sticking points, from the border inwards
+    deep                   true where the powers 1/2 and 3/2 can be distinguished
+    even                   distance to the next point over the distance to the previous point
+    table                  coefficients of the polynomial for the power 1/2
     """
     # Values at equal distances: squares of roots are linear.
     before = np.sqrt(last**2 + np.maximum(before**2 - last**2, 0.0) * even)
@@ -129,7 +141,14 @@ def _off(
 
 
 def _evenness(places: Array, at: NDArray[np.intp], step: int) -> Array:
-    """Return the distance to the next point over that to the previous one; 1 at an end."""
+    """Return the distance of points to their next point over that to their previous point.
+
+    The result is 1 at an end of the axis.
+
+    places  coordinates of all points along the axis
+    at      indices of the points
+    step    +1 or -1, the direction of "next"
+    """
     before = at - step
     known = (before >= 0) & (before < len(places))
     behind = np.where(known, places[at] - places[np.clip(before, 0, len(places) - 1)], 1.0)
@@ -139,9 +158,15 @@ def _evenness(places: Array, at: NDArray[np.intp], step: int) -> Array:
 def _direction(
     directions: Array, slips: Mask, at: NDArray[np.intp], step: int, j: NDArray[np.intp]
 ) -> tuple[Array, Array]:
-    """Return the angle of the shear of points beyond borders, and its change per point.
+    """Return the angle of the shear beyond the border of the stick zone, and its change per point.
 
-    If the point beyond does not slip, return the angle of the last sticking point.
+    If the point beyond the border does not slip, the angle is that of the last sticking point and
+    the change is 0.
+
+    directions  angle of the shear of each point
+    slips       true for slipping points
+    at, j       indices of the last sticking points
+    step        +1 or -1, the direction from these points to the border
     """
     one, two = at + step, at + 2 * step
     within = (two >= 0) & (two < len(slips))
@@ -153,9 +178,13 @@ def _direction(
 
 
 def _shares(sticks: Mask, along_rays: Array, along_rings: Array) -> Array:
-    """Return the sticking fractions of the cells between rings and rays (n - 1, J).
+    """Return the fraction of each cell between rings and rays that sticks (n - 1, J).
 
-    They are polygons of the sticking corners and the border on the sides.
+    The stick zone in a cell is a polygon of the sticking corners and the positions of the border on
+    the sides.
+
+    sticks                   true for sticking points, the corners of the cells (n, J)
+    along_rays, along_rings  positions of the border on the sides, see `_borders`
     """
     low, high = along_rays, np.roll(along_rays, -1, axis=1)
     left, right = along_rings[:-1], along_rings[1:]

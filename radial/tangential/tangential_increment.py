@@ -32,19 +32,21 @@ REST = 1e-11  # of the approach: less slip is round-off
 
 @dataclass(frozen=True)
 class TangentialState:
-    """Contact at the end of an increment. Forces and motions have the order of `Loads`.
+    """State of a contact at points at the end of an increment, with slip and energies.
 
-    end            tractions and motion
+    Forces and motions have the order of `Loads`.
+
+    end            tractions and rigid motion
     circle         angles of a ring
-    prescribed     prescribed loads
-    radius         of the circle of equal contact area; without friction if the rings do not resolve
-                   the contact [length]
+    prescribed     prescribed loads and motions
+    radius         radius of the circle of equal contact area; that without friction if the rings do
+                   not resolve the contact [length]
     start_radius   contact radius at the start of the increment [length]
-    stick_through  radius of the circle of the area that sticks in the increment; None if unresolved
-                   [length]
-    stick_radius   radius of the circle of the stick area at the end; None if unresolved [length]
-    slip           since first contact of the particles (2, points) [length]
-    carried        loads of the tractions
+    stick_through  radius of a circle with the area that sticks throughout the increment; None if
+                   unresolved [length]
+    stick_radius   radius of a circle with the stick area at the end; None if unresolved [length]
+    slip           slip since first contact of the particles (2, points) [length]
+    carried        resultants of the tractions (4,)
     work           work of the loads since the start of the history [force length]
     dissipated     energy dissipated since the start of the history [force length]
     uncertainty    uncertainty of `dissipated` by finite increments [force length]
@@ -65,17 +67,20 @@ class TangentialState:
 
     @property
     def forces(self) -> tuple[float, ...]:
-        """Prescribed or computed loads [force, force length]."""
+        """Return T along and across θ = 0, M and W, prescribed or computed."""
         return _either(self.prescribed.forces, self.carried)
 
     @property
     def motions(self) -> tuple[float, ...]:
-        """Prescribed or computed motions [length, radian]."""
+        """Return shifts, twist and approach, prescribed or computed [length, radian]."""
         return _either(self.prescribed.motions, self.end.motion)
 
     @property
     def status(self) -> ContactStatus:
-        """Full stick, partial slip or gross slip; partial slip if the rings do not resolve it."""
+        """Return the contact status: full stick, partial slip, gross slip, or no stick area left.
+
+        If points slip and the rings do not resolve the stick zone, the status is partial slip.
+        """
         share = self.end.share[np.isfinite(self.end.share)]
         if np.all(share <= 1):
             return ContactStatus.FULL_STICK
@@ -86,6 +91,11 @@ class TangentialState:
 
 
 def _either(prescribed: tuple[float | None, ...], found: Array) -> tuple[float, ...]:
+    """Return prescribed values, and computed values where none is prescribed.
+
+    prescribed  values or None
+    found       computed values
+    """
     return tuple(
         float(came) if value is None else value
         for value, came in zip(prescribed, found, strict=True)
@@ -96,11 +106,15 @@ def tangential_state(
     points: Points, friction: CoulombFriction, end: PointState, last: PointState | None,
     slip: Array, prescribed: Loads, before: TangentialState | None, smooth: float | None,
 ) -> TangentialState:  # fmt: skip
-    """Compute slip, stick area and energies of an increment.
+    """Compute slip, stick area and energies of an increment from its solved tractions.
 
-    last, slip  tractions and motion at its start, and slip until then, at the points
-    before      contact at its start
-    smooth      radius without friction if the rings do not resolve the contact, else None [length]
+    end         tractions and rigid motion at the end
+    last        tractions and rigid motion at the start; None before first contact
+    slip        slip until the start of the increment, at the points (2, N) [length]
+    prescribed  prescribed loads and motions
+    before      state at the start of the increment; None before first contact
+    smooth      contact radius without friction if the rings do not resolve the contact, else None
+                [length]
     """
     areas, nothing = points.areas, np.zeros(len(points.areas))
     radius = sqrt(points.contact_area(end.pressure) / pi) if smooth is None else smooth
@@ -135,7 +149,7 @@ def tangential_state(
 
 
 def residuals_of(points: Points, friction: CoulombFriction, state: TangentialState) -> Residuals:
-    """Compute the residuals of a contact."""
+    """Compute the residuals of contact, friction and equilibrium at the end of an increment."""
     end, prescribed = state.end, state.prescribed.forces
     W, force = float(state.carried[NORMAL]), prescribed[NORMAL]
     limit = friction.limit(end.pressure)

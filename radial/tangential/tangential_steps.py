@@ -1,5 +1,7 @@
-"""Load stepping of a contact at points (rings × angles) with normal load, tangential load and
-torsion."""
+"""Solver of load steps of a contact at points (rings × angles).
+
+The loads are a normal load, a tangential load and torsion.
+"""
 
 from __future__ import annotations
 
@@ -61,12 +63,14 @@ NOTHING = (0.0, 0.0, 0.0, 0.0)
 
 @dataclass(frozen=True)
 class TangentialSteps(StepsOnRings):
-    """Solver of the increments of a contact at points.
+    """Solver of the increments of a contact at points (rings × angles).
 
-    direction  unit vector of the angle 0
+    friction   friction law
+    direction  unit vector of the angle θ = 0
     twists     true if torque and twist are output
-    points     laid out for the largest contact of the history
-    taken      steps of Newton's method of every solve
+    tolerance  upper bound of every residual
+    points     points for the largest contact of the history
+    taken      number of Newton steps of every solve
     """
 
     friction: CoulombFriction
@@ -78,7 +82,7 @@ class TangentialSteps(StepsOnRings):
 
     @property
     def most_spent(self) -> float:
-        """Steps of Newton's method above which an increment is not bisected any further."""
+        """Return the number of Newton steps above which an increment is not bisected again."""
         return 4.0 * MAX_STEPS
 
     @classmethod
@@ -91,7 +95,10 @@ class TangentialSteps(StepsOnRings):
     ) -> TangentialSteps:
         """Create the solver of a scene with its grid of rings and angles.
 
-        angle_factor  multiplies the planned number of angles
+        The radii of the contacts at the ends of the load steps are solved first, because rings are
+        dense at the edges.
+
+        angle_factor  factor of the planned number of angles
         """
         assert scene.friction is not None
         assert plan.circle is not None
@@ -100,7 +107,7 @@ class TangentialSteps(StepsOnRings):
         both = Coupling.of(scene)
 
         def smooth(prescribed: Target) -> float:
-            """Return the contact radius without friction."""
+            """Return the contact radius without friction under a normal load [length]."""
             return normal_contact(both.bodies, scene.indenter, prescribed).contact.radius
 
         largest = max(map(smooth, largest_targets(scene)))
@@ -109,6 +116,7 @@ class TangentialSteps(StepsOnRings):
         edges = [largest, *(edge for edge in sorted(ends) if edge * count < NARROW * largest)]
 
         def at(circle: Circle) -> TangentialSteps:
+            """Create the solver with rings that are dense at the current contact radii."""
             harmonics = 0 if circle is Circle.ONE else highest
             points = lay_out(
                 both, scene.indenter, edges, count, harmonics, circle, friction.largest, scene.rig
@@ -122,7 +130,10 @@ class TangentialSteps(StepsOnRings):
         return at(circle)
 
     def _radii(self) -> list[float]:
-        """Return contact radii at the ends of the load steps, under the normal load alone."""
+        """Return contact radii at the ends of the load steps, under the normal load alone [length].
+
+        Load steps that end without contact, or with unchanged normal load, are skipped.
+        """
         state: TangentialState | None = None
         found = []
         for ramp in self.scene.load_path():
@@ -144,13 +155,19 @@ class TangentialSteps(StepsOnRings):
     def _normal(
         ramp: LoadRamp, start: TangentialState | None, fraction: float
     ) -> tuple[float | None, float | None]:
-        """Return the normal force or the approach at a fraction of a ramp; the other one is
-        None."""
+        """Return the normal force and the approach at a fraction of a load step.
+
+        The quantity that is not prescribed is None.
+
+        ramp      load step
+        start     state at the start of the load step; None without contact
+        fraction  fraction of the linear change of the load, 0 to 1
+        """
         reached = (start.forces[NORMAL], start.motions[NORMAL]) if start else (0.0, 0.0)
         return ramp.normal.prescribed(fraction, reached)
 
     def spent(self) -> float:
-        """Return the number of steps of Newton's method."""
+        """Return the number of Newton steps of all solves up to now."""
         return float(sum(self.taken))
 
     def advance(
@@ -160,9 +177,13 @@ class TangentialSteps(StepsOnRings):
         before: TangentialState | None,
         fraction: float,
     ) -> TangentialState:
-        """Solve the contact at a fraction of a load ramp, from the state before it.
+        """Solve the contact at a fraction of a load step.
 
-        Raises NotConverged, GrossSliding and ContactAtZoneEdge.
+        ramp      load step
+        start     state at the start of the load step; None without contact
+        before    state at the end of the previous increment; None without contact
+        fraction  fraction of the linear change of the loads, 0 to 1
+        raises    NotConverged, GrossSliding and ContactAtZoneEdge
         """
         start_loads = (start.forces, start.motions) if start else (NOTHING, NOTHING)
         since = self._vector(start_loads[0]), self._vector(start_loads[1])
@@ -177,19 +198,32 @@ class TangentialSteps(StepsOnRings):
         return self._at(Loads(forces, motions), before)
 
     def _vector(self, parts: tuple[float, ...]) -> Pair:
-        """Return the components along x and y from those along and across the direction."""
+        """Return the x and y components of a vector with components along and across θ = 0.
+
+        parts  the two components, and others that are not used
+        """
         (x, y), (along, across, *_) = self.direction, parts
         return along * x - across * y, along * y + across * x
 
     def _from(self, vector: Pair | None) -> tuple[float | None, float | None]:
-        """Return the components along and across the direction, or None for each."""
+        """Return the components of a vector along and across θ = 0; None for each without a vector.
+
+        vector  x and y components, or None
+        """
         if vector is None:
             return None, None
         (x, y), (of_x, of_y) = self.direction, vector
         return of_x * x + of_y * y, of_y * x - of_x * y
 
     def _at(self, loads: Loads, before: TangentialState | None) -> TangentialState:
-        """Solve the contact under loads."""
+        """Solve the contact under given loads, from the previous state.
+
+        Loads without tangential component are solved with one angle, as long as no preceding load
+        had a tangential component.
+
+        loads   prescribed loads and motions
+        before  state at the end of the previous increment; None without contact
+        """
         if before is not None and before.prescribed == loads:
             return before
         tangential = (*loads.forces[:TORSION], *loads.motions[:TORSION])
@@ -213,18 +247,18 @@ class TangentialSteps(StepsOnRings):
         return tangential_state(points, self.friction, end, last, slip, loads, before, smooth)
 
     def _smooth_radius(self, loads: Loads) -> float:
-        """Return the contact radius without friction [length]."""
+        """Return the contact radius without friction under the normal load of `loads` [length]."""
         return self._pressed(loads).contact.radius
 
     def _pressed(self, loads: Loads) -> NormalContact:
-        """Solve the contact without friction."""
+        """Solve the contact without friction under the normal load of `loads`."""
         prescribed = target(self.scene, loads.forces[NORMAL], loads.motions[NORMAL])
         return normal_contact(Bodies.of(self.scene), self.scene.indenter, prescribed)
 
     def _without_friction(self, points: Points, loads: Loads) -> Array:
-        """Return tractions and motion without friction, as an initial guess.
+        """Return tractions and rigid motion of the contact without friction, as an initial guess.
 
-        Newton's method needs far fewer steps from this guess than from that of `Laws.closed`.
+        Newton's method needs far fewer steps from this guess than from `Laws.closed_guess`.
         """
         found = self._pressed(loads)
         p = pressure(found.contact, points.radii / found.contact.radius)
@@ -235,7 +269,12 @@ class TangentialSteps(StepsOnRings):
         )
 
     def _refuse_within_first(self, points: Points, approach: float | None) -> None:
-        """Raise UnsupportedScene for an approach smaller than the mean gap of every ring."""
+        """Raise UnsupportedScene if a prescribed approach is too small for the first ring.
+
+        The approach must exceed the mean undeformed gap over the hat function of at least one ring.
+
+        approach  prescribed approach; None under a prescribed force [length]
+        """
         depth = float(np.min(points.gap_areas / points.areas))
         if approach is not None and approach <= depth:
             raise UnsupportedScene(
@@ -245,7 +284,13 @@ class TangentialSteps(StepsOnRings):
             )
 
     def report(self, reached: Reached[TangentialState], last: Increment | None) -> Increment:
-        """Return the increment on rings and angles; raise NotConverged above the tolerance."""
+        """Compute the output of an increment: fields on rings and angles, energies and residuals.
+
+        Raises NotConverged if a residual exceeds the tolerance.
+
+        reached  solved state at the end of the increment
+        last     output of the previous increment (not used)
+        """
         state, end = reached.state, reached.state.end
         angular = state.circle is not Circle.ONE
         points = self.points if angular else self.points.round
@@ -304,7 +349,11 @@ class TangentialSteps(StepsOnRings):
     def _refuse_narrow(self, state: TangentialState, step: int) -> None:
         """Raise UnsupportedScene if the slip annulus after normal loading is narrower than a ring.
 
-        Tractions at the border of this annulus and at the edge would be inaccurate.
+        Tractions at the border of this annulus and at the edge would be inaccurate. The annulus is
+        too narrow if no point slips although pressure displaces the surfaces relative to each
+        other.
+
+        step  number of the load step; only the first one is checked
         """
         sticks = state.status is ContactStatus.FULL_STICK
         if sticks and step == 1 and state.circle is Circle.ONE and coupling(self.scene)[0]:
@@ -316,10 +365,14 @@ class TangentialSteps(StepsOnRings):
 
     @staticmethod
     def _admissible(points: Points, shear: Array, limit: Array) -> Array:
-        """Project interpolated shear (2, n, angles) onto its limit, at equal force and torque of
-        every ring.
+        """Reduce interpolated shear to the friction limit, at nearly equal force and torque per
+        ring.
 
-        Interpolation exceeds the limit near the border of the stick zone.
+        Interpolation exceeds the limit near the border of the stick zone. Alternating projections
+        remove the excess.
+
+        shear  q_r and q_θ at the output angles (2, n, angles) [force/length²]
+        limit  friction limit (n, angles) [force/length²]
         """
         angles = points.output_angles
         cos, sin, one = np.cos(angles), np.sin(angles), np.ones_like(angles)
@@ -340,7 +393,10 @@ class TangentialSteps(StepsOnRings):
 
     @staticmethod
     def _scalar(points: Points, field: Array) -> Array:
-        """Interpolate a scalar to the output angles. The axis has one value."""
+        """Interpolate a scalar field from the points to the output angles (n, angles).
+
+        At the axis all angles have the mean value.
+        """
         if points.count == 1:
             return field
         shown = points.shown(field, 1.0)
@@ -349,7 +405,12 @@ class TangentialSteps(StepsOnRings):
 
     @staticmethod
     def _vectors(points: Points, vector: Array) -> tuple[Array, Array]:
-        """Interpolate radial and circumferential components to the output angles."""
+        """Interpolate radial and circumferential components from the points to the output angles.
+
+        At the axis all angles have the same vector.
+
+        vector  components r and θ at the points (2, n count)
+        """
         if points.count == 1:
             # The axis has no direction.
             outward, angle_factor = vector * (points.radii > 0)
@@ -366,7 +427,11 @@ class TangentialSteps(StepsOnRings):
 
 
 def _moving(points: Points, loads: Loads) -> Loads:
-    """Replace loads on motions that symmetry excludes by a prescribed zero motion."""
+    """Replace loads on motions that symmetry excludes by a prescribed zero motion.
+
+    Points on one angle exclude shifts. Points on half a circle exclude the shift across θ = 0 and
+    the twist.
+    """
     has = [*np.any(points.rigid_motions, axis=1), True]
     forces, motions = (
         tuple(value if moves else rest for moves, value in zip(has, prescribed, strict=True))
