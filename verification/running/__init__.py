@@ -1,1 +1,2 @@
-"""How a study runs: cases on a pool of processes, their records in files, and the page."""
+"""Execution of a study: cases on a pool of processes, their records in files, and
+the report page."""

@@ -1,7 +1,7 @@
-"""Cases on several processes; whatever happens to one, the others are finished.
+"""Computation of cases on several processes. An error or a killed worker affects only its own case.
 
-The processes are workers of this machine, or those of a cluster that is there already
-(`cluster.py`). Only this process writes records, each as soon as its case has ended.
+The processes are workers of this machine or of an existing cluster (`cluster.py`). Only the parent
+process writes records, each as soon as its case has ended.
 """
 
 from __future__ import annotations
@@ -33,22 +33,28 @@ LARGEST_RECORD = 100_000_000  # bytes; those of full verifications have a few hu
 
 
 class DamagedRecord(Exception):
-    """A file stands in a record's place and is not that record."""
+    """The file at the path of a record is unreadable, damaged, or the record of another case."""
 
 
 @dataclass(frozen=True)
 class CaseStore:
-    """A directory of records of one type."""
+    """Directory that stores one record file per case; all records are of type `record_type`."""
 
     directory: Path
     record_type: type[Description] = CaseRecord
 
     def path(self, case: StudyCase, code: bytes | None = None) -> Path:
-        """Where the record of a case is or will be, by the code of this digest or by ours."""
+        """Return the path of the record of a case.
+
+        code  digest of the source code that computes the case; None for that of this process
+        """
         return self.directory / f"{case.name}-{content_hash(case, code)}.json"
 
     def load(self, case: StudyCase) -> Description | None:
-        """The record; None if there is none. Raises DamagedRecord, which names the file."""
+        """Read the record of a case; None if there is none.
+
+        Raises DamagedRecord, which names the file.
+        """
         path = self.path(case)
         try:
             if path.stat().st_size > LARGEST_RECORD:
@@ -70,7 +76,10 @@ class CaseStore:
             raise DamagedRecord(f"{path} is damaged: no whole record of this version") from error
 
     def save(self, case: StudyCase, record: Description, code: bytes | None = None) -> None:
-        """Write the record that code of this digest has made, or ours; whole or not at all."""
+        """Write the record of a case atomically: a complete file or none.
+
+        code  digest of the source code that computed the record; None for that of this process
+        """
         path, values = self.path(case, code), record.model_dump(mode="json")
         document = {"of": path.stem, "sha256": _digest(values), "record": values}
         with atomic_file(path) as temporary:
@@ -78,7 +87,10 @@ class CaseStore:
 
 
 def content_hash(case: StudyCase, code: bytes | None = None) -> str:
-    """Digest of the case's kind and values, and of the code that computes it, if not ours."""
+    """Return a digest of the type and values of a case, and of the source code that computes it.
+
+    code  digest of the source code; None for that of this process
+    """
     kind = type(case)
     asked: Any = asdict(case)  # type: ignore[call-overload]
     text = json.dumps([kind.__module__, kind.__qualname__, asked], sort_keys=True)
@@ -96,7 +108,7 @@ T = TypeVar("T")
 
 
 class LocalWorkers:
-    """So many processes at a time."""
+    """Worker processes on this machine, at most `processes` at a time."""
 
     elsewhere = False
 
@@ -110,15 +122,17 @@ class LocalWorkers:
         self._all: list[ProcessPoolExecutor] = []
 
     def submit(self, compute: Callable[..., T], *arguments: object) -> Future[T]:
-        """Call the function in a worker; BrokenProcessPool if that dies meanwhile."""
+        """Call a function in a worker process. The future raises BrokenProcessPool if the worker
+        dies.
+        """
         return self._threads.submit(self._call, compute, *arguments)
 
     def lost(self) -> list[str]:
-        """Return none: a worker that dies takes its case with it, which is named."""
+        """Return no addresses: a local worker that dies is reported with its case."""
         return []
 
     def close(self) -> None:
-        """Give up what has not been begun, and let the workers go."""
+        """Cancel the calls that have not started, and end the worker processes."""
         self._threads.shutdown(cancel_futures=True)
         for worker in self._all:
             worker.shutdown()
@@ -140,12 +154,13 @@ class LocalWorkers:
 
 
 class ThisProcess:
-    """No worker: what is alone has no others to be kept from harm, and pays for no second start."""
+    """Executor that calls functions in the current process, without the cost of
+    starting workers."""
 
     elsewhere = False
 
     def submit(self, compute: Callable[..., T], *arguments: object) -> Future[T]:
-        """Call the function now."""
+        """Call a function immediately and return a completed future."""
         future: Future[T] = Future()
         try:
             future.set_result(compute(*arguments))
@@ -154,17 +169,18 @@ class ThisProcess:
         return future
 
     def lost(self) -> list[str]:
-        """Return none."""
+        """Return no addresses of dead workers, because there are no workers."""
         return []
 
     def close(self) -> None:
-        """Nothing was begun."""
+        """Do nothing: no calls are pending and there are no workers."""
 
 
 def _remove_semaphores_silently() -> None:
-    """Start the process that removes our semaphores if we are stopped; it warns of each as leaked.
+    """Start Python's resource tracker with its warnings disabled.
 
-    What a person is told at the end of a stopped command shall stand alone.
+    The tracker removes semaphores if this process is stopped. It would print a warning for each
+    semaphore after the last message of a stopped command.
     """
     if os.name == "nt":
         return  # the system removes them
@@ -181,14 +197,16 @@ def _remove_semaphores_silently() -> None:
 
 
 def cores() -> int:
-    """Processors that this process may use."""
+    """Return the number of processors that this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1  # macOS and Windows
 
 
 def _obey_parent() -> None:
-    """End with the parent, however it ends; its terminal's interrupts are for it alone."""
+    """Initialise a worker process: ignore terminal interrupts, and exit when the parent process
+    ends.
+    """
     with suppress(ValueError):
         signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = multiprocessing.parent_process()
@@ -207,11 +225,13 @@ OTHER_CODE = "its worker has other sources of slipstick, or other libraries: ins
 
 @dataclass(frozen=True)
 class CaseEnd:
-    """How a case ended: with a record or with the reason why there is none.
+    """Outcome of a case: its record, or the reason why there is no record.
 
-    stored   whether the record was there before
-    damaged  what was there in its place and could not be used; empty if nothing was
-    workers  addresses of workers that were found dead meanwhile; others compute their cases
+    record   record of the case; None if it was not computed
+    lost     reason why there is no record; None if there is one
+    stored   True if the record was read from the store
+    damaged  message on a stored file that could not be used; empty if there was none
+    workers  addresses of workers found dead meanwhile; their cases go to other workers
     """
 
     case: StudyCase
@@ -223,7 +243,7 @@ class CaseEnd:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Sentences on what went wrong and cost nothing but time."""
+        """Messages on problems that only cost time: a damaged record file, and dead workers."""
         dead = (f"worker {one} has died: its cases go to other workers" for one in self.workers)
         return (*((f"{self.damaged}; computed again",) if self.damaged else ()), *dead)
 
@@ -233,10 +253,10 @@ Observer = Callable[[CaseEnd], None]
 
 @dataclass(frozen=True)
 class Answer:
-    """What a worker sends back.
+    """Reply of a worker for one case.
 
-    record  of the case, or why there is none
-    code    digest of the sources that were used
+    record  record of the case, or the reason as text why there is none
+    code    digest of the source code that the worker used
     """
 
     record: Description | str
@@ -244,22 +264,22 @@ class Answer:
 
 
 class Workers(Protocol):
-    """Where cases are computed.
+    """Interface of a pool of workers that compute cases.
 
-    elsewhere  whether the workers may have other sources than this process for good
+    elsewhere  True if the workers may permanently have other source code than this process
     """
 
     @property
     def elsewhere(self) -> bool: ...
 
     def submit(self, compute: Callable[[StudyCase], Answer], case: StudyCase) -> Future[Answer]:
-        """Call the function in some other process."""
+        """Call a function with a case in a worker and return the future of its reply."""
 
     def lost(self) -> Sequence[str]:
         """Return the addresses of workers that have died since the last call."""
 
     def close(self) -> None:
-        """Give up what has not been begun, and let the workers go."""
+        """Cancel the calls that have not started, and release the workers."""
 
 
 def run_cases(
@@ -270,11 +290,13 @@ def run_cases(
     *,
     fresh: bool = False,
 ) -> tuple[CaseEnd, ...]:
-    """Records of all cases, in their order: from the store, or computed and stored.
+    """Return the outcomes of all cases, in their order: records from the store, or computed and
+    stored.
 
-    workers  processes of this machine, >= 1, or others; these are closed at the end too
-    observe  called with every case that has ended, in this thread; first with those of the store
-    fresh    take nothing from the store
+    workers  number of processes on this machine, >= 1, or a pool of workers, which is closed at the
+             end
+    observe  function called in this thread with the outcome of every case; stored cases come first
+    fresh    if True, compute every case even if it has a stored record
     """
     cases = tuple(cases)
     ends: dict[str, CaseEnd] = {}
@@ -302,7 +324,8 @@ def run_cases(
 
 
 def _stored(case: StudyCase, store: CaseStore) -> CaseEnd:
-    """With the record of the store, or without one."""
+    """Return the outcome of a case with its stored record, or without a record if
+    none can be used."""
     try:
         record = store.load(case)
     except DamagedRecord as error:
@@ -311,7 +334,7 @@ def _stored(case: StudyCase, store: CaseStore) -> CaseEnd:
 
 
 def _received(future: Future[Answer], pool: Workers) -> Answer:
-    """The answer, or one that says why none came."""
+    """Return the reply of a worker, or a reply with the reason why none was received."""
     try:
         answer = future.result()
     except BrokenProcessPool:
@@ -324,8 +347,11 @@ def _received(future: Future[Answer], pool: Workers) -> Answer:
 
 
 def _ended(end: CaseEnd, answer: Answer, store: CaseStore) -> CaseEnd:
-    """With what became of the case; its record is stored as that of the sources that made it:
-    a source may have been edited since this process was started."""
+    """Complete the outcome of a case by the reply of its worker, and store the record.
+
+    The record is stored under the digest of the sources that computed it, because a source file may
+    have been edited since this process was started.
+    """
     if isinstance(answer.record, str):
         return replace(end, lost=LostCase(name=end.case.name, reason=answer.record))
     store.save(end.case, answer.record, answer.code)
@@ -333,9 +359,9 @@ def _ended(end: CaseEnd, answer: Answer, store: CaseStore) -> CaseEnd:
 
 
 def _answer(case: StudyCase) -> Answer:
-    """In a worker: the record of a case, or why there is none.
+    """Compute a case in a worker and return its record, or the error as text.
 
-    An error is sent home as text: one that cannot be rebuilt there would look like a dead worker.
+    An exception that cannot be unpickled in the parent process would look like a dead worker.
     """
     code, started = code_digest(), time.process_time()  # before the sources are used
     try:

@@ -1,4 +1,4 @@
-"""Workers of a dask.distributed cluster that is there already."""
+"""Workers of an existing dask.distributed cluster."""
 
 from __future__ import annotations
 
@@ -17,15 +17,16 @@ SECONDS_TO_CONNECT = 10
 
 
 class ClusterUnavailable(Exception):
-    """There is no cluster at the address, or nothing installed that could speak to one."""
+    """No scheduler answers at the address, the address is invalid, or
+    dask.distributed is missing."""
 
 
 class ClusterWorkers:
-    """The workers of the scheduler at an address, tcp://host:port or tls://host:port.
+    """Workers of a dask scheduler at an address tcp://host:port or tls://host:port.
 
-    They need slipstick of the same sources, and no common disk. Certificates for tls are those of
-    dask's own configuration (`distributed.comm.tls`). Where a worker dies, dask gives its case to
-    others, a few times. Raises ClusterUnavailable.
+    The workers must have the same sources of slipstick; they need no common disk. Certificates for
+    tls are those of dask's configuration (`distributed.comm.tls`). If a worker dies, dask gives its
+    case to another worker, a limited number of times. Raises ClusterUnavailable.
     """
 
     elsewhere = True
@@ -52,7 +53,9 @@ class ClusterWorkers:
         self._known = set(self._client.nthreads())
 
     def submit(self, compute: Callable[[StudyCase], Answer], case: StudyCase) -> Future[Answer]:
-        """Call the function in a worker."""
+        """Call a function with a case in a worker of the cluster and return the future of its
+        reply.
+        """
         future: Future[Answer] = self._executor.submit(compute, case)
         return future
 
@@ -66,6 +69,6 @@ class ClusterWorkers:
         return sorted(gone)
 
     def close(self) -> None:
-        """Give up what has not ended, and leave the cluster as it is."""
+        """Cancel the calls that have not ended and disconnect. The cluster keeps running."""
         self._executor.shutdown(wait=False)
         self._client.close()

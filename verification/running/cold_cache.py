@@ -1,5 +1,4 @@
-"""Measuring what a method costs: nothing may come from what an earlier run has left on disk or in
-memory."""
+"""Timing of solvers with empty caches, so that no result of an earlier run shortens the time."""
 
 from __future__ import annotations
 
@@ -22,7 +21,10 @@ T = TypeVar("T")
 
 @contextmanager
 def cold_cache() -> Iterator[None]:
-    """Every solver finds an empty cache, which goes afterwards, and remembers nothing."""
+    """Run a block with empty caches of all solvers, on disk and in memory.
+
+    The cache on disk is a temporary directory, which is removed afterwards.
+    """
     before = os.environ.get(CACHE)
     _forget()
     with TemporaryDirectory() as empty:
@@ -45,8 +47,11 @@ def _forget() -> None:
 
 
 def timed(compute: Callable[[], T]) -> tuple[T, float, int]:
-    """What a function returns, the median of its CPU seconds in this process, and how often it was
-    called: each time with an empty cache, until the sum says enough."""
+    """Call a function with cold caches until its CPU time is measured well enough.
+
+    The calls stop after 5 calls or 1 s of CPU time in total. Returns the last result, the median
+    CPU seconds and the number of calls.
+    """
     seconds: list[float] = []
     while True:
         with cold_cache():

@@ -1,4 +1,4 @@
-"""The block of a report that differs between equal runs."""
+"""Provenance of a report: the only part that differs between repeated runs."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from verification.running.sources import source_digest
 
 
 class Provenance(Description):
-    """Who made the numbers, when, on what, and how long it took."""
+    """Version, command, date, machine, libraries and times of the run that computed a report."""
 
     program_version: str
     commit: str | None
@@ -47,11 +47,11 @@ def provenance(
     seconds: dict[str, float],
     modules: Sequence[str] = (),
 ) -> Provenance:
-    """Return the versions, machine, commit and times of this process.
+    """Collect the versions, machine, commit and times of this process.
 
-    command     the command that makes the same report again
-    seconds     wall seconds by case
-    modules     that make the numbers, with all that these import
+    command  command that makes the same report again
+    seconds  wall seconds by case
+    modules  modules that compute the numbers; the digest includes all modules that these import
     """
     # Of what computes: a kept report or record that this very command replaces is no change.
     commit, changes = _git("rev-parse", "HEAD"), _git("status", "--porcelain", ".", ":!reports")

@@ -1,4 +1,4 @@
-"""Stored records of studies and of the full report, with their age and their cost."""
+"""Stored records of the studies and of the full verification report, with their date and cost."""
 
 from __future__ import annotations
 
@@ -18,9 +18,11 @@ EARLIER = "earlier"  # of a directory: the files before, until the new ones are 
 
 @dataclass(frozen=True)
 class StoredRecord:
-    """A record in the repository.
+    """Stored record of a study or of the full report in the repository.
 
-    arguments  of `slipstick`, which make it again
+    path        file of the record
+    provenance  version, date and times of the run that made the record
+    arguments   arguments of `slipstick` that make the record again
     """
 
     path: Path
@@ -29,16 +31,18 @@ class StoredRecord:
 
     @property
     def name(self) -> str:
-        """Name of its folder."""
+        """Name of the folder that contains the record."""
         return self.path.parent.name
 
     @property
     def seconds(self) -> float:
-        """Wall seconds of its cases, of all workers together."""
+        """Sum of the wall seconds of all cases of the record, over all workers."""
         return sum(self.provenance.seconds.values())
 
     def pack(self) -> None:
-        """Replace a report by its packed form, if the record is packed."""
+        """Compress a newly made report and delete the plain file, if the stored record is
+        compressed.
+        """
         if self.path.suffix == PACKED_SUFFIX:
             plain = self.path.with_suffix("")
             self.path.write_bytes(lzma.compress(plain.read_bytes(), preset=9 | lzma.PRESET_EXTREME))
@@ -46,12 +50,16 @@ class StoredRecord:
 
 
 def stored_records(folder: Path = REPORTS) -> list[StoredRecord]:
-    """Return the records of a folder, the cheapest first; raises ValueError for a damaged one."""
+    """Return the stored records of a folder in ascending order of cost.
+
+    Raises ValueError for a damaged record.
+    """
     return sorted(_records(folder), key=lambda record: record.seconds)
 
 
 def _records(folder: Path) -> Iterator[StoredRecord]:
-    """Yield all records, also those that a killed regeneration has set aside."""
+    """Yield all stored records, including those that an interrupted regeneration
+    has moved aside."""
     studies = folder / "studies"
     for place in (studies, *sorted(studies.glob("*"))):
         for record in stored_studies(place):

@@ -1,1 +1,1 @@
-"""Measurements for the report: what a choice costs in accuracy."""
+"""Studies of the report: each measures the effect of a numerical choice on accuracy or cost."""

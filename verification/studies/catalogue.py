@@ -1,4 +1,4 @@
-"""The studies that `slipstick maintain study` knows."""
+"""Tables of the studies that `slipstick maintain study` and the studies of scene files offer."""
 
 from dataclasses import dataclass
 
@@ -20,10 +20,11 @@ from verification.studies.work_precision.study import STUDY as WORK_PRECISION
 
 @dataclass(frozen=True)
 class SceneStudy:
-    """A study of any scene file.
+    """Describe a kind of convergence study that can be made of any scene file.
 
-    title    a line for lists
-    solvers  that can make it; the first one is the default
+    title    one line for lists of studies
+    of       function that makes the study of a scene file
+    solvers  names of the solvers that can make the study; the first one is the default
     """
 
     title: str

@@ -78,11 +78,12 @@ AT = {force: f"at {force:g} µW" for force in FORCES}
 
 @dataclass(frozen=True)
 class TractionRun:
-    """Tractions of one contact by one solver.
+    """Represent the solve of one coated contact by one solver, whose tractions a record stores.
 
-    ratio     E1 / E2, coating over substrate
-    fineness  cells a side, or multiple of the rings
-    share     of the increments
+    solver    "semi-analytical" or "radial"
+    ratio     E1 / E2, Young's modulus of the coating over that of the substrate
+    fineness  cells per side, or factor by which the radial solver multiplies its number of rings
+    share     factor by which the increments of all load steps are multiplied
     """
 
     solver: str
@@ -96,7 +97,11 @@ class TractionRun:
         return words.replace(".", "p")
 
     def compute(self) -> CaseRecord:
-        """Solve; raises the errors of the solvers."""
+        """Solve the contact and record its tractions on y = 0 at the end of every load step.
+
+        The load steps press the ball and then push it tangentially. Raises the errors of the
+        solvers.
+        """
         pushes = (LoadStep(tangential_force=(t * FRICTION_LIMIT, 0.0)) for t in FORCES[1:])
         body = coated(film(self.ratio, 1.0))
         title = f"Rigid ball on a coated half-space, E1/E2 = {self.ratio:g}"
@@ -124,7 +129,13 @@ class TractionRun:
 
 
 def _profile(result: Any, end: Any, force: float) -> list[Row]:
-    """Return the pressure and shear on y = 0, over the Hertz pressure and µ times it."""
+    """Sample the pressure and the shear traction on y = 0 at fixed x at the end of one load step.
+
+    The pressure is divided by the Hertz peak pressure p_H, the shear by µ p_H.
+
+    end    state at the end of the load step
+    force  tangential force over µW, stored with each row
+    """
     surface, scale = surface_of(result), HERTZ.peak_pressure
     x = surface.line.places / HERTZ.contact_radius
     pressure, shear = surface.scalar(end, "pressure"), surface.vector(end, "shear")
@@ -143,7 +154,13 @@ def _profile(result: Any, end: Any, force: float) -> list[Row]:
 
 @dataclass(frozen=True)
 class Curves:
-    """Pressure and shear at every force (force, x), and their estimated errors (field, force)."""
+    """Hold pressure and shear curves on y = 0 at every tangential force, and their estimated
+    errors.
+
+    pressure  pressure over Hertz peak pressure (force, x)
+    shear     shear over µ times the Hertz peak pressure (force, x)
+    errors    estimated relative error of each curve (field, force); field 0 is the pressure
+    """
 
     pressure: Field
     shear: Field
@@ -151,7 +168,14 @@ class Curves:
 
     @classmethod
     def of(cls, solves: Mapping[str, CaseRecord]) -> Curves:
-        """Compare the fine solve of a contact with its coarse ones."""
+        """Estimate the errors of the curves of the fine solve from the coarse solves of the same
+        contact.
+
+        One coarse solve has fewer cells or rings, the other one half of the increments. Their
+        errors are added.
+
+        solves  records by kind of solve: "fine", "coarse", "half the increments"
+        """
         fine, *coarse = (_fields(solves[name]) for name in SOLVES)
         errors = np.zeros((2, len(FORCES)))
         for (cells, increments), other in zip(list(SOLVES.values())[1:], coarse, strict=True):
@@ -167,13 +191,20 @@ def _fields(record: CaseRecord) -> tuple[Field, Field]:
 
 
 def _apart(one: tuple[Field, Field], other: tuple[Field, Field]) -> Field:
-    """Return differences of pressure and shear at every force, relative (field, force)."""
+    """Compute the relative differences of two pairs of pressure and shear curves (field, force).
+
+    Each is the integral of the absolute difference over the integral of the pressure of the first
+    pair.
+    """
     total = one[0].sum(axis=1)
     return np.array([np.abs(a - b).sum(axis=1) / total for a, b in zip(one, other, strict=True)])
 
 
 def runs(settings: Settings) -> dict[tuple[float, str, str], TractionRun]:
-    """All solves by ratio, solver and kind."""
+    """Return all solves of the study by modulus ratio E1/E2, solver and kind of solve.
+
+    The kind is "fine", "coarse" (2/3 of the cells or rings) or "half the increments".
+    """
     cells, rings = FINEST[settings.level]
     finest = {CELLS: float(settings.cells or cells), RINGS: rings}
     return {
@@ -187,12 +218,14 @@ def runs(settings: Settings) -> dict[tuple[float, str, str], TractionRun]:
 
 
 def cases(settings: Settings) -> tuple[TractionRun, ...]:
-    """Return all solves."""
+    """Return the solves of all coated contacts: each modulus ratio, solver and kind of solve."""
     return tuple(runs(settings).values())
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
-    """Return the figures, the errors of their curves, and the statements of the paper."""
+    """Return the figures of the tractions, the errors of the curves, and checks of the paper's
+    statements.
+    """
     asked = runs(settings)
     known = found(asked.values(), records)
     curves = {
@@ -246,7 +279,13 @@ def _answer(stick: Mapping[str, float]) -> str:
 
 
 def _difference(ratio: float, curves: Drawn, field: int) -> Row:
-    """Return the difference of the two solvers with the error of each curve."""
+    """Compare the curves of one field by cells and by the radial solver at every tangential force.
+
+    The row has the relative difference of the solvers and the estimated error of each curve.
+
+    ratio  E1 / E2, modulus of the coating over that of the substrate
+    field  0 for the pressure, 1 for the shear
+    """
     cells, rings = curves[ratio, CELLS], curves[ratio, RINGS]
     apart = _apart((cells.pressure, cells.shear), (rings.pressure, rings.shear))[field]
     measures: dict[str, float | None] = {}
@@ -260,7 +299,11 @@ def _difference(ratio: float, curves: Drawn, field: int) -> Row:
 
 
 def _agree(rows: Sequence[Row], *, complete: bool) -> Statement:
-    """Judge every curve: the solvers differ by no more than the sum of their errors."""
+    """Judge the agreement of cells and radial solver: no difference exceeds the sum of both errors.
+
+    rows      differences and errors of the curves
+    complete  True if every modulus ratio is solved by both solvers
+    """
     shares = []
     for row in rows:
         for at in AT.values():
@@ -306,7 +349,12 @@ def _number(name: str) -> Any:
 
 
 def _figure(curves: Drawn, field: int) -> Chart:
-    """Return one panel per ratio: cells as lines, on the grey ones of the radial solver."""
+    """Draw the curves of one field, one panel per modulus ratio.
+
+    Cells are drawn as lines on top of wide grey lines of the radial solver.
+
+    field  0 for the pressure (figure 3 of the paper), 1 for the shear (figure 4)
+    """
     number, what, label = (
         (3, "pressure", "p / Hertz pressure"), (4, "shear", "qₓ / (µ × Hertz pressure)")
     )[field]  # fmt: skip

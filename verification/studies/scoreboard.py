@@ -1,4 +1,4 @@
-"""The study of all codes on all challenges: ours and others by the same door."""
+"""Study that judges all codes, this program and others, on all challenges by one interface."""
 
 from __future__ import annotations
 
@@ -44,7 +44,12 @@ CANNOT, LINE, GRADE, VERSION = "cannot", "line", "grade", "version"
 
 @dataclass(frozen=True)
 class ScoredRun:
-    """One code on one challenge."""
+    """Represent the judgement of one code on one challenge (a problem with a known answer).
+
+    code       name of this program's solver or module of another code
+    challenge  name of the challenge
+    levels     number of refinement levels
+    """
 
     code: str
     challenge: str
@@ -52,12 +57,15 @@ class ScoredRun:
 
     @property
     def name(self) -> str:
-        """Of its record."""
+        """Name of the record of this code and challenge, for files."""
         words = f"{self.code}-{self.challenge}"
         return "".join(c if c.isalnum() else "-" for c in words)
 
     def compute(self) -> CaseRecord:
-        """Solve on all levels and judge; a code that has no such problem says so."""
+        """Solve the challenge on all levels and judge the answers.
+
+        The record of a code that cannot solve the problem has the reason instead.
+        """
         asked: dict[str, str | bool | int | float | None] = {
             "code": self.code, "challenge": self.challenge, "levels": self.levels,
         }  # fmt: skip
@@ -81,14 +89,14 @@ class ScoredRun:
 
 
 def cases(settings: Settings) -> tuple[ScoredRun, ...]:
-    """Return every code on every challenge."""
+    """Return the runs of every code on every challenge."""
     codes = (*OURS, *(peer.module for peer in PEERS))
     levels = settings.levels or LEVELS[settings.level]
     return tuple(ScoredRun(code, name, levels) for code in codes for name in challenges())
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
-    """Classes by code and challenge, and what each code's largest errors are."""
+    """Return the accuracy classes, CPU times and largest errors by code and challenge."""
     runs = [(run, records[run.name]) for run in cases(settings) if run.name in records]
     done = Counter(run.code for run, record in runs if CANNOT not in record.words)
     codes = list(dict.fromkeys(run.code for run, _ in runs))
@@ -155,7 +163,10 @@ def _cell(record: CaseRecord | None) -> str:
 
 
 def _priced(found: dict[tuple[str, str], CaseRecord], codes: list[str]) -> Table:
-    """Build the table of CPU seconds of all levels, as measured or as reported by the code."""
+    """Build the table of CPU seconds of all levels by challenge and code.
+
+    The seconds are measured, or reported by the code.
+    """
     return Table(
         title="CPU seconds of all levels",
         columns=("challenge", *codes),
@@ -177,7 +188,12 @@ def _priced(found: dict[tuple[str, str], CaseRecord], codes: list[str]) -> Table
 def _errors(
     found: dict[tuple[str, str], CaseRecord], codes: list[str]
 ) -> Iterator[tuple[str, ...]]:
-    """Over all loading steps."""
+    """Yield the rows of the table of largest errors: challenge, quantity, and one error per code.
+
+    Each error is the largest of all load steps and levels that have a bound.
+
+    found  records by challenge and code
+    """
     for name in challenges():
         worst: dict[str, dict[str, float]] = {}
         for code in codes:

@@ -1,4 +1,7 @@
-"""A drawn scene, solved as `slipstick run` solves it, with its stated and true errors."""
+"""Cases of the error-coverage study: a random scene of known answer, its stated and true errors.
+
+Each scene is solved as `slipstick run` solves it.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +34,9 @@ WRONG, STATED, UNCERTAIN = "wrong", "stated", "uncertain"
 
 @dataclass(frozen=True)
 class CoverageCase:
-    """A scene by the place where it is drawn."""
+    """Identify a random scene by its family, the seed of the generator and its number in the
+    family.
+    """
 
     family: str
     seed: int
@@ -42,7 +47,11 @@ class CoverageCase:
         return f"{self.family}-{self.seed}-{self.number}"
 
     def compute(self) -> CaseRecord:
-        """Return one part for each known number."""
+        """Solve the scene and record the true and the stated error of each result whose value is
+        known.
+
+        The text of a solver error is recorded instead if the solver refuses the scene.
+        """
         known = drawn(self.family, self.seed, self.number)
         started = time.process_time()
         record = CaseRecord(
@@ -71,7 +80,14 @@ def _judged(known: KnownScene) -> Iterator[Row]:
 
 
 def judged(truth: Truth, found: float, stated: StatedError | None) -> Row:
-    """Return the true and the stated error of a number over its true value."""
+    """Return the true error, the stated error and the uncertainty of the reference of one result.
+
+    All three are divided by the reference value.
+
+    truth   known value: quantity, load step and reference with uncertainty
+    found   computed value, in the unit of the reference
+    stated  error that the run states for the value; None if it states none
+    """
     size = abs(truth.reference.value)
     error = None if stated is None or stated.error is None else float(np.ravel(stated.error)[0])
     return Row(
@@ -86,7 +102,9 @@ def judged(truth: Truth, found: float, stated: StatedError | None) -> Row:
 
 
 def _run(known: KnownScene) -> tuple[Any, StatedErrors]:
-    """Solve a scene and state its errors."""
+    """Solve a scene of known answer on cells or finite elements and estimate the errors of its
+    results.
+    """
     asked: Any = known.fineness.asked
     if known.fineness.solver == CELLS:
         result = semi_analytical.solve_discretised(known.scene, asked)
@@ -108,19 +126,19 @@ DOUBTED = str(ErrorStatus.NOT_CONVERGED)
 
 @dataclass(frozen=True)
 class Share:
-    """A count, with the interval of Clopper and Pearson (1934)."""
+    """Represent the observed fraction `count / of`, with its Clopper-Pearson interval (1934)."""
 
     count: int
     of: int
 
     @property
     def part(self) -> float:
-        """Observed fraction."""
+        """Observed fraction `count / of`; 1 if nothing was counted."""
         return self.count / self.of if self.of else 1.0
 
     @property
     def interval(self) -> tuple[float, float]:
-        """Interval that leaves out 2.5 % on either side."""
+        """Two-sided 95 % confidence interval of the fraction: 2.5 % lie outside each end."""
         k, n, tail = self.count, self.of, (1 - CONFIDENCE) / 2
         low = float(betaincinv(k, n - k + 1, tail)) if k else 0.0
         high = float(betaincinv(k + 1, n - k, 1 - tail)) if k < n else 1.0
@@ -128,19 +146,23 @@ class Share:
 
     @property
     def text(self) -> str:
-        """Fraction and interval, such as 0.962 [0.931, 0.981]."""
+        """Fraction and its 95 % interval as text, such as 0.962 [0.931, 0.981]."""
         low, high = self.interval
         return f"{self.part:.3f} [{low:.3f}, {high:.3f}]"
 
 
 @dataclass(frozen=True)
 class Coverage:
-    """Counts of a group of numbers.
+    """Count how many stated errors of a group of results cover the true error.
 
-    covered, tight  of the numbers that are estimated or exact, and decided
-    apart           covered ones of those not converged
-    undecided       numbers whose reference is not certain enough
-    not_stated      numbers without an error
+    A result is decided if the uncertainty of its reference permits a verdict.
+
+    group       name of the group: a kind of quantity or a family of scenes
+    covered     decided results with an estimated or exact error whose true error is covered
+    tight       of the same results, those whose stated error is less than 10 times the true one
+    apart       covered results among the decided ones with status "not converged"
+    undecided   number of results whose reference is too uncertain for a verdict
+    not_stated  number of results without a stated error
     """
 
     group: str
@@ -152,7 +174,11 @@ class Coverage:
 
     @classmethod
     def of(cls, group: str, rows: Sequence[Row]) -> Coverage:
-        """Count the rows of a group."""
+        """Count the results of a group: covered, tight, not converged, undecided, without stated
+        error.
+
+        rows  one row per result, with true error, stated error and uncertainty of the reference
+        """
         having = [row for row in rows if row.measures[STATED] is not None]
         certain = [row for row in having if is_decided(row)]
         believed = [row for row in certain if row.words["status"] in BELIEVED]
@@ -168,26 +194,33 @@ class Coverage:
 
 
 def covers(row: Row) -> bool:
-    """Determine if the true error is within the stated one, up to that of the reference."""
+    """Determine if the true error is at most the stated error plus the uncertainty of the
+    reference.
+    """
     return value_of(row, WRONG) <= value_of(row, STATED) + value_of(row, UNCERTAIN)
 
 
 def is_tight(row: Row) -> bool:
-    """Determine if the stated error is less than ten times the true one."""
+    """Determine if the stated error of a result is less than 10 times its true error."""
     return value_of(row, STATED) < TIMES * value_of(row, WRONG)
 
 
 def is_decided(row: Row) -> bool:
-    """Determine if the reference is certain enough for a verdict.
+    """Determine if the reference of a result is certain enough to judge the stated error.
 
-    Its uncertainty is an order below the stated error, or the number is missed in any case.
+    The uncertainty of the reference must be at most 0.1 of the stated error. Otherwise the true
+    error must exceed the stated error by more than 3 uncertainties, so that it is certainly not
+    covered.
     """
     stated, uncertain = value_of(row, STATED), value_of(row, UNCERTAIN)
     return uncertain <= CERTAIN * stated or value_of(row, WRONG) > stated + MISSED * uncertain
 
 
 def grouped(rows: Iterable[tuple[str, Row]]) -> dict[str, Coverage]:
-    """Count the rows by the names of their groups."""
+    """Count the coverage of stated errors in each group of results.
+
+    rows  pairs of the name of a group and the row of one result
+    """
     groups: dict[str, list[Row]] = {}
     for name, row in rows:
         groups.setdefault(name, []).append(row)

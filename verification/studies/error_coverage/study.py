@@ -1,4 +1,4 @@
-"""Study of stated errors: coverage, size, and requested accuracies."""
+"""Study of stated errors: coverage of the true errors, tightness, and requested accuracies."""
 
 from __future__ import annotations
 
@@ -57,7 +57,10 @@ ASKED, REACHED, TRUE = "asked", "reached", "true"
 
 @dataclass(frozen=True)
 class LimitedLevels(Levels):
-    """Levels up to a largest work."""
+    """Refinement levels of a scene, limited by a largest work per level.
+
+    most  largest work: the product of the numbers of cells or elements, times all increments
+    """
 
     most: float = np.inf
 
@@ -70,7 +73,10 @@ class LimitedLevels(Levels):
 
 @dataclass(frozen=True)
 class RequestCase:
-    """A request by the place where it is drawn."""
+    """Identify a random request of accuracy by the seed of the generator and its number.
+
+    A request names a scene, one quantity and the relative error that is allowed.
+    """
 
     seed: int
     number: int
@@ -80,7 +86,9 @@ class RequestCase:
         return f"request-{self.seed}-{self.number}"
 
     def compute(self) -> CaseRecord:
-        """Refine until the request is met, and compare with the reference."""
+        """Refine the scene until the request is reported as met, and record the true error of the
+        quantity.
+        """
         family, known, quantity, share = self._drawn()
         truths = [truth for truth in known.truths if truth.quantity == quantity]
         record = CaseRecord(
@@ -108,7 +116,11 @@ class RequestCase:
         )
 
     def _drawn(self) -> tuple[str, KnownScene, str, float]:
-        """Draw scenes until one has a number with a reference certain enough for the request."""
+        """Draw a scene of known answer, a quantity of the scene and an allowed relative error.
+
+        Draws are repeated until a quantity has a reference that is certain enough for the request.
+        Returns the family of the scene, the scene, the quantity and the allowed relative error.
+        """
         rng = np.random.default_rng([self.seed, crc32(b"request"), self.number])
         while True:
             family = str(rng.choice([*FAMILIES]))
@@ -124,7 +136,12 @@ def _found(truth: Truth, level: RefinementLevel) -> float:
 
 
 def _certain(known: KnownScene, share: float) -> Iterator[str]:
-    """Quantities that can be requested, with references certain enough at all their steps."""
+    """Yield the quantities of a scene for which an accuracy can be requested and checked.
+
+    The relative uncertainty of the reference must be at most 0.1 of `share` at all load steps.
+
+    share  requested relative error
+    """
 
     def uncertain(truth: Truth) -> float:
         return truth.reference.uncertainty / abs(truth.reference.value)
@@ -157,7 +174,9 @@ REMARKS = (
 
 
 def cases(settings: Settings) -> tuple[CoverageCase | RequestCase, ...]:
-    """Return all scenes and requests, a third at the standard, one each at the quick level."""
+    """Return the random scenes and requests: all, a third, or one of each kind, by the level of the
+    study.
+    """
     parts = {Level.QUICK: 0, Level.STANDARD: 3, Level.FULL: 1}
     part = parts[settings.level]
 
@@ -171,7 +190,9 @@ def cases(settings: Settings) -> tuple[CoverageCase | RequestCase, ...]:
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
-    """Compare the coverage of all groups of numbers, and the requests, with their limits."""
+    """Judge the coverage of the stated errors of every group of results, and the requested
+    accuracies.
+    """
     asked = cases(settings)
     known = found(asked, records)
     scenes = [record for case, record in known.items() if isinstance(case, CoverageCase)]
@@ -200,7 +221,12 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
 
 
 def _of_kind(kind: str, rows: Sequence[tuple[str, Row]]) -> list[Row]:
-    """Rows of a kind that are believed and decided."""
+    """Return the results of one kind of quantity whose stated error can be judged.
+
+    Their status is estimated or exact, and their reference is certain enough.
+
+    rows  pairs of the family of a scene and the row of one result
+    """
     return [
         row
         for _, row in rows
@@ -247,7 +273,7 @@ def _statement(
 
 
 def _requests(requests: Sequence[CaseRecord]) -> Statement:
-    """Compare requests that are reported as met with their true errors."""
+    """Judge the requested accuracies: compare those reported as met with the true errors."""
     met = [one for one in requests if one.words["outcome"] == "met"]
     ratios = [value_of(one, TRUE) / value_of(one, ASKED) for one in met]
     false, worst = sum(ratio > 1 for ratio in ratios), max(ratios, default=0.0)
@@ -265,7 +291,12 @@ def _requests(requests: Sequence[CaseRecord]) -> Statement:
 
 
 def _chart(parts: dict[str, list[Row]]) -> Chart:
-    """Draw the share of numbers of each kind that exceed a part of their stated error."""
+    """Draw, for each kind of quantity, the distribution of the true error over the stated error.
+
+    The ordinate is the fraction of the results whose ratio exceeds the abscissa.
+
+    parts  rows of the results by kind of quantity
+    """
     lines = [(kind.replace("_", " "), _exceeding(rows)) for kind, rows in parts.items() if rows]
     allowed = [(1.0, LEAST_SHARE), (1.0, 1 - COVERED)]
     return log_chart(
@@ -282,7 +313,10 @@ def _chart(parts: dict[str, list[Row]]) -> Chart:
 
 
 def _exceeding(rows: Sequence[Row]) -> list[tuple[float, float]]:
-    """Return places along the error, and the share of rows beyond each."""
+    """Compute the fraction of results whose ratio of true to stated error exceeds x, at several x.
+
+    Returns pairs (x, fraction). Fractions below 1e-3 are left out, as the diagram is logarithmic.
+    """
     stated, wrong = (
         np.array([row.measures[name] for row in rows], float) for name in (STATED, WRONG)
     )

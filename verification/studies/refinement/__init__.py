@@ -1,1 +1,2 @@
-"""Convergence studies of a user's scene: limit, its uncertainty and the error that remains."""
+"""Convergence studies of a user's scene: limit under refinement, its uncertainty,
+remaining error."""

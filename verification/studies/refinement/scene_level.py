@@ -1,4 +1,4 @@
-"""One refinement level of a scene file, solved as `slipstick run` solves it."""
+"""One refinement level of a scene file, solved as `slipstick run` solves the file."""
 
 from __future__ import annotations
 
@@ -47,15 +47,18 @@ ORDER, LARGEST, NATURAL, FLOOR = "order", "largest", "natural", "floor"
 
 
 class CannotRefine(ValueError):
-    """The scene has no such load step, or nothing that can be refined as requested."""
+    """The scene lacks the requested load step, or has nothing that can be refined as requested."""
 
 
 @dataclass(frozen=True)
 class StudiedScene:
-    """A scene file with overrides, its solver, and the load step at whose end numbers are read.
+    """A scene file with overrides, the solver, and the load step at whose end results are compared.
 
-    content  digest of the file, so that a record of another content is not used
-    step     number of the load step, from 1
+    file       path of the scene file
+    overrides  changes of entries of the file, as on the command line
+    content    digest of the contents, so that a record of other contents is not reused
+    step       number of the load step, from 1
+    solver     name of the solver on the command line
     """
 
     file: str
@@ -68,9 +71,11 @@ class StudiedScene:
     def of(
         cls, path: Path, overrides: Sequence[str], step: int | None, solver: str
     ) -> StudiedScene:
-        """Read a scene file; the last load step counts where none is named.
+        """Read a scene file and return the studied scene.
 
-        Raises SceneError for mistakes in the file and CannotRefine for a step that is absent.
+        step  number of the load step, from 1; None for the last one
+
+        Raises SceneError for mistakes in the file and CannotRefine for an absent load step.
         """
         contents = read_scene_file(path, overrides)
         steps = len(contents.scene.loading)
@@ -81,21 +86,22 @@ class StudiedScene:
 
     @property
     def title(self) -> str:
-        """Title of the scene, or name of its file."""
+        """Title of the scene, or the name of its file if it has none."""
         return self.read().scene.title or Path(self.file).name
 
     @property
     def on_cells(self) -> bool:
-        """Return True if cells carry the tractions."""
+        """Determine if the scene is solved by the semi-analytical solver, with
+        tractions on cells."""
         return self.solver == CELLS
 
     def read(self) -> SceneFile:
-        """Return the contents of the file up to the studied step."""
+        """Read the scene file and drop the load steps after the studied one."""
         contents = read_scene_file(self.file, self.overrides)
         return contents.model_copy(update={"loading": contents.loading[: self.step]})
 
     def asked(self, contents: SceneFile) -> Any:
-        """Return the table of the discretisation."""
+        """Return the discretisation table of the scene file that the solver of the study uses."""
         return contents.semi_analytical if self.on_cells else contents.fem_reference
 
 
@@ -107,10 +113,14 @@ def _plan(scene: Scene, asked: Any) -> Any:
 
 @dataclass(frozen=True)
 class SceneLevel:
-    """A discretisation of a scene: entries of its table that are changed, and increments.
+    """One refinement level of a scene: its discretisation and its increments.
 
-    size  of what is refined: relative size of an increment, inverse size of the section; None for
-          the side of a cell or of an element, which the solver chooses
+    scene       scene file, solver and load step
+    changed     entries of the discretisation table that differ from the file, with their values
+    increments  number of increments of each load step
+    level       name of the level in tables
+    size        abscissa of the convergence fit: relative size of an increment, or inverse size of
+                the section; None for the side of a cell or element, which the solver chooses
     """
 
     scene: StudiedScene
@@ -121,12 +131,16 @@ class SceneLevel:
 
     @property
     def name(self) -> str:
-        """Distinguishes the level, the content of the scene and the solver."""
+        """File name of the record, with a digest of the level, the contents of the scene and the
+        solver.
+        """
         digest = hashlib.sha256(repr(self).encode()).hexdigest()[:8]
         return f"{self.scene.solver}-{sum(self.increments)}-{digest}"
 
     def compute(self) -> CaseRecord:
-        """Solve; a refusal is recorded by its name and text."""
+        """Solve the scene on this level and record its scalar results, or the name and text of an
+        error.
+        """
         parameters: dict[str, Value] = {"level": self.level}
         try:
             result = self.solved()
@@ -136,7 +150,7 @@ class SceneLevel:
         return self._record(result, parameters)
 
     def solved(self) -> Any:
-        """Return the result of the level."""
+        """Solve the scene on this level and return the result of the solver."""
         contents = self.scene.read()
         scene, asked = contents.scene, self.scene.asked(contents)
         asked = asked.model_copy(update=dict(self.changed))
@@ -182,7 +196,10 @@ class SceneLevel:
 
 
 def _scalars(values: Values) -> Iterator[tuple[str, str, float]]:
-    """Yield the key numbers: name, with _x or _y for a component; name of the vector; value."""
+    """Yield the key results of a load step as (name, name of the vector, value).
+
+    The name of a component ends in _x or _y. For a scalar both names are equal.
+    """
     for stem, numbers in values.items():
         if stem in KEYS:
             names = (f"{stem}_x", f"{stem}_y") if numbers.size > 1 else (stem,)
@@ -191,7 +208,13 @@ def _scalars(values: Values) -> Iterator[tuple[str, str, float]]:
 
 
 def unresolved(features: Features, name: str) -> str:
-    """Describe the features on which a number depends and that the cells do not resolve."""
+    """Describe the features that a result depends on and that the discretisation does not resolve.
+
+    The text is empty if all are resolved.
+
+    features  sizes of contact, layer, stick zone and others, in cells or half elements
+    name      name of the result
+    """
     if features.resolve(name):
         return ""
     sizes = [(text, getattr(features, feature), LIMITS[feature]) for feature, text in SMALL.items()]
@@ -206,11 +229,11 @@ def unresolved(features: Features, name: str) -> str:
 def of_run(
     scene: StudiedScene, requested: bool
 ) -> tuple[tuple[tuple[str, Any], ...], tuple[int, ...]]:
-    """Entries of the table that a run would choose, and its increments in every load step.
+    """Return the discretisation entries and the increments per load step that a run would choose.
 
-    requested  whether a requested accuracy is met by refinement first
+    requested  if True, refine first until the accuracy requested in the scene is met
 
-    Raises the errors of a solve.
+    The entries are empty if nothing is refined. Raises the errors of a solve.
     """
     contents = scene.read()
     problem, asked = contents.scene, scene.asked(contents)
@@ -230,9 +253,10 @@ def of_run(
 
 @cache
 def section_size(scene: StudiedScene) -> tuple[float, float]:
-    """Size of the section of a run, and its largest contact radius [length].
+    """Compute the size of the finite-element section, and the largest contact radius [length].
 
-    Raises the errors of `fem_reference.solve`.
+    The size is in units of contact radii. The scene is solved on a coarse mesh of 16 elements per
+    radius. Raises the errors of `fem_reference.solve`.
     """
     contents = scene.read()
     coarse = contents.fem_reference.model_copy(update={"elements_per_radius": 16})

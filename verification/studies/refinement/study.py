@@ -1,4 +1,4 @@
-"""Studies of a scene's mesh, increments and section: what is refined, and the verdict."""
+"""Convergence studies of a scene: refine the mesh, the increments or the section, and judge."""
 
 from __future__ import annotations
 
@@ -62,18 +62,22 @@ REMEDY = "use more --cells"
 
 @dataclass(frozen=True)
 class Estimate:
-    """Limit and error of one number, in its unit.
+    """Limit of one scalar result under refinement, and its error on the finest level, in its unit.
 
-    of           number without component, as a request names it
-    sizes, values
-                 of the levels, coarse to fine
-    largest      largest value in the history, to which requests are relative
-    order        theoretical order; observed: measured order, None where no power explains the
-                 values
-    remaining    error on the finest level, at 95 %
-    likely       the most likely error there, without a safety factor
-    open         why the levels are not asymptotic, with a remedy; empty where they are
-    resolved     whether the finest level resolves the features on which the number depends
+    name         result, with _x or _y for a component
+    of           result without component, as a requested accuracy names it
+    unit         unit of the result
+    sizes        size of the discretisation of each level, coarse to fine
+    values       result of each level, coarse to fine
+    largest      largest value in the load history; requested accuracies are relative to it
+    order        theoretical convergence order
+    observed     observed convergence order; None if no power of the size explains the values
+    limit        estimated limit
+    uncertainty  uncertainty of the limit, at 95 %
+    remaining    bound of the error on the finest level, at 95 %
+    likely       most likely error on the finest level, without safety factor
+    open         reason why the levels are not asymptotic, with a remedy; empty if they are
+    resolved     True if the finest level resolves the features on which the result depends
     """
 
     name: str
@@ -93,23 +97,30 @@ class Estimate:
 
     @property
     def points(self) -> list[tuple[float, float]]:
-        """Sizes with the distances from the limit, relative to the largest value."""
+        """Pairs of the size of a level and its distance from the limit, relative to the largest
+        value.
+        """
         errors = (abs(value - self.limit) / self.largest for value in self.values)
         return list(zip(self.sizes, errors, strict=True))
 
     @property
     def order_text(self) -> str:
-        """Observed order with its 95 % interval."""
+        """Observed convergence order with its 95 % interval as text; "none" without an observed
+        order.
+        """
         if self.observed is None:
             return "none"
         return f"{self.observed.order:.2f} ± {self.observed.half_width:.2f}"
 
 
 def estimates(levels: Sequence[CaseRecord], order: float | None) -> tuple[Estimate, ...]:
-    """Estimate all numbers of the finest level that refinement changes.
+    """Estimate limit and error of all scalar results of the finest level that change with
+    refinement.
 
-    levels  coarse to fine
-    order   of all numbers; None where it is that of each number in the cells
+    The result is empty for fewer than 4 levels.
+
+    levels  records of the levels, coarse to fine
+    order   theoretical convergence order of all results; None if each result has its own
     """
     if len(levels) < FEWEST_LEVELS:
         return ()
@@ -121,7 +132,7 @@ def estimates(levels: Sequence[CaseRecord], order: float | None) -> tuple[Estima
 
 
 def _varies(part: Row, levels: Sequence[CaseRecord]) -> bool:
-    """Return True if a number is on all levels, not zero by symmetry, and not constant."""
+    """Determine if a result is present on all levels, not zero by symmetry, and not constant."""
     name, measures = str(part.parameters["quantity"]), _known(part.measures)
     values = [level.measures.get(name) for level in levels]
     return (
@@ -167,7 +178,13 @@ def _estimate(part: Row, levels: Sequence[CaseRecord], order: float | None) -> E
 
 
 def _not_asymptotic(observed: ObservedOrder | None, triplets: Triplets) -> str:
-    """Return the reason with a remedy; empty where one power of the size explains the levels."""
+    """Return the reason why the levels do not follow one power of the size, with a remedy.
+
+    The text is empty if the levels follow one power.
+
+    observed  observed convergence order; None if no power fits
+    triplets  convergence orders of three consecutive levels each
+    """
     if observed is None:
         return (
             "no power of the size explains the levels: the edges of contact and stick zone cut the "
@@ -192,12 +209,17 @@ Text = Callable[[Row], str]
 
 
 def number(name: str, digits: int = 2) -> Text:
-    """Return the column of a number."""
+    """Return the text function of a table column: the number of a row with `name`, rounded to
+    `digits`.
+    """
     return lambda row: plain(row.number(name), digits)
 
 
 def points(rows: Iterable[Row], x: str, y: str) -> Points:
-    """Return one number against another, on logarithmic axes."""
+    """Return the points (x, y) of all rows that a chart with logarithmic axes can draw.
+
+    x, y  names of the numbers of a row
+    """
     return drawable((row.number(x), row.number(y)) for row in rows)
 
 
@@ -219,11 +241,11 @@ REMARKS = (
 
 @dataclass(frozen=True)
 class Refinement:
-    """Something that is refined while all else stays.
+    """Describe one kind of refinement: of the mesh, the increments or the section.
 
-    axis    size of a level, in words
-    levels  coarse to fine
-    order   theoretical order of all numbers; None where each has its own
+    axis    label of the abscissa: size of a level, in words
+    levels  function that returns the levels, coarse to fine
+    order   theoretical convergence order of all results; None if each result has its own
     """
 
     name: str
@@ -238,7 +260,9 @@ SceneStudyOf = Callable[[Path, Sequence[str], int | None, str], Study]
 
 
 def mesh_study(path: Path, overrides: Sequence[str], step: int | None, solver: str) -> Study:
-    """Refine the cells of the surface or the elements of the section.
+    """Make the study that refines the cells of the surface or the elements of the section.
+
+    step  number of the load step whose end is compared; None for the last one
 
     Raises SceneError and CannotRefine.
     """
@@ -285,9 +309,12 @@ def mesh_study(path: Path, overrides: Sequence[str], step: int | None, solver: s
 def _counts(
     finest: tuple[int, ...], settings: Settings, *, on_cells: bool
 ) -> list[tuple[int, ...]]:
-    """Return the cells or elements of all levels, coarse to fine.
+    """Return the numbers of cells per side, or of elements over the radius, of all levels, coarse
+    to fine.
 
-    Raises CannotRefine where the coarsest has too few.
+    Consecutive levels differ by a factor √2. Raises CannotRefine if the coarsest level has too few.
+
+    finest  numbers of the finest level
     """
     least, even = FEWEST[on_cells], 2 if on_cells else 1
     counts = [
@@ -305,7 +332,9 @@ def _counts(
 
 
 def increments_study(path: Path, overrides: Sequence[str], step: int | None, solver: str) -> Study:
-    """Refine the increments of the load steps that have an increment error.
+    """Make the study that refines the increments of the load steps that have an increment error.
+
+    step  number of the load step whose end is compared; None for the last one
 
     Raises SceneError and CannotRefine.
     """
@@ -353,7 +382,9 @@ def _cells(settings: Settings, scene: StudiedScene) -> tuple[tuple[str, object],
 
 
 def domain_study(path: Path, overrides: Sequence[str], step: int | None, solver: str) -> Study:
-    """Refine the size of the section of the finite elements, up to that of a run.
+    """Make the study that enlarges the finite-element section up to the size that a run uses.
+
+    step  number of the load step whose end is compared; None for the last one
 
     Raises SceneError, and CannotRefine for a section that is too small to refine.
     """
@@ -396,7 +427,7 @@ def domain_study(path: Path, overrides: Sequence[str], step: int | None, solver:
 
 
 def _study(scene: StudiedScene, refined: Refinement) -> Study:
-    """Make the study of one refinement."""
+    """Build the study of one kind of refinement of a scene: its levels and its conclusions."""
     contents = scene.read()
     shares = {} if contents.accuracy is None else contents.accuracy.shares()
 
@@ -459,16 +490,21 @@ def _infinite(solved: Iterable[CaseRecord]) -> list[Statement]:
 
 
 def label(name: str) -> str:
-    """Return the name of a number in words."""
+    """Return the name of a scalar result in words: "tangential_force_x" becomes "tangential force
+    along x".
+    """
     stem, _, axis = name.rpartition("_")
     return f"{stem} along {axis}".replace("_", " ") if axis in "xy" else name.replace("_", " ")
 
 
 def _requested(one: Estimate, share: float) -> Statement:
-    """Judge a number against the request of the scene.
+    """Judge the error of a result on the finest level against the requested accuracy of the scene.
 
-    It fails where the most likely error exceeds the request, and is open between that and the error
-    at 95 %.
+    The verdict is FAIL if the most likely error exceeds the request, PASS if the error bound at 95
+    % meets the request, and INCONCLUSIVE otherwise or if the finest level does not resolve the
+    features.
+
+    share  requested error, relative to the largest value in the history
     """
     reached, likely = one.remaining / one.largest, one.likely / one.largest
     outcome = Status.PASS if reached <= share else Status.INCONCLUSIVE
@@ -499,7 +535,7 @@ def _finding(one: Estimate) -> Statement:
 
 
 def row_of(one: Estimate) -> Row:
-    """Numbers of an estimate, in SI."""
+    """Return the numbers of an estimate in SI units: finest value, limit, uncertainty and order."""
     return Row(
         parameters={"quantity": one.name, "unit": one.unit or "1", "theoretical_order": one.order},
         measures={
@@ -534,7 +570,8 @@ def _estimate_table(of: Sequence[Estimate]) -> Table:
 
 
 def _level_table(levels: Sequence[CaseRecord]) -> Table:
-    """Return one row per level; a refused level has its reason."""
+    """Build the table of the levels: results, work and residual, or the error of a
+    refused level."""
     solved = [level for level in levels if "refused" not in level.words]
     names = [name for name in (solved[-1].measures if solved else ()) if name != RESIDUAL]
     counters: Mapping[str, int] = solved[-1].counters if solved else {}

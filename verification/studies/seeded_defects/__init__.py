@@ -1,1 +1,2 @@
-"""The harness tests itself: defects that it must see, healthy runs that it must pass."""
+"""Study that tests the verification: it must detect seeded defects and must pass
+healthy contacts."""

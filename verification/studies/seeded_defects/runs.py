@@ -1,4 +1,4 @@
-"""What the harness says of a case of the catalogue under a defect, and of a healthy contact."""
+"""Runs of the seeded-defect study: verdicts on a case under a defect, and on a healthy contact."""
 
 from __future__ import annotations
 
@@ -39,29 +39,35 @@ ERROR = "largest_error"
 
 
 class Caught(TypedRow):
-    """A verdict that failed."""
+    """A verdict that failed: the judged quantity, the run and the reason."""
 
     PARAMETERS = ("quantity", "run")
 
     quantity: str
     run: str
     how: str
-    """By what it was judged."""
+    """Kind of check that failed, such as "residual", "law", "order" or a kind of reference."""
 
     clearance: float | None
-    """Error over what is allowed; null where there is no number."""
+    """Error divided by the allowed error; null if there is no number."""
 
     reason: str = ""
-    """Why a case or a run has no result."""
+    """Reason why a case or a run has no result."""
 
     @property
     def by_law(self) -> bool:
-        """Return True if a law sees it that every result obeys, and no reference."""
+        """Determine if a law that every result obeys failed, such as the energy balance, and no
+        reference.
+        """
         return self.how in LAWS.values()
 
 
 class Sample(TypedRow):
-    """A quantity beside its reference; errors relative to the quantity's scale."""
+    """Error of one computed quantity against its reference, relative to the scale of the quantity.
+
+    allowed      error that the verdict allows
+    uncertainty  expanded uncertainty U = 2u before its cap; null if the tolerance is not derived
+    """
 
     PARAMETERS = ("quantity",)
 
@@ -69,33 +75,38 @@ class Sample(TypedRow):
     error: float | None
     allowed: float | None
     uncertainty: float | None
-    """Expanded, U = 2u, before it is capped; null where the tolerance is not derived."""
+    """Expanded uncertainty U = 2u before it is capped; null if the tolerance is not derived."""
 
 
 def caught(record: CaseRecord) -> tuple[Caught, ...]:
-    """Return the verdicts that failed."""
+    """Return the failed verdicts of a record."""
     return tuple(Caught.of(row) for row in record.parts if "how" in row.words)
 
 
 def samples(record: CaseRecord) -> tuple[Sample, ...]:
-    """The quantities beside their references, of a healthy contact."""
+    """Return the errors of all quantities with a reference, from the record of a
+    healthy contact."""
     return tuple(Sample.of(row) for row in record.parts if "uncertainty" in row.measures)
 
 
 @dataclass(frozen=True)
 class DefectRun:
-    """A case of the quick catalogue under a defect by its name, or healthy."""
+    """Represent a case of the quick catalogue, solved under a seeded defect or without a defect.
+
+    defect  name of the defect; empty for a healthy run
+    case    name of the case
+    """
 
     defect: str
     case: str
 
     @property
     def name(self) -> str:
-        """For files."""
+        """Name of the record, for files: the defect and the case."""
         return f"{self.defect or 'healthy'}--{self.case.replace('_', '-')}"
 
     def compute(self) -> CaseRecord:
-        """Plant the defect, let the case be judged, and take the defect out again."""
+        """Plant the defect, solve and judge the case, and remove the defect again."""
         _all_imported()
         if self.defect == HEALTHY:
             outcome = judged(self.case)
@@ -107,18 +118,22 @@ class DefectRun:
 
 @dataclass(frozen=True)
 class HealthyRun:
-    """A contact of a family by the number of its draw, solved on all its grids."""
+    """Represent a random contact without defect, solved on all grids of its case.
+
+    family  name of the family of contacts
+    draw    number of the random draw in the family
+    """
 
     family: str
     draw: int
 
     @property
     def name(self) -> str:
-        """For files."""
+        """Name of the record, for files: the family and the number of the draw."""
         return f"{self.family.replace('_', '-')}-{self.draw:03d}"
 
     def compute(self) -> CaseRecord:
-        """Solve and judge it."""
+        """Draw the contact, solve it on all grids, judge the results, and record the errors."""
         number = list(FAMILIES).index(self.family)
         case = FAMILIES[self.family](np.random.default_rng((SEED, number, self.draw)))
         results: dict[str, Any] = {}
@@ -133,7 +148,10 @@ class HealthyRun:
 
 @cache
 def _all_imported() -> None:
-    """What modules compute when they are imported, they compute healthy."""
+    """Import all modules of the quick catalogue before a defect is planted.
+
+    Constants that modules compute at import are then free of the defect.
+    """
     choose(Level.QUICK)
 
 
@@ -142,10 +160,11 @@ def record_of(
     outcome: CaseOutcome,
     measured: Sequence[Sample] = (),
 ) -> CaseRecord:
-    """Counts of the verdicts, those that failed, and the samples.
+    """Record the counts of the verdicts of a case, the failed verdicts and the errors of its
+    quantities.
 
-    largest_error  of the quantities, relative to their scales: what a fixed gate would look at;
-                   None where one of them has none
+    The measure `largest_error` is the largest error of the quantities relative to their scales,
+    which a fixed gate would compare. It is None if a quantity has no error.
     """
     failed = tuple(_caught(outcome))
     return CaseRecord(
@@ -161,7 +180,11 @@ def record_of(
 
 
 def judged(name: str) -> CaseOutcome:
-    """The outcome of a case after its way through a file, or why there is none."""
+    """Solve and judge a case of the quick catalogue, with its record written to a file and read
+    back.
+
+    An exception becomes an outcome without results that names the exception.
+    """
     case = CaseToJudge(name, Level.QUICK.name)
     try:
         with TemporaryDirectory() as directory:

@@ -1,4 +1,5 @@
-"""The study of the harness: what it misses, what it cries out at, how good its error bars are."""
+"""Study of the verification: defects that it misses, false alarms, and coverage of
+its error bars."""
 
 from __future__ import annotations
 
@@ -47,14 +48,20 @@ DRAWS = {
 
 
 def seen_by(settings: Settings, defect: Defect) -> tuple[str, ...]:
-    """Return the cases under a defect: those that ought to see it, or the whole quick catalogue."""
+    """Return the cases that are run under a defect.
+
+    The quick level has only the cases that should detect the defect. Other levels have the whole
+    quick catalogue.
+    """
     if settings.level is Level.QUICK:
         return defect.cases
     return CASES
 
 
 def defect_runs(settings: Settings) -> tuple[DefectRun, ...]:
-    """Return all defects, and the same cases without any."""
+    """Return the runs of all cases under all defects, and the runs of the same cases without a
+    defect.
+    """
     runs = [
         DefectRun(defect.name, case)
         for defect in DEFECTS.values()
@@ -65,13 +72,13 @@ def defect_runs(settings: Settings) -> tuple[DefectRun, ...]:
 
 
 def healthy_runs() -> tuple[HealthyRun, ...]:
-    """All draws of all families."""
+    """Return the runs of all random contacts of all families without defect."""
     return tuple(HealthyRun(family, draw) for family in FAMILIES for draw in range(DRAWS[family]))
 
 
 @dataclass(frozen=True)
 class Sighting:
-    """A verdict that fails under a defect and not without it."""
+    """A verdict of a case that fails under a defect and does not fail without the defect."""
 
     case: str
     verdict: Caught
@@ -79,9 +86,11 @@ class Sighting:
 
 @dataclass(frozen=True)
 class Seen:
-    """What the verification says of a defect.
+    """Collect the verdicts that detect one defect.
 
-    complete  whether all its cases have a record, and the healthy ones beside them
+    cases      cases that are run under the defect
+    complete   True if all these cases have a record with the defect and one without the defect
+    sightings  verdicts that fail only under the defect
     """
 
     defect: Defect
@@ -91,17 +100,21 @@ class Seen:
 
     @property
     def best(self) -> Sighting | None:
-        """The verdict that misses by most; a number before an error without one."""
+        """Verdict with the largest error over allowed error; verdicts without a
+        number come last."""
         return max(self.sightings, key=lambda s: s.verdict.clearance or -1.0, default=None)
 
     @property
     def by(self) -> tuple[str, ...]:
-        """The cases that saw it."""
+        """Names of the cases that detected the defect."""
         return tuple(dict.fromkeys(sighting.case for sighting in self.sightings))
 
 
 def seen(settings: Settings, records: Records, defect: Defect) -> Seen:
-    """What the cases say of a defect. Without the healthy record a failure counts for nothing."""
+    """Collect the verdicts of all cases that fail under a defect and not without the defect.
+
+    A case without a record of the healthy run is not counted.
+    """
     cases = seen_by(settings, defect)
     sightings, complete = [], True
     for case in cases:
@@ -119,13 +132,13 @@ def seen(settings: Settings, records: Records, defect: Defect) -> Seen:
 
 
 def found(records: Records, defect: str, case: str) -> CaseRecord | None:
-    """The record of a case under a defect."""
+    """Return the record of a case under a defect; None if it is not computed."""
     record = records.get(DefectRun(defect, case).name)
     return record if isinstance(record, CaseRecord) else None
 
 
 def healthy(records: Records) -> Mapping[str, list[CaseRecord]]:
-    """Records of the healthy contacts, by family."""
+    """Return the records of the contacts without defect, grouped by family."""
     families: dict[str, list[CaseRecord]] = {family: [] for family in FAMILIES}
     for run in healthy_runs():
         record = records.get(run.name)
@@ -135,29 +148,33 @@ def healthy(records: Records) -> Mapping[str, list[CaseRecord]]:
 
 
 def all_healthy(records: Records) -> list[CaseRecord]:
-    """Records of the healthy contacts of all families."""
+    """Return the records of the contacts without defect, of all families in one list."""
     return [record for there in healthy(records).values() for record in there]
 
 
 def derived(records: list[CaseRecord]) -> list[Sample]:
-    """The samples that have an error bar."""
+    """Return the samples that have an expanded uncertainty, because their tolerance is derived."""
     return [s for record in records for s in samples(record) if s.uncertainty is not None]
 
 
 def covered(sample: Sample) -> bool:
-    """Return True if the error bar contains the true value."""
+    """Determine if the error of a sample is at most its expanded uncertainty U = 2u."""
     if sample.error is None or sample.uncertainty is None:
         return False
     return sample.error <= sample.uncertainty
 
 
 def caught_by_reference(record: CaseRecord) -> bool:
-    """Return True if a reference or an order detects the defect, not only a law of the fields."""
+    """Determine if a reference or an observed convergence order detects the defect.
+
+    Verdicts that only check a law of the fields do not count.
+    """
     return any(not one.by_law for one in caught(record))
 
 
 def passes_gate(record: CaseRecord) -> bool:
-    """Return True if a fixed gate of 1 % lets all quantities of the case pass."""
+    """Determine if all quantities of a case have an error below a fixed gate of 1 %
+    of their scale."""
     error = record.measures[ERROR]
     return error is not None and error <= GATE
 
@@ -171,7 +188,9 @@ LEAST_HEALTHY = 30
 def statements(
     settings: Settings, records: Records, all_seen: Sequence[Seen]
 ) -> tuple[Statement, ...]:
-    """All of them, in the order of the page."""
+    """Judge detection of defects, false alarms and coverage of error bars, in the order of the
+    report.
+    """
     return (
         _all_caught(all_seen),
         _healthy_cases(settings, records),
@@ -271,14 +290,19 @@ def _covered_by_bars(claim: str, samples: list[Sample], least: int, because: str
 
 
 def _status(good: bool, complete: bool) -> Status:
-    """A miss counts even while cases are open."""
+    """Return FAIL for a violated claim even if cases are missing; otherwise PASS or INCONCLUSIVE.
+
+    good      True if the available records fulfil the claim
+    complete  True if enough records are available
+    """
     if not good:
         return Status.FAIL
     return Status.PASS if complete else Status.INCONCLUSIVE
 
 
 def tables(records: Records, all_seen: Sequence[Seen]) -> tuple[Table, ...]:
-    """Of defects, of planted errors, and of healthy contacts."""
+    """Return the tables of the seeded defects, of the planted errors and of the
+    healthy contacts."""
     return (_defects(all_seen), _gates(records), _families(records))
 
 
@@ -359,12 +383,14 @@ def _families(records: Records) -> Table:
 
 
 def _parts(samples: Iterable[Sample]) -> list[float]:
-    """Errors in units of U, of the samples that have both."""
+    """Return the ratios of error to expanded uncertainty U of the samples that have both."""
     return [s.error / s.uncertainty for s in samples if s.error is not None and s.uncertainty]
 
 
 def charts(records: Records) -> tuple[Chart, ...]:
-    """How the true errors are spread over their error bars; none without samples."""
+    """Draw the distribution of the true errors over their error bars; return no chart without
+    samples.
+    """
     curves = []
     for number, (family, there) in enumerate(healthy(records).items()):
         parts = sorted(_parts(derived(there)))
@@ -405,12 +431,12 @@ REMARKS = (
 
 
 def cases(settings: Settings) -> tuple[StudyCase, ...]:
-    """All that has to be judged."""
+    """Return all runs of the study: cases with and without defects, and random healthy contacts."""
     return (*defect_runs(settings), *healthy_runs())
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
-    """Return the statements, tables and a figure."""
+    """Judge the records of the study and return its statements, tables and figure."""
     all_seen = [seen(settings, records, defect) for defect in DEFECTS.values()]
     caught = sum(bool(one.sightings) for one in all_seen)
     return Conclusion(

@@ -1,1 +1,1 @@
-"""Which contacts the solver masters: friction, load, coating, path, surface and scale varied."""
+"""Study of the contacts that the solver can solve, over friction, load, coating, path and scale."""

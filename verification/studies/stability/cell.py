@@ -1,4 +1,7 @@
-"""A cell of the stability map: one contact, named by its coordinates."""
+"""Contacts of the stability map: coordinates, verdict and record of one contact; all map views.
+
+The code calls one contact of the map a cell.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +16,7 @@ from verification.running.study import CaseRecord, TypedRow, parameters_of
 
 
 class Surface(StrEnum):
-    """What is pressed on the body, and how friction varies over it."""
+    """Kind of indenter that is pressed on the body, and variation of the friction coefficient."""
 
     BALL = "ball"
     ALIKE_BALL = "alike-ball"  # as elastic and coated as the body: nothing couples
@@ -26,7 +29,7 @@ class Surface(StrEnum):
 
 
 class LoadingPath(StrEnum):
-    """The way to the end of the history."""
+    """Sequence of normal and tangential loads of a contact."""
 
     PRESS = "press"  # no tangential load
     PUSH = "push"  # press, then T in one increment
@@ -41,7 +44,7 @@ class LoadingPath(StrEnum):
 
 
 class Solver(StrEnum):
-    """Who solves it."""
+    """Solver of a contact, by its name on the command line."""
 
     SEMI_ANALYTICAL = "semi-analytical"
     COMPLEMENTARITY = "fem-complementarity"  # finite elements without a penalty
@@ -49,25 +52,25 @@ class Solver(StrEnum):
 
     @property
     def by_elements(self) -> bool:
-        """Return True if it takes sections of finite elements."""
+        """Determine if the solver uses finite elements."""
         return self is not Solver.SEMI_ANALYTICAL
 
 
 @dataclass(frozen=True)
 class StabilityCell:
-    """One contact. Its coordinates are plain values, so that any solver can be given it.
+    """Represent one contact of the stability map by plain values, independent of the solver.
 
-    friction        µ
-    push            T/µW
-    modulus_ratio   E1/E2 of coating and substrate
-    thickness       h/a of the coating
+    friction        coefficient of friction µ
+    push            tangential force T over µW
+    modulus_ratio   E1/E2, Young's modulus of the coating over that of the substrate
+    thickness       h/a, thickness of the coating over the contact radius
     poisson_ratio   ν1 of the coating
     base_ratio      ν2 of the substrate; with E1/E2 = 1 and ν1 = ν2 there is no coating
-    load            W over the force that makes the contact radius a
+    load            normal force W over the force that makes the contact radius a
     length          contact radius a under that force [m]
     modulus         E2 [Pa]
-    cells           of the surface grid along each side; of finite elements a quarter as many per
-                    contact radius, which is about as fine
+    cells           cells per side of the surface grid; finite elements use a quarter of this number
+                    per contact radius, which is about as fine
     """
 
     friction: float = 0.1
@@ -86,21 +89,23 @@ class StabilityCell:
 
     @property
     def posable(self) -> bool:
-        """Return True if the solver takes such scenes.
+        """Determine if the solver of the contact has a model of such scenes.
 
-        Finite elements take bodies of revolution with one friction coefficient, loaded along one
-        line."""
+        Finite elements require bodies of revolution, a uniform friction coefficient and a
+        tangential load along one line.
+        """
         uneven = self.surface in NOT_OF_REVOLUTION or self.path is LoadingPath.CIRCLE
         return not (self.solver.by_elements and uneven)
 
     @property
     def coordinates(self) -> dict[str, Any]:
-        """Coordinates by name."""
+        """Coordinates of the contact (all fields of the class) by name."""
         return {f.name: getattr(self, f.name) for f in fields(self)}
 
     @property
     def name(self) -> str:
-        """For files: the coordinates that differ from those of the ordinary cell."""
+        """File name of the record: the coordinates that differ from those of the
+        default contact."""
         ordinary = StabilityCell()
         parts = [
             f"{SHORT[key]}{value:g}" if isinstance(value, float | int) else str(value)
@@ -119,7 +124,7 @@ SHORT = {
 
 
 class Verdict(StrEnum):
-    """How a cell ended."""
+    """Outcome of the solve of a contact."""
 
     CONVERGED = "converged"
     REFUSED = "refused"  # with a reason that the scene itself gives
@@ -128,7 +133,7 @@ class Verdict(StrEnum):
 
 
 class Refusal(StrEnum):
-    """What a cell is refused for."""
+    """Reason for which a contact is refused."""
 
     NONE = ""
     FORCE = "force"  # above µW
@@ -137,7 +142,7 @@ class Refusal(StrEnum):
 
 
 class CellRecord(TypedRow):
-    """Verdict, residuals and cost of one cell."""
+    """Verdict, residuals and cost of the solve of one contact of the stability map."""
 
     verdict: Verdict
     refused_for: Refusal = Refusal.NONE
@@ -149,36 +154,41 @@ class CellRecord(TypedRow):
     """Largest residual of any increment, as the solver states it."""
 
     observed: float | None = None
-    """Largest residual of any increment, found from its fields alone."""
+    """Largest residual of any increment, computed from the returned fields alone."""
 
     increments: int = 0
     halvings: int = 0
-    """How often increments were cut in two."""
+    """Number of bisections of increments."""
 
     rounds: int = 0
-    """Most steps of any increment for pressure and shear together."""
+    """Largest number of alternating iterations of pressure and shear in any increment."""
 
     way: str = ""
-    """How it was solved."""
+    """Solution method in words."""
 
     iterations: int = 0
-    """Linear systems of finite elements, else steps of conjugate gradients."""
+    """Number of linear systems of finite elements, or of steps of conjugate gradients."""
 
     convolutions: int = 0
-    """None with finite elements."""
+    """Number of convolutions; zero for finite elements."""
 
     def of_cell(self, cell: StabilityCell) -> CaseRecord:
-        """As it is kept."""
+        """Return the record in the form that is stored, with the coordinates of the contact as
+        parameters.
+        """
         return CaseRecord(**dict(self.row()) | {"parameters": parameters_of(cell)})
 
     @property
     def work(self) -> int:
-        """What the cell took: convolutions on a surface grid, linear systems on a section."""
+        """Work of the solve: convolutions on a surface grid, or linear systems of
+        finite elements."""
         return self.convolutions or self.iterations
 
     @property
     def worst(self) -> float | None:
-        """The larger of the two residuals."""
+        """Larger of the residual stated by the solver and the one computed from the fields; None
+        for neither.
+        """
         known = [r for r in (self.residual, self.observed) if r is not None]
         return max(known, default=None)
 
@@ -198,11 +208,11 @@ Axes = Mapping[str, Sequence[Any]]
 
 @dataclass(frozen=True)
 class View:
-    """A map over two coordinates.
+    """Represent a map of contacts over two coordinates.
 
-    name     for files
-    x, y     names of coordinates
-    cells    every cell of it; several at one place differ in other coordinates
+    name   name for files
+    x, y   names of the two coordinates
+    cells  all contacts of the map; those at one point (x, y) differ in other coordinates
     """
 
     name: str
@@ -212,35 +222,38 @@ class View:
     cells: tuple[StabilityCell, ...]
 
     def values(self, axis: str) -> tuple[Any, ...]:
-        """The values of a coordinate, in order."""
+        """Return the values of a coordinate of the map in ascending order, or in order of an
+        enumeration.
+        """
         found = {getattr(cell, axis) for cell in self.cells}
         members = [*LoadingPath, *Surface, *Solver]
         return tuple(sorted(found, key=lambda v: members.index(v) if v in members else v))
 
     @property
     def wide(self) -> bool:
-        """Return True if there is more than one place to see."""
+        """Determine if the map has more than one point (x, y)."""
         return len(self.values(self.x)) * len(self.values(self.y)) > 1
 
     @property
     def by_elements(self) -> bool:
-        """Return True if finite elements solve its cells."""
+        """Determine if finite elements solve the contacts of the map."""
         return self.cells[0].solver.by_elements
 
     def at(self, x: Any, y: Any) -> tuple[StabilityCell, ...]:
-        """Return the cells at one place."""
+        """Return the contacts of the map at one point (x, y)."""
         return tuple(c for c in self.cells if getattr(c, self.x) == x and getattr(c, self.y) == y)
 
 
 @dataclass(frozen=True)
 class Asked:
-    """A view at every level: all combinations of the values of its axes.
+    """Define a map of contacts at every level of the study, by all combinations of coordinate
+    values.
 
-    quick    axes at the quick level
-    more     axes at the levels above; the quick ones where there are no others
-    bases    cells that have the other coordinates
-    further  more of these at the levels above
-    least    the lowest level that has it
+    quick    coordinate values at the quick level
+    more     coordinate values at higher levels; None for those of the quick level
+    bases    contacts that supply all other coordinates
+    further  additional contacts for the other coordinates at higher levels
+    least    lowest level that includes the map
     """
 
     name: str
@@ -254,7 +267,11 @@ class Asked:
     least: Level = Level.QUICK
 
     def view(self, level: Level, cells: int, solvers: Sequence[Solver]) -> View:
-        """Return the view of a level; `cells` is the number of surface cells per side."""
+        """Build the map of one level of the study.
+
+        cells    cells per side of the surface grid
+        solvers  solvers of each contact
+        """
         quick = level is Level.QUICK
         axes = {"solver": solvers, **(self.quick if quick or self.more is None else self.more)}
         found = (
@@ -266,9 +283,9 @@ class Asked:
 
 
 def views(level: Level, cells: int) -> tuple[View, ...]:
-    """Return the views of a level: semi-analytical solver and finite elements with both laws.
+    """Return all maps of a level: of the semi-analytical solver and of finite elements.
 
-    cells  of a surface grid along each side; sections have as many elements as `pose` makes of it
+    cells  cells per side of the surface grid; `pose` derives the number of elements
     """
     sections = tuple(solver for solver in Solver if solver.by_elements)
     return tuple(
@@ -282,7 +299,7 @@ def views(level: Level, cells: int) -> tuple[View, ...]:
 
 
 def study_cells(level: Level, cells: int) -> tuple[StabilityCell, ...]:
-    """Return every cell of a level, once."""
+    """Return all contacts of the maps of a level, without duplicates."""
     found = {cell.name: cell for view in views(level, cells) for cell in view.cells}
     return tuple(found.values())
 

@@ -1,4 +1,4 @@
-"""A cell solved, and the verdict on it."""
+"""Solve of one contact of the stability map, and the verdict on the solution."""
 
 from __future__ import annotations
 
@@ -39,14 +39,14 @@ ELEMENTS_PER_HARMONIC = 2
 
 
 class WithResiduals(Protocol):
-    """The largest residual of an increment, as its solver states it."""
+    """Interface of the residuals of an increment: `worst` is the largest that the solver states."""
 
     @property
     def worst(self) -> float: ...
 
 
 class SolvedIncrement(Protocol):
-    """What the map asks of an increment, whoever solved it."""
+    """Interface of a solved increment of any solver, as the stability map reads it."""
 
     @property
     def residuals(self) -> WithResiduals: ...
@@ -58,12 +58,13 @@ class SolvedIncrement(Protocol):
 
 @dataclass(frozen=True)
 class Solved:
-    """What a solver made of a cell.
+    """Hold the results of one solver for one contact that the verdict requires.
 
-    increments    all of the history
-    observed      the largest violation of the laws of contact and friction in their fields
-    way           how it went about it, for a reader
-    rounds        the most steps that pressure and shear took together
+    increments    all increments of the load history
+    observed      largest violation of the contact and friction laws, computed from the fields
+    way           solution method in words
+    rounds        largest number of alternating iterations of pressure and shear in an increment
+    convolutions  number of convolutions; 0 for finite elements
     """
 
     increments: Sequence[SolvedIncrement]
@@ -74,7 +75,9 @@ class Solved:
 
 
 def by_superposition(posed: Posed) -> Solved:
-    """With the semi-analytical solver, in a wider window if the contact needs it."""
+    """Solve a contact with the semi-analytical solver, in a wider window if the contact requires
+    one.
+    """
     result = _solved(posed)
     increments = result.increments
     return Solved(
@@ -87,7 +90,7 @@ def by_superposition(posed: Posed) -> Solved:
 
 
 def by_elements(posed: Posed, method: Method) -> Solved:
-    """With finite elements on a section, on a larger mesh if the contact needs it."""
+    """Solve a contact with finite elements and collect increments, violations and iterations."""
     on_harmonics = fem_reference.plan(posed.scene).path is fem_reference.Path.HARMONICS
     discretisation = FiniteElementDiscretisation(
         elements_per_radius=posed.elements,
@@ -141,7 +144,8 @@ REFUSALS = (GrossSliding, UnsupportedScene, ResourceRefused)
 
 @dataclass(frozen=True)
 class StabilityRun:
-    """A cell to be solved; whatever the solver says is the record."""
+    """Represent the solve of one contact of the map; its record includes any error
+    of the solver."""
 
     cell: StabilityCell
 
@@ -154,7 +158,10 @@ class StabilityRun:
 
 
 def judged(cell: StabilityCell) -> CellRecord:
-    """Solve a cell and say what became of it; never raises for a solver's sake."""
+    """Solve a contact and return its verdict, residuals and cost.
+
+    Errors of the scene or the solver become verdicts and are not raised.
+    """
     try:
         posed = pose(cell)
     except SceneError as error:
@@ -186,7 +193,8 @@ def judged(cell: StabilityCell) -> CellRecord:
 
 
 def _finite(value: float) -> float | None:
-    """As it can be stored."""
+    """Return None in place of a value that is not finite, because JSON cannot store
+    such a value."""
     return value if np.isfinite(value) else None
 
 
@@ -201,8 +209,11 @@ def _without_answer(verdict: Verdict, error: Exception, tolerance: float) -> Cel
 
 
 def _refused_for(error: Exception) -> Refusal:
-    """Told by the kind of error, and of a scene by its keys: what is wrong with the force of a cell
-    is its size alone."""
+    """Return the category of a refusal from the type of the error and the keys of the scene it
+    names.
+
+    The tangential force of a contact can only be refused for its size.
+    """
     if isinstance(error, UnsupportedScene):
         return Refusal.POSE
     keys = {problem.path[-1:] for problem in getattr(error, "problems", ())}

@@ -1,4 +1,4 @@
-"""The scene of a cell: bodies, surface, friction, loads, and how finely it is solved."""
+"""Scene of a contact of the stability map: bodies, indenter, friction, loads and discretisation."""
 
 from __future__ import annotations
 
@@ -41,7 +41,13 @@ SLIDES_FAR = 20.0  # times µδ, about the shift at gross sliding
 
 @dataclass(frozen=True)
 class Loads:
-    """Normal force [force], approach it makes without friction [length], µ, and T/µW."""
+    """Hold the loads of a contact.
+
+    normal_force  W [force]
+    approach      rigid approach under W without friction [length]
+    friction      coefficient of friction µ
+    push          tangential force T over µW
+    """
 
     normal_force: float
     approach: float
@@ -50,11 +56,18 @@ class Loads:
 
 
 def loading(path: LoadingPath, loads: Loads) -> tuple[LoadStep, ...]:
-    """The steps of a path, their increments set: the map is about the size of one increment."""
+    """Return the load steps of a loading path with prescribed numbers of increments.
+
+    The numbers are prescribed because the map studies the convergence of large increments.
+    """
     full = loads.push * loads.friction * loads.normal_force
 
     def to(increments: int, *, W: float | None = None, T: float | None = None) -> LoadStep:
-        """To a part of the normal force and of the cell's tangential one; the other stays."""
+        """Return a load step to a fraction of the full normal and tangential force.
+
+        W  fraction of the normal force; None keeps the force of the preceding step
+        T  fraction of the tangential force; None keeps the force of the preceding step
+        """
         return LoadStep(
             normal_force=None if W is None else W * loads.normal_force,
             tangential_force=None if T is None else (T * full, 0.0),
@@ -118,11 +131,12 @@ Indenter = Paraboloid | FlatPunch | Cone | HeightMap
 
 @dataclass(frozen=True)
 class Posed:
-    """A cell as a solver gets it.
+    """Hold a contact of the map in the form that solvers accept.
 
-    grid       for a solver that has one; its window surely holds the contact
-    elements   per contact radius, for a solver that has sections
-    tolerance  of all residuals
+    scene      bodies, friction and load steps
+    grid       surface grid for the semi-analytical solver, whose window should contain the contact
+    elements   elements per contact radius, for finite elements
+    tolerance  tolerance of all residuals, relative
     """
 
     scene: Scene
@@ -132,7 +146,8 @@ class Posed:
 
 
 def pose(cell: StabilityCell) -> Posed:
-    """Return the scene of a cell; raises what an invalid scene raises."""
+    """Build the scene and the discretisation of a contact; raises SceneError for an
+    invalid scene."""
     a = cell.length
     both = (_coated(cell),) * (2 if cell.surface is Surface.ALIKE_BALL else 1)
     answer = surface_of(*both)
@@ -158,7 +173,7 @@ def pose(cell: StabilityCell) -> Posed:
 
 
 def _materials(cell: StabilityCell) -> tuple[IsotropicMaterial, IsotropicMaterial]:
-    """Of coating and substrate."""
+    """Return the materials of coating and substrate of a contact."""
     E, ratio = cell.modulus, cell.modulus_ratio
     return (
         IsotropicMaterial(young_modulus=ratio * E, poisson_ratio=cell.poisson_ratio),
@@ -174,7 +189,7 @@ def _coated(cell: StabilityCell) -> Body:
 
 
 def _body(cell: StabilityCell) -> Body:
-    """Without a layer where that would be of the substrate's material."""
+    """Return the body of a contact; a coating of the substrate's material is left out."""
     film, base = _materials(cell)
     return Body(material=base) if film == base else _coated(cell)
 
@@ -212,7 +227,11 @@ def _height_map(heights: Field, grid: SurfaceGrid) -> HeightMap:
 
 
 def _force(cell: StabilityCell, answer: LayeredSurface, ball: LayeredIndentation) -> float:
-    """Return the normal force that fills the contact radius, at least roughly."""
+    """Estimate the normal force for which the contact radius is about the given one.
+
+    answer  elastic response of the surface of the layered body
+    ball    frictionless contact of the ball with that radius
+    """
     match cell.surface:
         case Surface.FLAT_PUNCH:
             return flat_punch(answer, cell.length).load * ball.approach
@@ -226,8 +245,11 @@ def _force(cell: StabilityCell, answer: LayeredSurface, ball: LayeredIndentation
 
 
 def _mean(friction: float | FrictionMap, cell: StabilityCell, grid: SurfaceGrid) -> float:
-    """µ of the whole contact: that of uneven friction weighted by Hertz's pressure, and a little
-    less, because the pressure is not quite that."""
+    """Return the mean coefficient of friction of the contact, to compute the tangential force from.
+
+    Nonuniform coefficients are weighted by the Hertz pressure. Their mean is reduced by 3 %,
+    because the actual pressure differs from the Hertz pressure.
+    """
     if not isinstance(friction, FrictionMap):
         return friction
     x, y = grid.coordinates()
@@ -237,7 +259,11 @@ def _mean(friction: float | FrictionMap, cell: StabilityCell, grid: SurfaceGrid)
 
 
 def _friction(cell: StabilityCell, grid: SurfaceGrid) -> float | FrictionMap:
-    """µ; for patchy and greased surfaces a map of it with the same largest or mean value."""
+    """Return the coefficient of friction of a contact, or a map of coefficients on the grid.
+
+    A patchy surface has random coefficients between 0 and 2µ; those below 0.3µ are set to zero. A
+    greased surface has no friction in a disc of half the contact radius.
+    """
     if cell.surface is Surface.PATCHY:
         values = np.random.default_rng(SEED).uniform(0, 2 * cell.friction, grid.cells)
         return _map(np.where(values < BARE * cell.friction, 0.0, values), grid)
@@ -248,8 +274,9 @@ def _friction(cell: StabilityCell, grid: SurfaceGrid) -> float | FrictionMap:
 
 
 def _map(values: Field, grid: SurfaceGrid) -> FrictionMap:
-    """Return a friction map that repeats its coefficients around the window.
+    """Build a friction map that continues the coefficients by reflection beyond the window.
 
-    The contact may require a wider window."""
+    The continuation is needed if the contact requires a wider window.
+    """
     values = np.pad(values, [(count, count) for count in grid.cells], mode="symmetric")
     return FrictionMap.model_validate({"map": values, "spacing": grid.spacing})

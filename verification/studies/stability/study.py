@@ -1,4 +1,6 @@
-"""The stability map as a study: its question, its tables and its files."""
+"""Stability study: question, statements, tables and maps of the contacts that the solvers can
+solve.
+"""
 
 from __future__ import annotations
 
@@ -58,7 +60,7 @@ WORK = {True: "linear systems", False: "convolutions"}  # by whether finite elem
 
 
 def statements(found: Found) -> tuple[Statement, ...]:
-    """All there is to say, solver by solver."""
+    """Return the statements on wrong results, convergence, refusals and cost of each solver."""
     told: list[Statement] = []
     for solver in Solver:
         cells = of_solver(found, solver)
@@ -68,17 +70,17 @@ def statements(found: Found) -> tuple[Statement, ...]:
 
 
 def of_solver(found: Found, solver: Solver) -> Found:
-    """The cells that it was asked to solve."""
+    """Select the contacts that one solver was to solve, with their records."""
     return {cell: record for cell, record in found.items() if cell.solver is solver}
 
 
 def ended(found: Found, *so: Verdict) -> Found:
-    """Return the cells that ended in one of these ways."""
+    """Select the contacts that ended with one of the given verdicts, with their records."""
     return {cell: record for cell, record in found.items() if record.verdict in so}
 
 
 def answer(found: Found) -> str:
-    """To the question of the map, in one sentence; empty without cells."""
+    """Return the answer to the question of the study as text; empty without records."""
     if not found:
         return ""
     ends = Counter(record.verdict for record in found.values())
@@ -95,13 +97,13 @@ def answer(found: Found) -> str:
 
 
 def _worst(found: Found) -> str:
-    """Return the largest residual of the cells that converged."""
+    """Return the largest residual of the converged contacts as text."""
     solved = ended(found, Verdict.CONVERGED).values()
     return plain(max((r.worst or 0.0 for r in solved), default=0.0), 2)
 
 
 def nothing_silent(found: Found) -> Statement:
-    """No answer that breaks the equations is given as if it were good."""
+    """State that no solution that violates the equations was returned as converged."""
     silent = ended(found, Verdict.SILENT)
     return Statement(
         claim="no cell is wrong in silence",
@@ -113,7 +115,7 @@ def nothing_silent(found: Found) -> Statement:
 
 
 def nearly_everything_converges(found: Found) -> Statement:
-    """Nearly every cell that has a solution gets one."""
+    """State that at least 99 % of the contacts that are not refused converge."""
     given_up, solved = ended(found, Verdict.NOT_CONVERGED), ended(found, Verdict.CONVERGED)
     asked = len(solved) + len(given_up)
     enough = bool(solved) and len(solved) >= LEAST_SHARE * asked
@@ -127,7 +129,9 @@ def nearly_everything_converges(found: Found) -> Statement:
 
 
 def refusals_are_due(found: Found) -> Statement:
-    """Refused is what asks for more than µW, and what a solver cannot pose; nothing else."""
+    """State that a contact is refused if and only if its force exceeds µW or its solver has no
+    model.
+    """
     refused = ended(found, Verdict.REFUSED)
     due = {cell: kind for cell in found if (kind := _due(cell))}
     wrong = sorted((refused.keys() | due) - _duly(refused), key=lambda cell: cell.name)
@@ -147,7 +151,9 @@ def refusals_are_due(found: Found) -> Statement:
 
 
 def cost(found: Found) -> Statement:
-    """What the cells took: a finding."""
+    """State the work per increment and the solution methods of the converged contacts, without
+    verdict.
+    """
     solved = ended(found, Verdict.CONVERGED).values()
     if not solved:
         return Statement(claim="cost", outcome=None, measured="no cell converged")
@@ -166,14 +172,15 @@ def cost(found: Found) -> Statement:
 
 
 def _due(cell: StabilityCell) -> Refusal:
-    """What a cell has to be refused for; nothing if it has a solution."""
+    """Return the reason for which a contact must be refused; empty if the contact
+    has a solution."""
     if not cell.posable:
         return Refusal.POSE
     return Refusal.FORCE if cell.push > LARGEST_FORCE else Refusal.NONE
 
 
 def _duly(refused: Found) -> set[StabilityCell]:
-    """Those that are refused for what they have to be."""
+    """Select the refused contacts whose reason of refusal is the expected one."""
     return {cell for cell, r in refused.items() if r.refused_for and r.refused_for is _due(cell)}
 
 
@@ -182,7 +189,7 @@ def _of(solver: Solver, statement: Statement) -> Statement:
 
 
 def _list(cells: Iterable[StabilityCell]) -> str:
-    """Return their names, the first of them."""
+    """Return the names of the first 12 contacts as text, with the number of further ones."""
     names = [cell.name for cell in cells]
     if not names:
         return ""
@@ -216,20 +223,30 @@ THOUSANDS = 10_000  # from here on the cost is rounded to them
 
 
 def class_of(record: CellRecord) -> int:
-    """Number of the class of a cell."""
+    """Return the number of the legend class of a contact, from the smallest residual to silent
+    errors.
+    """
     if record.verdict in ENDS:
         return ENDS[record.verdict]
     return sum(_part_of_allowed(record) > decade for decade in DECADES)
 
 
 def _part_of_allowed(record: CellRecord) -> float:
-    """The worse of both residuals over what is allowed of each, as `judged` holds them [1]."""
+    """Return the largest ratio of a residual to its allowed value [1].
+
+    The residual stated by the solver and the one computed from the fields have different limits.
+    """
     stated, seen = record.residual or 0.0, record.observed or 0.0
     return max(stated, seen / OTHER_NORMS) / record.tolerance
 
 
 def view_chart(view: View, found: Mapping[str, CellRecord]) -> Chart:
-    """One view of the map; places without a record stay empty."""
+    """Draw one map of contacts: legend class by colour and shape, and the work, at every point.
+
+    Points without a record stay empty.
+
+    found  records by name of the contact
+    """
     x_values, y_values = view.values(view.x), view.values(view.y)
     places: dict[int, list[tuple[int, int]]] = {n: [] for n in range(len(CLASSES))}
     notes = []
@@ -285,7 +302,7 @@ MAX_ROWS = 60  # of good cells; the others have all of theirs
 
 
 def tables(found: Found) -> tuple[Table, ...]:
-    """Return the solvers, what did not converge, and the cells of either kind of solver."""
+    """Return the tables of the solvers, of the contacts not solved, and of the hardest contacts."""
     groups = [[i for i in found.items() if i[0].solver.by_elements is kind] for kind in WORK]
     bad = [*ended(found, Verdict.NOT_CONVERGED, Verdict.SILENT).items()]
     return (
@@ -328,7 +345,10 @@ def _of_bad(bad: list[Item]) -> Table:
 
 
 def _of_cells(group: list[Item]) -> Table:
-    """The worst classes first, of one those that halved increments, then the dearest."""
+    """Build the table of the hardest contacts of one kind of solver.
+
+    The order is by legend class, then by bisections, then by work, each with the largest first.
+    """
     by_elements = group[0][0].solver.by_elements
     solver = "finite elements" if by_elements else "the semi-analytical solver"
     shown = sorted(group, key=_hardness)[:MAX_ROWS]
@@ -359,7 +379,9 @@ def _hardness(item: Item) -> tuple[int, int, int]:
 
 
 def _outcome(record: CellRecord) -> str:
-    """Return the verdict and its reason, without the name of the exception of a refusal."""
+    """Return the verdict of a contact with its reason, without the type of the exception of a
+    refusal.
+    """
     reason = record.reason
     if record.verdict is Verdict.REFUSED:
         reason = reason.partition(": ")[2] or reason
@@ -400,12 +422,12 @@ REMARKS = (
 
 
 def cases(settings: Settings) -> tuple[StabilityRun, ...]:
-    """Return every cell of the level."""
+    """Return the runs of all contacts of the maps of the level."""
     return tuple(map(StabilityRun, study_cells(settings.level, _cells(settings))))
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
-    """The verdicts, the tables and the map."""
+    """Return the statements, tables and maps from the available records."""
     here = _found(settings, records)
     by_name = {cell.name: record for cell, record in here.items()}
     maps = views(settings.level, _cells(settings))

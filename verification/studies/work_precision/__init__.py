@@ -1,1 +1,2 @@
-"""What accuracy costs: error against work, one curve for every method."""
+"""Study of the cost of accuracy: error against CPU time, with one curve for each
+solution method."""

@@ -1,4 +1,5 @@
-"""One method at one setting on one contact, with its errors and its cost; all settings."""
+"""Cases of the work-precision study: one contact by one method at one setting, with
+error and cost."""
 
 from __future__ import annotations
 
@@ -58,14 +59,14 @@ JUDGED = (0.1 - 1e-9, 0.9 + 1e-9)  # part of the radius where the tractions unde
 
 @dataclass(frozen=True)
 class PreciseContact:
-    """A contact with a reference.
+    """A contact with a reference solution, and the errors that the study measures on it.
 
-    title       for people
-    errors      what is measured, in words: fields, which are judged by a norm, and numbers
-    observables the same, as what is read off a result of either solver
-    posed       by the number of increments, where the path decides
-    window      over the contact radius
-    increments  of the step that decides, unless the study varies them; None: one will do
+    title        name for readers
+    errors       measured errors in words, by name: norms of fields and errors of scalars
+    observables  the same errors as functions of the result of a solver
+    posed        function that returns the problem for a number of increments
+    window       side of the window over the contact radius
+    increments   increments of the last load step unless the study varies them; None for one
     """
 
     name: str
@@ -78,30 +79,36 @@ class PreciseContact:
 
     @property
     def problem(self) -> Problem:
-        """In one increment."""
+        """Problem and its reference solution, with one increment."""
         return self.posed(1)
 
     @property
     def leading(self) -> str:
-        """The error that comes first."""
+        """Name of the first error in the list of errors."""
         return next(iter(self.errors))
 
     def meaning(self, quantity: str) -> str:
-        """Of one of the errors, with the contact, for people."""
+        """Return the contact and one of its errors in words."""
         return f"{self.title}: {self.errors[quantity]}"
 
     def errors_of(self, result: Any) -> Errors:
-        """By either solver."""
+        """Compute all errors of the result of a solver against the reference solution, by name."""
         named = zip(self.errors, self.observables, strict=True)
         return {name: one.error(self.problem)(result) for name, one in named}
 
     def grid(self, cells: int) -> SurfaceGrid:
-        """Return a square grid around the contact."""
+        """Return a square surface grid around the contact with `cells` cells per side."""
         return paper.square_grid(cells, self.window / 2 * self.problem.radius)
 
 
 def _pressure_l2(result: Any, step: int, problem: Problem) -> float:
-    """Relative L2 error of the pressure [1]."""
+    """Compute the relative L2 error of the pressure at the end of one load step [1].
+
+    A surface grid is compared with means of the exact pressure over its cells. Rings are compared
+    with values, weighted by area.
+
+    step  index of the load step
+    """
     end, exact = result.steps[step], problem.ends[step].pressure
     if hasattr(result, "grid"):
         return norms.relative_l2(end.pressure, _means(exact, result.grid))
@@ -114,7 +121,12 @@ def _pressure_l2(result: Any, step: int, problem: Problem) -> float:
 
 
 def _shear_l1(result: Any, step: int, problem: Problem) -> float:
-    """Return Σ|q - q_exact| / Σµp [1]."""
+    """Compute the relative L1 error of the shear traction at the end of a load step.
+
+    The error is Σ|q - q_exact| / Σµp, over cells, or weighted by area over rings [1].
+
+    step  index of the load step
+    """
     end, exact = result.steps[step], problem.ends[step].shear
     if hasattr(result, "grid"):
         known = _means(exact, result.grid)
@@ -142,7 +154,13 @@ def _pushed(increments: int) -> Problem:
 def _largest_error(
     at: Callable[[Any, Field], Field], exact: Callable[[Any], Callable[[Field], Field]], scale: str
 ) -> Observable:
-    """Of a traction at the radii of a table, over its scale."""
+    """Return the observable of the largest error of a traction from 0.1 to 0.9 of the contact
+    radius.
+
+    at     function of the result and radii r that returns the computed traction
+    exact  function of the reference solution that returns the traction as a function of r
+    scale  name of the scale by which the error is divided
+    """
 
     def measure(result: Any, step: int, problem: Problem) -> float:
         answer = problem.ends[step]
@@ -234,7 +252,7 @@ MAX_SPRINGS = 64  # elements: finer penalty solves take longer than all the rest
 
 
 class Method(StrEnum):
-    """How a contact is solved."""
+    """Solution method of a contact."""
 
     SURFACE = "semi-analytical"
     EDGES = "semi-analytical, edges inside cells"
@@ -245,14 +263,14 @@ class Method(StrEnum):
 
 @dataclass(frozen=True)
 class PrecisionCase:
-    """A method at a setting.
+    """Represent the solve of one contact by one method at one setting.
 
-    contact     one of CONTACTS
-    fineness    cells per side of the window, elements per contact radius, or twelfths of the rings
-                and orders that the radial solver chooses
-    tolerance   of the solver
-    penalty     stiffness factor c; 0 without penalty
-    increments  0: those of the contact
+    contact     key of CONTACTS
+    fineness    cells per side of the window, elements per contact radius, or twelfths of the number
+                of rings and orders that the radial solver chooses
+    tolerance   tolerance of the solver
+    penalty     factor c of the penalty stiffness; 0 without penalty
+    increments  increments of the last load step; 0 for those of the contact
     """
 
     contact: str
@@ -264,7 +282,7 @@ class PrecisionCase:
 
     @property
     def name(self) -> str:
-        """For files."""
+        """Name of the record, for files: contact, method, fineness and other settings."""
         parts = [self.contact, self.method.name.lower(), f"n{self.fineness}"]
         parts += [f"t{self.tolerance:.0e}"] if self.tolerance != SOLVER_TOLERANCE else []
         parts += [f"c{self.penalty:g}"] if self.penalty else []
@@ -273,12 +291,12 @@ class PrecisionCase:
 
     @property
     def solved(self) -> PreciseContact:
-        """The contact."""
+        """Contact with its reference solution."""
         return CONTACTS[self.contact]
 
     @property
     def text(self) -> str:
-        """The setting for people."""
+        """Setting of the method in words, for tables."""
         n = self.fineness
         words = [f"{n} x {n}"]
         if self.method in (Method.ELEMENTS, Method.PENALTY):
@@ -291,8 +309,10 @@ class PrecisionCase:
         return ", ".join(words)
 
     def compute(self) -> CaseRecord:
-        """Solve, compare and count; raises what the solvers raise. Measures are the relative errors
-        by name."""
+        """Solve the contact with a cold cache and record its relative errors, work and CPU seconds.
+
+        Raises the errors of the solvers.
+        """
         result, seconds, repeats = timed(self._solve)
         names = ("iterations", "convolutions", "factorizations")
         found = {name: [getattr(i, name, 0) or 0 for i in result.increments] for name in names}
@@ -329,7 +349,7 @@ class PrecisionCase:
 
 
 def all_cases(level: Level) -> tuple[PrecisionCase, ...]:
-    """Return all settings of a level, each once."""
+    """Return the cases of all contacts, methods and settings of a level of the study."""
     return tuple(case for contact in CONTACTS for case in _of_contact(contact, level))
 
 

@@ -1,4 +1,4 @@
-"""The study of work and precision: errors against CPU seconds of every method."""
+"""Study of work and precision: error against CPU seconds of every solution method."""
 
 from __future__ import annotations
 
@@ -51,13 +51,13 @@ REMARKS = (
 
 @dataclass(frozen=True)
 class Point:
-    """A setting of a method.
+    """Represent error and cost of one setting of a solution method.
 
-    curve     settings of one curve differ in fineness alone
-    setting   for people
-    fineness  cells or elements along a length
-    error     relative, not negative
-    seconds   CPU time
+    curve     key of the curve; settings of one curve differ in fineness only
+    setting   setting in words
+    fineness  number of cells or elements along a length
+    error     relative error, not negative
+    seconds   CPU time [s]
     """
 
     method: str
@@ -71,7 +71,11 @@ class Point:
 def points_of(
     known: Mapping[PrecisionCase, CaseRecord], contact: str, quantity: str
 ) -> tuple[Point, ...]:
-    """Return the points of all settings on a contact that give the quantity."""
+    """Return error and cost of all settings on one contact whose records have the given error.
+
+    known     records by case
+    quantity  name of the error
+    """
     return tuple(
         Point(
             case.method.value, f"{case.tolerance:g} {case.penalty:g} {case.increments}", case.text,
@@ -83,8 +87,12 @@ def points_of(
 
 
 def dependable(points: Iterable[Point]) -> tuple[Point, ...]:
-    """Return the points with errors that no finer setting of their curve exceeds: a coarse one
-    whose error happens to change sign does not count as accurate, nor one whose finer is NaN."""
+    """Replace the error of each point by the largest error of all points of its curve that are as
+    fine.
+
+    The error of a coarse setting may be small by chance, because the error changes sign. An error
+    that is NaN makes all coarser points NaN.
+    """
     found: list[Point] = []
     largest: dict[tuple[str, str], float] = {}
     for point in sorted(points, key=lambda p: -p.fineness):
@@ -95,7 +103,11 @@ def dependable(points: Iterable[Point]) -> tuple[Point, ...]:
 
 
 def pareto(points: Iterable[Point]) -> tuple[Point, ...]:
-    """Return the points that no other point beats in error and cost, cheapest first."""
+    """Return the Pareto front: the points for which no other point is at least as good in error and
+    cost.
+
+    The points are in ascending order of cost.
+    """
     line: list[Point] = []
     for point in sorted(points, key=lambda p: (p.seconds, p.error)):
         if not line or point.error < line[-1].error:
@@ -104,17 +116,19 @@ def pareto(points: Iterable[Point]) -> tuple[Point, ...]:
 
 
 def cheapest(points: Iterable[Point], target: float) -> Point | None:
-    """Return the least costly point with an error of at most `target`; None where none has."""
+    """Return the point with the least CPU time whose error is at most `target`; None if there is
+    none.
+    """
     return next((point for point in pareto(points) if point.error <= target), None)
 
 
 def cases(settings: Settings) -> tuple[PrecisionCase, ...]:
-    """All that has to be solved."""
+    """Return the solves of all contacts, methods and settings of the level of the study."""
     return all_cases(settings.level)
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
-    """Judge that every quantity is reached; report the cheapest settings, tables and diagrams."""
+    """Judge that a method reaches 1 % for every quantity, and report the cheapest settings."""
     known = found(cases(settings), records)
     everything = {
         (contact.name, quantity): dependable(points)
