@@ -169,7 +169,11 @@ class DiscretisedSolver(ABC):
     def few(self, coarse: Fineness, result: Any) -> Fineness:
         """Return the discretisation of the coarse solves that measure the increment error.
 
-        The default is the coarse discretisation itself; a solver may use still fewer cells.
+        The default is the given one. A solver may use fewer cells, if they suffice to measure the
+        effect of increments.
+
+        coarse  discretisation with the cells of a coarse solve
+        result  result whose errors are estimated
         """
         return coarse
 
@@ -177,12 +181,15 @@ class DiscretisedSolver(ABC):
     def sides(self, result: Any) -> tuple[float, ...]:
         """Return the size of a cell, element or ring of a result, in each direction of refinement.
 
-        The coarsening factor of a coarse solve is the ratio of these sizes.
+        The ratio of the sizes of two solves is the coarsening factor of the cells.
         """
 
     @abstractmethod
     def shown(self, space: Any) -> Mapping[str, Any]:
-        """Return a spatial discretisation for records, by name: cells, elements or ring factor."""
+        """Return the entry for records that describes a spatial discretisation.
+
+        The entry has one name and value, such as cells: (64, 64) or elements_per_radius: 16.
+        """
 
     @abstractmethod
     def features(self, result: Any) -> Sequence[Features]:
@@ -210,12 +217,17 @@ class DiscretisedSolver(ABC):
 
     @abstractmethod
     def finer(self, space: Any, by: Refinement) -> Any:
-        """Refine a grid, mesh or ring factor by at least the given factor of each parameter."""
+        """Refine a grid, mesh or ring factor for the next refinement level.
+
+        by  least refinement factor of each discretisation parameter
+        """
 
     def refined(self, fineness: Fineness, by: Refinement) -> Fineness:
-        """Refine all discretisation parameters by at least the given factor of each.
+        """Refine all discretisation parameters for the next refinement level.
 
         Load steps without an increment error keep their number of increments.
+
+        by  least refinement factor of each parameter; 1 for an absent parameter
         """
         return replace(
             fineness,
@@ -346,11 +358,11 @@ def changed(space: Any, changes: Mapping[str, Any] | None) -> Any:
 
 
 def added(found: Sequence[Values], effects: Sequence[Effect]) -> Sequence[Values]:
-    """Add measured effects of other parameters to the scalars of a coarse solve.
+    """Correct the scalars of a coarse solve by measured effects of other discretisation parameters.
 
-    An effect is the difference between a finer and a coarser solve. The corrected scalars differ
-    from those of the result by the effect of the cells only. Scalars that are absent in one of the
-    solves are omitted.
+    An effect is the difference between a finer and a coarser solve. After the correction, the
+    scalars differ from those of the result by the effect of the cells only. Scalars that are absent
+    in one of the solves are omitted.
 
     found    scalars of the coarse solve at the end of each load step, by name
     effects  pairs of the scalars of a finer and a coarser solve

@@ -82,7 +82,7 @@ class CellSolver(DiscretisedSolver):
         )
 
     def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Result:
-        """Solve the scene on a grid.
+        """Solve the scene on a grid of surface cells.
 
         If the window was fitted by the program and the contact reaches its edge, the scene is
         solved on a larger window with cells of equal size.

@@ -71,7 +71,7 @@ class ElementSolver(DiscretisedSolver):
         return self.chosen_plan or fem_reference.plan(self.scene)
 
     def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Result:
-        """Solve the scene on a mesh.
+        """Solve the scene on a mesh of finite elements.
 
         If the penalty method cannot reduce the overlap of the surfaces to its limit on coarse
         elements, the scene is solved with the largest allowed overlap.

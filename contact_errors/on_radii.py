@@ -68,7 +68,7 @@ class RingSolver(DiscretisedSolver):
 
     @property
     def counted(self) -> bool:
-        """True if the accuracy depends on rings; false without friction.
+        """True if the accuracy depends on the number of rings; false without friction.
 
         Without friction, the accuracy depends on Legendre orders and quadrature points.
         """
@@ -83,10 +83,12 @@ class RingSolver(DiscretisedSolver):
         return result.plan.fineness
 
     def coarser(self, result: Result, share: float, more: int) -> float:
-        """Return the factor of the rings for a coarse solve, as a fraction of that of the result.
+        """Return the factor of the default number of rings for a coarse solve of a result.
 
-        Results that depend on orders and points are compared with a solve with twice their number
-        instead.
+        Results that depend on orders and points, not on rings, are compared with a solve with twice
+        the orders and points instead.
+
+        share  fraction of the rings of the result
         """
         return result.plan.fineness * (share if self.counted else 2.0)
 

@@ -253,7 +253,7 @@ def _growth(order: float) -> float:
 
 
 def _side(state: LoadedBodies) -> float:
-    """Return the side of a cell along x, or the mean width of a ring [length]."""
+    """Return the side of a traction cell along x, or the mean width of a traction ring [length]."""
     places = next(iter(state.axes.values()))
     return float(places[-1] - places[0]) / (len(places) - 1)
 

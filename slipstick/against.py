@@ -262,7 +262,10 @@ def _share(end: StepSummary, name: str) -> float | None:
 def _number(
     name: str, unit: str, measured: float, computed: float, error: float | None
 ) -> Compared:
-    """Build the comparison of one measured and one computed number."""
+    """Build the comparison of one measured and one computed number, with their difference.
+
+    error  stated error of the computed number; None if unknown
+    """
     return Compared(name, unit, measured, computed, error, abs(measured - computed))
 
 

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class SolverName(StrEnum):
-    """Name of a solver, as the option `--solver` takes it."""
+    """Name of a solver, as given to the option `--solver`."""
 
     SEMI_ANALYTICAL = "semi-analytical"
     FEM = "fem"

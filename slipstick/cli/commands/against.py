@@ -1,4 +1,4 @@
-"""`slipstick against`: compare a run with a measured loop or profile."""
+"""Command `slipstick against`: compare a run with a measured loop or profile."""
 
 from __future__ import annotations
 

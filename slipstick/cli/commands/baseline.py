@@ -1,4 +1,4 @@
-"""`slipstick maintain baseline`: list or accept the numbers for later comparisons."""
+"""Command `slipstick maintain baseline`: list or accept the reference numbers of later comparisons."""
 
 from __future__ import annotations
 

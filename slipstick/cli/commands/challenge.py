@@ -1,4 +1,4 @@
-"""`slipstick challenge`: list or export problems for other codes."""
+"""Command `slipstick challenge`: list or export problems for other codes."""
 
 from __future__ import annotations
 

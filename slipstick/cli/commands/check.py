@@ -1,4 +1,4 @@
-"""`slipstick check`: validate and describe a scene file."""
+"""Command `slipstick check`: validate and describe a scene file."""
 
 import json
 from dataclasses import asdict
@@ -52,5 +52,5 @@ def check(
 
 
 def _without_path(problem: dict[str, object]) -> dict[str, object]:
-    """Return the data of a mistake in a scene file without the entry "path"."""
+    """Return the data of a mistake in a scene file without the key "path", for JSON output."""
     return {name: value for name, value in problem.items() if name != "path"}

@@ -1,4 +1,4 @@
-"""`slipstick maintain compare`: changes since the accepted numbers, or since a report."""
+"""Command `slipstick maintain compare`: list changes since the accepted numbers."""
 
 from __future__ import annotations
 

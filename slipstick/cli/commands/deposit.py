@@ -1,4 +1,4 @@
-"""`slipstick maintain deposit`: write the reference tables as an RO-Crate for publication."""
+"""Command `slipstick maintain deposit`: write the reference tables as an RO-Crate."""
 
 from __future__ import annotations
 
@@ -57,7 +57,10 @@ def datasets() -> Iterator[Dataset]:
 
 
 def _command(table: Table) -> Callable[[Mapping[str, Any]], str]:
-    """Return the function that writes the command line which computes one row of a table."""
+    """Return a function that writes the command line by which one row of a table is computed.
+
+    table  table of reference numbers
+    """
     return lambda row: " ".join(
         [f"slipstick table {table.name}", *(f"--over {name}={row[name]!r}" for name in table.axes)]
     )

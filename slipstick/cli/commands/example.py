@@ -1,4 +1,4 @@
-"""`slipstick example`: print an example scene."""
+"""Command `slipstick example`: print an example scene."""
 
 from importlib.resources import files
 from typing import Annotated

@@ -1,4 +1,4 @@
-"""`slipstick export`: write the surface of a run for ParaView."""
+"""Command `slipstick export`: write the surface of a run for ParaView."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`slipstick judge`: judge the answers of another code to a challenge."""
+"""Command `slipstick judge`: judge the answers of another code to a challenge."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`slipstick plan`: effects, grid, time and memory of a solve."""
+"""Command `slipstick plan`: print effects, grid, time and memory of a solve."""
 
 from typing import TYPE_CHECKING, Annotated
 
@@ -104,7 +104,8 @@ def _print_prices(items: list[str], solver: Solver, contents: SceneFile) -> None
 
 
 def _price_texts(found: "Price") -> tuple[str, ...]:
-    """Return the texts of one estimated cost: cells, increments, time and memory."""
+    """Return the texts of the estimated cost of one accuracy: cells, increments, time and
+    memory."""
     cells, rings = found.settings.cells, found.settings.ring_factor
     fineness = f"{rings:.2g} times the rings" if rings else ""
     fineness = fineness or f"{found.settings.elements_per_radius} per radius"

@@ -1,4 +1,4 @@
-"""`slipstick maintain records`: list or regenerate stored records."""
+"""Command `slipstick maintain records`: list or regenerate stored records."""
 
 from __future__ import annotations
 

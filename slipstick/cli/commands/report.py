@@ -1,4 +1,4 @@
-"""`slipstick maintain report`: render a report from its record."""
+"""Command `slipstick maintain report`: render a report from its record."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`slipstick run`: solve a scene and write its results."""
+"""Command `slipstick run`: solve a scene and write its results."""
 
 from contextlib import ExitStack
 from enum import StrEnum

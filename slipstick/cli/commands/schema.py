@@ -1,4 +1,4 @@
-"""`slipstick maintain schema`: print the JSON Schema of a file format."""
+"""Command `slipstick maintain schema`: print the JSON Schema of a file format."""
 
 import json
 from enum import StrEnum

@@ -1,4 +1,4 @@
-"""`slipstick stress`: compute displacement and stress below the surface."""
+"""Command `slipstick stress`: compute displacement and stress below the surface."""
 
 from __future__ import annotations
 
@@ -395,7 +395,9 @@ def _below(
 
 
 def _length(text: str, option: str = "--depths") -> float:
-    """Convert a number in metres, or a number with a unit, to metres; raises BadParameter.
+    """Convert the text of a length to metres; raises BadParameter.
+
+    The text is a number in metres, or a number with a unit, such as "20 um".
 
     option  name of the option, for the message
     """

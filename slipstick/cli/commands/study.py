@@ -1,4 +1,4 @@
-"""`slipstick maintain study`: compute a study and write its page."""
+"""Command `slipstick maintain study`: compute a study and write its page."""
 
 from __future__ import annotations
 

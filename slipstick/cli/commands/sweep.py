@@ -1,4 +1,4 @@
-"""`slipstick sweep`: solve a scene for every combination of values of its keys."""
+"""Command `slipstick sweep`: solve a scene for every combination of values of its keys."""
 
 from __future__ import annotations
 

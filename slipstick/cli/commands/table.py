@@ -1,4 +1,4 @@
-"""`slipstick table`: print reference numbers of contacts with their uncertainties."""
+"""Command `slipstick table`: print reference numbers of contacts with their uncertainties."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`slipstick maintain tolerances`: propose or accept tolerances from the errors."""
+"""Command `slipstick maintain tolerances`: propose or accept tolerances from the errors."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`slipstick verify`: measure the accuracy and write a report."""
+"""Command `slipstick verify`: measure the accuracy and write a report."""
 
 from __future__ import annotations
 
@@ -207,7 +207,10 @@ def _verdict(end: CaseEnd) -> str:
 
 
 def _left_out(problem: str) -> None:
-    """Print a warning about a study that the report omits."""
+    """Print a warning about a stored study that the report omits.
+
+    problem  text about the record, which is damaged or of another version
+    """
     typer.echo(f"WARN {problem}: left out; use --studies for another folder", err=True)
 
 
