@@ -72,10 +72,7 @@ ROUND_OFF = 1e-7
 
 
 def _no_context(fineness: object) -> AbstractContextManager[None]:
-    """Return an empty context for a solve without progress display or checkpoint store.
-
-    fineness  discretisation of the solve, which is not used
-    """
+    """Return an empty context for a solve without progress display or checkpoint store."""
     return nullcontext()
 
 

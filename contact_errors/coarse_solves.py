@@ -143,7 +143,8 @@ class DiscretisedSolver(ABC):
         """Return the spatial discretisation of a result: grid, mesh or multiple of the rings."""
 
     def fineness_of(self, result: Any) -> Fineness:
-        """Return the discretisation parameters of a result: space, increments and tolerance."""
+        """Return the discretisation parameters of a result: grid or mesh, increments and
+        tolerance."""
         return Fineness(self.space_of(result), result.plan.increments, result.tolerance)
 
     # ---- coarse solves

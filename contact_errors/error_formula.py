@@ -326,7 +326,7 @@ class SolvedRun:
 
     @cached_property
     def _largest(self) -> Sequence[Values]:
-        """Largest absolute value of each scalar up to the end of each load step."""
+        """Largest absolute value of each scalar from the start to the end of each load step."""
         return largest_so_far(self.values)
 
     @cached_property
@@ -370,9 +370,11 @@ class SolvedRun:
 
 
 def largest_so_far(values: Sequence[Values]) -> tuple[Values, ...]:
-    """Return the largest absolute value of each scalar up to the end of each load step.
+    """Return the largest absolute value of each scalar from the start to the end of each load step.
 
     All components of a vector receive the value of the largest component.
+
+    values  scalars at the end of each load step, by name
     """
     seen: dict[str, Numbers] = {}
     found = []

@@ -63,7 +63,7 @@ class RingSolver(DiscretisedSolver):
 
     @property
     def plan(self) -> Plan:
-        """Plan of the solve: the effects, and the number of increments of each load step."""
+        """Plan of the solve: modelled effects, and number of increments of each load step."""
         return self.chosen_plan or radial.plan(self.scene)
 
     @property

@@ -155,7 +155,10 @@ class SweepPoint:
 
     @property
     def name(self) -> str:
-        """File name of the point: values of the keys, and a digest that distinguishes points."""
+        """File name of the sweep point: values of the varied keys, and a digest.
+
+        The digest distinguishes points.
+        """
         shown = " ".join(self.overrides[-len(self.values) :])
         digest = hashlib.sha256(repr(self).encode()).hexdigest()[:8]
         return f"{re.sub('[^A-Za-z0-9.]+', '-', shown)[:99]}-{digest}"

@@ -1,4 +1,4 @@
-"""Command `slipstick maintain baseline`: list or accept the reference numbers of later comparisons."""
+"""Command `slipstick maintain baseline`: list or accept reference numbers of later comparisons."""
 
 from __future__ import annotations
 

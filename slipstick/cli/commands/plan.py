@@ -104,8 +104,10 @@ def _print_prices(items: list[str], solver: Solver, contents: SceneFile) -> None
 
 
 def _price_texts(found: "Price") -> tuple[str, ...]:
-    """Return the texts of the estimated cost of one accuracy: cells, increments, time and
-    memory."""
+    """Return the texts of the estimated cost of one accuracy, for a table.
+
+    The texts are cells, increments, time and memory.
+    """
     cells, rings = found.settings.cells, found.settings.ring_factor
     fineness = f"{rings:.2g} times the rings" if rings else ""
     fineness = fineness or f"{found.settings.elements_per_radius} per radius"

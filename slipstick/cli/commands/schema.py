@@ -8,7 +8,7 @@ import typer
 
 
 class SchemaOf(StrEnum):
-    """File format whose JSON Schema is printed."""
+    """File format whose JSON Schema `slipstick maintain schema` prints."""
 
     SCENE = "scene"
     SUMMARY = "summary"
@@ -28,7 +28,7 @@ def schema(
 
 
 def _document(of: SchemaOf) -> dict[str, Any]:
-    """Return the JSON Schema of a file format."""
+    """Return the JSON Schema of a file format of slipstick."""
     if of is SchemaOf.SCENE:
         from contact_scene import scene_schema
 

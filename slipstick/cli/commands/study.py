@@ -155,7 +155,7 @@ def study(
 def _studied(
     study: Study, settings: Settings, command: str, directory: Path, workers: int | Workers
 ) -> StudyRecord:
-    """Compute the cases of a study, draw its conclusions, and write its page.
+    """Compute the cases of a verification study, draw its conclusions, and write its page.
 
     Returns the record of the study.
 
