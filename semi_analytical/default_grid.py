@@ -1,4 +1,4 @@
-"""Default cells and window of a scene."""
+"""Default number of cells and default window of a scene."""
 
 from dataclasses import replace
 from functools import partial
@@ -45,7 +45,7 @@ GROWTH = 1.6
 
 
 def discretise(scene: Scene, asked: SurfaceDiscretisation) -> SurfaceGrid:
-    """Choose the cells and the window that a discretisation leaves open.
+    """Choose the number of cells and the window that a discretisation does not prescribe.
 
     The window is fitted to the largest contact of the history, found on a coarse grid under the
     largest normal load, within the extent of height and friction maps. The spacing of a map (of
@@ -57,7 +57,8 @@ def discretise(scene: Scene, asked: SurfaceDiscretisation) -> SurfaceGrid:
 
 
 def enlarged(scene: Scene, asked: SurfaceDiscretisation, grid: SurfaceGrid) -> SurfaceGrid:
-    """Return a grid of a larger window, within the extent of the maps of the scene."""
+    """Return a grid whose window is GROWTH times larger, within the extent of the maps of the
+    scene."""
     L_x, L_y = grid.window
     return _grid(scene, asked, _within_maps(scene, (GROWTH * L_x, GROWTH * L_y)))
 
@@ -91,7 +92,7 @@ def _within_maps(scene: Scene, window: Pair) -> Pair:
 
 
 def fitted_window(scene: Scene) -> Pair:
-    """Find the sides of the smallest window for the largest contact of the history [length].
+    """Determine the sides of the smallest window for the largest contact of the history [length].
 
     raises  ContactAtWindowEdge if no window contains the contact; UnsupportedScene for a shape
             without a law for the contact size
@@ -126,8 +127,7 @@ def fitted_window(scene: Scene) -> Pair:
 
 
 def refuse_small_window(scene: Scene, grid: SurfaceGrid) -> None:
-    """Raise ContactAtWindowEdge if the contact under the largest load reaches the border of a
-    window.
+    """Raise ContactAtWindowEdge if the contact under the largest load reaches the window border.
 
     The test uses the frictionless contact under `SURELY` of the load, which is smaller.
     """
@@ -144,7 +144,10 @@ def refuse_small_window(scene: Scene, grid: SurfaceGrid) -> None:
 
 
 def _contact(model: ContactModel, load: NormalTarget) -> NDArray[np.bool_]:
-    """Return the cells in contact; none where the contact is too small for the grid."""
+    """Return the cells in contact under a normal load on the full window (nx, ny).
+
+    No cell is returned where the contact is too small for the grid.
+    """
     try:
         return model.domain.extend(press(model, load, SCOUT_TOLERANCE).pressure > 0)
     except ContactNotResolved:
@@ -153,7 +156,10 @@ def _contact(model: ContactModel, load: NormalTarget) -> NDArray[np.bool_]:
 
 def _extents(contact: NDArray[np.bool_], grid: SurfaceGrid) -> tuple[float, float]:
     """Compute the sides of the smallest window about the origin that contains the contact cells
-    [length]."""
+    [length].
+
+    contact  cells in contact (nx, ny)
+    """
     x, y = grid.coordinates()
     return (
         2 * float(np.max(np.abs(x[contact]))) + grid.spacing[0],
@@ -162,10 +168,10 @@ def _extents(contact: NDArray[np.bool_], grid: SurfaceGrid) -> tuple[float, floa
 
 
 def _largest_loads(scene: Scene, tilts: bool) -> list[NormalTarget]:
-    """Select the loads whose contact may extend farthest from the origin.
+    """Select the normal loads of a history whose contact may extend farthest from the origin.
 
-    These are the largest force and approach of the history, and those of largest tilt or
-    eccentricity.
+    These are the largest force and approach, and those of largest tilt or eccentricity.
+    tilts  True if the indenter tilts
     """
     pressing = (ramp for ramp in scene.load_path() if ramp.normal.end)
     ends = [normal_target(ramp, None, 1.0, tilts) for ramp in pressing]
@@ -176,19 +182,19 @@ def _largest_loads(scene: Scene, tilts: bool) -> list[NormalTarget]:
 
 
 def _control(load: NormalTarget) -> tuple[bool, bool]:
-    """Return whether the force is prescribed, and whether the moment is."""
+    """Return two flags: the normal force is prescribed, the moment is prescribed."""
     return load.force is not None, load.moment is not None
 
 
 def _size(load: NormalTarget) -> float:
-    """Return force or approach."""
+    """Return the prescribed normal force or approach, to compare loads of one kind."""
     return load.force or load.approach or 0.0
 
 
 def _lean(axis: int, load: NormalTarget) -> float:
-    """Return the tilt or the moment of a load along y (axis 0) or x (axis 1).
+    """Return the magnitude of the tilt or moment of a normal load along y (axis 0) or x (axis 1).
 
-    A moment is divided by the force, if prescribed.
+    A moment is divided by the force, if the force is prescribed.
     """
     if load.moment is not None:
         return abs(load.moment[axis]) / (load.force or 1.0)
@@ -197,7 +203,7 @@ def _lean(axis: int, load: NormalTarget) -> float:
 
 
 def _guessed_semi_axes(scene: Scene, load: NormalTarget) -> tuple[float, float]:
-    """Estimate the semi-axes of the contact along x and y to an order of magnitude.
+    """Estimate the semi-axes of the contact along x and y to an order of magnitude [length].
 
     raises  UnsupportedScene for a shape without a law for the contact size
     """

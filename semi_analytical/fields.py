@@ -1,4 +1,8 @@
-"""Result of the semi-analytical solver. Scalars are (nx, ny), vectors (2, nx, ny) at (x_i, y_j)."""
+"""Result of the semi-analytical solver: fields and loads of each increment.
+
+Scalars have the shape (nx, ny) and vectors (2, nx, ny). Entry (i, j) belongs to the cell at (x_i,
+y_j).
+"""
 
 from dataclasses import dataclass, field
 from typing import Annotated, ClassVar
@@ -22,17 +26,16 @@ F = Kind.FIELD
 
 @dataclass(frozen=True, kw_only=True)
 class Increment(ReportedIncrement):
-    """Converged state at the end of one increment of the load history.
-
-    moment       (Σ p y Δ, Σ p x Δ) [force length]
-    iterations   of the normal and tangential solvers on all grids
-    convolutions number of convolutions of scalars on all grids slip_before, dissipation_before
-                 slip and dissipation at the start of the increment
-    in_stick     contact cells without slip in this increment
-    edge_report  outcome of the edge correction; None where it was not attempted
+    """Converged state at the end of one increment of the load history, as reported in the results.
 
     Slip is that of the lower body relative to the indenter, opposite to the shear. Fields of shear
     are None without friction.
+    moment                           (Σ p y Δ, Σ p x Δ) [force length]
+    iterations                       iterations of the normal and tangential solvers on all grids
+    convolutions                     number of convolutions of scalars on all grids
+    slip_before, dissipation_before  slip and dissipation at the start of the increment
+    in_stick                         contact cells without slip in this increment
+    edge_report                      outcome of the edge correction; None where it was not attempted
     """
 
     pressure: Annotated[Field, Reported("Pa", "Normal traction, positive in contact.", F)]
@@ -81,7 +84,7 @@ class Increment(ReportedIncrement):
 
     @property
     def in_contact(self) -> Annotated[Mask, Reported("", "Whether the cell carries pressure.", F)]:
-        """Cells that carry pressure."""
+        """Cells that carry pressure (nx, ny)."""
         return np.asarray(self.pressure > 0)
 
     @property
@@ -100,9 +103,9 @@ class Increment(ReportedIncrement):
         Field | None,
         Reported("J/m^2", "Energy per area dissipated by friction within the increment.", F),
     ]:
-        """Energy per area dissipated within the increment (nx, ny) [force/length].
+        """Energy per area dissipated by friction within the increment (nx, ny) [force/length].
 
-        It is nowhere negative; None without friction.
+        The field is nowhere negative; None without friction.
         """
         if self.dissipation is None or self.dissipation_before is None:
             return None
@@ -111,7 +114,13 @@ class Increment(ReportedIncrement):
 
 @dataclass(frozen=True)
 class Result:
-    """Increments of a load history on one grid, with tolerance and plan."""
+    """Result of the semi-analytical solver: all increments of a load history on one grid.
+
+    scene, grid  solved scene, and cells and window of the solution
+    tolerance    limit of the dimensionless residuals
+    plan         effects that were computed
+    increments   converged increments of all load steps
+    """
 
     scene: Scene
     grid: SurfaceGrid

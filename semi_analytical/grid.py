@@ -1,4 +1,4 @@
-"""Surface grid of rectangular cells with constant tractions."""
+"""Surface grid of rectangular cells, each with uniform tractions."""
 
 from dataclasses import dataclass
 
@@ -46,7 +46,8 @@ class SurfaceGrid:
 
     @property
     def even(self) -> bool:
-        """Whether x = 0 and y = 0 lie between cells, with exactly symmetric coordinates."""
+        """True if x = 0 and y = 0 lie between cells and the cell coordinates are exactly
+        symmetric."""
         if any(count % 2 for count in self.cells):
             return False
         return all(bool((at == -at[::-1]).all()) for at in (self.x, self.y))
@@ -58,7 +59,7 @@ class SurfaceGrid:
         )
 
     def refined(self, factor: int = 2) -> "SurfaceGrid":
-        """Return a grid of the same window with `factor` times the cells per side."""
+        """Return a grid of the same window with `factor` times as many cells along each side."""
         return SurfaceGrid((self.cells[0] * factor, self.cells[1] * factor), self.window)
 
     def coarsened(self) -> "SurfaceGrid":

@@ -1,4 +1,5 @@
-"""Load stepping of the semi-analytical solver: solution, energies and edge correction."""
+"""Load stepping of the semi-analytical solver: solve increments, add energies, correct the
+edges."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
@@ -48,7 +49,7 @@ Advance = Callable[
 
 
 class Correct(Protocol):
-    """See `edge_correction.correction.EdgeCorrection`."""
+    """Interface of the edge correction, see `edge_correction.correction.EdgeCorrection`."""
 
     def __call__(
         self, last: State | None, state: State, *, path_known: bool, tolerance: float
@@ -64,17 +65,23 @@ MAX_CONVOLUTIONS = 30_000
 def marked(
     model: ContactModel, plan: Plan, tolerance: float, since: Checkpoint | None = None
 ) -> Iterator[tuple[Increment, ResumePoint[State]]]:
-    """Iterate over the increments of the load history, each with its resume point.
+    """Iterate over the converged increments of the load history, each with its resume point.
 
-    since   checkpoint from which to resume
-    raises  NotConverged and GrossSliding, with the last converged increment as `last_state`
+    A resume point is the state from which the solution can be continued later.
+    model, plan  contact model and effects to compute
+    tolerance    limit of all dimensionless residuals
+    since        checkpoint from which to resume; None to start at the beginning
+    raises       NotConverged and GrossSliding, with the last converged increment as `last_state`
     """
     solver = _Solver(model, plan, _advance(plan), _correction(model, plan), tolerance)
     return resumable_increments(model.scene, plan.increments, solver, since)
 
 
 def _advance(plan: Plan) -> Advance:
-    """Return the solver of one increment. Solvers that are not required are not imported."""
+    """Return the function that solves one increment, as required by the coupling of the plan.
+
+    Solvers that are not required are not imported.
+    """
     if plan.coupling is Coupling.NONE:
         return solve_increment
     if plan.coupling is Coupling.ONE_WAY:
@@ -97,7 +104,13 @@ def _correction(model: ContactModel, plan: Plan) -> Correct | None:
 
 @dataclass(frozen=True)
 class _Solver:
-    """Model and solver of an increment for the load stepping; work is counted in convolutions."""
+    """Contact model with the solver of one increment, as required by the load stepping.
+
+    Work is counted in convolutions.
+    increment  function that solves one increment
+    correct    edge correction; None without one
+    tolerance  limit of all dimensionless residuals
+    """
 
     model: ContactModel
     plan: Plan
@@ -107,17 +120,24 @@ class _Solver:
 
     @property
     def most_spent(self) -> float:
-        """Work limit of one increment."""
+        """Number of convolutions above which an increment that does not converge is not
+        bisected."""
         return MAX_CONVOLUTIONS
 
     def spent(self) -> float:
-        """Return the number of convolutions so far."""
+        """Return the number of convolutions since the start of the solution."""
         return self.model.convolutions.count
 
     def advance(
         self, ramp: LoadRamp, start: State | None, before: State | None, fraction: float
     ) -> State:
-        """Solve the state at a fraction of a ramp, with its energies and edge correction."""
+        """Solve the state at a fraction of a load ramp, and add its energies and its edge
+        correction.
+
+        start     state at the start of the load step; None before first touch
+        before    state of the previous increment; None before first touch
+        fraction  completed fraction of the ramp at the end of the increment, 0 to 1
+        """
         normal = normal_target(ramp, start, fraction, self.plan.tilt)
         tangential = None
         if self.plan.shear:
@@ -144,12 +164,17 @@ class _Solver:
         return replace(after, corrected=edges, edge_report=replace(edges.report, stick=stick))
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Field:
-        """Return the gap without tractions; see `contact_scene.stepping.load_stepping.Solver`."""
+        """Return the gap of the undeformed surfaces on the window, closed by the tilt but not by an
+        approach.
+
+        See `contact_scene.stepping.load_stepping.Solver`.
+        """
         closure = 0.0 if tilt is None else plane(self.model, tilt)
         return self.model.domain.extend(self.model.gap - closure)
 
     def report(self, reached: Reached[State], last: Increment | None) -> Increment:
-        """Report an increment with its changes and cost."""
+        """Convert a converged state to a reported increment, with changes and cost since the
+        last one."""
         before, after = reached.before, reached.state
         held = before is not None and before.target == after.target
         spreads = self.plan.coupling is not Coupling.NONE or not held
@@ -160,9 +185,11 @@ class _Solver:
 def _increment(
     model: ContactModel, last: Increment | None, reached: Reached[State], *, spreads: bool
 ) -> Increment:
-    """Report a state on the window, with changes and cost since the last increment.
+    """Convert a converged state to an increment on the full window.
 
-    spreads  see `stick_area`
+    Changes and cost are those since the last increment.
+    last     preceding increment; None for the first
+    spreads  True if the stick zone may have grown, see `stick_area`
     """
     state, extend, before = reached.state, model.domain.extend_fields, reached.before
     pressing, sheared = extend(state.pressing), extend(state.sheared) if state.sheared else None
@@ -214,7 +241,7 @@ def _increment(
 
 
 def _contact_cells(model: ContactModel, state: State) -> float:
-    """Compute the contact area in cells of the window, with sub-cell accuracy."""
+    """Compute the contact area as a number of cells of the window, with sub-cell accuracy."""
     if state.corrected is not None:
         return state.corrected.contact_cells
     p, domain = state.pressing.pressure, model.domain
@@ -224,7 +251,8 @@ def _contact_cells(model: ContactModel, state: State) -> float:
 def _with_edges(
     increment: Increment, state: State, corrected: Corrected, model: ContactModel
 ) -> Increment:
-    """Replace the contact of an increment by the edge-corrected one, with its elastic energy.
+    """Replace the pressure and contact of an increment by the edge-corrected ones, with the elastic
+    energy.
 
     The part of shear in the elastic energy and the dissipation are not corrected.
     """
@@ -268,12 +296,12 @@ def _stick(
     *,
     spreads: bool,
 ) -> tuple[float, TangentialState, Increment]:
-    """Compute the stick area in cells; return it with edge-corrected shear and increment.
+    """Compute the stick area as a number of cells; return it with edge-corrected shear and
+    increment.
 
     Force, shift and their work are not corrected.
-
-    p        pressure on cells
-    spreads  see `stick_area`
+    p        uncorrected pressure of the cells (nx, ny)
+    spreads  True if the stick zone may have grown, see `stick_area`
     """
     border = corrected.sheared if corrected else None
     if corrected is not None and border is not None:
@@ -291,7 +319,8 @@ def _stick(
 
 
 def _traced(increment: Increment, last: Increment | None, sheared: TangentialState) -> Increment:
-    """Add slip and dissipation to an increment, unless the shift is undefined."""
+    """Add slip, slip distance and dissipation to an increment, unless the tangential shift is
+    undefined."""
     if sheared.dissipated_energy is None:
         return increment
     nothing = untouched(sheared.in_stick.shape)

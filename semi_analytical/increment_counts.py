@@ -58,10 +58,11 @@ Vector = tuple[float, float]
 
 @dataclass(frozen=True)
 class StepIncrements:
-    """Number of increments of one load step.
+    """Number of increments of one load step, with the reason for this number.
 
-    path_matters  whether the end state depends on the number
-    why           the reason in one sentence
+    count         number of increments
+    path_matters  True if the end state depends on the number of increments
+    why           reason in one sentence
     """
 
     count: int
@@ -71,10 +72,10 @@ class StepIncrements:
 
 @dataclass(frozen=True)
 class Bodies:
-    """Properties of a scene for the error rules.
+    """Properties of the contacting bodies that the error rules of increments need.
 
-    coupled   whether the normal and tangential problems are coupled
-    beta      Dundurs constant; None if a body has layers
+    coupled   True if the normal and tangential problems are coupled
+    beta      Dundurs constant β; None if a body has layers
     friction  friction law
     """
 
@@ -88,11 +89,11 @@ def path_increments(
 ) -> tuple[StepIncrements, ...]:
     """Choose the number of increments of each load step.
 
-    It is the largest of: 1; for path-dependent steps the number by the error rules; the number for
-    bulk strain; the number for the work of closed cycles. A number prescribed by the scene replaces
-    it.
-
-    shear     whether shear is solved for
+    The number is the largest of: 1; for path-dependent steps the number by the error rules; the
+    number for bulk strain; the number for the work of closed cycles. A number prescribed by the
+    scene replaces all these numbers.
+    shear     True if shear is solved for
+    bodies    properties of the bodies
     accuracy  allowed increment error, Σ|error of q| / Σµp
     """
     found = []
@@ -125,10 +126,11 @@ NO_SHEAR = "no shear: the state does not depend on the load path"
 
 @dataclass(frozen=True)
 class _LoadStep:
-    """Load step for the error rules.
+    """Load step with the data that the error rules of increments need.
 
-    start  tangential force or shift at its start
-    shape  of the indenter
+    ramp   linear change of the prescribed loads
+    start  tangential force or shift at the start of the step (x, y)
+    shape  shape of the indenter
     """
 
     ramp: LoadRamp
@@ -137,7 +139,7 @@ class _LoadStep:
 
     @property
     def ends_sheared(self) -> bool:
-        """Whether the tangential load or torsion at the end of the step is not zero."""
+        """True if the tangential load or the torsion at the end of the load step is not zero."""
         return any(self.ramp.tangential.end) or self.ramp.twisting.end != 0
 
     @property
@@ -151,14 +153,14 @@ class _LoadStep:
 
     @property
     def _growing(self) -> bool:
-        """Whether only the normal load changes, and grows."""
+        """True if only the normal load changes in the load step, and does not decrease."""
         normal, tilting = self.ramp.normal, self.ramp.tilting
         grows = normal.start is not None and normal.start <= normal.end
         return grows and tilting.start == tilting.end and not self._moving
 
     @property
     def _moving(self) -> bool:
-        """Whether the tangential load, the torsion or the bulk strain changes."""
+        """True if the tangential load, the torsion or the bulk strain changes in the load step."""
         twisting = self.ramp.twisting
         if self.ramp.strains:
             return True
@@ -166,7 +168,12 @@ class _LoadStep:
 
     @property
     def _turning(self) -> bool:
-        """Whether the tangential load changes its direction, other than by reversal."""
+        """True if the tangential load changes its direction in the load step, other than by
+        reversal.
+
+        Torsion together with a tangential load counts as a change of direction if either of them
+        changes.
+        """
         start, end = self.start, self.ramp.tangential.end
         cross = start[0] * end[1] - start[1] * end[0]
         twists = self.ramp.twisting.start != 0 or self.ramp.twisting.end != 0
@@ -176,7 +183,11 @@ class _LoadStep:
         return abs(cross) > STRAIGHT * hypot(*start) * hypot(*end)
 
     def matters(self, coupled: bool) -> tuple[bool, str]:
-        """Return whether the end state of the step depends on the load path, and why not."""
+        """Return True if the end state of the load step depends on the load path, and else the
+        reason.
+
+        coupled  True if the normal and tangential problems are coupled
+        """
         if self._first and self.shape.rim is not None:
             return False, "all tractions below a flat punch grow in proportion"
         if self._growing and not coupled:
@@ -186,14 +197,19 @@ class _LoadStep:
         return False, "the load has a constant direction and the bodies are uncoupled"
 
     def change_of_direction(self, bodies: Bodies) -> float:
-        """Compute Δx/x of a step that changes direction, else 0."""
+        """Compute the relative change Δx/x of the tangential load in a step that changes its
+        direction, else 0.
+
+        x is the largest tangential force over friction limit T/µW of the step.
+        """
         x, change = self._parts_of_limit(bodies)
         return change / x if self._turning and x else 0.0
 
     def count(self, bodies: Bodies, accuracy: float, changes: float) -> tuple[int, str]:
         """Compute the number of increments for an accuracy, and name the error rule.
 
-        changes  Σ Δx/x of all steps that change direction; 0 for fewer than two
+        accuracy  allowed increment error, Σ|error of q| / Σµp
+        changes   Σ Δx/x of all steps that change direction; 0 for fewer than two
         """
         if self._first and not self._moving:
             return _pressed_first(bodies, accuracy, self.shape)
@@ -215,14 +231,19 @@ class _LoadStep:
 
     @property
     def _pressing_change(self) -> float:
-        """Change of the normal load relative to the larger value; 1 if unknown."""
+        """Change of the normal load in the load step over the larger value; 1 if unknown."""
         normal, tilting = self.ramp.normal, self.ramp.tilting
         if normal.start is None or tilting.start != tilting.end:
             return 1.0
         return abs(normal.end - normal.start) / max(normal.start, normal.end)
 
     def _parts_of_limit(self, bodies: Bodies) -> tuple[float, float]:
-        """Compute the largest T/µW of the step and its change; 1 if unknown before the solution."""
+        """Compute the largest ratio T/µW of tangential force to friction limit in the step, and its
+        change.
+
+        Each result is 1 if it is unknown before the solution, and 0 if the tangential load does not
+        change.
+        """
         if not self._moving:
             return 0.0, 0.0
         normal, tangential = self.ramp.normal, self.ramp.tangential
@@ -242,10 +263,11 @@ class _LoadStep:
 
 
 def _pressed_first(bodies: Bodies, accuracy: float, shape: ShapedBody) -> tuple[int, str]:
-    """Compute the number of increments of normal first loading of coupled bodies.
+    """Compute the number of increments of normal first loading of coupled bodies, and the reason.
 
     The error depends on the relative size of the stick zone, whose edge moves with that of the
     contact.
+    accuracy  allowed increment error, Σ|error of q| / Σµp
     """
     layered = bodies.beta is None
     most = (FULL_STICK_LAYERS if layered else FULL_STICK) / accuracy

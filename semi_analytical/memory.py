@@ -1,4 +1,4 @@
-"""Memory estimate of a run."""
+"""Estimate of the peak memory of a semi-analytical solution."""
 
 from contact_scene.machine import available_bytes
 from contact_scene.quantities.stored_fields import MAX_IN_MEMORY
@@ -47,7 +47,8 @@ DRAWING, DRAWING_ARRAYS, DRAWING_COUPLED = 75 << 20, 11, 9 << 20
 
 
 def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
-    """Estimate the peak memory of a run, libraries and figures included [byte]."""
+    """Estimate the peak memory of a semi-analytical solution, libraries and figures included
+    [byte]."""
     array = grid.cells[0] * grid.cells[1] * DOUBLE
     increments = sum(plan.increments)
     kept = PRESSURE_RESULT + (SHEAR_RESULT if plan.shear else 0)
@@ -62,12 +63,13 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
 
 
 def _share(grid: SurfaceGrid, plan: Plan) -> float:
-    """Return the ratio of cells of the domain to cells of the window."""
+    """Return the ratio of the number of cells of the reduced domain to that of the window."""
     return 1 / plan.symmetry.images if grid.even else 1.0
 
 
 def _arrays(grid: SurfaceGrid, plan: Plan) -> float:
-    """Count the arrays of the size of the window during the solution on cells."""
+    """Count the arrays of the size of the window that exist at the peak of the solution on
+    cells."""
     share = _share(grid, plan)
     arrays = PRESSURE_ARRAYS[0] + PRESSURE_ARRAYS[1] * share
     if plan.shear:
@@ -78,7 +80,7 @@ def _arrays(grid: SurfaceGrid, plan: Plan) -> float:
 
 
 def _coupled(grid: SurfaceGrid, plan: Plan) -> float:
-    """Estimate the memory for coupled bodies, of the solution or of the edge correction [byte]."""
+    """Estimate the memory of coupled bodies during the solution or the edge correction [byte]."""
     array, side = grid.cells[0] * grid.cells[1] * DOUBLE, sum(grid.cells) / 2
     by_increment = COUPLED_ARRAYS[plan.symmetry.images if grid.even else 1]
     during, between = by_increment[sum(plan.increments) > 1]
@@ -108,7 +110,7 @@ def _edges(grid: SurfaceGrid, plan: Plan) -> float:
 
 
 def refuse_if_too_large(grid: SurfaceGrid, plan: Plan) -> None:
-    """Raise ResourceRefused if the solution does not fit into the free memory."""
+    """Raise ResourceRefused if the estimated memory of the solution exceeds the free memory."""
     needed, available = estimated_bytes(grid, plan), available_bytes()
     if needed > available:
         raise ResourceRefused(

@@ -1,4 +1,5 @@
-"""Discrete contact model: gap, friction limit and operators on a grid, and its coarser models."""
+"""Discrete contact model: gap, friction limit and operators of a scene on a grid, and coarser
+models."""
 
 from functools import cached_property
 
@@ -23,11 +24,13 @@ COARSEST = 64
 
 
 class ContactModel:
-    """Scene on one grid for the solvers. Its properties are computed at first use.
+    """Discrete contact model of a scene on one grid; its properties are computed at first use.
 
-    grid          cells of the domain; their area includes the mirror images
+    scene         scene with bodies, friction and loads
+    grid          cells of the reduced domain; their area includes the mirror images
     domain        symmetry reduction: domain of all fields
-    gap           undeformed gap on the domain (nx, ny) [length]
+    window        grid of the full window
+    gap           undeformed gap on the reduced domain (nx, ny) [length]
     convolutions  counter shared by all operators of this model and its coarser models
     """
 
@@ -42,9 +45,11 @@ class ContactModel:
     def of(
         cls, scene: Scene, window: SurfaceGrid, symmetry: ReducedDomain = WINDOW
     ) -> "ContactModel":
-        """Build the model of a scene, with the gap at the cell centres.
+        """Build the contact model of a scene, with the undeformed gap at the cell centres.
 
-        symmetry  domain of the plan; the full window if cells lie on a mirror plane
+        window    grid of the full window
+        symmetry  symmetry reduction of the plan; the full window is used if cells lie on a mirror
+                  plane
         raises    ValueError if the gap is not even about the mirror planes
         """
         domain = symmetry if window.even else WINDOW
@@ -53,17 +58,26 @@ class ContactModel:
         return cls(scene, ReducedGrid(window, domain), domain.restrict(gap), Convolutions())
 
     def friction_limit(self, pressure: Field, first: Pair = (0, 0)) -> Field:
-        """Compute the friction limit under a pressure on the domain, or on a box of cells that
-        begins at cell `first` [force/length^2]."""
+        """Compute the friction limit at a pressure [force/length^2].
+
+        pressure  p on the reduced domain, or on a box of its cells (nx, ny)
+        first     first cell of the box
+        """
         return self.friction.limit(pressure, self._of_window(first, pressure.shape))
 
     def friction_slope(self, pressure: Field, first: Pair = (0, 0)) -> Field:
-        """Compute the derivative of the friction limit with respect to the pressure, on the same
-        cells [1]."""
+        """Compute the derivative of the friction limit with respect to the pressure [1].
+
+        Arguments as for `friction_limit`.
+        """
         return self.friction.slope(pressure, self._of_window(first, pressure.shape))
 
     def _of_window(self, first: Pair, shape: tuple[int, ...]) -> tuple[slice, slice]:
-        """Return the index of a box of cells of the domain in arrays on the window."""
+        """Return the slices of a box of cells of the reduced domain for arrays on the full window.
+
+        first  first cell of the box
+        shape  number of cells of the box
+        """
         cells = zip(self.window.cells, self.grid.cells, first, strict=True)
         begins = (whole - n + i for whole, n, i in cells)
         x, y = (slice(i, i + count) for i, count in zip(begins, shape, strict=True))
@@ -83,7 +97,7 @@ class ContactModel:
 
     @cached_property
     def coefficients(self) -> InfluenceCoefficients:
-        """Influence coefficients at all offsets required on this grid."""
+        """Influence coefficients at all cell offsets required on this grid."""
         offsets = offsets_for(self.window.cells)
         scene = self.scene
         return influence_coefficients(
@@ -92,20 +106,23 @@ class ContactModel:
 
     @property
     def springs(self) -> tuple[float, float]:
-        """Displacement of the normal and tangential springs of a rig per sum of the tractions on
-        the domain [length^3/force]."""
+        """Normal and tangential displacement of the springs of a test rig per sum of the tractions.
+
+        The sum is taken over the reduced domain. The unit is [length^3/force].
+        """
         down, along = compliances(self.scene.rig)
         return down * self.grid.cell_area, along * self.grid.cell_area
 
     @cached_property
     def arms(self) -> Field:
-        """Arms (y, x) of the cells (2, nx, ny): closure of the gap by unit tilts [length]."""
+        """Distances (y, x) of the cells from the axes (2, nx, ny) [length]: closure of the gap
+        by unit tilts."""
         x, y = self.grid.coordinates()
         return np.stack([y, x])
 
     @cached_property
     def rotation(self) -> Field:
-        """Field (-y, x) of the cells (2, nx, ny): displacement by a unit twist [length]."""
+        """Vector field (-y, x) at the cells (2, nx, ny) [length]: displacement by a unit twist."""
         x, y = self.grid.coordinates()
         return np.stack([-y, x])
 
@@ -116,17 +133,21 @@ class ContactModel:
 
     @property
     def bearing_modulus(self) -> float:
-        """Effective modulus E* for a contact of half the width of the window [force/length^2]."""
+        """Effective modulus E* for a contact of half the width of the window [force/length^2].
+
+        Used for the initial guess of the pressure.
+        """
         nx, ny = self.window.cells
         spring = self.springs[0] / self.domain.images
         zz = self.coefficients.zz[: nx // 4 + 1, : ny // 4 + 1] - spring
         return modulus_of(zz, self.grid.spacing)
 
     def operator(self, shape: Pair) -> DisplacementOperator:
-        """Return the operator on a box of cells.
+        """Return the displacement operator on a box of cells.
 
-        Operators on the domain and on one other shape are stored: growing contacts rarely return to
-        an earlier shape.
+        Operators on the whole domain and on one other shape are stored: growing contacts rarely
+        return to an earlier shape.
+        shape  number of cells of the box along x and y
         """
         if shape not in self._operators:
             if shape != self.grid.cells:
@@ -139,7 +160,7 @@ class ContactModel:
 
     @cached_property
     def on_window(self) -> "ContactModel":
-        """Model of the same cells on the full window, with the same coefficients."""
+        """Contact model with the same cells and influence coefficients, on the full window."""
         if self.domain == WINDOW:
             return self
         gap = self.domain.extend(self.gap)
@@ -149,8 +170,10 @@ class ContactModel:
 
     @cached_property
     def coarse(self) -> "ContactModel | None":
-        """Model on the same domain with half the cells per side; None if impossible or not
-        worthwhile."""
+        """Contact model on the same domain with half the cells per side, for initial guesses.
+
+        None if a number of cells is odd or the window has too few cells to save time.
+        """
         if any(n % 2 for n in self.grid.cells) or min(self.window.cells) <= COARSEST:
             return None
         grid = ReducedGrid(self.window.coarsened(), self.domain)
@@ -158,12 +181,12 @@ class ContactModel:
 
 
 def halved(values: Field) -> Field:
-    """Average over two by two cells, (..., nx, ny) to (..., nx/2, ny/2)."""
+    """Average a field over two by two cells, (..., nx, ny) to (..., nx/2, ny/2)."""
     # Sums of pairs: means of mirror images are bitwise mirror images.
     along = values[..., ::2, :] + values[..., 1::2, :]
     return np.asarray((along[..., ::2] + along[..., 1::2]) / 4)
 
 
 def doubled(values: Field) -> Field:
-    """Repeat each value on two by two cells, (..., nx, ny) to (..., 2 nx, 2 ny)."""
+    """Repeat each cell value of a field on two by two cells, (..., nx, ny) to (..., 2 nx, 2 ny)."""
     return np.repeat(np.repeat(values, 2, axis=-2), 2, axis=-1)

@@ -1,9 +1,10 @@
-"""Multipliers of prescribed resultants, by a damped Newton method on the dual function.
+"""Lagrange multipliers of prescribed forces, by a damped Newton method on the dual function.
 
-The projection on tractions with given sums is q = P(y + Σ λ m), with the cell-wise projection P and
-the rigid motions m conjugate to the sums. The multipliers λ minimise the convex dual function. The
-line search uses its gradient, the defect of the sums, because near the friction limit values of the
-function are differences of large numbers.
+The projection on tractions with prescribed sums (forces, moments) is q = P(y + Σ λ m). P is the
+projection of each cell on the friction or contact law, and m are the rigid motions conjugate to the
+sums. The multipliers λ minimise the convex dual function. The line search uses its gradient, the
+defect of the sums, because near the friction limit values of the function are differences of large
+numbers.
 """
 
 from collections.abc import Callable
@@ -17,17 +18,19 @@ MAX_SWEEPS = 100
 
 
 class Shifted(Protocol):
-    """Traction shifted by multipliers and projected."""
+    """Interface of a traction that is shifted by multipliers and projected on the friction or
+    contact law."""
 
     @property
     def defect(self) -> Vector:
         """Sums of the traction minus the prescribed sums: gradient of the dual function."""
 
     def settled(self, multiplier: Vector) -> bool:
-        """Return whether the defect is round-off."""
+        """Return True if the defect of the prescribed sums is at the level of rounding errors."""
 
     def newton_step(self) -> Vector:
-        """Compute the change of the multipliers that removes the defect to first order."""
+        """Compute the change of the multipliers that removes the defect of the sums to first
+        order."""
 
 
 Point = TypeVar("Point", bound=Shifted)
@@ -36,10 +39,10 @@ Point = TypeVar("Point", bound=Shifted)
 def find_multiplier(
     shifted_by: Callable[[Vector], Point], multiplier: Vector
 ) -> tuple[Point, Vector]:
-    """Find the multipliers without defect; return the projected traction and the multipliers.
+    """Find the multipliers for which the projected traction has the prescribed sums.
 
-    The result is not settled if no traction has the prescribed sums.
-
+    Return the projected traction and the multipliers. The result is not settled if no traction has
+    the prescribed sums.
     shifted_by  projected traction as a function of the multipliers
     multiplier  initial guess
     """

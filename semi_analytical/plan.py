@@ -1,4 +1,7 @@
-"""Decision on the effects that a scene requires. No other module examines the kind of a scene."""
+"""Decision on the effects that a scene requires. No other module examines the kind of a scene.
+
+An effect is, for example, friction, tilt or the coupling of normal and tangential problem.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -37,7 +40,7 @@ COMPUTED = ("tangential load", "tilt", "torsion", COUPLING)
 
 
 class Coupling(StrEnum):
-    """Coupling of the normal and the tangential problem."""
+    """Coupling of the normal and the tangential problem in the solution of a scene."""
 
     NONE = "none"
     # Pressure displaces the surfaces tangentially, shear does not change the gap (Goodman 1962).
@@ -49,15 +52,15 @@ class Coupling(StrEnum):
 class Plan:
     """Effects to compute for a scene. Effects that are off cause no cost.
 
-    shear     whether shear tractions are solved for
-    tilt      whether the indenter tilts, by prescribed moments or tilts
-    torsion   whether the indenter rotates about z
+    shear     True if shear tractions are solved for
+    tilt      True if the indenter tilts, by prescribed moments or tilts
+    torsion   True if the indenter rotates about z
     coupling  coupling of the normal and the tangential problem
     path      number of increments of each load step, with reasons
     effects   every effect with its reason, as displayed
     edge      increments at whose end the edge correction is applied
-    symmetry  domain of the solution
-    couples   whether the edge correction is that of coupled bodies; False for uncoupled bodies with
+    symmetry  symmetry reduction: domain of the solution
+    couples   True if the edge correction is that of coupled bodies; False for uncoupled bodies with
               forced coupling
     """
 
@@ -77,13 +80,13 @@ class Plan:
         return tuple(step.count for step in self.path)
 
     def cut_into(self, increments: Sequence[int]) -> "Plan":
-        """Return the plan with these numbers of increments."""
+        """Return the plan with the given number of increments of each load step."""
         path = zip(self.path, increments, strict=True)
         return replace(self, path=tuple(replace(step, count=count) for step, count in path))
 
 
 def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrection = "off") -> Plan:
-    """Decide the effects of a scene.
+    """Decide which effects to compute for a scene, and the number of increments of each load step.
 
     path_accuracy  allowed increment error of the shear, relative to Σµp
     edge           increments at whose end the edge correction is requested
@@ -136,7 +139,14 @@ def _tangentially_loaded(scene: Scene) -> bool:
 
 
 def _prescribed(name: str, on: bool, loads: str, friction: bool = True) -> Effect:
-    """Describe an effect of prescribed loads; without `friction` it is off."""
+    """Describe an effect that is on if loads of some kind are prescribed; without friction it may
+    be off.
+
+    name      name of the effect
+    on        True if such loads are prescribed
+    loads     name of the loads in the reason
+    friction  False if the effect needs friction and the scene has none
+    """
     if not friction:
         return Effect(name, False, "without friction the surfaces carry no shear")
     return Effect(name, on, f"{'a' if on else 'no'} load step prescribes {loads}")
@@ -145,9 +155,9 @@ def _prescribed(name: str, on: bool, loads: str, friction: bool = True) -> Effec
 def _symmetry(
     scene: Scene, shear: bool, coupled: bool, tilt: bool, torsion: bool
 ) -> tuple[ReducedDomain, str]:
-    """Choose the domain, and state the reason.
+    """Choose the symmetry reduction of a scene, and state the reason.
 
-    A plane is a mirror plane if it preserves the shear of all loads, or reverses that of all.
+    A plane is a mirror plane if it preserves the shear of all loads, or reverses that of all loads.
     """
     if tilt:
         return WINDOW, "the indenter tilts"
@@ -175,7 +185,10 @@ def _symmetry(
 
 
 def _edges(scene: Scene, asked: EdgeCorrection, torsion: bool) -> tuple[bool, str]:
-    """Decide on the edge correction, and state the reason."""
+    """Decide if the edge correction is applied, and state the reason.
+
+    asked  requested edge correction
+    """
     if asked == "off":
         return False, "not requested: tractions are constant on every cell"
     if scene.indenter.rim is not None:
@@ -189,7 +202,10 @@ def _edges(scene: Scene, asked: EdgeCorrection, torsion: bool) -> tuple[bool, st
 
 
 def all_effects(plan: Plan) -> Plan:
-    """Return a plan that computes all effects: equal results at a higher cost."""
+    """Return a plan that computes all effects, also vanishing ones: equal results at a higher cost.
+
+    Used to verify that switched-off effects do not change the results.
+    """
     return replace(
         plan,
         shear=True,
@@ -226,7 +242,7 @@ def one_way(plan: Plan) -> Plan:
 
 
 def _forced(effect: Effect) -> Effect:
-    """Mark a forced effect as on, and an unused symmetry as off."""
+    """Mark an effect as on in a plan with all effects, and an unused symmetry reduction as off."""
     if effect.name == MIRROR_PLANES and effect.on:
         return replace(effect, on=False, why=f"not used, although {effect.why}")
     if effect.name not in COMPUTED or effect.on:

@@ -1,4 +1,4 @@
-"""Dimensionless residuals of the contact conditions, independent of the cell size.
+"""Dimensionless residuals of the contact and friction conditions, independent of the cell size.
 
 See `contact_scene.quantities.residuals.Residuals`. A NaN in a field gives a NaN.
 """
@@ -13,28 +13,45 @@ LEAST_SLIP = 1e-3
 
 
 def complementarity(p: Field, g: Field, approach: float) -> float:
-    """Compute Σ|g| p / (approach Σp); gaps where p = 0 may be infinite."""
+    """Compute the complementarity residual Σ|g| p / (approach Σp): pressure acts where the gap is
+    open.
+
+    p         pressure (nx, ny)
+    g         gap (nx, ny) [length]; may be infinite where p = 0
+    approach  approach or overlap of the bodies [length]
+    """
     pressed = p > 0
     return float(np.sum(np.abs(g[pressed]) * p[pressed]) / (np.sum(p) * abs(approach)))
 
 
 def penetration(g: Field, approach: float) -> float:
-    """Compute max(-g) / approach, zero if the bodies do not overlap."""
+    """Compute the penetration residual max(-g) / approach, zero if the bodies do not overlap.
+
+    g         gap (nx, ny) [length]
+    approach  approach or overlap of the bodies [length]
+    """
     return float(np.maximum(0.0, -np.min(g)) / abs(approach))
 
 
 def friction_cone(q: Field, bound: Field) -> float:
-    """Compute max(|q| - bound) / max(bound), zero if no shear exceeds the bound."""
+    """Compute the excess of the shear over the friction limit, max(|q| - bound) / max(bound), at
+    least 0.
+
+    q      shear (2, nx, ny)
+    bound  friction limit (nx, ny)
+    """
     excess = np.max(np.sqrt(q[0] ** 2 + q[1] ** 2) - bound)
     return float(np.maximum(0.0, excess) / np.max(bound))
 
 
 def slip_direction(q: Field, bound: Field, slip: Field, displacement: Field) -> float:
-    """Compute Σ(bound |w| - q·w) / Σ bound |w|: zero if the shear is at its limit along slip.
+    """Compute the residual Σ(bound |w| - q·w) / Σ bound |w| of the slip direction.
 
+    The residual is zero if the shear of all slipping cells is at the friction limit along the slip
+    w.
     q             shear (2, nx, ny)
     bound         friction limit (nx, ny), zero outside the contact
-    slip          w (2, nx, ny) of the indenter relative to the body, in the direction of q
+    slip          slip w (2, nx, ny) of the indenter relative to the body, in the direction of q
     displacement  tangential displacement (2, nx, ny), which sets the least scale of slip
     """
     work = bound * np.sqrt(slip[0] ** 2 + slip[1] ** 2)

@@ -1,4 +1,5 @@
-"""Resolution of a result: contact, stick zone, layers and surface heights in numbers of cells.
+"""Resolution of a result: sizes of contact, stick zone, layers and surface waves in numbers of
+cells.
 
 Residuals do not measure resolution: a contact of one cell fulfils the equations of the grid.
 """
@@ -22,13 +23,15 @@ SQUARE = np.ones((3, 3), dtype=bool)  # cells that share a corner belong to one 
 
 @dataclass(frozen=True)
 class Resolution:
-    """Lengths at the end of a load step in cells; None for features that do not exist.
+    """Lengths of the solution at the end of a load step in cells; None for features that do not
+    exist.
 
     contact  smaller semi-axis of the contact; for several patches the mean weighted by their loads.
              Patches without a cell that has four neighbours in contact count half, as so few cells
              may carry the load of a much smaller contact. 0 without contact
-    stick    smaller semi-axis of the stick zone likewise, 0 in gross slip; None without shear
-    annulus  width of the slip zone around it, `contact` - `stick`; None in full stick
+    stick    smaller semi-axis of the stick zone, computed like that of the contact; 0 in gross
+             slip; None without shear
+    annulus  width of the slip zone around the stick zone, `contact` - `stick`; None in full stick
     layer    thickness of the thinnest layer; layers of nearly equal material count as one
     wave     mean wavelength of the heights of a height map around the contact
     """
@@ -41,7 +44,7 @@ class Resolution:
 
 
 def resolution(result: Result) -> tuple[Resolution, ...]:
-    """Measure the resolution at the end of every load step."""
+    """Measure the resolution of a result in cells at the end of every load step."""
     return tuple(_at(result, end) for end in result.steps)
 
 
@@ -60,7 +63,8 @@ def _contact(result: Result, end: Increment) -> float:
 
 
 def refuse_unresolved(result: Result) -> None:
-    """Raise ContactNotResolved if the largest contact of the history is below a cell per radius."""
+    """Raise ContactNotResolved if the largest contact of the history has less than one cell per
+    radius."""
     end = max(result.steps, key=lambda step: step.contact_area)
     found = _contact(result, end)
     if found >= 1:
@@ -73,7 +77,10 @@ def refuse_unresolved(result: Result) -> None:
 
 
 def _remedy(result: Result, found: float) -> str:
-    """Return settings that would resolve the contact."""
+    """Return the part of an error message with settings that would resolve the contact.
+
+    found  radius of the contact in cells
+    """
     (nx, ny), (L_x, L_y) = result.grid.cells, result.grid.window
     more = int(np.ceil(ENOUGH / max(found, 0.5)))
     cells = f"--set semi_analytical.cells=[{more * nx},{more * ny}]"
@@ -90,12 +97,13 @@ def _remedy(result: Result, found: float) -> str:
 
 
 def _semi_axis(marked: Mask, load: Field, area: float) -> float:
-    """Compute the smaller semi-axis of the marked patches, averaged with their loads as weights.
+    """Compute the smaller semi-axis of the marked patches in cells, averaged with their loads as
+    weights.
 
-    A patch is replaced by the ellipse of its area and of the ratio of its second moments.
-
-    load  load by cell
-    area  of all patches, with sub-cell accuracy
+    Each patch is replaced by the ellipse of the same area and the same ratio of second moments.
+    marked  cells of the patches (nx, ny)
+    load    load of each cell (nx, ny)
+    area    area of all patches in cells, with sub-cell accuracy
     """
     patches, number = ndimage.label(marked, SQUARE)
     if number == 0:
@@ -120,10 +128,11 @@ def _layer(result: Result) -> float | None:
 
 
 def _wave(result: Result, touched: Mask) -> float | None:
-    """Compute the mean wavelength 2π √(m₂/m₄) of the heights (Longuet-Higgins 1957).
+    """Compute the mean wavelength 2π √(m₂/m₄) of a height map near the contact, in cells.
 
-    m₂ and m₄ are mean squares of slope and curvature in the bounding rectangle of the contact. The
-    result is the wavelength for a sine.
+    The formula is that of Longuet-Higgins (1957). m₂ and m₄ are mean squares of slope and curvature
+    in the bounding rectangle of the contact. The result is the wavelength for a sine.
+    touched  cells in contact (nx, ny)
     """
     indenter = result.scene.indenter
     if not isinstance(indenter, HeightMap) or not np.any(touched):

@@ -1,4 +1,4 @@
-"""Solution of a scene: plan, model, load stepping."""
+"""Solution of a scene by the semi-analytical method: plan, contact model, load stepping."""
 
 from collections.abc import Callable, Sequence
 
@@ -42,10 +42,12 @@ def solve(
 ) -> Result:
     """Solve a scene on a grid for every increment of its load history.
 
-    Parameters ---------- scene
+    Parameters
+    ----------
+    scene
         Scene to solve.
     grid
-        Cells and window; all tractions are constant on a cell.
+        Cells and window; all tractions are uniform in each cell.
     tolerance
         Limit of every dimensionless residual at the end of every increment.
     progress
@@ -55,7 +57,9 @@ def solve(
     store
         Checkpoints of the same solution: stored increments are not computed again.
 
-    Raises ------ UnsupportedScene
+    Raises
+    ------
+    UnsupportedScene
         The scene has features that are not implemented.
     ContactAtWindowEdge
         The contact reaches the border of the window.
@@ -86,10 +90,10 @@ def solve_discretised(
     plan: Plan | None = None,
     store: CheckpointStore | None = None,
 ) -> Result:
-    """Solve a scene on the grid of its discretisation.
+    """Solve a scene on the grid that its discretisation settings determine.
 
-    A window that is not prescribed is fitted to the contact, and enlarged if the contact of an
-    increment reaches its border; for a height map it is the whole map. Raises the errors of
+    If the window is not prescribed, it is fitted to the contact, and enlarged if the contact of an
+    increment reaches its border. For a height map the window is the whole map. Raises the errors of
     `solve`, and ContactNotResolved where only a few cells carry the load.
     """
     scene, decided = normal_form(scene), plan
@@ -123,6 +127,8 @@ def solve_within(
     """Solve a scene on the first of several grids whose window contains the contact.
 
     Raises the errors of `solve`.
+    grids      grids of successively larger windows
+    tolerance  limit of every dimensionless residual
     """
     last = store.last() if store else None
     if last and last.extent in grids:  # smaller windows do not contain the contact

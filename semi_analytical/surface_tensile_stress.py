@@ -15,20 +15,22 @@ ROUND_OFF = 1e-9
 
 
 class SurfaceTensileStress:
-    """Surface tensile stress of a result; load steps shared by cycles are evaluated once."""
+    """Largest tensile stress at the surface of a result in load cycles.
+
+    The stress at the end of a load step that several cycles share is evaluated once.
+    """
 
     def __init__(self, result: Result) -> None:
         self._result = result
         self._stresses: dict[int, Field] = {}
 
     def within(self, path: Sequence[Increment]) -> Field | None:
-        """Compute σ_T (nx, ny), the largest tensile stress at the ends of the load steps of a cycle
-        [force/length^2].
+        """Compute the tensile stress σ_T (nx, ny) of a load cycle at the surface [force/length^2].
 
-        The stress is that of the surface along the direction in which the tangential force changes.
-        None if the force is constant.
-
-        path  the increments of the cycle; cycles in the order of their start
+        σ_T is the largest value at the ends of the load steps of the cycle. The stress acts along
+        the direction in which the tangential force changes. None is returned if the force is
+        constant.
+        path  increments of the cycle; cycles must be given in the order of their start
         """
         direction = _direction(path, self._result.grid.cell_area)
         if direction is None:
@@ -42,7 +44,10 @@ class SurfaceTensileStress:
 
 
 def _in_plane_stress(result: Result, end: Increment) -> Field:
-    """Compute σ_xx, σ_yy, σ_xy (3, nx, ny) at z = 0, tensile stress positive."""
+    """Compute σ_xx, σ_yy, σ_xy (3, nx, ny) at the surface of a body, tensile stress positive.
+
+    end  increment at the end of a load step
+    """
     body, indenter, shear = result.scene.body, result.scene.indenter, end.shear
     if not body.deforms:
         body = Body(material=indenter.material, layers=indenter.layers)
@@ -55,8 +60,12 @@ def _in_plane_stress(result: Result, end: Increment) -> Field:
 
 
 def _direction(path: Sequence[Increment], cell_area: float) -> Vector | None:
-    """Return the unit vector along the largest change of the tangential force since the cycle
-    began."""
+    """Return the unit vector of the largest change of the tangential force since the start of a
+    load cycle.
+
+    None is returned if the force is constant.
+    path  increments of the cycle
+    """
     force = np.array([increment.tangential_force for increment in path])
     changes = force - force[0]
     sizes = np.hypot(changes[:, 0], changes[:, 1])
@@ -67,6 +76,6 @@ def _direction(path: Sequence[Increment], cell_area: float) -> Vector | None:
 
 
 def _along(direction: Vector, stress: Field) -> Field:
-    """Compute the normal stress n·σ n."""
+    """Compute the normal stress n·σ n of the in-plane stress (3, nx, ny) along a unit vector n."""
     (x, y), (xx, yy, xy) = direction, stress
     return np.asarray(x * x * xx + y * y * yy + 2 * x * y * xy)

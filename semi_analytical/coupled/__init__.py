@@ -1,1 +1,1 @@
-"""Load increments whose normal and tangential problems are coupled."""
+"""Load increments of bodies whose normal and tangential problems are coupled."""

@@ -54,14 +54,14 @@ def solve_coupled(
     *,
     most_iterations: float = np.inf,
 ) -> CoupledSolution:
-    """Iterate from an initial pressure, shear and motion until all residuals meet the tolerance.
+    """Solve a coupled increment by alternating iteration of the normal and the tangential problem.
 
     An inner solve reduces its initial residual by a factor, and stops earlier only if the residual
     meets the tolerance. The iteration has converged when the shear solved at a pressure and the
     normal problem at this pressure and shear both meet the tolerance.
-
-    most_iterations  limit of the sum of inner iterations, at most MAX_ITERATIONS
-    raises  NotConverged
+    pressure, shear, motion  initial guesses: p (nx, ny), q (2, nx, ny) and rigid tangential motion
+    most_iterations          limit of the sum of inner iterations, at most MAX_ITERATIONS
+    raises                   NotConverged
     """
     p, first, first_motion = pressure, Point(shear, problem.shear(shear)), motion
     point = first
@@ -101,10 +101,12 @@ def solve_coupled(
 def one_iteration(
     problem: CoupledProblem, pressure: Field, motion: Vector, tolerance: float
 ) -> tuple[Field, VectorField, Vector, int]:
-    """Compute pressure, shear and motion of one outer iteration from a pressure and zero shear.
+    """Compute pressure, shear and rigid motion after one alternating iteration, from zero shear.
 
     The last value returned is the number of inner iterations.
-    raises  NotConverged
+    pressure  initial guess of the pressure (nx, ny)
+    motion    initial guess of the rigid tangential motion
+    raises    NotConverged
     """
     zero = np.zeros_like(problem.target)
     start = Point(zero, zero)
@@ -122,7 +124,11 @@ def _solve_shear(
     tolerance: float,
     reduction: float,
 ) -> TangentialSolution:
-    """Solve the tangential problem at a pressure."""
+    """Solve the tangential problem of a coupled increment at a fixed pressure p (nx, ny).
+
+    start, motion  initial guesses of the shear with its displacement, and of the rigid motion
+    reduction      reduction of the initial residual that suffices
+    """
     return solve_tangential(
         problem.shear,
         problem.invert_shear,
@@ -140,7 +146,11 @@ def _solve_shear(
 def _solve_pressure(
     problem: CoupledProblem, p: Field, q: VectorField, tolerance: float, reduction: float
 ) -> NormalSolution:
-    """Solve the normal problem at a shear q from an initial pressure p."""
+    """Solve the normal problem of a coupled increment at a fixed shear q (2, nx, ny).
+
+    p          initial guess of the pressure (nx, ny)
+    reduction  reduction of the initial residual that suffices
+    """
     return solve_normal(
         problem.normal,
         problem.precondition_normal,
@@ -153,13 +163,22 @@ def _solve_pressure(
 
 
 def _full_slip(problem: CoupledProblem, bound: Field, motion: Vector) -> TangentialSolution:
-    """Compute the shear of gross slip along the load."""
+    """Return the tangential solution of gross slip, with the shear at the friction limit along the
+    load.
+
+    bound   friction limit µp (nx, ny)
+    motion  rigid motion, returned where gross slip does not determine it
+    """
     q, motion = problem.tangential_load.full_slip(bound, motion)
     return TangentialSolution(q, problem.shear(q), motion, bound > 0, 0.0, 0)
 
 
 class _AndersonMixing:
-    """Anderson mixing for a fixed-point iteration x -> x + factor r(x)."""
+    """Anderson mixing for the fixed-point iteration x -> x + factor r(x) of the pressure.
+
+    load    normal load, which defines the admissible pressures
+    factor  damping factor of the residual r
+    """
 
     def __init__(self, load: NormalLoad, factor: float = 1.0) -> None:
         self.factor = factor
@@ -168,7 +187,11 @@ class _AndersonMixing:
         self._residuals: list[Field] = []
 
     def next(self, p: Field, answer: Field) -> Field:
-        """Compute the next admissible pressure from p and the fixed-point map of p, p + r."""
+        """Compute the next admissible pressure from p and the value of its fixed-point map.
+
+        p       present pressure (nx, ny)
+        answer  value p + r of the fixed-point map at p (nx, ny)
+        """
         r = answer - p
         self._points = [*self._points, p][-MAX_HISTORY:]
         self._residuals = [*self._residuals, r][-MAX_HISTORY:]
@@ -179,7 +202,10 @@ class _AndersonMixing:
         return self._load.admissible(guess)
 
     def _correction(self, r: Field) -> Field:
-        """Compute Σ c_k (Δx_k + factor Δr_k); the c_k minimise |r - Σ c_k Δr_k|."""
+        """Compute Σ c_k (Δx_k + factor Δr_k), with the c_k that minimise |r - Σ c_k Δr_k|.
+
+        Δx_k and Δr_k are differences of successive pressures and residuals.
+        """
         d_x, d_r = (
             np.diff(x, axis=0).reshape(len(x) - 1, -1) for x in (self._points, self._residuals)
         )

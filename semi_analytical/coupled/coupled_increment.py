@@ -1,4 +1,4 @@
-"""One load increment of bodies whose normal and tangential problems couple."""
+"""One load increment of bodies whose normal and tangential problems are coupled."""
 
 from dataclasses import dataclass, replace
 from functools import partial
@@ -69,9 +69,12 @@ def solve_coupled_increment(
 ) -> State:
     """Solve one increment of the coupled normal and tangential problems.
 
-    The increment is solved in a box around the contact. The residuals are then computed on the
-    whole domain with new convolutions.
-    raises  NotConverged, GrossSliding, ContactAtWindowEdge, ContactNotResolved
+    The increment is solved in a box of cells around the contact. The residuals are then computed on
+    the whole domain with new convolutions.
+    before              state at the start of the increment; None before first touch
+    normal, tangential  prescribed loads at the end of the increment
+    tolerance           limit of all dimensionless residuals
+    raises              NotConverged, GrossSliding, ContactAtWindowEdge, ContactNotResolved
     """
     assert tangential is not None
     refuse_unresolved_contact(model, normal)
@@ -113,7 +116,7 @@ def solve_coupled_increment(
 
 
 def _box_with_margin(cells: Mask, domain: ReducedDomain) -> Box:
-    """Return the box around marked cells with a margin for a growing contact."""
+    """Return the smallest box around marked cells with a margin into which the contact may grow."""
     nx, ny = (int(np.count_nonzero(np.any(cells, axis=axis))) for axis in (1, 0))
     widest = max(domain.window((nx, ny)))
     return box_around(cells, max(MARGIN, round(RELATIVE_MARGIN * widest)), domain)
@@ -126,10 +129,11 @@ def _initial_guess(
     normal: NormalTarget,
     tangential: TangentialTarget,
 ) -> tuple[Field, VectorField, int]:
-    """Return the initial guess of pressure and shear, and the number of iterations spent.
+    """Return the initial guess of pressure and shear of an increment, and the iterations spent.
 
     The predictor supplies the guess. Without a prediction, the guess is an approximate frictionless
     pressure and the shear of the previous increment.
+    before, last  state at the start of the increment, and its tangential part
     """
     guess = None if before is None else predicted(model, before, normal, tangential)
     if guess is not None:
@@ -145,7 +149,10 @@ def _problem(
     normal: NormalTarget,
     tangential: TangentialTarget,
 ) -> CoupledProblem:
-    """Restrict the increment to a box of cells."""
+    """Build the coupled problem of an increment, restricted to a box of cells.
+
+    last  tangential state at the start of the increment
+    """
     operator = model.operator(box.shape)
     target = surface_target(model, last, tangential)
     rotation = model.rotation[(..., *box.slices)] if tangential.twists else None
@@ -173,7 +180,14 @@ def _problem(
 
 @dataclass(frozen=True)
 class _Trial:
-    """A solution in a box whose residuals are evaluated on the whole domain."""
+    """Solution of an increment in a box, whose residuals are evaluated on the whole domain.
+
+    last                tangential state at the start of the increment
+    normal, tangential  prescribed loads
+    box                 cells on which the increment was solved
+    solution            solution in the box
+    iterations          iterations of all attempts
+    """
 
     model: ContactModel
     last: TangentialState
@@ -184,7 +198,7 @@ class _Trial:
     iterations: int
 
     def state(self) -> tuple[State, Field]:
-        """Return the state of the solution on the whole domain, and its gap (nx, ny)."""
+        """Return the state of the solution on the whole domain, and its gap (nx, ny) [length]."""
         model, solution, cells = self.model, self.solution, self.model.grid.cells
         p, q = self.box.embed(solution.pressure, cells), self.box.embed(solution.shear, cells)
         u = model.operator(cells).together(np.concatenate([q, p[None]]))
@@ -235,7 +249,13 @@ class _Trial:
         return replace(after, displacement=u_t)
 
     def _gross_slip(self, p: Field, bound: Field, u_t: VectorField) -> TangentialState:
-        """Return the state of gross slip at the friction limit, or without friction."""
+        """Return the tangential state of gross slip at the friction limit, or of a contact without
+        friction.
+
+        p      pressure (nx, ny)
+        bound  friction limit µp (nx, ny)
+        u_t    tangential displacement (2, nx, ny) [length]
+        """
         model, last, load = self.model, self.last, self.tangential
         if load.torque is not None:
             refuse_excessive_torque(model, bound, load)

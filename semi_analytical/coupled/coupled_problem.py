@@ -1,4 +1,4 @@
-"""Data of the coupled problem of one increment in a box of cells."""
+"""Data of the coupled normal and tangential problem of one increment in a box of cells."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -20,32 +20,37 @@ PATCHES = 40
 
 
 class Preconditioner(Protocol):
-    """Approximate inverse of the displacement operator; see `ApproximateInverse`."""
+    """Interface of an approximate inverse of the displacement operator; see
+    `ApproximateInverse`."""
 
     def __call__(self, displacements: NDArray[Any], /) -> NDArray[Any]: ...
 
     def yielding(self, compliance: float) -> "Preconditioner":
-        """Return the approximate inverse for a self-compliance increased by `compliance`."""
+        """Return the approximate inverse for bodies whose self-compliance is larger by
+        `compliance`."""
 
 
 @dataclass(frozen=True)
 class CoupledProblem:
-    """Operators, loads and friction of one increment in a box of cells.
+    """Operators, loads and friction law of one coupled increment in a box of cells.
 
-    normal, shear            u_z by pressure, u_t by shear
-    normal_by_shear          u_z by shear
-    shear_by_pressure        u_t by pressure
-    precondition_normal      approximate inverse of `normal`
-    invert_shear             approximate inverse of `shear`, see `tangential_problem`
-    together                 (u_x, u_y, u_z) by (q_x, q_y, p)
-    precondition_together    approximate inverse of `together` without coupling, followed by those
-                             of the bins of slip compliance (see `ApproximateInverse`)
-    gap                      undeformed gap (nx, ny), infinite outside the indenter
-    friction_limit           pressure (nx, ny) -> largest shear (nx, ny)
-    friction_slope           pressure (nx, ny) -> derivative of the largest shear (nx, ny)
-    target                   c = u_t - rigid motion of the previous state (2, nx, ny) [length]
-    self_compliance          tangential displacement of a cell by its own shear [length^3/force]
-    domain                   domain of all fields
+    normal, shear                 maps p -> u_z and q -> u_t
+    normal_by_shear               map q -> u_z
+    shear_by_pressure             map p -> u_t
+    precondition_normal           approximate inverse of `normal`
+    invert_shear                  approximate inverse of `shear`, see `tangential_problem`
+    together                      map (q_x, q_y, p) -> (u_x, u_y, u_z)
+    precondition_together         approximate inverse of `together` without coupling, followed by
+                                  those of the bins of slip compliance (see `ApproximateInverse`)
+    gap                           undeformed gap (nx, ny) [length], infinite outside the indenter
+    friction_limit                pressure (nx, ny) -> largest shear (nx, ny)
+    friction_slope                pressure (nx, ny) -> derivative of the largest shear (nx, ny)
+    target                        c = u_t - rigid motion of the previous state (2, nx, ny) [length]:
+                                  displacement that stick requires
+    normal_load, tangential_load  prescribed loads
+    self_compliance               tangential displacement of a cell by its own unit shear
+                                  [length^3/force]
+    domain                        domain of all fields
     """
 
     normal: Callable[[Field], Field]
@@ -79,8 +84,10 @@ class CoupledProblem:
     def yielding(self, compliance: float, tractions: Field) -> "CoupledProblem":
         """Return the regularised problem of the proximal-point method.
 
-        Its displacements are u + compliance * (t - tractions). Newton's method uses it, which
-        reads `together` only.
+        Its displacements are u + compliance * (t - tractions). Newton's method solves it and reads
+        `together` only.
+        compliance  additional displacement per traction [length^3/force]
+        tractions   reference tractions (q_x, q_y, p) (3, nx, ny)
         """
         q, p = tractions[:2], tractions[2]
         return replace(
@@ -95,11 +102,16 @@ class CoupledProblem:
 
 @dataclass(frozen=True)
 class CoupledSolution:
-    """Pressure (nx, ny) and shear (2, nx, ny) of an increment, rigid motions and slip zone.
+    """Solution of a coupled increment in a box of cells.
 
-    at_limit          the load reaches the friction limit: gross slip, the motion is undefined
+    pressure, shear   p (nx, ny) and q (2, nx, ny) [force/length^2]
+    closing           rigid normal motion: approach, and tilt under prescribed moments
+    motion            rigid tangential motion: shift, and twist under a prescribed torque
+    in_slip           slipping cells (nx, ny)
+    at_limit          True if the load reaches the friction limit: gross slip, the motion is
+                      undefined
     iterations        sum over all linear solves
-    outer_iterations  of the alternating iteration or of Newton's method
+    outer_iterations  iterations of the alternating iteration or of Newton's method
     """
 
     pressure: Field
@@ -118,5 +130,5 @@ class CoupledSolution:
 
     @property
     def shift(self) -> Vector:
-        """Shift of the indenter (2,) [length]."""
+        """Tangential shift of the indenter (2,) [length]."""
         return self.motion[:2]

@@ -40,10 +40,12 @@ MAX_SLIP_COMPLIANCE = 1e6
 
 @dataclass(frozen=True)
 class Point:
-    """Tractions and displacements (3, nx, ny) of an iterate, and the motion of the indenter.
+    """Iterate of Newton's method for a coupled increment.
 
-    closure  reduction of the gap by the rigid motion [length]
-    motion   initial guess of the motion in the plane
+    tractions      (q_x, q_y, p), shape (3, nx, ny) [force/length^2]
+    displacements  (u_x, u_y, u_z) by these tractions, shape (3, nx, ny) [length]
+    closure        reduction of the gap by the rigid normal motion [length]
+    motion         initial guess of the rigid tangential motion
     """
 
     tractions: Tractions
@@ -54,16 +56,19 @@ class Point:
 
 @dataclass(frozen=True)
 class Natural:
-    """The natural map at a point; fields (nx, ny), vectors (2, nx, ny).
+    """Value of the natural map of contact and friction at an iterate; fields (nx, ny), vectors (2,
+    nx, ny).
 
-    pressure        p
-    gap             g
+    The iterate is a solution if p = max(0, p - γ g) and q = P_b(z), see the module.
+    pressure        p [force/length^2]
+    gap             g [length]
     bound           friction limit b of max(0, p)
     z, length       q + γ (ω + c - u_t) and its magnitude
-    motion          ω, by the exact projection on the shears that carry the load
+    motion          rigid tangential motion ω, by the exact projection on the shears that carry the
+                    load
     contact         cells with p > γ g
     slip            cells in contact with |z| > b
-    slipped         ω + c - u_t: slip of the indenter relative to the body
+    slipped         ω + c - u_t: slip of the indenter relative to the body [length]
     pressure_error  Σ|p - max(0, p - γ g)| / Σ|p|
     shear_error     error of q = P_b(z), see `NaturalShear`
     """
@@ -82,7 +87,7 @@ class Natural:
 
     @classmethod
     def at(cls, point: Point, problem: CoupledProblem) -> "Natural":
-        """Evaluate the map; the load must be below the friction limit."""
+        """Evaluate the natural map at an iterate; the load must be below the friction limit."""
         gamma = problem.gamma
         q, p = point.tractions[:2], point.tractions[2]
         gap = problem.gap + point.displacements[2] - point.closure
@@ -109,22 +114,22 @@ class Natural:
 
     @property
     def merit(self) -> float:
-        """Merit of the line search: sum of the relative errors of the map [1]."""
+        """Merit function of the line search: sum of the relative errors of pressure and shear
+        [1]."""
         return self.pressure_error + self.shear_error
 
 
 @dataclass(frozen=True)
 class Zones:
-    """Zones of contact, stick and slip.
+    """Zones of contact, stick and slip of an iterate, and the free unknowns in these zones.
 
     Free unknowns and the rows of the derivative are vectors: q_x, then q_y of the stick zone, s of
     the slip zone, p of the contact.
-
-    contact, stick   (nx, ny)
+    contact, stick   cells in contact and sticking cells (nx, ny)
     slip             flat indices of slipping cells (cells,)
-    tangent          t there (2, cells)
-    friction_slope   µ n there (2, cells)
-    slip_compliance  d there (cells,) [length^3/force]
+    tangent          unit vector t perpendicular to the slip in slipping cells (2, cells)
+    friction_slope   µ n in slipping cells (2, cells), µ the derivative of the friction limit
+    slip_compliance  compliance d of slipping cells (cells,) [length^3/force]
     """
 
     contact: Mask
@@ -136,7 +141,7 @@ class Zones:
 
     @classmethod
     def of(cls, natural: Natural, problem: CoupledProblem) -> "Zones":
-        """Determine the zones at a point."""
+        """Determine the zones of contact, stick and slip from the natural map at an iterate."""
         slip = np.flatnonzero(natural.slip)
         length, bound = natural.length.ravel()[slip], natural.bound.ravel()[slip]
         normal = natural.z.reshape(2, -1)[:, slip] / length
@@ -166,16 +171,20 @@ class Zones:
 
     @property
     def size(self) -> int:
-        """Number of free unknowns."""
+        """Number of free unknowns in all zones."""
         return 2 * len(self._stuck) + len(self.slip) + len(self._pressed)
 
     def parts(self, vector: Vector) -> tuple[Vector, Vector, Vector]:
-        """Split a vector into views of stick (2, cells), slip (cells,) and contact (cells,)."""
+        """Split a vector of free unknowns into views of its three parts.
+
+        The parts are those of the stick zone (2, cells), the slip zone (cells,) and the contact
+        (cells,).
+        """
         stuck, slip = 2 * len(self._stuck), len(self.slip)
         return vector[:stuck].reshape(2, -1), vector[stuck : stuck + slip], vector[stuck + slip :]
 
     def free(self, v: NDArray[Any]) -> Vector:
-        """Restrict a field (3, nx, ny) to the free unknowns."""
+        """Restrict a field (3, nx, ny) with components x, y, z to the free unknowns."""
         # NumPy is many times slower with indices after a slice, so components are separate.
         x, y, z = v.reshape(3, -1)
         free = np.empty(self.size)
@@ -185,7 +194,7 @@ class Zones:
         return free
 
     def field(self, vector: Vector) -> Field:
-        """Extend free unknowns by zero to a field (3, nx, ny)."""
+        """Extend a vector of free unknowns by zeros to a field (3, nx, ny)."""
         v = np.zeros((3, self.contact.size))
         stuck, along, pressed = self.parts(vector)
         for one, at_stick, tangent in zip(v[:2], stuck, self.tangent, strict=True):
@@ -203,21 +212,32 @@ class Zones:
         return np.concatenate([across, *(one[self._apart] for one in v)])
 
     def whole(self, free: Vector, fixed: Vector) -> Field:
-        """Combine free and fixed unknowns into a field (3, nx, ny)."""
+        """Combine free and fixed unknowns into a field (3, nx, ny).
+
+        free   free unknowns, as from `free`
+        fixed  fixed unknowns, as from `fixed`
+        """
         v = self._with_normal(self.field(free), fixed[: len(self.slip)]).reshape(3, -1)
         for one, apart in zip(v, fixed[len(self.slip) :].reshape(3, -1), strict=True):
             one[self._apart] = apart
         return v.reshape(3, *self.contact.shape)
 
     def _with_normal(self, v: Field, normal: Vector) -> Field:
-        """Add components along n (cells,) of slipping cells to a field (3, nx, ny), in place."""
+        """Add components along the slip direction n in slipping cells to a field (3, nx, ny), in
+        place.
+
+        normal  components along n (cells,)
+        """
         x, y, _ = v.reshape(3, -1)
         x[self.slip] += self.tangent[1] * normal
         y[self.slip] -= self.tangent[0] * normal
         return v
 
     def tractions(self, free: Vector) -> Tractions:
-        """Compute traction changes of changes of the free unknowns, with the change of b n."""
+        """Compute the change of the tractions (3, nx, ny) by changes of the free unknowns.
+
+        In slipping cells the shear b n along the slip changes with the pressure.
+        """
         t = self.field(free).reshape(3, -1)
         pressure = t[2][self.slip]
         for one, slope in zip(t[:2], self.friction_slope, strict=True):
@@ -225,17 +245,27 @@ class Zones:
         return t.reshape(3, *self.contact.shape)
 
     def nearest(self, tractions: Tractions, bound: Field) -> Tractions:
-        """Project tractions on the zones: the shear along n of slipping cells is the limit b."""
+        """Return tractions near the given ones that are admissible in the zones.
+
+        Pressure is zero outside the contact. The shear along n of slipping cells is the friction
+        limit.
+        tractions  (q_x, q_y, p), shape (3, nx, ny)
+        bound      friction limit b (nx, ny)
+        """
         return self._with_normal(self.field(self.free(tractions)), bound.ravel()[self.slip])
 
     def slip_terms(self, free: Vector) -> Vector:
-        """Compute the terms d s of the slip zone; the other rows are zero."""
+        """Compute the terms d s of the slip zone in the linear equations; the other rows are zero.
+
+        free  free unknowns
+        """
         rows = np.zeros_like(free)
         self.parts(rows)[1][:] = self.slip_compliance * self.parts(free)[1]
         return rows
 
     def changes(self, other: "Zones | None") -> int:
-        """Return the number of cells whose zone differs from `other`; all cells without it."""
+        """Return the number of cells whose zone differs from that in `other`; all cells if
+        `other` is None."""
         if other is None:
             return self.contact.size
         same = (self.contact == other.contact) & (self.stick == other.stick)

@@ -1,4 +1,7 @@
-"""Globalisation of Newton's method for a coupled increment: a sequence of methods."""
+"""Sequence of methods for a coupled increment, of which the first that converges is used.
+
+Newton's method is tried first; the other methods converge from poorer initial guesses.
+"""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -33,7 +36,7 @@ FAR = 1.0
 def solve_together(
     problem: CoupledProblem, pressure: Field, shear: VectorField, motion: Vector, tolerance: float
 ) -> CoupledSolution:
-    """Solve a coupled increment from an initial pressure, shear and motion.
+    """Solve a coupled increment from an initial pressure, shear and rigid motion.
 
     Newton's method converges fast from nearly correct zones and may stall otherwise. On failure the
     next method of the sequence starts from the same initial guess. Only the alternating iteration
@@ -58,9 +61,12 @@ def _first_converged(
     tolerance: float,
     spent: tuple[int, int] = (0, 0),
 ) -> CoupledSolution:
-    """Return the solution of the first method that converges; raise the error of the last.
+    """Return the solution of the first method that converges; raise NotConverged if none does.
 
-    spent  iterations and outer iterations of the initial guess, included in the counts
+    methods                  methods in the order in which they are tried
+    pressure, shear, motion  initial guess of each method
+    spent                    iterations and outer iterations of the initial guess, included in the
+                             counts
     """
     (iterations, outer), residual = spent, np.inf
     for method in methods:
@@ -79,14 +85,17 @@ def _first_converged(
 
 
 def _gross_slip(problem: CoupledProblem, pressure: Field) -> bool:
-    """Return True if the load reaches the friction limit of a pressure."""
+    """Return True if the tangential load reaches the friction limit of a pressure (nx, ny)."""
     return problem.tangential_load.exhausts(problem.friction_limit(pressure))
 
 
 def _one_iteration_then_newton(
     problem: CoupledProblem, pressure: Field, shear: VectorField, motion: Vector, tolerance: float
 ) -> CoupledSolution:
-    """Solve by Newton's method from the first alternating iteration at a pressure."""
+    """Solve a coupled increment by Newton's method from the result of one alternating iteration.
+
+    The alternating iteration starts at the given pressure with zero shear.
+    """
     pressure, shear, motion, spent = one_iteration(problem, pressure, motion, tolerance)
     return _first_converged(
         (solve_by_newton,), problem, pressure, shear, motion, tolerance, spent=(spent, 1)
@@ -96,9 +105,10 @@ def _one_iteration_then_newton(
 def _alternating_then_newton(
     problem: CoupledProblem, pressure: Field, shear: VectorField, motion: Vector, tolerance: float
 ) -> CoupledSolution:
-    """Solve from a few alternating iterations by Newton's method, else by a few more of them.
+    """Solve a coupled increment by Newton's method from the result of a few alternating iterations.
 
-    At gross slip the alternating iteration continues without limit.
+    If Newton's method fails, a few more alternating iterations follow. At gross slip the
+    alternating iteration continues without this limit.
     """
     few = partial(solve_coupled, most_iterations=FEW_ITERATIONS)
     near = few(problem, pressure, shear, motion, max(NEAR, tolerance))

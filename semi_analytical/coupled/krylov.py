@@ -1,4 +1,7 @@
-"""GMRES: minimisation of the residual over a Krylov space (Saad and Schultz 1986)."""
+"""GMRES: solution of linear systems by minimisation of the residual over a Krylov space.
+
+The method is that of Saad and Schultz (1986). Newton's method for coupled increments uses it.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -15,13 +18,13 @@ ROUND_OFF = 1e-14
 
 @dataclass(frozen=True)
 class LeastResidual:
-    """Solution of `least_residual`.
+    """Solution of the linear system A v + E m = r of `least_residual`.
 
     solution    v
     image       A v
     extra       B v, summed from single-precision values
     motion      m
-    iterations  products with A
+    iterations  number of products with A
     """
 
     solution: Vector
@@ -39,11 +42,10 @@ def least_residual(
     depth: float,
     most: int,
 ) -> LeastResidual:
-    """Solve A v + E m = r for v and m by GMRES.
+    """Solve the linear system A v + E m = r for v and m by GMRES.
 
     The solve ends when the residual is `depth` times the minimum over m at v = 0, or after `most`
     iterations. The rounding does not depend on the number of threads (no matrix products).
-
     apply  v -> A v and B v, another linear map of v to vectors of the size `extra`
     right  r (n,)
     free   columns of E (k, n); they may be linearly dependent
@@ -88,7 +90,8 @@ def least_residual(
 def _orthogonal(v: Vector, basis: Matrix) -> tuple[Vector, Vector]:
     """Return the components of a vector along an orthonormal basis, and its orthogonal remainder.
 
-    Gram-Schmidt, repeated once if the remainder is small.
+    Gram-Schmidt orthogonalisation is repeated once if the remainder is small.
+    basis  orthonormal rows (k, n)
     """
     components = np.einsum("ik,k->i", basis, v)
     remainder = v - np.einsum("i,ik->k", components, basis)
@@ -99,9 +102,10 @@ def _orthogonal(v: Vector, basis: Matrix) -> tuple[Vector, Vector]:
 
 
 def orthonormal(given: Matrix) -> tuple[Matrix, Matrix]:
-    """Compute orthonormal rows (j, n) with the span of the given rows (k, n), j <= k.
+    """Compute orthonormal rows (j, n) with the span of given rows (k, n), j <= k.
 
-    The second result is the matrix (k, j) of their coefficients in terms of the given rows.
+    The second result is the matrix (k, j) of the coefficients of the orthonormal rows in terms of
+    the given rows.
     """
     sizes, vectors = np.linalg.eigh(np.einsum("ik,jk->ij", given, given))
     independent = sizes > ROUND_OFF * np.max(sizes, initial=0.0)

@@ -1,4 +1,7 @@
-"""Linear system of a semismooth Newton step in fixed zones, and its solution by GMRES."""
+"""Linear system of one semismooth Newton step in fixed zones of contact, stick and slip.
+
+The system is solved by GMRES.
+"""
 
 from dataclasses import dataclass
 from typing import Any
@@ -25,7 +28,12 @@ UNDETERMINED = 1e-12
 
 @dataclass(frozen=True)
 class Step:
-    """Changes of tractions and displacements (3, nx, ny) and of the closure; GMRES iterations."""
+    """Newton step of a coupled increment.
+
+    tractions, displacements  changes of tractions and displacements (3, nx, ny)
+    closure                   change of the closure of the gap by the rigid motion [length]
+    iterations                GMRES iterations
+    """
 
     tractions: Tractions
     displacements: Field
@@ -34,16 +42,21 @@ class Step:
 
 
 class LinearisedIncrement:
-    """The generalised derivative in given zones with the load constraints.
+    """Linearised coupled increment in given zones of contact, stick and slip, with the load
+    constraints.
 
     Unknowns are the free tractions and the rigid motions with a prescribed force. Steps do not
     change the prescribed forces.
+    problem   coupled problem of the increment
+    zones     zones of the iterate
+    carriers  tractions that correct the prescribed forces (k, unknowns); None to compute them
     """
 
     def __init__(
         self, problem: CoupledProblem, zones: Zones, carriers: Matrix | None = None
     ) -> None:
-        """Assemble the system; `carriers` of similar zones (see `carriers_in`) save their solve."""
+        """Assemble the linear system; `carriers` of similar zones (see `carriers_in`) save their
+        solve."""
         self._problem, self._zones = problem, zones
         self._precondition = BinnedPreconditioner(zones, problem)
         shape = problem.gap.shape
@@ -59,12 +72,14 @@ class LinearisedIncrement:
         self._inverse = np.linalg.pinv(responses.reshape(count, count).T, rcond=UNDETERMINED)
 
     def carriers_in(self, zones: Zones) -> Matrix:
-        """Transfer the traction patterns that carry the loads to other zones (k, unknowns)."""
+        """Transfer the carriers, tractions that correct the prescribed forces, to other zones
+        (k, unknowns)."""
         transferred = (zones.free(self._zones.field(carrier)) for carrier in self._carriers)
         return np.array([*transferred]).reshape(-1, zones.size)
 
     def _free_units(self) -> Matrix:
-        """Restrict unit motions with a prescribed force to the free unknowns (k, unknowns)."""
+        """Restrict the unit rigid motions of prescribed force to the free unknowns (k,
+        unknowns)."""
         zones, free = self._zones, []
         for parts, motions in ((slice(2), self._shifts), (slice(2, 3), self._closures)):
             for motion in motions:
@@ -74,9 +89,11 @@ class LinearisedIncrement:
         return np.array(free).reshape(len(free), zones.size)
 
     def admissible(self, tractions: Tractions) -> Tractions:
-        """Return admissible tractions near given ones: in the zones, within friction, under load.
+        """Return admissible tractions near given ones: in the zones, within the friction limit,
+        under the load.
 
-        raises  NotConverged if the load reaches the friction limit
+        tractions  (q_x, q_y, p), shape (3, nx, ny)
+        raises     NotConverged if the load reaches the friction limit
         """
         problem, zones, load = self._problem, self._zones, self._problem.tangential_load
         p = problem.normal_load.admissible(np.maximum(tractions[2], 0.0) * zones.contact)
@@ -93,14 +110,15 @@ class LinearisedIncrement:
         return t
 
     def residual(self, base: Point, natural: Natural) -> Vector:
-        """Compute the residual of the linear equations at a point."""
+        """Compute the residual of the linear equations at an iterate, one row per free unknown."""
         zones = self._zones
         rows = zones.free(np.concatenate([natural.slipped, -natural.gap[None]]))
         rows -= zones.slip_terms(zones.free(base.tractions))
         return rows
 
     def solve(self, residual: Vector, depth: float) -> Step:
-        """Compute the step that reduces a residual by the factor `depth`."""
+        """Compute the Newton step that reduces the residual of the linear equations by the
+        factor `depth`."""
         zones, problem = self._zones, self._problem
 
         def apply(v: Vector) -> tuple[Vector, Vector]:
@@ -120,14 +138,14 @@ class LinearisedIncrement:
         )
 
     def _unknowns(self, rows: Vector) -> Vector:
-        """Apply the preconditioner to rows; the result does not change a prescribed force."""
+        """Apply the preconditioner to rows of the residual, without changing a prescribed force."""
         free = self._precondition(rows)
         for weight, carrier in zip(self._inverse @ self._forces(free), self._carriers, strict=True):
             free -= weight * carrier
         return free
 
     def _forces(self, free: Vector) -> Vector:
-        """Compute the prescribed force components of changes of free unknowns."""
+        """Compute the changes of the prescribed forces by changes of the free unknowns."""
         t = self._zones.tractions(free)
         normal = [np.sum(closure * t[2]) for closure in self._closures]
         return np.array([*self._problem.tangential_load.forces(t[:2]), *normal])
@@ -150,7 +168,7 @@ class BinnedPreconditioner:
         self._shares = shares(zones.slip_compliance / problem.self_compliance)
 
     def __call__(self, rows: Vector) -> Vector:
-        """Return M applied to rows."""
+        """Return M applied to a residual vector `rows`, with one row per free unknown."""
         zones, slip, shares = self._zones, self._zones.slip, self._shares
         shape = zones.contact.shape
         v: NDArray[Any] = np.zeros((2 + len(shares), zones.contact.size), dtype=np.float32)

@@ -1,4 +1,4 @@
-"""Semismooth Newton method for the natural map of a coupled increment."""
+"""Semismooth Newton method for a coupled increment, on the natural map of contact and friction."""
 
 import numpy as np
 
@@ -29,11 +29,13 @@ def solve_by_newton(
     tolerance: float,
     furthest: float = np.inf,
 ) -> CoupledSolution:
-    """Iterate from a pressure, shear and motion until all residuals meet the tolerance.
+    """Solve a coupled increment by the semismooth Newton method from an initial guess.
 
-    furthest  largest merit of the first linearised tractions
-    raises    NotConverged if the iteration stalls, the load reaches the friction limit, or the
-              first merit exceeds `furthest`
+    pressure, shear, motion  initial guesses: p (nx, ny), q (2, nx, ny) and rigid tangential motion
+    tolerance                limit of all dimensionless residuals
+    furthest                 largest merit (relative error) of the first linearised tractions
+    raises                   NotConverged if the iteration stalls, the load reaches the friction
+                             limit, or the first merit exceeds `furthest`
     """
     at = NewtonIterate(problem, np.concatenate([shear, pressure[None]]), motion)
     best, idle = np.inf, 0
@@ -58,7 +60,10 @@ def solve_by_newton(
 
 
 def _residual(problem: CoupledProblem, at: NewtonIterate) -> float:
-    """Return the largest dimensionless residual at admissible tractions."""
+    """Return the largest dimensionless residual of an iterate with admissible tractions.
+
+    The residuals are those of contact conditions, friction law and slip direction.
+    """
     point, natural = at.point, at.natural
     q, p = point.tractions[:2], point.tractions[2]
     allowed = np.isfinite(problem.gap)

@@ -28,12 +28,12 @@ STEP_FACTORS = 0.5 ** np.arange(5)
 
 
 class NewtonIterate:
-    """The current point of Newton's method; its tractions are admissible after `linearise` only.
+    """Current iterate of Newton's method; its tractions are admissible after `linearise` only.
 
     point       tractions and displacements
-    natural     natural map at the point
-    closing     normal motion that closes the gap of the point
-    settled     the last step changed the zone of few cells
+    natural     natural map at the iterate
+    closing     rigid normal motion that closes the gap of the iterate
+    settled     True if the last step changed the zone of only few cells
     iterations  sum of GMRES iterations
     """
 
@@ -41,9 +41,9 @@ class NewtonIterate:
     closing: Motion
 
     def __init__(self, problem: CoupledProblem, start: Tractions, motion: Vector) -> None:
-        """Start at tractions (3, nx, ny), whose pressure is scaled to the load in place.
+        """Start at tractions (3, nx, ny), whose pressure is scaled to the normal load in place.
 
-        This and the other methods raise NotConverged if there is no natural map.
+        All methods of this class raise NotConverged if there is no natural map.
         """
         start[2] = problem.normal_load.admissible(np.where(np.isfinite(problem.gap), start[2], 0.0))
         self._problem = problem
@@ -54,7 +54,8 @@ class NewtonIterate:
         self._increment: LinearisedIncrement | None = None
 
     def linearise(self) -> None:
-        """Linearise in the zones of the point, and move to admissible tractions of these zones."""
+        """Linearise the problem in the zones of the iterate, and move to admissible tractions of
+        these zones."""
         problem, motion = self._problem, self.natural.motion
         zones = Zones.of(self.natural, problem)
         images = problem.domain.images
@@ -70,7 +71,10 @@ class NewtonIterate:
         self.natural = natural_map(problem, self.point)
 
     def step(self, depth: float) -> None:
-        """Take a step with line search; the linear solve reduces its residual by `depth`."""
+        """Take a Newton step with line search.
+
+        depth  reduction of the residual by the linear solve
+        """
         assert self._increment is not None
         merit = self.natural.merit
         residual = self._increment.residual(self.point, self.natural)
@@ -81,7 +85,11 @@ class NewtonIterate:
 
 
 def reached(problem: CoupledProblem, tractions: Tractions, motion: Vector) -> tuple[Point, Motion]:
-    """Return the point at tractions, and the normal motion that closes its gap."""
+    """Return the iterate at given tractions, and the rigid normal motion that closes its gap.
+
+    tractions  (q_x, q_y, p), shape (3, nx, ny)
+    motion     initial guess of the rigid tangential motion
+    """
     u, load = problem.together(tractions), problem.normal_load
     gap = np.where(np.isfinite(problem.gap), problem.gap, 0.0)
     closing = load.motion(tractions[2], gap + u[2])
@@ -89,7 +97,7 @@ def reached(problem: CoupledProblem, tractions: Tractions, motion: Vector) -> tu
 
 
 def natural_map(problem: CoupledProblem, point: Point) -> Natural:
-    """Evaluate the natural map at a point.
+    """Evaluate the natural map of contact and friction at an iterate.
 
     raises  NotConverged at the friction limit, for non-finite tractions or without contact
     """
@@ -105,10 +113,12 @@ def natural_map(problem: CoupledProblem, point: Point) -> Natural:
 def _line_search(
     problem: CoupledProblem, base: Point, step: Step, merit: float
 ) -> tuple[Point, Natural]:
-    """Return the first point of a backtracking line search with sufficient decrease.
+    """Return the first iterate of a backtracking line search with sufficient decrease of the merit.
 
-    Without sufficient decrease return the point of lowest merit. Displacements are linear in
+    Without sufficient decrease the iterate of lowest merit is returned. Displacements are linear in
     tractions, so the search needs no convolutions.
+    base, step  iterate before the Newton step, and the step
+    merit       merit of the iterate before the step
     """
     lowest: tuple[Point, Natural] | None = None
     for factor in STEP_FACTORS:

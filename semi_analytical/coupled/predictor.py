@@ -1,9 +1,9 @@
 """Predictor of the tractions of a coupled increment from previous increments, without convolutions.
 
 While the normal load changes, the state on a gap r^k is nearly self-similar: it is the previous
-state, dilated about its centre of pressure. The predictor adds the error of the preceding dilation.
-The square of the pressure is dilated, because the pressure falls like a root towards the edge. At
-constant normal load the predictor extrapolates the tractions linearly.
+state, dilated about its centre of pressure. The predictor adds the error that the preceding
+dilation had. The square of the pressure is dilated, because the pressure falls like a root towards
+the edge. At constant normal load the predictor extrapolates the tractions linearly.
 """
 
 from __future__ import annotations
@@ -30,7 +30,12 @@ Start = tuple[Field, VectorField]
 
 @dataclass(frozen=True)
 class Dilation:
-    """Dilation of fields of a domain by a factor about a centre, given in cells."""
+    """Geometric dilation of fields about a centre.
+
+    centre  centre in index coordinates (x, y)
+    factor  ratio of lengths after and before the dilation
+    domain  domain of the fields
+    """
 
     centre: tuple[float, float]
     factor: float
@@ -38,7 +43,10 @@ class Dilation:
 
     @classmethod
     def about(cls, pressure: Field, factor: float, domain: ReducedDomain = WINDOW) -> Dilation:
-        """Dilate about the centre of a pressure; it lies on the mirror planes of the domain."""
+        """Return the dilation about the centre of a pressure (nx, ny).
+
+        Along an axis with a mirror plane the centre lies on the plane.
+        """
         lines = (np.sum(pressure, axis=1), np.sum(pressure, axis=0))
         x, y = (
             -0.5 if mirrored else float(np.sum(np.arange(len(line)) * line) / np.sum(line))
@@ -71,9 +79,12 @@ class Dilation:
         return values
 
     def grown(self, p: Field, q: VectorField, load: float) -> Start:
-        """Dilate tractions p and q and multiply the normal force by `load`.
+        """Dilate tractions p and q to a contact of larger or smaller normal force; return pressure
+        and shear.
 
         The ratio q/p at a material point of the dilation is constant.
+        p, q  pressure (nx, ny) and shear (2, nx, ny)
+        load  ratio of the normal forces after and before
         """
         pressure, linear = np.sqrt(self(p * p)), self(p)
         ratio = self(q) / np.where(linear > 0, linear, 1.0)
@@ -84,7 +95,11 @@ class Dilation:
 def predicted(
     model: ContactModel, before: State, normal: NormalTarget, tangential: TangentialTarget
 ) -> Start | None:
-    """Predict pressure and shear at the end of an increment; None without a prediction."""
+    """Predict pressure and shear at the end of an increment; None without a prediction.
+
+    before              state at the start of the increment
+    normal, tangential  prescribed loads at the end
+    """
     now = before.seen()
     if now is None:
         return None
@@ -96,7 +111,11 @@ def predicted(
 def _extrapolated(
     now: PreviousIncrement, behind: PreviousIncrement | None, tangential: TangentialTarget
 ) -> Start:
-    """Extrapolate linearly along a straight tangential load path; else return the last state."""
+    """Extrapolate pressure and shear linearly along a straight tangential load path.
+
+    Without a valid extrapolation the last pressure and shear are returned.
+    now, behind  data of the last state and of the state before
+    """
     ratio = further(now, behind, tangential)
     if behind is None or ratio == 0:
         return now.pressure, now.shear
@@ -110,9 +129,12 @@ def _dilated(
     behind: PreviousIncrement | None,
     normal: NormalTarget,
 ) -> Start | None:
-    """Dilate the last state: by the exponent of the gap, later by the growth of the last increment.
+    """Predict pressure and shear under a changed normal load by dilation of the last state.
 
-    Without a preceding increment, or after a much smaller one, radius and force follow the gap r^k.
+    The dilation follows the growth of the last increment. Without a preceding increment, or after a
+    much smaller one, radius and force follow the gap r^k. None is returned without a prediction.
+    now, behind  data of the last state and of the state before
+    normal       prescribed normal load at the end of the increment
     """
     exponent = model.scene.indenter.gap_exponent
     if exponent is None or normal.moment is not None or normal.tilt != now.target.tilt:

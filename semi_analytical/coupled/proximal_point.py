@@ -1,9 +1,10 @@
 """Proximal-point method for a coupled increment (Rockafellar 1976).
 
 Under strong friction (films with µ = 5) Newton's method stalls far from the solution. Each proximal
-step solves the increment with displacements u + λ (t - t_k), t_k the tractions of the last step.
-A larger compliance λ keeps the tractions nearer to t_k. λ is divided by a factor while the changes
-are small (as in pseudo-transient continuation, Kelley and Keyes 1998). The last solve has λ = 0.
+step solves the increment with displacements u + λ (t - t_k), with t_k the tractions of the last
+step. A larger compliance λ keeps the tractions nearer to t_k. λ is divided by a factor while the
+changes are small (as in pseudo-transient continuation, Kelley and Keyes 1998). The last solve has λ
+= 0.
 """
 
 from dataclasses import replace
@@ -39,9 +40,12 @@ ROUND_OFF = 1e-12
 def solve_on_springs(
     problem: CoupledProblem, pressure: Field, shear: VectorField, motion: Vector, tolerance: float
 ) -> CoupledSolution:
-    """Iterate from pressure, shear and motion until all residuals meet the tolerance with λ = 0.
+    """Solve a coupled increment by the proximal-point method from an initial guess.
 
-    raises  NotConverged
+    The additional compliance λ acts like springs between the bodies. The final solve has λ = 0 and
+    meets the tolerance.
+    pressure, shear, motion  initial guesses: p (nx, ny), q (2, nx, ny) and rigid tangential motion
+    raises                   NotConverged
     """
     tractions = np.concatenate([shear, pressure[None]])
     compliance, threshold, iterations, residual = INITIAL_COMPLIANCE, THRESHOLD, 0, np.inf
@@ -78,7 +82,8 @@ def solve_on_springs(
 def _proximal_step(problem: CoupledProblem, tractions: Tractions, motion: Vector) -> NewtonIterate:
     """Solve a regularised increment approximately by Newton's method from its reference tractions.
 
-    raises  NotConverged
+    tractions  reference tractions (q_x, q_y, p), shape (3, nx, ny)
+    raises     NotConverged
     """
     at = NewtonIterate(problem, tractions.copy(), motion)
     at.linearise()

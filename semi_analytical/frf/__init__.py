@@ -1,1 +1,1 @@
-"""Frequency response functions: surface displacement per unit traction at one wavenumber."""
+"""Frequency response functions (FRF): surface displacement per unit traction at one wavenumber."""

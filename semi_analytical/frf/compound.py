@@ -19,9 +19,9 @@ OPAQUE = 1e4
 
 
 class Waves(NamedTuple):
-    """One layer's wave functions of x = alpha h, all multiplied by the same scale.
+    """Hyperbolic functions of x = alpha h in one layer of thickness h, all multiplied by one scale.
 
-    With scale exp(-2x) they are bounded for every x.
+    alpha is the wavenumber. With the scale exp(-2x) the functions are bounded for every x.
     """
 
     one: Array
@@ -34,7 +34,11 @@ class Waves(NamedTuple):
 
 
 def decaying_waves(x: Array) -> Waves:
-    """Compute the wave functions times exp(-2x), with full relative accuracy for all x >= 0."""
+    """Compute the wave functions of a layer times exp(-2x), with full relative accuracy for all x
+    >= 0.
+
+    x  wavenumber times thickness of the layer
+    """
     w = np.exp(-2 * x)
     s = np.expm1(-2 * x) ** 2 / 4
     c = -np.expm1(-4 * x) / 4
@@ -59,10 +63,11 @@ def _thin_series(x: Array) -> tuple[Array, Array]:
 
 
 def echo_waves(x: Array) -> Waves:
-    """Compute the wave functions without their terms exp(2x)/4, with the scale 1.
+    """Compute the wave functions of a layer without their terms exp(2x)/4, with the scale 1.
 
     These terms represent an infinitely thick layer and cancel exactly in the difference from the
     half-space. The remaining terms are multiplied by exp(-2x).
+    x  wavenumber times thickness of the layer
     """
     w = np.exp(-2 * x)
     s = w / 4 - 0.5
@@ -71,9 +76,13 @@ def echo_waves(x: Array) -> Waves:
 
 
 def compound_rows(y: tuple[Array, ...], nu: float, f: Waves) -> tuple[Array, ...]:
-    """Propagate (det C, C11, C12, C22, 1) from the underside of a layer to its top, up to a scale.
+    """Propagate the compliance (det C, C11, C12, C22, 1) from the underside of a layer to its top.
 
-    C is in units of 1 / (2 G alpha), G the layer's shear modulus; the last row is the divisor.
+    The result has an arbitrary scale. C is in units of 1 / (2 G alpha), G the layer's shear
+    modulus; the last row is the divisor.
+    y   values at the underside
+    nu  Poisson's ratio of the layer
+    f   wave functions of the layer
     """
     det, c11, c12, c22, unit = y
     e = 1 / (2 * (1 - nu))

@@ -71,8 +71,9 @@ class Level:
 
 
 class Descent:
-    """Propagation of surface tractions to depths of a stack, for fixed wavenumbers.
+    """Propagation of tractions from the surface of a layered body to depths, for fixed wavenumbers.
 
+    stack  layers and base of the body
     alpha  wavenumbers [1/length], > 0, shape (wavenumbers,)
     """
 
@@ -92,7 +93,8 @@ class Descent:
             self._transverse.append(across * self._transverse[k])
 
     def at(self, level: Level) -> DepthScalars:
-        """Compute the fields at a level; not inside a rigid base."""
+        """Compute displacement and traction at a level per unit surface traction; not inside a
+        rigid base."""
         k = level.layer
         G, nu = material_at(self.stack, level)
         below = self._below[k]
@@ -114,17 +116,19 @@ class Descent:
 
     @cached_property
     def _surface_remainder(self) -> tuple[Array, ...]:
-        """Scalars at the surface minus those of a half-space, times 2 G alpha."""
+        """Surface compliances minus those of a half-space of the outermost material, times 2 G
+        alpha."""
         unit = 2 * self.stack.outer.shear_modulus * self.alpha
         return tuple(unit * c for c in remainder_scalars(self.stack, self.alpha))
 
     def remainder(self, level: Level) -> DepthScalars:
-        """Compute the fields at a level; in the outermost layer, minus those of a half-space.
+        """Compute displacement and traction at a level; in the outermost layer minus those of a
+        half-space.
 
         The half-space has the material of the outermost layer of thickness h. The difference has no
-        surface traction, and its surface displacement is computed without cancellation. It grows
-        with depth as exp(-alpha (2h - z)) and is exactly zero without layers. For alpha h > 300,
-        exp(alpha z) may overflow.
+        surface traction, and its surface displacement is computed without cancellation. The
+        difference grows with depth as exp(-alpha (2h - z)) and is exactly zero without layers. For
+        alpha h > 300, exp(alpha z) may overflow.
         """
         if level.layer > 0:
             return self.at(level)
@@ -156,7 +160,13 @@ def material_at(stack: Stack, level: Level) -> HalfSpace:
 
 
 def in_plane(fields: DepthScalars, material: HalfSpace, alpha: Array) -> PlaneScalars:
-    """Compute in-plane stresses from displacement and traction by Hooke's law; nu <= 1/2."""
+    """Compute the stresses in a horizontal plane from displacement and traction by Hooke's law; nu
+    <= 1/2.
+
+    fields    displacement and traction at the depth
+    material  elastic constants at the depth
+    alpha     wavenumbers [1/length]
+    """
     G, nu = material
     stretch = 2 * G * alpha * fields.displacement[0]
     squeeze = fields.traction[1]
@@ -168,12 +178,14 @@ def in_plane(fields: DepthScalars, material: HalfSpace, alpha: Array) -> PlaneSc
 
 
 def _transmitted(below: Compliance, nu: float, x: Array) -> tuple[Array, Array]:
-    """Compute the tractions at a plane per unit traction at a distance x = alpha d above.
+    """Compute the traction at a plane per unit traction at a plane d above, in one material.
 
-    The results are the sagittal matrix (2, 2, wavenumbers) and the transverse factor.
-
-    M is the lower half of exp(-x A), A the matrix of the equations above, applied to
-    (C, 1): tau_0 = M tau. Its determinant is the divisor of the compound recursion.
+    The results are the sagittal matrix (2, 2, wavenumbers) and the transverse factor. M is the
+    lower half of exp(-x A), A the matrix of the equations above, applied to (C, 1): tau_0 = M tau.
+    Its determinant is the divisor of the compound recursion.
+    below  compliance of the material below the lower plane
+    nu     Poisson's ratio
+    x      wavenumber times distance, alpha d
     """
     x = np.minimum(x, OPAQUE)
     decay, w = np.exp(-x), np.exp(-2 * x)
@@ -193,9 +205,9 @@ def _transmitted(below: Compliance, nu: float, x: Array) -> tuple[Array, Array]:
 
 
 def _x_cosh_minus_sinh(x: Array, scale: Array | float = 1.0) -> Array:
-    """(x cosh x - sinh x) * scale, by series where the two nearly cancel.
+    """Compute (x cosh x - sinh x) * scale, by series where the two terms nearly cancel.
 
-    scale  exp(-x) to keep it bounded, or one
+    scale  exp(-x) to keep the result bounded, or one
     """
     series = np.zeros_like(x)
     small = np.minimum(x, 1.0)
@@ -209,6 +221,6 @@ def _x_cosh_minus_sinh(x: Array, scale: Array | float = 1.0) -> Array:
 
 
 def _product(left: Array, right: Array) -> Array:
-    """Compute the matrix product over the first two axes."""
+    """Multiply matrices over the first two axes, for each entry of the third axis."""
     result: Array = np.einsum("ijk,jlk->ilk", left, right)
     return result

@@ -1,4 +1,7 @@
-"""Elastic constants of a layered body: layers from the surface down, then the base."""
+"""Elastic constants of a layered body: layers from the surface down, then the base.
+
+The frequency response functions use this description of a body.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,14 +13,23 @@ from contact_scene.material import IsotropicMaterial
 
 
 class HalfSpace(NamedTuple):
-    """Isotropic half-space: shear modulus and Poisson's ratio."""
+    """Isotropic half-space.
+
+    shear_modulus  G [force/length^2]
+    poisson_ratio  Poisson's ratio
+    """
 
     shear_modulus: float
     poisson_ratio: float
 
 
 class Film(NamedTuple):
-    """Isotropic layer of uniform thickness, bonded to the next material."""
+    """Isotropic layer of uniform thickness, bonded to the next material.
+
+    shear_modulus  G [force/length^2]
+    poisson_ratio  Poisson's ratio
+    thickness      thickness [length]
+    """
 
     shear_modulus: float
     poisson_ratio: float
@@ -26,13 +38,13 @@ class Film(NamedTuple):
 
 @dataclass(frozen=True)
 class Stack:
-    """Layers, outermost first, bonded to each other and to a half-space or a rigid base.
+    """Layered body: layers, outermost first, bonded to each other and to a half-space or a rigid
+    base.
 
+    Plain tuples are accepted. A rigid base without layers is a rigid body.
     layers  (shear modulus [force/length^2], Poisson's ratio, thickness [length]) of each layer;
             layers of zero thickness are removed
     base    (shear modulus, Poisson's ratio) of the half-space below, or None for a rigid base
-
-    Plain tuples are accepted. A rigid base without layers is a rigid body.
     Raises ValueError unless G > 0, -1 < nu <= 1/2, thickness >= 0, all finite.
     """
 
@@ -59,12 +71,12 @@ class Stack:
 
     @property
     def is_rigid(self) -> bool:
-        """True for a rigid base without layers."""
+        """True if the body is rigid: a rigid base without layers."""
         return self.base is None and not self.layers
 
     @property
     def outer(self) -> HalfSpace:
-        """Half-space of the outermost material: the limit of short waves."""
+        """Half-space of the outermost material, which determines the response to short waves."""
         if self.layers:
             return HalfSpace(self.layers[0].shear_modulus, self.layers[0].poisson_ratio)
         if self.base is None:
@@ -73,7 +85,7 @@ class Stack:
 
 
 def stack_of(body: Body) -> Stack:
-    """Build the stack of a body of the scene."""
+    """Build the stack (layers and base with elastic constants) of a body of the scene."""
     base = body.material
     return Stack(
         [(*_constants(layer.material), layer.thickness) for layer in body.layers],
@@ -86,7 +98,7 @@ def _constants(material: IsotropicMaterial) -> HalfSpace:
 
 
 def _check_material(shear_modulus: float, poisson_ratio: float) -> None:
-    """Refuse constants for which the strain energy is not positive."""
+    """Raise ValueError for elastic constants whose strain energy is not positive."""
     if not (isfinite(shear_modulus) and shear_modulus > 0):
         raise ValueError(f"shear modulus is {shear_modulus}, expected a finite value > 0")
     if not -1 < poisson_ratio <= 0.5:

@@ -21,7 +21,7 @@ from semi_analytical.frf.stack import HalfSpace, Stack
 
 
 class Compliance(NamedTuple):
-    """Compliance of the material below a plane.
+    """Compliance (displacement per traction) of the material below a horizontal plane.
 
     rows   (det C, C11, C12, C22, 1) in units of 1/(2 G alpha)
     shear  transverse compliance in units of 1/(G alpha)
@@ -47,8 +47,10 @@ class SurfaceScalars(NamedTuple):
 
 
 def half_space_scalars(material: HalfSpace, alpha: ArrayLike) -> SurfaceScalars:
-    """Transform the solutions of Boussinesq and Cerruti (Johnson 1985, section 3.2).
+    """Compute the surface compliance of a half-space: transforms of the Boussinesq and Cerruti
+    solutions.
 
+    See Johnson (1985, section 3.2).
     alpha  wavenumbers [1/length], > 0
     """
     G, nu = material
@@ -85,10 +87,11 @@ def scalars(stack: Stack, alpha: ArrayLike) -> SurfaceScalars:
 
 
 def remainder_scalars(stack: Stack, alpha: ArrayLike) -> SurfaceScalars:
-    """Compute the scalars minus those of a half-space of the outermost material.
+    """Compute the surface compliance minus that of a half-space of the outermost material.
 
     The differences vanish as exp(-2 alpha h), h the outermost thickness, and are computed with full
     relative accuracy. They are exactly zero without layers.
+    alpha  wavenumbers [1/length], > 0
     """
     alpha = _checked(alpha)
     if not stack.layers:
@@ -104,7 +107,8 @@ def remainder_scalars(stack: Stack, alpha: ArrayLike) -> SurfaceScalars:
 
 
 def _echo(stack: Stack, alpha: Array) -> SurfaceScalars:
-    """Compute the remainder from the wave functions without their half-space terms."""
+    """Compute the remainder of the surface compliance from wave functions without their
+    half-space terms."""
     film = stack.layers[0]
     x = np.minimum(alpha * film.thickness, OPAQUE)
     below, shear = _underside(stack, alpha)
@@ -126,14 +130,15 @@ def _echo(stack: Stack, alpha: Array) -> SurfaceScalars:
 
 
 def _underside(stack: Stack, alpha: Array) -> Compliance:
-    """Compute the compliance below the outermost layer, in units of this layer."""
+    """Compute the compliance of the material below the outermost layer, in units of this layer."""
     return compliances_below(stack, alpha)[0]
 
 
 def compliances_below(stack: Stack, alpha: Array) -> list[Compliance]:
-    """Compute the compliance below each layer, in units of this layer, and that of the base.
+    """Compute the compliance of the material below each layer of a body, in units of this layer.
 
     The list begins with the outermost layer and ends with the base in its own units.
+    alpha  wavenumbers [1/length]
     """
     one, zero = np.ones_like(alpha), np.zeros_like(alpha)
     if stack.base is None:
@@ -155,7 +160,12 @@ def compliances_below(stack: Stack, alpha: Array) -> list[Compliance]:
 
 
 def compliance_above(below: Compliance, nu: float, x: Array) -> Compliance:
-    """Propagate the compliance upward through x = alpha d of one material."""
+    """Propagate the compliance below a plane upward through x = alpha d of one material.
+
+    below  compliance below the lower plane
+    nu     Poisson's ratio
+    x      wavenumber times distance
+    """
     x = np.minimum(x, OPAQUE)
     *rows, divisor = compound_rows(below.rows, nu, decaying_waves(x))
     tanh = np.tanh(x)

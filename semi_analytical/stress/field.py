@@ -97,12 +97,14 @@ def subsurface(
     shear: Field | None,
     depths: Sequence[float | Level],
 ) -> SubsurfaceField:
-    """Compute the fields of the lower body at all cell centres of some depths.
+    """Compute displacement and stress of the lower body at all cell centres of some depths.
 
-    The tractions are constant on every cell. There is no other approximation (no periodic images,
-    no truncated spectrum): the relative error of the fields of these tractions is about 1e-12.
+    The tractions are uniform in each cell. There is no other approximation (no periodic images, no
+    truncated spectrum): the relative error of the fields of these tractions is about 1e-12.
 
-    Parameters ---------- body
+    Parameters
+    ----------
+    body
         Layers on a half-space or a rigid base. Of a scene, the lower body. For the upper body
         pass it and -shear: z then points up into it, u_z and the stresses yz, xz change sign.
     grid
@@ -112,7 +114,9 @@ def subsurface(
     depths
         Depths [length], or levels where the side of an interface matters.
 
-    Raises ------ ValueError
+    Raises
+    ------
+    ValueError
         A depth is not in the body, or the tractions do not fit the grid.
     ResourceRefused
         The fields do not fit into the memory.
@@ -130,10 +134,11 @@ def subsurface_section(
     depths: Sequence[float | Level],
     y: float = 0.0,
 ) -> SubsurfaceField:
-    """Compute the fields of `subsurface` on the section at y, at a fraction of time and memory.
+    """Compute displacement and stress of `subsurface` on the vertical section at y.
 
-    Cubic interpolation between rows of cells has an error of 0.02 dy^4 times the fourth derivative.
-    Raises the errors of `subsurface`.
+    The section costs a fraction of the time and memory of whole planes. Cubic interpolation between
+    rows of cells has an error of 0.02 dy^4 times the fourth derivative. Raises the errors of
+    `subsurface`.
     """
     rows = np.flatnonzero(line_weights(grid.y, y))
     near = fields_by_level(body, grid, pressure, shear, depths, rows)
@@ -219,7 +224,7 @@ def _closed_form(
 
 
 def _stack(body: Body | Scene | Stack) -> Stack:
-    """Return the stack of a body; raise ValueError for a rigid body."""
+    """Return the layers and base of a body; raise ValueError for a rigid body."""
     if isinstance(body, Scene):
         body = body.body
     stack = body if isinstance(body, Stack) else stack_of(body)
