@@ -88,6 +88,14 @@ class ElementSolver(DiscretisedSolver):
         return result.discretisation
 
     def coarser(self, result: Result, share: float, more: int) -> FiniteElementDiscretisation:
+        """Return a mesh with fewer elements per contact radius, for an error estimate.
+
+        In the second coarse solve, the elements are sized such that the contact edge lies in the
+        middle of an element.
+
+        share  fraction of the elements of the result
+        more   number of elements added to this fraction
+        """
         mesh, radius = result.discretisation, result.radius
         count = max(FEWEST_ELEMENTS, ceil(share * mesh.elements_per_radius)) + more
         if (share, more) == SHARES[1][1:]:
@@ -97,6 +105,11 @@ class ElementSolver(DiscretisedSolver):
         return _with(mesh, elements_per_radius=count, contact_radius=radius)
 
     def of_mesh(self, base: FiniteElementDiscretisation, result: Result) -> Iterator[CoarseSolve]:
+        """Return the coarse solves in overlap, angular harmonics and size of the meshed section.
+
+        The overlap applies to the penalty method only, and the harmonics to the path with harmonics
+        only.
+        """
         if self.method is Method.PENALTY:
             overlap = min(LARGEST_OVERLAP, 10 * base.overlap)
             ratio = overlap / base.overlap

@@ -164,9 +164,10 @@ class SweepPoint:
         return f"{re.sub('[^A-Za-z0-9.]+', '-', shown)[:99]}-{digest}"
 
     def record(self, refused: str = "") -> CaseRecord:
-        """Return the record of the point without results: values of the keys, and a command line.
+        """Return the record of the sweep point without results.
 
-        The command line solves the scene of the point by `slipstick run`.
+        The record contains the values of the varied keys, and the arguments of `slipstick run` that
+        solve the scene of the point.
 
         refused  message of an error, if the scene has no solution; else empty
         """
@@ -178,7 +179,7 @@ class SweepPoint:
         return CaseRecord(parameters=dict(self.values), words={"not converged": "", **words})
 
     def compute(self) -> CaseRecord:
-        """Solve the scene of the point, and return the record with quantities and errors.
+        """Solve the scene of the sweep point, and return its record with quantities and errors.
 
         If the scene is invalid or the solver raises an error, the record contains the message
         instead.
