@@ -34,14 +34,14 @@ Shown = TypeVar("Shown")
 
 
 def natural_size(ends: Sequence[State], unit: str) -> float:
-    """Estimate the magnitude of a scalar in a given unit from the largest loads of a history.
+    """Estimate the magnitude of a contact quantity from its unit and the loads of a history.
 
     The estimate is the largest normal force W for "N", W times contact radius a for "N m", the
     approach ω_z for "m", W ω_z for "J", and ω_z/a for "rad". Other units, and unloaded contacts,
-    give 0. Much smaller values are round-off.
+    give 0. Values that are much smaller than the estimate are round-off.
 
     ends  states at the ends of the load steps
-    unit  SI unit
+    unit  SI unit of the quantity
     """
     force, radius, approach = (
         max((abs(getattr(end, name)) for end in ends), default=0.0)

@@ -1,6 +1,6 @@
 """Numbers of one load cycle as in a fretting test, from forces and shifts of its increments.
 
-All quantities are components along the largest change of the tangential force. Symbols:
+Forces and shifts are components along the largest change of the tangential force. Symbols:
 
 - Q* is half the range of the tangential force in the cycle,
 - δ is half the range of the tangential shift, δ* that of the actuator of a test rig,
@@ -27,7 +27,8 @@ from contact_scene.quantities.summary import Regime
 if TYPE_CHECKING:
     from contact_results.surface import Increment
 
-# Of the normal force: less tangential force is round-off, and of the work of force over shift.
+# Limits of a cycle without force or slip: tangential force relative to the normal force, and
+# dissipated energy relative to force amplitude times shift amplitude.
 ROUND_OFF, NO_SLIP = 1e-9, 1e-9
 AT_GROSS_SLIP = 0.2  # E_d/4Q*δ
 

@@ -19,8 +19,9 @@ class OutputRefused(Refused):
 def atomic_file(path: Path) -> Iterator[Path]:
     """Yield a temporary path in the directory of `path`, and rename the file to `path` at the end.
 
-    The rename takes place only if the block succeeds. It replaces an existing file. An OSError of
-    the block, such as that of a full disk, gets the name `path` instead of the temporary name.
+    The rename takes place only if the `with` block succeeds. It replaces an existing file. An
+    OSError of the block, such as that of a full disk, gets the name `path` instead of the temporary
+    name.
 
     Raises OutputRefused if the parent directory cannot be created, or if `path` exists and is not a
     regular file.

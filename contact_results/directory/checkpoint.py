@@ -224,7 +224,7 @@ class CheckpointDirectory:
 def checkpointed(
     target: Path, identity: str, say: Callable[[str], None], name: str = "checkpoint"
 ) -> Iterator[CheckpointDirectory]:
-    """Provide the checkpoint directory of a solve, and remove it at the end of the block.
+    """Provide the checkpoint directory of a solve, and remove it after the `with` block.
 
     The directory remains if the process is killed or the block fails. After a SolverError it is
     removed, because a resumed solve would fail again.

@@ -138,7 +138,10 @@ def scalar(dtype: str, content: bytes) -> Any:
 
 
 class _Reader(pickle.Unpickler):
-    """Unpickler that resolves only frozen classes of the solvers, numpy arrays, and floats."""
+    """Unpickler that resolves only frozen classes of the solvers, numpy arrays, and floats.
+
+    A foreign file therefore cannot execute code.
+    """
 
     def find_class(self, module: str, name: str) -> Any:
         if module == __name__ and name in ("array", "scalar"):

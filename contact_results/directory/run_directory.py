@@ -27,7 +27,7 @@ PAUSES = (0.1, 0.4, 1.6)  # seconds between attempts to replace a file
 def run_directory(target: Path, *, overwrite: bool = False) -> Iterator[Path]:
     """Yield an empty directory for the files of a run; publish it as `target` on success.
 
-    The directory `target` is locked during the block, so that no other run can use it.
+    The directory `target` is locked during the `with` block, so that no other run can use it.
 
     target     directory of the results; missing parents are created
     overwrite  also replace files of the same names that no run of slipstick has written
@@ -54,7 +54,7 @@ def run_directory(target: Path, *, overwrite: bool = False) -> Iterator[Path]:
 
 @contextmanager
 def files_at_once(target: Path, summary: str, earlier: Sequence[str]) -> Iterator[Path]:
-    """Yield an empty directory; move its files into `target` if the block succeeds.
+    """Yield an empty directory; move its files into `target` if the `with` block succeeds.
 
     Existing files of the same names are replaced. If the block fails, the existing files remain.
 
@@ -78,7 +78,7 @@ def files_at_once(target: Path, summary: str, earlier: Sequence[str]) -> Iterato
 
 @contextmanager
 def _staging(target: Path) -> Iterator[Path]:
-    """Provide a hidden, locked directory for new files, and remove it at the end of the block.
+    """Provide a hidden, locked directory for new files, and remove it after the `with` block.
 
     target  directory into which the files are moved later
     """

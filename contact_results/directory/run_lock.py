@@ -66,7 +66,7 @@ LONGEST_NAME = 300
 
 @contextmanager
 def in_sole_use(target: Path) -> Iterator[None]:
-    """Lock a directory of results for the duration of the block.
+    """Lock a directory of results for the duration of the `with` block.
 
     The lock file is in `target`, or next to `target` while `target` does not exist. Without locks
     in the system, other processes are not excluded.
@@ -89,7 +89,7 @@ def in_sole_use(target: Path) -> Iterator[None]:
 
 @contextmanager
 def _locked(path: Path, target: Path) -> Iterator[None]:
-    """Lock a lock file for the duration of the block, and remove it at the end.
+    """Lock a lock file for the duration of the `with` block, and remove it at the end.
 
     path    path of the lock file
     target  directory of the results, for messages

@@ -25,7 +25,7 @@ _begun: list[tuple[Callable[[], None], Callable[[], str]]] = []  # blocks, outer
 def cleaned_up_when_stopped(
     clean: Callable[[], None] = lambda: None, kept: Callable[[], str] = lambda: ""
 ) -> Iterator[None]:
-    """On a stop signal in the block, clean up, print how to resume, and exit the process.
+    """On a stop signal in the `with` block, clean up, print how to resume, and exit the process.
 
     The exit code is 128 plus the signal number. The handler exits the process, because an exception
     raised in the handler could be suppressed by Python or a library, for example in a callback of
@@ -63,7 +63,7 @@ def _leave(number: int, frame: FrameType | None) -> None:
 
 @contextmanager
 def stop_signals_held() -> Iterator[None]:
-    """Defer stop signals that arrive in the block to its end.
+    """Defer stop signals that arrive in the `with` block to its end.
 
     A handler records the signals. A signal mask would apply to one thread only, and threads of a
     numerical library would receive the signal instead.
@@ -79,7 +79,7 @@ def stop_signals_held() -> Iterator[None]:
 
 @contextmanager
 def _handled_by(handler: Handler) -> Iterator[None]:
-    """Handle stop signals by the given function in the block, and restore the old handlers.
+    """Handle stop signals in the `with` block by the given function, then restore the old handlers.
 
     Ignored signals stay ignored (nohup, `&`). Outside the main thread nothing is changed.
     """

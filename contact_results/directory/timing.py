@@ -26,7 +26,7 @@ class Stopwatch:
 
     @contextmanager
     def phase(self, name: str) -> Iterator[None]:
-        """Measure wall-clock and CPU time of the block, as the phase with this name."""
+        """Measure wall-clock and CPU time of the `with` block, as the phase with this name."""
         wall, cpu = time.perf_counter(), time.process_time()
         try:
             yield

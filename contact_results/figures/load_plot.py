@@ -19,7 +19,9 @@ Values = NDArray[np.float64]
 
 
 class Loop(NamedTuple):
-    """A load and its displacement at the ends of all increments that have both.
+    """Loop of a load over its displacement: force over shift, or torque over twist.
+
+    The values are those at the ends of all increments that have both.
 
     path      these increments
     force     name of the load: tangential_force or torque
@@ -49,9 +51,10 @@ class Loop(NamedTuple):
 
 
 def moved(increments: Sequence[Increment]) -> int:
-    """Return the number of increments with a non-zero tangential force or torque.
+    """Count the increments with a non-zero tangential force or torque.
 
-    The number counts the load, force or torque, that more increments have.
+    Force and torque are counted separately, and the larger count is returned. A fretting loop is
+    drawn only if there are enough of these increments.
     """
     loops = _loops(increments)
     return max((int(np.count_nonzero(loop.forces)) for loop in loops), default=0)

@@ -148,7 +148,7 @@ def fretting_map(result: Result, cells: Cells, cycle: FrettingCycle) -> Figure:
 
 
 def _fields_of(cycle: FrettingCycle) -> Iterator[tuple[str, EngineeringUnit, Field]]:
-    """Yield title, unit and field of each map of a load cycle."""
+    """Yield title, unit and surface field of each map of a load cycle: slip, energy, F1, F2."""
     for title, symbol, values in (
         ("slip amplitude δ", "m", cycle.slip_amplitude),
         ("dissipated per area", "J/m²", cycle.dissipation),

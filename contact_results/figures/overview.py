@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 LEAST_MOVES = 3  # smallest number of increments with tangential load for a loop
 # Largest number of cells along a side for the stress, which then takes less than a second.
 MAX_CELLS = 64
-EVERY = 2  # step through the default depths
+EVERY = 2  # interval of the default depths that are used
 DOTS_PER_INCH = 90
 # Sides of a panel, and of its place with labels, legend and colour bar [inch].
 PANEL, PLACE = (2.6, 2.55), (3.85, 3.45)

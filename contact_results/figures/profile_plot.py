@@ -97,7 +97,7 @@ def draw_end(ax: Any, result: Result, surface: Surface) -> None:
 
 
 def _pressures(surface: Surface, steps: Sequence[Increment]) -> Component:
-    """Return the profiles of the pressure at the ends of the given load steps."""
+    """Return the profiles of the pressure along the line, at the ends of the given load steps."""
     lines = {step.step: surface.along(_pressure(step, surface)) for step in steps}
     unit = engineering_unit(max(step.peak_pressure for step in steps), "Pa")
     return Component("pressure p", lines, unit)

@@ -43,7 +43,7 @@ COLOURS = 256
 
 @contextmanager
 def figure_style() -> Iterator[None]:
-    """Apply the style of all figures in the block, independent of the matplotlibrc of the user."""
+    """Apply the style of all figures in the `with` block, without the matplotlibrc of the user."""
     with matplotlib.rc_context():
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(STYLE)

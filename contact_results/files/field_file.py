@@ -115,7 +115,7 @@ class _NeverFull(io.FileIO):
 
 @contextmanager
 def _fields_file(path: Path) -> Iterator[h5py.File]:
-    """Create an HDF5 file for writing in the block; raise a recorded write error at its end."""
+    """Create an HDF5 file for the `with` block; raise a recorded write error at its end."""
     with _NeverFull(path, "w+") as disk:
         try:
             with h5py.File(disk, "w") as file:

@@ -44,7 +44,7 @@ class FieldsAtEndsOnly(KeyError):
 
 @contextmanager
 def opened(path: Path) -> Iterator[h5py.File]:
-    """Open an HDF5 file for reading in the block.
+    """Open an HDF5 file for reading in the `with` block.
 
     Raises ValueError if h5py cannot read the file, if another process uses it, or if it contains
     links or values in other files.

@@ -152,7 +152,12 @@ def _mirrored(name: str, field: NDArray[Any] | None) -> NDArray[Any] | None:
 
 
 def _flat(places: Places) -> Places:
-    """Append the depth coordinate z = 0 to points on the surface: (n, 2) becomes (n, 3)."""
+    """Append the depth coordinate z = 0 to points on the surface.
+
+    places  coordinates x and y (n, 2) [length]
+
+    Returns x, y and z (n, 3).
+    """
     return np.column_stack([places, np.zeros(len(places))]) + 0.0
 
 

@@ -47,7 +47,7 @@ class BodyRegions:
 
     @classmethod
     def of(cls, body: Body, radius: float, down: int, *, infinite: bool = False) -> BodyRegions:
-        """Determine regions and depths of a body.
+        """Determine the regions of a body and the depths at which the stress is computed.
 
         body      layers and base
         radius    contact radius [length]
@@ -80,9 +80,9 @@ class BodyRegions:
         return np.concatenate([near, np.linspace(near[-1], self.deepest, IN_LAYER + 1)[1:]])
 
     def levels(self, depths: Sequence[float] | None) -> Iterator[Level]:
-        """Yield the levels of the given depths and of both sides of every interface, downward.
+        """Yield the depths at which the stress is computed, each with its material, downward.
 
-        A level is a depth in one material.
+        The result contains the given depths and both sides of every interface.
 
         depths  depths [length]; None chooses them from the contact radius and the layers
 
@@ -112,10 +112,10 @@ class BodyRegions:
 
 
 def spacing(places: Field, at: float) -> float:
-    """Return the larger of the two intervals of a grid that are adjacent to a place [length].
+    """Return the larger of the two grid intervals that are adjacent to a coordinate [length].
 
     places  ascending grid coordinates (n,) [length]
-    at      coordinate of the place [length]
+    at      the coordinate [length]
     """
     k = int(np.clip(np.searchsorted(places, at), 1, len(places) - 2))
     return float(np.max(np.diff(places[k - 1 : k + 2])))

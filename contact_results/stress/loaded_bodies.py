@@ -209,7 +209,7 @@ def states_of_run(directory: Path) -> Iterator[tuple[int, int, LoadedBodies | No
 
 @contextmanager
 def _reading(directory: Path) -> Iterator[None]:
-    """Convert errors of reading the fields of a run in the block to NoSuchState.
+    """Convert errors of reading the fields of a run, in the `with` block, to NoSuchState.
 
     directory  directory of the run, for messages
     """
@@ -350,10 +350,12 @@ def _in_contact(end: Any) -> Any:
 
 
 def _existing(step: int | None, steps: list[int]) -> int:
-    """Return the given load step, or the last one for None; raise NoSuchState if it does not exist.
+    """Return the number of an existing load step: the requested one, or the last for None.
 
     step   requested load step, from 1
     steps  load steps of the run, ascending
+
+    Raises NoSuchState if the requested load step does not exist.
     """
     if step is None:
         return steps[-1]

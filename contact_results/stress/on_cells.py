@@ -99,13 +99,13 @@ def stress_on_cells(
     see_edge: bool = True,
     section_only: bool = False,
 ) -> StressField:
-    """Compute the stress on levels below a window that extends beyond the contact.
+    """Compute the stress at depths below a window of the surface that contains the contact.
 
-    A level is a depth in one material. Near the edge of a smooth contact, the tractions fall like
-    the square root of the distance from the edge. The contact edge is then fitted between the
-    cells, and the result has additional points on the fitted edge. `how` of the result states the
-    cause if no edge was fitted. If a maximum lies at the edge of the window, its level is computed
-    again on a wider window.
+    Near the edge of a smooth contact, the tractions fall like the square root of the distance from
+    the edge. The contact edge is then fitted between the cells, and the result has additional
+    points on the fitted edge. `how` of the result states the cause if no edge was fitted. If a
+    maximum under tangential load lies at the edge of the window, its depth is computed again below
+    a wider window.
 
     state         bodies and tractions that cause the stress
     indenter      True for the stress in the indenter, False for the lower body
@@ -143,7 +143,7 @@ def _below(
     see_edge: bool = True,
     section_only: bool = False,
 ) -> StressField:
-    """Compute the stress on one window of at least `margin` half extents of the contact.
+    """Compute the stress below a window of the surface that extends beyond the contact.
 
     state         bodies and tractions that cause the stress
     indenter      True for the stress in the indenter, False for the lower body
@@ -238,7 +238,8 @@ def _edge(
 ) -> tuple[NearEdge | None, str]:
     """Fit the edge of the contact, near which the tractions fall like a square root.
 
-    levels    depths and layers of the stress; without a level near the surface no edge is fitted
+    body      lower body or indenter, in which the stress is computed
+    levels    depths of the stress; without a depth near the surface no edge is fitted
     pressure  pressure of the cells (nx, ny) [force/length^2]
     shear     shear of the cells (2, nx, ny) [force/length^2]; None without shear
 
@@ -268,11 +269,11 @@ def _each_level(
     edge: NearEdge | None,
     rows: Indices | None,
 ) -> Iterator[SubsurfaceField]:
-    """Yield displacement and stress below the cells level by level.
+    """Yield displacement and stress at all positions of the cells, one depth after the other.
 
     Near the fitted contact edge, the stress is corrected for tractions that vary within the cells.
 
-    levels    depth and layer of each level
+    levels    depths, each with its material
     pressure  pressure of the cells (nx, ny) [force/length^2]
     shear     shear of the cells (2, nx, ny) [force/length^2]; None without shear
     edge      fitted contact edge; None without correction
@@ -333,7 +334,7 @@ def _sharpened(means: Field, loaded: NDArray[np.bool_]) -> Field:
 
 
 def _how(edge: NearEdge | None, why: str) -> dict[str, object]:
-    """Return the record of the edge fit for `stress.json`.
+    """Return a record that states if the contact edge was fitted, or why not, for `stress.json`.
 
     edge  fitted contact edge; None if there is none
     why   cause if the edge is not determined, else empty
@@ -397,9 +398,9 @@ def _margin(pressure: Field, axis: int, margin: float) -> int:
 
 
 def _levels(body: Body, depths: Sequence[float] | None, radius: float) -> tuple[Level, ...]:
-    """Return the levels of the given depths and of both sides of every interface, downward.
+    """Return the depths at which the stress is computed, each with its material, downward.
 
-    A level is a depth in one material.
+    The result contains the given depths and both sides of every interface.
 
     depths  depths [length]; None chooses them from the contact radius and the layers
     radius  contact radius [length]
@@ -416,11 +417,12 @@ def _levels(body: Body, depths: Sequence[float] | None, radius: float) -> tuple[
 
 
 def _points(field: SubsurfaceField, grid: SurfaceGrid) -> StressPoints:
-    """Convert fields on levels to stress points of shape (levels, nx, ny).
+    """Convert displacement and stress below the cells to stress points (levels, nx, ny).
 
-    `at_edge` marks the points at the edge of the window.
+    `at_edge` marks the points below the edge of the window.
 
-    grid  surface grid of the window
+    field  displacement and stress at several depths, the levels
+    grid   surface grid of the window
     """
     places = np.meshgrid(field.depths, field.x, field.y, indexing="ij", copy=False)
     depth, x, y = places
@@ -437,7 +439,7 @@ def _points(field: SubsurfaceField, grid: SurfaceGrid) -> StressPoints:
 
 
 def _axis(section: SubsurfaceField) -> StressPoints:
-    """Interpolate displacement and stress of the section on the z axis, one point per level."""
+    """Interpolate displacement and stress of the section on the z axis, one point per depth."""
     displacement, stress = section.below()
     nothing = np.zeros(len(section.levels))
     return StressPoints(

@@ -27,7 +27,7 @@ def stress_on_disc(
 ) -> StressField:
     """Compute the stress in the plane of the load below the tractions of the radial solver.
 
-    The stress is computed on levels, each a depth in one material, and at points around its maxima.
+    The stress is computed on a grid of positions and depths, and at points around its maxima.
 
     state     bodies and tractions that cause the stress
     indenter  True for the stress in the indenter, False for the lower body

@@ -114,11 +114,10 @@ class StressPoints:
         return StressPoints(**{name: getattr(self, name)[..., which] for name in FIELDS})
 
     def with_cells(self) -> StressPoints:
-        """Add the cells between adjacent levels of the same material.
+        """Add the cells between points at adjacent depths of the same material.
 
-        A level is a depth in one material, and the first index of the points. The cells are
-        quadrilaterals for the points of a section (levels, n), and hexahedra for those of a volume
-        (levels, nx, ny).
+        The first index of the points is the depth. The cells are quadrilaterals for the points of a
+        section (depths, n), and hexahedra for those of a volume (depths, nx, ny).
         """
         index: Any = np.arange(self.x.size).reshape(self.x.shape)
         index = index[..., 0] if index.shape[2:] == (1,) else index
@@ -167,7 +166,7 @@ class StressPoints:
 
     @property
     def in_a_row(self) -> StressPoints:
-        """All points as a flat array (n,), without cells."""
+        """The same stress points as a flat array (n,), without cells."""
         return self.chosen(np.arange(self.x.size))
 
     def on_side(self, depth: float, material: int) -> NDArray[np.bool_]:
@@ -200,7 +199,8 @@ class FittedEdge:
 class StressField:
     """Stress in a body below a contact, at the points of a section and optionally of a volume.
 
-    points     candidates for the largest values: on cells those of each level, else all points
+    points     points among which the largest stresses are searched: on cells, the points with the
+               largest values at each depth; otherwise all points
     edge       fitted contact edge; None if there is none
     section    points and cells in the plane y = 0 near the contact, in axes with x along
                `direction`

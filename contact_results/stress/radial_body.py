@@ -53,7 +53,8 @@ RADII, ANGLES, EVERY = np.array([0.3, 0.6, 0.8, 0.95, 1.0, 1.15, 1.5]), 7, 2
 class RadialBody:
     """One body below a circular contact, in axes in which x points along the load.
 
-    fields     function of levels, x and y (n,) that computes displacement and stress (levels, 9, n)
+    fields     function that computes displacement and stress (levels, 9, n) from depths, x and y
+               (n,)
     parts      regions of the body, and the depths of the points
     sampling   numbers of points
     strained   function that adds the stress from a bulk strain
@@ -94,9 +95,10 @@ class RadialBody:
     ) -> RadialBody:
         """Prepare the stress of a contact without shear, from indenter shape and contact radius.
 
+        state        bodies and tractions that cause the stress
         indenter     True for the indenter, False for the lower body
         fineness     factor on the numbers of orders and points of the computation
-        body, stack  the body in which the stress is computed
+        body, stack  the body in which the stress is computed, in two representations
         """
         from contact_scene import Scene
         from radial.normal.disc import disc
@@ -127,9 +129,10 @@ class RadialBody:
     ) -> RadialBody:
         """Prepare the stress of a contact with shear, from the tractions on rings.
 
+        state        bodies and tractions that cause the stress
         indenter     True for the indenter, False for the lower body
         fineness     factor on the numbers of orders and points of the computation
-        body, stack  the body in which the stress is computed
+        body, stack  the body in which the stress is computed, in two representations
         """
         from radial.stress.circle_fit import (
             ANOTHER,
@@ -183,9 +186,9 @@ class RadialBody:
         return np.unique(np.concatenate([self.centre - self.radii, [0], self.centre + self.radii]))
 
     def points(self, levels: Sequence[Level], x: Field, y: Field) -> StressPoints:
-        """Compute displacement and stress at positions x, y on every level.
+        """Compute displacement and stress at positions x, y and at several depths.
 
-        levels  depth and layer of each level
+        levels  the depths, each with its material
         x, y    positions (n,) [length]
 
         Returns points of shape (levels, n). `at_edge` marks the outer and the lower end of the
@@ -209,11 +212,11 @@ class RadialBody:
         return self.strained(points)
 
     def beside(self, levels: Sequence[Level]) -> StressPoints:
-        """Compute the stress at points outside the plane of the section, on some of the levels.
+        """Compute the stress at points outside the plane of the section, at some of the depths.
 
         The tensile stress at the bottom of a layer may be largest at these points.
 
-        levels  depth and layer of each level, downward
+        levels  depths of the section, each with its material, downward
         """
         angles = np.pi * np.arange(1, ANGLES + 1) / (ANGLES + 1)
         r = self.parts.radius * RADII[:, None]

@@ -109,9 +109,10 @@ def interface_sides(body: Body) -> list[tuple[int, str, float, int]]:
 
 
 def _regions(points: StressPoints, body: Body) -> Iterator[tuple[str, NDArray[np.bool_]]]:
-    """Yield the name of each region of a body, and the mask of the given points that lie in it.
+    """Yield each region of a body by name, with the mask of the given points that lie in it.
 
-    A body without layers has the region "body" only.
+    The regions are the whole body, the surface, each material, and both sides of every interface. A
+    body without layers has the region "body" only.
     """
     yield "body", np.ones(points.x.shape, dtype=bool)
     if not body.layers:
