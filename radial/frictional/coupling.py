@@ -100,8 +100,9 @@ class Coupling:
     def frictionless_displacement(self, contact: Disc, rings: Rings, fineness: int = 1) -> Array:
         """Return the radial displacement of the surface by the pressure without friction [length].
 
-        The pressure is that of the contact without friction. The displacement is that of the lower
-        body relative to the indenter, at the rows of the rings.
+        The pressure is that of the contact without friction. The pressure is that of the contact
+        without friction. The displacement is that of the lower body relative to the indenter, at
+        the rows of the rings.
         """
         a, x = contact.radius, rings.places
         found = -self.crossed * a * np.divide(_carried(contact, x), x, where=x > 0, out=0 * x)

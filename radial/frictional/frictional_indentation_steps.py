@@ -236,8 +236,7 @@ class FrictionalSteps(StepsOnRings):
         like = before.end if before else None
 
         def solve(a: float) -> FrictionalContact:
-            """Solve the contact of a radius, with the slip zone of the last solve as an initial
-            guess."""
+            """Solve the contact of a radius, with the slip zone of the last solve as a guess."""
             nonlocal like
             like = self._at(a, rings, radial_displacement, like)
             return like

@@ -1,8 +1,9 @@
-"""Fit of a circle to given tractions, with their smooth factor: tractions over √(1-η²).
+"""Fit of a circle to the tractions of a contact, with their smooth factor.
 
-Fields and edge of an axisymmetric contact are known at rings. With a tangential load, hats on rings
-do not end at the contact edge. p² is smooth there: a least-squares fit of p² over the outer rings
-has its zeros on the circle, and its values replace p near the edge.
+The smooth factor is the traction over √(1-η²), where η is the distance from the centre over the
+radius of the circle. Fields and edge of an axisymmetric contact are available at rings. With a
+tangential load, hats on rings do not end at the contact edge. p² is smooth there: a least-squares
+fit of p² over the outer rings has its zeros on the circle, and its values replace p near the edge.
 """
 
 from __future__ import annotations
@@ -27,13 +28,15 @@ PERIOD = 4  # angles beyond a full turn that are repeated
 
 
 class Fit(NamedTuple):
-    """Region in which p² is fitted.
+    """Region and order of the least-squares fit of p² near the contact edge.
 
-    begins       smallest radius over that of the outermost loaded ring
-    over         smallest pressure over the largest: nodes beyond the edge have less
-    powers       of 1 - r²/a²
+    begins       smallest radius of the fit over that of the outermost loaded ring
+    over         smallest pressure of the fit over the largest pressure; nodes beyond the edge have
+                 less
+    powers       highest power of 1 - r²/a²
     fitted_from  radius over that of the circle, from which the fit replaces p
-    last         radius over that of the circle, up to which the direction of the shear is used
+    last         radius over that of the circle, up to which the ratio of shear to pressure is taken
+                 from the nodes
     """
 
     begins: float = 0.7
@@ -51,9 +54,12 @@ ANOTHER = Fit(begins=0.6, over=0.3, powers=3, fitted_from=0.87)
 def round_circle(
     radii: Array, radius: float, outward: Array, around: Array, p: Array
 ) -> LoadedCircle:
-    """Return the circle of q_r, q_θ and p (n,) at rings of an axisymmetric contact.
+    """Return the loaded circle of an axisymmetric contact with given tractions at rings.
 
-    radius  of the contact [length]
+    radii               radii of the rings (n,) [length]
+    radius              contact radius [length]
+    outward, around, p  q_r, q_θ and pressure at the rings (n,) [force/length²]
+    raises              UnsupportedScene if too few rings resolve the contact
     """
     within = radii < (1 - 1e-9) * radius
     eta = radii[within] / radius
@@ -70,9 +76,16 @@ def round_circle(
 def pushed_circle(
     radii: Array, angles: Array, outward: Array, around: Array, p: Array, fit: Fit = USUAL
 ) -> LoadedCircle:
-    """Return the circle of q_r, q_θ and p at nodes of hats (n, J + 1), at angles from 0 to π.
+    """Fit a loaded circle to the tractions of a contact with tangential load.
 
-    The other half is the mirror image. The circle carries the load of the hats.
+    The angles cover 0 to π, and the other half is the mirror image. The circle carries the load of
+    the hat functions of the nodes.
+
+    radii               radii of the nodes (n,) [length]
+    angles              angles from 0 to π (J + 1,)
+    outward, around, p  q_r, q_θ and pressure at the nodes (n, J + 1) [force/length²]
+    fit                 region and order of the fit
+    raises              UnsupportedScene if too few rings resolve the edge
     """
     size = float(radii[np.flatnonzero(np.max(p, axis=1) > 0)[-1]])
     weights = np.gradient(radii)[:, None] * radii[:, None] * np.ones_like(angles)
@@ -113,6 +126,10 @@ def pushed_circle(
 
 
 def _refuse_few(rings: int) -> None:
+    """Raise UnsupportedScene if too few rings resolve the edge of the contact.
+
+    rings  number of rings
+    """
     if rings < FEWEST:
         raise UnsupportedScene(
             f"{rings} rings resolve the edge of the contact, and the stress below the surface "
@@ -123,9 +140,15 @@ def _refuse_few(rings: int) -> None:
 def _least_squares(
     s: Array, angles: Array, values: Array, weights: Array, powers: int
 ) -> Callable[[Array, Array], Array]:
-    """Return the weighted least-squares fit Σ c_mk cos mθ s^k."""
+    """Return the weighted least-squares fit Σ c_mk cos mθ s^k of values, as a function of s and θ.
+
+    s, angles        coordinates of the points, s = 1 - r²/a² (any shape)
+    values, weights  values at the points and their weights
+    powers           highest power of s
+    """
 
     def terms(s: Array, angle: Array) -> Array:
+        """Return the terms cos mθ s^k at points (…, terms)."""
         return np.stack([
             np.cos(m * angle) * s**k for m in range(HARMONICS + 1) for k in range(powers + 1)
         ], axis=-1)  # fmt: skip
@@ -139,8 +162,13 @@ def _least_squares(
 
 
 def _zeros(squared: Callable[[Array, Array], Array], angles: Array) -> tuple[float, float]:
-    """Return centre and radius of the circle through the zeros of a function of 1 - r² and the
-    angle."""
+    """Return centre and radius of the circle through the zeros of a function.
+
+    The zeros on rays are found by Newton's method.
+
+    squared  function of 1 - r² and the angle, a fit of p²
+    angles   angles of the rays
+    """
     s, step = np.zeros_like(angles), 1e-6
     for _ in range(STEPS):
         slope = (squared(s + step, angles) - squared(s - step, angles)) / (2 * step)
@@ -153,7 +181,11 @@ def _zeros(squared: Callable[[Array, Array], Array], angles: Array) -> tuple[flo
 
 
 def _continued(ratio: Array, known: Mask) -> Array:
-    """Replace unknown values of every ray by its last known value."""
+    """Replace the values of every ray beyond its outermost known value by this value.
+
+    ratio  field at nodes (n, rays)
+    known  true for known values
+    """
     last = len(known) - 1 - np.argmax(known[::-1], axis=0)
     position = np.minimum(np.arange(len(known))[:, None], last)
     return np.asarray(np.take_along_axis(ratio, position, axis=0))
@@ -162,10 +194,13 @@ def _continued(ratio: Array, known: Mask) -> Array:
 def _all_around(
     field: Array, r: Array, angles: Array, sense: int, degree: int
 ) -> RectBivariateSpline:
-    """Return a spline through nodes and their mirror images.
+    """Return a spline over the full circle through nodes and their mirror images.
 
-    sense   1 for a field that is even about θ = 0, -1 for an odd one
-    degree  in r
+    field   values at the nodes (n, J + 1)
+    r       radii of the nodes (n,)
+    angles  angles from 0 to π (J + 1,)
+    sense   1 for a field that is even about θ = 0, -1 for an odd field
+    degree  degree of the spline in r
     """
     whole = np.hstack([sense * field[:, :0:-1], field])
     turns = np.concatenate([-angles[:0:-1], angles])
@@ -176,7 +211,13 @@ def _all_around(
 
 
 def _load(radii: Array, angles: Array, p: Array) -> float:
-    """Return ∫ p dA of hats [force]."""
+    """Return the normal force ∫ p dA of nodal pressures with hat functions [force].
+
+    The angles cover half a circle, and the force includes the mirror image.
+
+    radii  radii of the nodes (n,) [length]
+    p      pressure at the nodes (n, angles) [force/length²]
+    """
     rings = 2 * np.asarray(np.trapezoid(p, angles, axis=1))
     inner, outer = radii[:-1], radii[1:]
     parts = (2 * inner + outer) * rings[:-1] + (inner + 2 * outer) * rings[1:]

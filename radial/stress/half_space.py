@@ -1,9 +1,10 @@
-"""Displacement and stress in a half-space below the pressure of a disc.
+"""Displacement and stress in a half-space below the pressure of a frictionless contact.
 
 The waves exp(-kz) cos ks of the pressure are integrated over k in closed form: with c = z + is and
 R² = r² + c², ∫ exp(-kc) J₀(kr) dk = 1/R and ∫ exp(-kc) J₁(kr) dk = r/(R (R + c)). One integral over
-the transform G remains. Powers of k are integrated by parts, as derivatives of G, to avoid
-cancellation near the surface. Lengths are in units of the contact radius.
+the transform G of the pressure (see `disc`) remains. Powers of k are integrated by parts, as
+derivatives of G, to avoid cancellation near the surface. Lengths are in units of the contact
+radius.
 """
 
 from __future__ import annotations
@@ -29,10 +30,14 @@ AXIS = 1e-7
 
 
 def below_pressure(contact: Disc, material: HalfSpace, x: Array, depth: float) -> Array:
-    """Return u_r, u_z [length], σ_rr, σ_θθ, σ_zz, σ_rz [force/length²], shape (6, n).
+    """Return displacement and stress in a half-space below the pressure of a contact (6, n).
 
-    x      radii over the contact radius (n,)
-    depth  over the contact radius, >= 0
+    The fields are u_r, u_z [length], σ_rr, σ_θθ, σ_zz, σ_rz [force/length²].
+
+    contact   frictionless contact, which gives the pressure
+    material  elastic constants of the half-space
+    x         radii of the points over the contact radius (n,)
+    depth     depth of the points over the contact radius, >= 0
     """
     true, x = x, np.maximum(x, AXIS)
     G, nu = material
@@ -61,7 +66,13 @@ def below_pressure(contact: Disc, material: HalfSpace, x: Array, depth: float) -
 
 
 def _waves(contact: Disc, x: Array, depth: float) -> tuple[Array, ...]:
-    """Return ∫ G~ exp(-κz) f dκ for f = J₀, κ J₀, κ² J₀, J₁/x, κ J₁/x and κ² J₁/x."""
+    """Return the integrals ∫ G~ exp(-κz) f dκ of the pressure at points of equal depth (n,).
+
+    f = J₀, κ J₀, κ² J₀, J₁/x, κ J₁/x and κ² J₁/x. G~ is the cosine transform of G, see `disc`.
+
+    x      radii of the points over the contact radius (n,)
+    depth  depth z over the contact radius, > 0
+    """
     offset, weights = _places(contact, x, depth)
     t = x[:, None] + offset
     c, R = _distance(x[:, None], depth, offset)
@@ -69,6 +80,11 @@ def _waves(contact: Disc, x: Array, depth: float) -> tuple[Array, ...]:
     end, last = (part[:, 0] for part in _distance(x[:, None], depth, 1 - x[:, None]))
 
     def by_parts(inside: Complex, outside: Complex) -> Array:
+        """Return an integral with one more power of κ, integrated by parts.
+
+        inside   factor of dG/dt at the quadrature points
+        outside  factor of G(1), the boundary term
+        """
         return np.asarray((1j * contact.edge * outside - 1j * np.sum(by_rate * inside, 1)).real)
 
     out = 1 / (R * (R + c))
@@ -83,9 +99,12 @@ def _waves(contact: Disc, x: Array, depth: float) -> tuple[Array, ...]:
 
 
 def _places(contact: Disc, x: Array, depth: float) -> tuple[Array, Array]:
-    """Return points t - x and weights (n, points) for 0 < t < 1.
+    """Return quadrature points t - x and weights (n, points) for integrals over 0 < t < 1.
 
-    The substitution t = x + z sinh y removes the root at t = x ± iz from 1/R.
+    The substitution t = x + z sinh y removes the root of 1/R at t = x ± iz.
+
+    x      radii of the points of evaluation over the contact radius (n,)
+    depth  depth z over the contact radius
     """
     first, last = np.arcsinh(-x / depth), np.arcsinh((1 - x) / depth)
     count = ceil(2 * asinh(max(1.0, float(np.max(x))) / depth) / WIDTH)
@@ -97,14 +116,21 @@ def _places(contact: Disc, x: Array, depth: float) -> tuple[Array, Array]:
 
 
 def _distance(x: Array, depth: float, offset: Array) -> tuple[Complex, Complex]:
-    """Return c and R at t = x + offset."""
+    """Return c = z + it and R = √(x² + c²), the complex distances at t = x + offset.
+
+    x      radii of the points of evaluation over the contact radius
+    depth  depth z over the contact radius
+    """
     t = x + offset
     c = np.asarray(depth + 1j * t, dtype=np.complex128)
     return c, np.asarray(np.sqrt(depth**2 - offset * (x + t) + 2j * depth * t))
 
 
 def _mean(contact: Disc, x: Array) -> Array:
-    """Return half the mean pressure within x, in units of E*/πa."""
+    """Return half the mean pressure within the radius of each point, in units of E*/πa (n,).
+
+    x  radii of the points over the contact radius (n,)
+    """
     found = np.empty_like(x)
     inside = x < 1
     beyond = x[~inside]
@@ -123,7 +149,13 @@ def _mean(contact: Disc, x: Array) -> Array:
 
 
 def _settled(contact: Disc, x: Array) -> Array:
-    """Return ∫ G~ J₀ dκ = ∫ G(t)/√(x²-t²) dt over t < x, 1."""
+    """Return the integral ∫ G~ J₀(κx) dκ of the surface displacement u_z below a pressure (n,).
+
+    It equals ∫ G(t)/√(x²-t²) dt over t < x and t < 1. G is the function of the contact equation,
+    see `disc`.
+
+    x  radii of the points over the contact radius (n,)
+    """
     v, weights = unit_gauss(2 * POINTS + len(contact.profile.abel) + len(contact.layers))
     angle = np.arcsin(np.minimum(1 / x, 1.0))
     return np.asarray(

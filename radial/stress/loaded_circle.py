@@ -1,6 +1,7 @@
 """Tractions on a circle that are proportional to a root at its edge.
 
-With a tangential load the centre of the circle is displaced from the axis.
+The fields below the surface are computed from these tractions. With a tangential load the centre of
+the circle is displaced from the axis.
 """
 
 from __future__ import annotations
@@ -21,12 +22,14 @@ PANEL, LOAD_POINTS, HARMONICS = 16, 128, 15
 
 @dataclass(frozen=True, eq=False)
 class LoadedCircle:
-    """Pressure and shear on the lower body.
+    """Pressure and shear on the lower body, over a circle.
 
-    radius  of the circle [length]
+    η is the distance from the centre over the radius. The tractions are `smooth` times √(1-η²).
+
+    radius  radius of the circle [length]
     centre  x of the centre; y is 0 [length]
-    smooth  q_x, q_y, p over √(1-η²) at η = k/(n-1) from the centre and angles 2πj/J (3, n, J); for
-            J = 1 axisymmetric q_r, q_θ, p [force/length²]
+    smooth  q_x, q_y, p over √(1-η²) at η = k/(n-1) and angles 2πj/J (3, n, J); for J = 1
+            axisymmetric q_r, q_θ, p [force/length²]
     """
 
     radius: float
@@ -35,19 +38,23 @@ class LoadedCircle:
 
     @property
     def is_round(self) -> bool:
-        """True for axisymmetric tractions."""
+        """Return true if the tractions are axisymmetric."""
         return self.smooth.shape[2] == 1
 
     @property
     def load(self) -> float:
-        """∫ p dA [force]."""
+        """Return the normal force, the integral ∫ p dA of the pressure [force]."""
         eta, area = self.disc_rule(LOAD_POINTS)
         return float(2 * np.pi * self.radius**2 * self.harmonics(eta, HARMONICS)[2][0].real @ area)
 
     @staticmethod
     def disc_rule(count: int) -> tuple[Array, Array]:
-        """Return positions η and weights η dη of Gauss panels; η = sin α removes the root at the
-        edge."""
+        """Return points η and weights η dη of Gauss quadrature over a disc of unit radius.
+
+        The substitution η = sin α removes the root of the tractions at the edge.
+
+        count  least number of points
+        """
         panels = -(-count // PANEL)
         v, weights = unit_gauss(PANEL)
         angle = ((np.arange(panels)[:, None] + v) / panels).ravel() * (np.pi / 2)
@@ -55,11 +62,14 @@ class LoadedCircle:
         return eta, np.tile(weights, panels) / panels * (np.pi / 2) * np.cos(angle) * eta
 
     def reversed(self) -> LoadedCircle:
-        """Return the tractions on the upper body, with z into it."""
+        """Return the tractions on the upper body, in its coordinates with z into this body."""
         return replace(self, smooth=self.smooth * np.array([-1.0, -1.0, 1.0])[:, None, None])
 
     def at(self, x: Array, y: Array) -> Array:
-        """Return q_x, q_y and p (3, …) at positions from the centre, in radii; 0 outside."""
+        """Interpolate the tractions q_x, q_y and p to positions (3, …); 0 outside the circle.
+
+        x, y  coordinates from the centre over the radius (…)
+        """
         eta = np.hypot(x, y)
         root = np.sqrt(np.maximum((1 - eta) * (1 + eta), 0.0))
         _, n, angles = self.smooth.shape
@@ -82,10 +92,12 @@ class LoadedCircle:
         return np.asarray(root * (inner * (1 - off) + outer * off))
 
     def harmonics(self, eta: Array, highest: int) -> tuple[Complex, Complex, Complex]:
-        """Return the amplitudes of exp(imθ) of q_r + i q_θ, q_r - i q_θ and p, m = 0 … highest.
+        """Return the amplitudes of exp(imθ) of q_r + i q_θ, q_r - i q_θ and p, for m = 0 … highest.
 
-        Their shape is (highest + 1, n). Except for m = 0 they are doubled, as sums over m ≥ 0
+        The shape of each is (highest + 1, n). Except for m = 0 they are doubled, as sums over m ≥ 0
         require.
+
+        eta  distances from the centre over the radius (n,)
         """
         count = 2 * highest + 2
         theta = 2 * np.pi * np.arange(count) / count

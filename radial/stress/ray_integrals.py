@@ -1,9 +1,10 @@
 """Displacement and stress in a half-space below a loaded circle, as integrals along rays.
 
-The solutions of Boussinesq and Cerruti (Johnson 1985, sections 3.2 and 3.6) are integrated over the
-circle in polar coordinates about the point of evaluation. The Jacobian reduces their d⁻² by one
-power. At the surface the mean over the angle of the remaining singular term is zero, so ∫ t/d is a
-finite part. Lengths are in units of the circle's radius.
+The solutions of Boussinesq and Cerruti for point forces (Johnson 1985, sections 3.2 and 3.6) are
+integrated over the circle in polar coordinates about the point of evaluation. The Jacobian reduces
+their d⁻² by one power, where d is the distance along the ray. At the surface the mean over the
+angle of the remaining singular term is zero, so ∫ t/d of the traction t is a finite part. Lengths
+are in units of the circle's radius.
 """
 
 from __future__ import annotations
@@ -27,9 +28,13 @@ MAX_AT_ONCE = 1 << 18  # points
 def below_circle(
     circle: LoadedCircle, material: HalfSpace, x: Array, y: Array, depth: float, fineness: int = 1
 ) -> Array:
-    """Return u_x, u_y, u_z [length] and σ_xx, yy, zz, yz, xz, xy [force/length²] (9, n).
+    """Return displacement and stress in a half-space below a loaded circle (9, n).
 
-    x, y, depth  from the circle's centre, over its radius
+    The fields are u_x, u_y, u_z [length] and σ_xx, yy, zz, yz, xz, xy [force/length²].
+
+    circle       tractions on the surface
+    material     elastic constants of the half-space
+    x, y, depth  coordinates of the points from the circle's centre, over its radius
     fineness     multiple of the number of points
     """
     found = np.empty((9, len(x)))
@@ -56,14 +61,18 @@ def below_circle(
 
 
 def _panels(smallest: Array) -> Array:
-    """Return the number of panels that grow from the smallest to 1."""
+    """Return the number of panels that grow in constant ratio from a smallest width to 1."""
     return np.asarray(1 - np.log(smallest) / np.log(WIDER))
 
 
 def _of_angles(r: Array, count: int, fineness: int) -> tuple[Array, Array]:
-    """Return angles from the outward direction and weights (n, rays), for points inside.
+    """Return the angles of rays and their weights (n, rays), for points inside the circle.
 
-    Rays are dense where they are nearly tangential to the edge.
+    Angles are counted from the outward direction. Rays are dense where they are nearly tangential
+    to the edge.
+
+    r      distances of the points from the centre over the radius (n,)
+    count  number of panels of a quadrant
     """
     width = np.sqrt((1 - r) * (1 + r))
     v, weights = unit_gauss(ANGLES * fineness)
@@ -76,7 +85,11 @@ def _of_angles(r: Array, count: int, fineness: int) -> tuple[Array, Array]:
 
 
 def _graded(smallest: Array, count: int) -> Array:
-    """Return 0, smallest, …, 1 in equal ratios (…, count + 1)."""
+    """Return edges of panels: 0, then from the smallest value to 1 in equal ratios (…, count + 1).
+
+    smallest  first edge after 0 (…)
+    count     number of panels
+    """
     powers = np.arange(count - 1, -1, -1) / max(count - 1, 1)
     grown = smallest[..., None] ** powers
     return np.concatenate([np.zeros_like(grown[..., :1]), grown], axis=-1)
@@ -86,9 +99,11 @@ def _summed(
     circle: LoadedCircle, material: HalfSpace, x: Array, y: Array, depth: float,
     angles: tuple[Array, Array] | None, count: int, fineness: int,
 ) -> Array:  # fmt: skip
-    """Return the result of `below_circle` for points with the same panels.
+    """Compute displacement and stress as in `below_circle`, for points with equal panels.
 
-    angles  of the rays, from the outward direction; None outside
+    angles  angles of the rays from the outward direction, and weights; None for points outside the
+            circle
+    count   number of panels of a ray
     """
     r = np.hypot(x, y)[:, None]
     outward = np.arctan2(y, x)[:, None]
@@ -132,9 +147,12 @@ def _summed(
 
 
 def _on_rays(scale: Array, count: int, fineness: int) -> tuple[Array, Array]:
-    """Return positions between 0 and 1 and weights (…, points), dense towards 0.
+    """Return positions along rays between 0 and 1, and weights (…, points), dense towards 0.
 
     Substitutions remove roots at both ends.
+
+    scale  width of the first panel over the length of the ray (…)
+    count  number of panels
     """
     edges = _graded(scale, count)
     v, weights = unit_gauss(POINTS * fineness)
@@ -150,10 +168,15 @@ def _on_rays(scale: Array, count: int, fineness: int) -> tuple[Array, Array]:
 
 
 def _kernels(material: HalfSpace, d: Array, depth: float) -> tuple[Array, ...]:
-    """Return d times the kernels of p, of q along the ray and of q across it, at a distance d.
+    """Return displacement and stress by a unit point force at a distance d, times d.
 
-    They are u_s, u_z, σ_ss, σ_tt, σ_zz, σ_sz for p and for q along the ray, and u_t, σ_st for q
-    across, with s towards the traction.
+    For pressure and for shear along the ray they are u_s, u_z, σ_ss, σ_tt, σ_zz, σ_sz, and for
+    shear across the ray u_t, σ_st. s points along the ray towards the force, t across. Each has the
+    shape of d.
+
+    material  elastic constants of the half-space
+    d         horizontal distance between the point and the force
+    depth     depth of the point
     """
     G, nu = material
     g, z = 1 - 2 * nu, depth
@@ -188,11 +211,19 @@ def _kernels(material: HalfSpace, d: Array, depth: float) -> tuple[Array, ...]:
 def _by_rays(
     material: HalfSpace, t: Array, d: Array, weight: Array, depth: float, cos: Array, sin: Array
 ) -> Array:
-    """Return u_s, u_t, u_z, σ_ss, σ_tt, σ_zz, σ_sz, σ_st of every ray (8, n, rays)."""
+    """Integrate displacement and stress along every ray (8, n, rays).
+
+    The fields are u_s, u_t, u_z, σ_ss, σ_tt, σ_zz, σ_sz, σ_st, with s along the ray and t across.
+
+    t          tractions q_x, q_y, p at the points of the rays (3, n, rays, points)
+    d, weight  distances of these points, and quadrature weights
+    cos, sin   of the direction of every ray
+    """
     pu, pw, pss, ptt, pzz, psz, su, sw, sss, stt, szz, ssz, tu, tst = _kernels(material, d, depth)
     q_x, q_y, p = t * weight
 
     def total(field: Array) -> Array:
+        """Sum a field over the points of every ray."""
         return np.asarray(np.sum(field, axis=-1))
 
     c, s = cos[..., None], sin[..., None]
@@ -207,9 +238,14 @@ def _by_rays(
 def _finite_part(
     material: HalfSpace, here: Array, d: Array, weight: Array, length: Array, cos: Array, sin: Array
 ) -> Array:
-    """Return the correction of ∫ t/d by quadrature to its finite part.
+    """Return the correction of quadratures of t/d along rays to their finite parts (8, n, rays).
 
-    For the traction at the point it is ln R minus the quadrature.
+    For the traction t at the point of evaluation the correction is ln(length of the ray) minus the
+    quadrature of 1/d.
+
+    here       tractions q_x, q_y, p at the points of evaluation (3, n)
+    d, weight  distances of the points of the rays, and quadrature weights
+    length     lengths of the rays
     """
     left = np.log(length) - np.sum(weight / d, axis=-1)
     unit, g, nu = 1 / (2 * pi), 1 - 2 * material.poisson_ratio, material.poisson_ratio
@@ -224,7 +260,11 @@ def _finite_part(
 
 
 def _turned(rays: Array, cos: Array, sin: Array, weight: Array) -> Array:
-    """Return sums over the rays, in x and y (9, n)."""
+    """Sum the fields of all rays of every point, in the components of x and y (9, n).
+
+    rays              u_s, u_t, u_z and stresses along and across every ray (8, n, rays)
+    cos, sin, weight  direction and weight of every ray
+    """
     u_s, u_t, u_z, ss, tt, zz, sz, st = rays * weight
     c2, s2, cs = cos * cos, sin * sin, cos * sin
     each = (

@@ -1,10 +1,11 @@
 """Displacement and stress in a layered body below the tractions of a circle.
 
 In the outermost layer they are those of a half-space (`ray_integrals`) plus the contribution of the
-layers. This contribution has the images of the surface at a distance of at least 2h - z, and needs
-few wavenumbers. Below the outermost layer all contributions have a distance of at least z. The
-Hankel integrals are evaluated for every harmonic: with A = H_{m+1}(q_r + i q_θ) and B = H_{m-1}(q_r
-- i q_θ), waves ∝ exp(imψ) have the tractions (B - A)/2 along the wave vector and -(A + B)/2 across.
+layers. This contribution has the images of the surface at a distance of at least 2h - z (h:
+thickness of the outermost layer, z: depth), and needs few wavenumbers. Below the outermost layer
+all contributions have a distance of at least z. The Hankel integrals are evaluated for every
+harmonic m: with the Hankel transforms A = H_{m+1}(q_r + i q_θ) and B = H_{m-1}(q_r - i q_θ), waves
+∝ exp(imψ) have the tractions (B - A)/2 along the wave vector and -(A + B)/2 across.
 """
 
 from __future__ import annotations
@@ -36,12 +37,12 @@ MAX_AT_ONCE = 1 << 21  # numbers
 
 
 class SubsurfaceCircle:
-    """Fields of one body below a loaded circle.
+    """Displacement and stress of one body below a loaded circle.
 
-    circle    tractions
+    circle    tractions on the body
     stack     the body, with or without layers
-    reach     largest distance of points from the centre over the radius
-    highest   harmonic
+    reach     largest distance of points from the centre over the radius of the circle
+    highest   highest angular harmonic of the tractions
     fineness  multiple of the numbers of points and wavenumbers
     """
 
@@ -58,7 +59,10 @@ class SubsurfaceCircle:
             self._sources = self._transforms() * (weights * self._kappa)
 
     def _transforms(self) -> Complex:
-        """Return A, B and the transform of p (3, M + 1, κ), lengths in units of the radius."""
+        """Return the Hankel transforms A, B and that of the pressure, for all harmonics.
+
+        The shape is (3, M + 1, κ). The module defines A and B. Lengths are in units of the radius.
+        """
         count = ceil(max(LEAST_POINTS, self._kappa[-1]) * self.fineness)
         eta, area = self.circle.disc_rule(count)
         outward, inward, p = self.circle.harmonics(eta, self.highest)
@@ -71,22 +75,26 @@ class SubsurfaceCircle:
         return found
 
     def _orders(self, at: Array) -> list[Array]:
-        """Return J_0 … J_{M+2}."""
+        """Return the Bessel functions J_0 … J_{M+2} at given arguments; M is the highest
+        harmonic."""
         return list(bessel_functions(self.highest + 2, at))
 
     def _blocks(self, points: int) -> list[slice]:
-        """Return blocks of wavenumbers that limit the memory of the Bessel functions.
+        """Return slices of the wavenumbers that limit the memory of the Bessel functions.
 
-        points  number of points
+        points  number of points per wavenumber
         """
         step = max(MAX_AT_ONCE // (points * (self.highest + 3)), 1)
         return [slice(k, k + step) for k in range(0, len(self._kappa), step)]
 
     def at(self, levels: Sequence[Level], x: Array, y: Array) -> Array:
-        """Return u_x, u_y, u_z [length] and σ_xx, yy, zz, yz, xz, xy [force/length²].
+        """Compute displacement and stress at points of given levels (levels, 9, n).
 
-        The shape is (levels, 9, n), for points (n,) in the scene's axes [length]. Raises ValueError
-        for a level in a rigid base.
+        The fields are u_x, u_y, u_z [length] and σ_xx, yy, zz, yz, xz, xy [force/length²]. Raises
+        ValueError for a level in a rigid base.
+
+        levels  depths, each with its layer
+        x, y    coordinates of the points in the scene's axes (n,) [length]
         """
         a = self.circle.radius
         found = np.zeros((len(levels), 9, len(x)))
@@ -100,6 +108,11 @@ class SubsurfaceCircle:
         return found
 
     def _add_layers(self, levels: Sequence[Level], x: Array, y: Array, found: Array) -> None:
+        """Add the contribution of the layers to displacement and stress at all levels.
+
+        x, y   coordinates of the points from the centre over the radius (n,)
+        found  fields to which the contribution is added (levels, 9, n)
+        """
         a, h = self.circle.radius, self.stack.layers[0].thickness
         r, theta = np.hypot(x, y), np.arctan2(y, x)
         turns = np.exp(1j * np.arange(self.highest + 1)[:, None] * theta)
@@ -119,7 +132,7 @@ class SubsurfaceCircle:
 
 
 def _order(orders: Sequence[Array], m: int) -> Array:
-    """Return J_m for any sign of m."""
+    """Return the Bessel function J_m for any sign of m, from J_0, J_1, …"""
     return orders[m] if m >= 0 else (-1) ** m * orders[-m]
 
 
@@ -127,7 +140,17 @@ def _transformed(
     descent: Descent, level: Level, sources: Complex, orders: Sequence[Array], turns: Complex,
     count: int,
 ) -> Array:  # fmt: skip
-    """Return u_r, u_θ, u_z, σ_rr, θθ, zz, θz, rz, rθ (9, n), summed over harmonics."""
+    """Compute the fields of the waves in cylindrical components, summed over harmonics (9, n).
+
+    They are u_r, u_θ, u_z, σ_rr, θθ, zz, θz, rz, rθ.
+
+    descent  propagation of the surface tractions to depths of the body
+    level    depth and layer
+    sources  A, B and the transform of the pressure, times quadrature weights (3, M + 1, κ)
+    orders   Bessel functions J_0, J_1, … at κ r (κ, n)
+    turns    exp(imθ) at the points (M + 1, n)
+    count    number of wavenumbers
+    """
     fields = descent.remainder(level)
     plane = in_plane(fields, material_at(descent.stack, level), descent.alpha)
     total = np.zeros((9, turns.shape[1]))
@@ -136,6 +159,11 @@ def _transformed(
         along, across = (B - A) / 2, -(A + B) / 2
 
         def by_wave(entries: Array, along: Complex = along, p: Complex = p) -> Complex:
+            """Return the response to the traction along the wave vector and the pressure (κ,).
+
+            entries  responses to a unit traction along the wave vector and to a unit pressure (2,
+                     κ)
+            """
             return np.asarray(entries[0, :count] * along + entries[1, :count] * p)
 
         U, W = by_wave(fields.displacement[0]), by_wave(fields.displacement[1])
@@ -161,7 +189,11 @@ def _transformed(
 
 
 def _turned(polar: Array, cos: Array, sin: Array) -> Array:
-    """Transform radial and circumferential components to x and y (levels, 9, n)."""
+    """Transform radial and circumferential components of fields to x and y (levels, 9, n).
+
+    polar     u_r, u_θ, u_z, σ_rr, θθ, zz, θz, rz, rθ (levels, 9, n)
+    cos, sin  of the angle θ of the points (n,)
+    """
     u_r, u_t, u_z, rr, tt, zz, tz, rz, rt = np.moveaxis(polar, 1, 0)
     mean, half = (rr + tt) / 2, (rr - tt) / 2
     c2, s2 = cos * cos - sin * sin, 2 * sin * cos

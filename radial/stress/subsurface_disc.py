@@ -1,4 +1,4 @@
-"""Displacement and stress in a layered body below the pressure of a disc."""
+"""Displacement and stress in a layered body below the pressure of a frictionless contact."""
 
 from __future__ import annotations
 
@@ -25,13 +25,14 @@ BLOCK = 4096  # wavenumbers per block of Bessel functions
 
 
 class SubsurfaceDisc:
-    """Fields of one body below a contact on a disc.
+    """Displacement and stress of one body below a frictionless contact on a disc.
 
     In the outermost layer they are those of a half-space (`half_space`) plus the contribution of
-    the layers. This contribution has the images of the surface at a distance of at least 2h - z,
-    and needs few wavenumbers. Below the outermost layer all contributions have a distance of at
-    least z.
+    the layers. This contribution has the images of the surface at a distance of at least 2h - z (h:
+    thickness of the outermost layer, z: depth), and needs few wavenumbers. Below the outermost
+    layer all contributions have a distance of at least z.
 
+    contact   frictionless contact, which gives the pressure
     stack     the body, with or without layers
     reach     largest radius of points over the contact radius
     fineness  multiple of the number of wavenumbers
@@ -49,11 +50,13 @@ class SubsurfaceDisc:
         self._sources = scale * weights * self._places * contact.wave_transform(chosen)
 
     def at(self, levels: Sequence[Level], r: Array) -> Array:
-        """Return u_r, u_z [length], σ_rr, σ_θθ, σ_zz, σ_rz [force/length²], shape (levels, 6, n).
+        """Compute displacement and stress at points of given levels (levels, 6, n).
 
-        Raises ValueError for a level in a rigid base.
+        The fields are u_r, u_z [length], σ_rr, σ_θθ, σ_zz, σ_rz [force/length²]. Raises ValueError
+        for a level in a rigid base.
 
-        r  radii (n,) [length]
+        levels  depths, each with its layer
+        r       radii of the points (n,) [length]
         """
         found = np.zeros((len(levels), 6, len(r)))
         x = r / self.contact.radius
@@ -66,6 +69,11 @@ class SubsurfaceDisc:
         return found
 
     def _add_layers(self, levels: Sequence[Level], x: Array, found: Array) -> None:
+        """Add the contribution of the layers to displacement and stress at all levels.
+
+        x      radii of the points over the contact radius (n,)
+        found  fields to which the contribution is added (levels, 6, n)
+        """
         a, h = self.contact.radius, self.stack.layers[0].thickness
         for start in range(0, len(self._places), BLOCK):
             k = self._places[start : start + BLOCK]
@@ -87,10 +95,13 @@ class SubsurfaceDisc:
 
 
 def _scalars(descent: Descent, level: Level) -> Array:
-    """Return the transforms by pressure (6, wavenumbers).
+    """Return the responses of a layered body to pressure at one level, per wavenumber (6, κ).
 
-    They are U, W, s, n of `frf.depth`, and half the sum and half the difference of the stresses
-    along and across the wave vector.
+    They are the displacements U, W and tractions s, n of `frf.depth`, and half the sum and half the
+    difference of the stresses along and across the wave vector.
+
+    descent  propagation of the surface tractions to depths of the body
+    level    depth and layer
     """
     fields = descent.remainder(level)
     plane = in_plane(fields, material_at(descent.stack, level), descent.alpha)
@@ -100,6 +111,12 @@ def _scalars(descent: Descent, level: Level) -> Array:
 
 
 def _transformed(scalars: Array, zeroth: Array, first: Array, second: Array) -> Array:
+    """Compute u_r, u_z, σ_rr, σ_θθ, σ_zz, σ_rz from their transforms (6, n).
+
+    scalars                responses of `_scalars`, times the transform of the pressure and
+                           quadrature weights (6, κ)
+    zeroth, first, second  Bessel functions J₀, J₁, J₂ at κ x (κ, n)
+    """
     U, W, s, n, mean, half = scalars
     out, shear = -np.stack([U, -s]) @ first
     down, normal, mean_there = np.stack([W, -n, mean]) @ zeroth

@@ -365,8 +365,7 @@ class TangentialSteps(StepsOnRings):
 
     @staticmethod
     def _admissible(points: Points, shear: Array, limit: Array) -> Array:
-        """Reduce interpolated shear to the friction limit, at nearly equal force and torque per
-        ring.
+        """Reduce interpolated shear to the friction limit, at equal force and torque per ring.
 
         Interpolation exceeds the limit near the border of the stick zone. Alternating projections
         remove the excess.

@@ -66,8 +66,7 @@ class FrictionLimit:
         return _summed(self.slopes, panel, place)
 
     def slope_rate(self, t: Array) -> Array:
-        """Return the derivative of the transform h/t of the friction limit at points t
-        [force/length]."""
+        """Return the derivative d(h/t)/dt of the friction limit's transform at t [force/length]."""
         panel, place = _place(t)
         return np.asarray(_summed(self.rates, panel, place) * 2.0**panel)
 
