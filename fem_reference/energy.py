@@ -155,10 +155,8 @@ def _hats(radii: Field) -> Hats:
 def _loads(increment: Increment) -> tuple[Field, Field | None]:
     """Return the forces and the conjugate motions of an increment.
 
-    The forces are (W, T_x, T_y, M_z).
-
-    The motions are (approach, shift along x, shift along y, twist). The motions are None if the
-    shift or the twist is undefined.
+    The forces are (W, T_x, T_y, M_z). The motions are (approach, shift along x, shift along y,
+    twist). The motions are None if the shift or the twist is undefined.
     """
     force, shift = increment.tangential_force, increment.tangential_shift
     torque, twist = increment.torque, increment.twist

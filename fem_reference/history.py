@@ -118,9 +118,8 @@ class _Solver:
     def _along(self, ramp: LoadRamp) -> ScalarControl | None:
         """Return the control of the twist or of the tangential motion.
 
-        The tangential motion is projected on the plan's direction.
-
-        Return None if the plan has neither torsion nor a tangential load.
+        The tangential motion is projected on the plan's direction. Return None if the plan has
+        neither torsion nor a tangential load.
         """
         path, control = self.method.plan.path, ramp.tangential
         if path is Path.TWISTING:

@@ -137,9 +137,8 @@ class ContactModel:
     def _condensed(self, of: Motion) -> NodalCompliance:
         """Return the compliance of the two surfaces in one motion.
 
-        The compliance is computed at its first use and stored.
-
-        The result has the units of the scene and contains the compliance of the rig's springs.
+        The compliance is computed at its first use and stored. The result has the units of the
+        scene and contains the compliance of the rig's springs.
         """
         if of not in self._compliances:
             condensed = composite(*self.sections, of)

@@ -97,11 +97,10 @@ class PointCompliance:
     def matrix(self) -> Matrix:
         """Compliance matrix K of all points (3 points, 3 points), with w u = K t.
 
-        Rows and columns are ordered by the components r, θ, z, then by points.
-
-        Here t are the tractions, u the displacements and w the areas of the points. K is symmetric
-        and positive definite. If mirror symmetry excludes a component at a point, a diagonal entry
-        keeps this component zero. The blocks of components a and b are
+        Rows and columns are ordered by the components r, θ, z, then by points. Here t are the
+        tractions, u the displacements and w the areas of the points. K is symmetric and positive
+        definite. If mirror symmetry excludes a component at a point, a diagonal entry keeps this
+        component zero. The blocks of components a and b are
 
             K_ab = Σ_n c_n A^n_ab ⊗ D_aᵀ D_b
 
@@ -126,9 +125,8 @@ class PointCompliance:
     def displacement(self, pressure: Vector, shear: Field) -> tuple[Field, Vector]:
         """Compute the displacement of the points by given tractions [length].
 
-        Return the tangential displacement (2, points) and the normal displacement (points,).
-
-        The computation is done harmonic by harmonic, independently of the compliance matrix. The
+        Return the tangential displacement (2, points) and the normal displacement (points,). The
+        computation is done harmonic by harmonic, independently of the compliance matrix. The
         tangential displacement is set to zero at points that cannot carry shear.
 
         pressure  pressure at the points (points,) [force/length^2]
@@ -196,10 +194,9 @@ class PointCompliance:
     def _summed_on_axis(self, weak: NDArray[np.float64]) -> NDArray[np.float64]:
         """Convert area-weighted displacements on rings and angles to points.
 
-        The shapes are (3, rings, angles, …) and (3, points, …).
-
-        On the axis the values of all angles are summed to components x, y and z. This conversion is
-        the transpose of `_spread`, so that the work of the tractions is preserved.
+        The shapes are (3, rings, angles, …) and (3, points, …). On the axis the values of all
+        angles are summed to components x, y and z. This conversion is the transpose of `_spread`,
+        so that the work of the tractions is preserved.
         """
         axis = np.einsum("cak,ak...->c...", self._axis, weak[:, 0])
         rest = weak[:, 1:].reshape(3, -1, *weak.shape[3:])

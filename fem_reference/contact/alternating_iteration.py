@@ -194,9 +194,8 @@ def approach_of(problem: CoupledProblem, pressed: BoxSolution) -> float:
 def press(problem: CoupledProblem, q: Field, guess: Sides) -> BoxSolution:
     """Solve the normal problem: the pressure at a given shear.
 
-    Under a prescribed force, the approach is part of the solution.
-
-    Raise NotConverged, or LinAlgError.
+    Under a prescribed force, the approach is part of the solution. Raise NotConverged, or
+    LinAlgError.
 
     q      shear at the points (2, points)
     guess  guess of the active set: 0 for points in contact, -1 for others (points,)

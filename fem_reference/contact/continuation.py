@@ -98,9 +98,8 @@ class _Path:
     def step(self, tolerance: float) -> Root | None:
         """Try one step along the path.
 
-        Return the solution without springs if the path has reached its end.
-
-        Return None otherwise. If the correction fails, the next step is shorter.
+        Return the solution without springs if the path has reached its end. Return None otherwise.
+        If the correction fails, the next step is shorter.
         """
         ahead = self._values + self._length * self._direction
         if ahead[-1] > 0:

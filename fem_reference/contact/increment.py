@@ -426,13 +426,12 @@ class _Increment:
 def _solved(problem: CoupledProblem, start: Start, tolerance: float) -> CoupledSolution:
     """Solve the coupled problem by the first of three algorithms that converges.
 
-    The algorithms are alternating iteration, Newton's method and continuation.
-
-    For coupled bodies the alternating iteration provides the initial guess of Newton's method,
-    which then converges to round-off in a few steps. If Newton's method fails from there, the
-    alternating iteration continues. Only the alternating iteration can end at the friction limit,
-    where the motion of the indenter is undefined. If the alternating iteration fails, Newton's
-    method and then continuation start from the initial guess of the increment.
+    The algorithms are alternating iteration, Newton's method and continuation. For coupled bodies
+    the alternating iteration provides the initial guess of Newton's method, which then converges to
+    round-off in a few steps. If Newton's method fails from there, the alternating iteration
+    continues. Only the alternating iteration can end at the friction limit, where the motion of the
+    indenter is undefined. If the alternating iteration fails, Newton's method and then continuation
+    start from the initial guess of the increment.
     """
     outer_iterations = spent = 0
     try:

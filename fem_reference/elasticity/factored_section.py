@@ -86,10 +86,8 @@ class FactoredSection:
     def compliance(self) -> Field:
         """Compute the displacement of the surface nodes per unit generalised force.
 
-        The shape is (c, m, c, m) for c components and m surface nodes.
-
-        The far field depends on the resultant alone and makes the matrix slightly asymmetric. The
-        result is the symmetric part.
+        The shape is (c, m, c, m) for c components and m surface nodes. The far field depends on the
+        resultant alone and makes the matrix slightly asymmetric. The result is the symmetric part.
         """
         numbering, first = self._numbering, self._numbering.contact
         stiffness = (self._lu.L[first:, first:] @ self._lu.U[first:, first:]).toarray()

@@ -25,9 +25,8 @@ LEAF = 4  # number of elements in a subtree that is not divided further
 class Numbering:
     """Degrees of freedom of a section, and the order of their elimination.
 
-    Each nodal displacement is a factor times one degree of freedom.
-
-    The displacement components of a node on the axis share one degree of freedom.
+    Each nodal displacement is a factor times one degree of freedom. The displacement components of
+    a node on the axis share one degree of freedom.
 
     dofs      degree of freedom of every displacement (c, n), for c components and n nodes
     factor    factor of every displacement (c, n)

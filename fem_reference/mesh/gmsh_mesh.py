@@ -114,10 +114,8 @@ def _restore_broken_pipes() -> None:
 
     gmsh replaces Python's handler, so that a broken pipe would terminate the process.
     """
-    if (
-        threading.current_thread() is threading.main_thread()
-        # Python permits a change of signal handlers in the main thread only.
-    ):
+    # Python permits a change of signal handlers in the main thread only.
+    if threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGPIPE, signal.getsignal(signal.SIGPIPE))
 
 

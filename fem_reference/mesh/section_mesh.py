@@ -25,10 +25,9 @@ CLOSEST = 0.25
 class SectionMesh:
     """Mesh of quadrilaterals in a meridional section of a body.
 
-    The unit of length is the expected contact radius.
-
-    The constructor raises SolverError if the sum of the element areas differs from the area of the
-    section, that is if elements are missing or overlap.
+    The unit of length is the expected contact radius. The constructor raises SolverError if the sum
+    of the element areas differs from the area of the section, that is if elements are missing or
+    overlap.
 
     points   corners (r, z) of the elements (2, n), exact on an outer edge, an interface or the axis
     quads    indices of the 4 corners of every element (4, e), in order around the element

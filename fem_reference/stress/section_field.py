@@ -62,9 +62,8 @@ class SectionField:
     def stress(self, theta: float = 0.0) -> Field:
         """Compute the stress rr, tt, zz, tz, rz, rt (6, n) at the angle theta [force/length^2].
 
-        The angle is counted from the direction of the load. Tension is positive.
-
-        Tension is positive [force/length^2].
+        The angle is counted from the direction of the load. Tension is positive. Tension is
+        positive [force/length^2].
         """
         return self._sum([part.stress for part in self.parts], AS_SINE, theta)
 
@@ -79,9 +78,8 @@ class SectionField:
     def side(self, depth: float, material: int) -> Indices:
         """Return the indices of the points on one side of an interface.
 
-        The points have the depth of the interface and belong to one material.
-
-        The indices are in the order of increasing radius.
+        The points have the depth of the interface and belong to one material. The indices are in
+        the order of increasing radius.
         """
         on_it = np.isclose(self.points[1], depth, rtol=SAME_DEPTH, atol=0.0)
         return self._sorted(on_it & (self.material == material), self.points[0])

@@ -134,10 +134,9 @@ def _carrying_the_load(
 ) -> list[tuple[Motion, Field]]:
     """Return traction amplitudes that are scaled to the normal load of the result.
 
-    The amplitudes are those at the integration points.
-
-    The result of a solve has linear interpolation between rings. Tractions with a square root at
-    the edge have a slightly larger load and are reduced accordingly.
+    The amplitudes are those at the integration points. The result of a solve has linear
+    interpolation between rings. Tractions with a square root at the edge have a slightly larger
+    load and are reduced accordingly.
 
     length  unit of length of the section [length]
     """

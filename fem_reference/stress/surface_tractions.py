@@ -83,9 +83,8 @@ class SurfaceTractions:
     def reach(self) -> float:
         """Radius of the first ring without pressure [length].
 
-        The interpolated pressure becomes zero at this ring.
-
-        If all rings carry pressure, the radius is that of the last ring.
+        The interpolated pressure becomes zero at this ring. If all rings carry pressure, the radius
+        is that of the last ring.
         """
         beyond = self.radii[self.radii > self.loaded_radius]
         return float(beyond[0]) if beyond.size else self.loaded_radius
@@ -94,10 +93,9 @@ class SurfaceTractions:
     def edges(self) -> Field:
         """Radii of the contact edge at θ = 0 and θ = π [length].
 
-        These edges are in front of and behind the load.
-
-        The two radii are equal for an axisymmetric pressure. The array is empty if the tractions
-        are not `rooted` or if too few rings carry pressure.
+        These edges are in front of and behind the load. The two radii are equal for an axisymmetric
+        pressure. The array is empty if the tractions are not `rooted` or if too few rings carry
+        pressure.
         """
         if not self.rooted or self._fewest < FEWEST_RINGS:
             return np.empty(0)
