@@ -27,10 +27,10 @@ class Method(Enum):
 class Increment(RingIncrement):
     """Converged contact state at the end of one increment of the load history.
 
-    Pressure and shear are values at the rings, that is at the nodes of the surface, with linear
-    interpolation between the rings. Gap and slip are means over each ring, weighted with the hat
-    function of the ring. The exact law therefore gives a gap of exactly zero in contact and a slip
-    of exactly zero in stick.
+    Pressure and shear are values at the rings, with linear interpolation between the rings. A ring
+    is a circle around the axis on the surface, through a corner node of the mesh. Gap and slip are
+    means over each ring, weighted with the hat function of the ring. The exact law therefore gives
+    a gap of exactly zero in contact and a slip of exactly zero in stick.
 
     factorizations  number of sparse factorisations
     sweeps          number of alternating iterations between the normal and the tangential problem

@@ -32,9 +32,12 @@ from fem_reference.plan import Path
 
 
 def solved_increments(method: ContactMethod, tolerance: float) -> Iterator[Increment]:
-    """Yield the increments of the scene's load history, in order.
+    """Solve the load history of a scene and yield its increments in order.
 
     The errors are those of `resumable_solve`.
+
+    method     contact method of the scene
+    tolerance  upper limit of every residual [1]
     """
     return (increment for increment, _ in resumable_solve(method, tolerance))
 
@@ -42,8 +45,10 @@ def solved_increments(method: ContactMethod, tolerance: float) -> Iterator[Incre
 def resumable_solve(
     method: ContactMethod, tolerance: float, since: Checkpoint | None = None
 ) -> Iterator[tuple[Increment, ResumePoint[PointState]]]:
-    """Yield the increments of the scene's load history, each with the resume point after it.
+    """Solve the load history of a scene and yield its increments, each with the resume point after
+    it.
 
+    method     contact method of the scene
     tolerance  upper limit of every residual [1]
     since      checkpoint after which the solve resumes; None for the whole history
     raises     NotConverged and GrossSliding, with the last converged increment as `last_state`

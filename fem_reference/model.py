@@ -74,7 +74,7 @@ class ContactModel:
 
     @cached_property
     def hats(self) -> Hats:
-        """Hat functions over the radius, one for each corner node that can carry traction.
+        """Hat functions of the tractions over the radius, one for each corner node on the surface.
 
         If the indenter has a rim, the functions end at the rim.
         """

@@ -31,7 +31,16 @@ STRAIGHT = 1e-9
 
 
 class Path(Enum):
-    """Tractions that a solve computes, and their dependence on the angle."""
+    """Tractions that a solve computes, and their dependence on the angle.
+
+    PRESSING   pressure alone
+    PRESSING_WITH_FRICTION
+               pressure and radial shear, both axisymmetric, for coupled bodies
+    TWISTING   pressure, then circumferential shear by torsion
+    SHEARING   pressure, then shear along the tangential load, without coupling
+    HARMONICS  pressure and shear of coupled bodies under a tangential load, on several angular
+               harmonics
+    """
 
     PRESSING = "pressure alone"
     PRESSING_WITH_FRICTION = "pressure and radial shear, coupled"
@@ -42,7 +51,9 @@ class Path(Enum):
 
 @dataclass(frozen=True)
 class Plan:
-    """Effects that are computed for a scene. Effects that do not occur in the scene need no work.
+    """Plan of a solve: effects that are computed, and numbers of increments.
+
+    Effects that do not occur in the scene need no work.
 
     path          tractions of the solve
     direction     unit vector (x, y) of the tangential load, (1, 0) without one

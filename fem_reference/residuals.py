@@ -16,7 +16,7 @@ LEAST_SLIP = 1e-3
 
 
 def over(part: float, whole: float) -> float:
-    """Compute the quotient part / whole without an error for a zero denominator.
+    """Compute the quotient part / whole, also for a zero denominator.
 
     Return 0 if `part` is zero, and infinity if only `whole` is zero.
     """

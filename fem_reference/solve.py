@@ -53,7 +53,8 @@ def solve(
         Called with each increment after its solve. If the contact does not fit the mesh, the
         history restarts on another mesh, and the calls start again from the first increment.
     store
-        Checkpoints of an earlier run of the same solve. The solve resumes after the last one.
+        Storage of checkpoints. If it contains checkpoints of an earlier run of the same solve, the
+        solve resumes after the last one.
 
     Raises
     ------

@@ -18,11 +18,11 @@ Scalar = TypeVar("Scalar", np.float64, np.bool_)
 class PointCompliance:
     """Displacements of all surface points by tractions on all surface points.
 
-    The point on the ring r_i at the angle θ_j represents the area w_ij = Δθ_j ∫ φ_i r dr, and
-    displacements are weighted with this area. On a grid of several angles, the first ring is the
-    axis and is one point with one traction. Fields on points are flat (points,): first the axis,
-    then ring by ring. Vectors (2, points) have the components r and θ, on the axis of several
-    angles x and y.
+    A point lies on a ring, a circle of radius r_i around the axis, at the angle θ_j. It represents
+    the area w_ij = Δθ_j ∫ φ_i r dr with the basis function φ_i of the ring, and displacements are
+    weighted with this area. On a grid of several angles, the first ring is the axis and is one
+    point with one traction. Fields on points are flat (points,): first the axis, then ring by ring.
+    Vectors (2, points) have the components r and θ, on the axis of several angles x and y.
 
     rings, grid  radii and angles of the points, with the compliance of the rings
     springs      compliance of penalty springs between the surfaces, equal in the normal and
@@ -35,12 +35,12 @@ class PointCompliance:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Number of rings, including the axis, and number of angles."""
+        """Number of rings on the surface, including the axis, and number of angles on each ring."""
         return len(self.rings.radii), self.grid.points
 
     @cached_property
     def ring_of_point(self) -> NDArray[np.intp]:
-        """Index of the ring that contains each point (points,)."""
+        """Index of the ring that contains each surface point (points,)."""
         rings, angles = self.shape
         return np.concatenate([[0], np.repeat(np.arange(1, rings), angles)])
 

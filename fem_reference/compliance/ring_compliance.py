@@ -26,8 +26,9 @@ R, THETA, Z = range(3)
 
 @dataclass(frozen=True)
 class RingCompliance:
-    """Displacement amplitudes of the rings per traction amplitude, for all angular harmonics.
+    """Displacement amplitudes of surface rings per traction amplitude, for all angular harmonics.
 
+    A ring is a circle around the axis on the surface, through a corner node or a Gauss point.
     Displacements are integrated, and tractions interpolated, with one function φ of the radius for
     each ring.
 

@@ -81,10 +81,10 @@ class Edge(Protocol):
         """
 
     def radius(self, radii: Field, values: Field, last: int, step: int = 1) -> float:
-        """Compute the radius at which ring values decrease to zero [length].
+        """Compute the radius at which a traction that is given on rings decreases to zero [length].
 
-        radii   radii of the rings (n,) [length]
-        values  values at the rings (n,), positive at the ring `last` and before it, zero at the
+        radii   radii of the rings, circles around the axis on the surface (n,) [length]
+        values  traction at the rings (n,), positive at the ring `last` and before it, zero at the
                 next ring
         last    index of the last ring with a positive value
         step    +1 if the values decrease outwards, -1 if they decrease inwards
@@ -110,9 +110,10 @@ class HatEdge:
         return HatEdge()
 
     def radius(self, radii: Field, values: Field, last: int, step: int = 1) -> float:
-        """Compute the radius at which ring values decrease to zero; see `Edge.radius`.
+        """Compute the radius at which a traction that is given on rings decreases to zero [length].
 
-        The distance from the last ring follows from the ratio of the last two positive values.
+        The distance from the last ring with a positive value follows from the ratio of the last two
+        positive values. Arguments are those of `Edge.radius`.
         """
         before, after = last - step, last + step
         width = radii[after] - radii[last]
@@ -144,11 +145,12 @@ class GaussEdge:
         return self
 
     def radius(self, radii: Field, values: Field, last: int, step: int = 1) -> float:
-        """Compute the radius at which point values decrease to zero; see `Edge.radius`.
+        """Compute the radius at which a traction that is given at Gauss points decreases to zero
+        [length].
 
         The squares of the values near the edge are fitted by a parabola in r², whose zero is the
         result. If there are too few values or no zero nearby, the result is the middle between the
-        last point and the next.
+        last point and the next. Arguments are those of `Edge.radius`.
         """
         beyond = last + step
         middle = radii[last]
@@ -171,6 +173,7 @@ def contact_edge(radii: Field, pressure: Field, edge: Edge, reach: float | None 
     If the last ring carries pressure, the result is the outer end of the last element, as for a
     flat punch. Without pressure the result is 0.
 
+    radii     radii of the rings, circles around the axis on the surface (n,) [length]
     pressure  pressure at the rings (n,), not negative
     edge      rule for the radius between two rings
     reach     outer end of the last element [length]; None for the radius of the last ring
@@ -191,6 +194,7 @@ def stick_area(
 
     The fields are those of an axisymmetric contact, or those along one ray.
 
+    radii           radii of the rings, circles around the axis on the surface (n,) [length]
     bound           friction limit µp at the rings (n,), zero where no shear is possible
     shear           one or two components of the shear at the rings (c, n)
     slips           True for rings that are in contact and slip (n,)

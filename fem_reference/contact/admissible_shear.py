@@ -70,10 +70,12 @@ def project(
 def _slope(moved: Field, bound: Vector, along: Field, push: Field) -> float:
     """Compute the derivative of the resultant of the projected shear by the multiplier λ.
 
-    Vectors at the friction limit change their direction only.
+    Vectors that exceed the friction limit change their direction only.
 
     moved  shear vectors before the projection (2, points)
-    push   derivative of these vectors by λ (2, points)
+    bound  friction limit (points,)
+    along  factors of the shear in the resultant (2, points)
+    push   derivative of the shear vectors by λ (2, points)
     """
     length = np.sqrt(moved[0] ** 2 + moved[1] ** 2)
     outside = length > bound
@@ -85,9 +87,10 @@ def _slope(moved: Field, bound: Vector, along: Field, push: Field) -> float:
 
 
 def _between(low: float, high: float, jump: float) -> float:
-    """Return a point between two bounds of a bracket, which may be infinite.
+    """Return a trial value inside the bracket of the multiplier λ.
 
-    jump  distance of the point from the finite bound if the other bound is infinite
+    low, high  ends of the bracket, which may be infinite
+    jump       distance of the value from the finite end if the other end is infinite
     """
     if np.isinf(high):
         return low + jump

@@ -39,8 +39,9 @@ DEPENDENT = 1e-10  # relative size of a difference below which it depends linear
 
 @dataclass(frozen=True)
 class CoupledProblem:
-    """Contact problem of one increment on points, with its loads.
+    """Contact problem of one increment at the points of the surface, with its loads.
 
+    compliance  displacement of all points per traction on all points
     gap         gap without tractions (points,) [length]
     friction    Coulomb friction between the surfaces
     target      tangential displacement of the points under full stick and zero shift of the
@@ -108,9 +109,10 @@ class CoupledSolution:
 
 
 class AlternationFailed(NotConverged):
-    """Error: the alternating iteration did not converge.
+    """Exception: the alternating iteration of pressure and shear did not converge.
 
-    The attributes are the number of alternating iterations and of linear systems that were solved.
+    outer_iterations  number of alternating iterations
+    solves            number of linear systems solved
     """
 
     def __init__(
@@ -216,7 +218,7 @@ def press(problem: CoupledProblem, q: Field, guess: Sides) -> BoxSolution:
 
 
 def _shear(problem: CoupledProblem, p: Vector, start: Field, tolerance: float) -> TangentialState:
-    """Solve the tangential problem: the shear at a given pressure, on points that can carry shear.
+    """Solve the tangential problem: the shear at a given pressure, at points with friction.
 
     If the prescribed load is at the friction limit, the shear is the limit at all points.
 

@@ -43,8 +43,8 @@ class Penalty:
     def stiffness(self, contact_modulus: float, edge_length: float) -> float:
         """Compute the stiffness ε of the penalty springs per area [force/length^3].
 
-        contact_modulus  E* of the outermost materials, which an overlap shorter than an edge
-                         deforms [force/length^2]
+        contact_modulus  E* of the outermost materials [force/length^2]. An overlap is shorter than
+                         an edge and therefore deforms these materials only
         edge_length      length of an element edge on the contact surface [length]
         """
         return self.factor * contact_modulus / edge_length

@@ -133,7 +133,10 @@ def _on_free(program: BoxProgram, sides: Sides) -> tuple[Field, float]:
 
 
 def _gradient(program: BoxProgram, x: Field, multiplier: float) -> Field:
-    """Compute the gradient A x - c - λ v of the Lagrangian of a program (n,)."""
+    """Compute the gradient A x - c - λ v of the Lagrangian of a quadratic program (n,).
+
+    multiplier  λ of the linear condition v·x = t
+    """
     gradient = program.matrix @ x - program.right
     if program.total is not None:
         gradient -= multiplier * program.total.weights
@@ -143,7 +146,7 @@ def _gradient(program: BoxProgram, x: Field, multiplier: float) -> Field:
 def _moved(
     program: BoxProgram, x: Field, multiplier: float, sides: Sides, fixed: NDArray[np.bool_]
 ) -> Sides:
-    """Update the active set of a program after a solve for its free components.
+    """Update the active set of a quadratic program after a solve for its free components.
 
     Free components beyond a bound are fixed at this bound. Fixed components whose gradient points
     inwards become free.
@@ -166,7 +169,7 @@ def _moved(
 def _solution(
     program: BoxProgram, x: Field, multiplier: float, sides: Sides, steps: int
 ) -> BoxSolution:
-    """Create the solution of a program from x, which is clipped to the bounds.
+    """Create the solution of a quadratic program from x, which is clipped to the bounds.
 
     Components whose two bounds are equal have the entry 0 in the active set of the solution.
     """
@@ -205,7 +208,7 @@ def _descend(program: BoxProgram, fixed: NDArray[np.bool_], spent: int) -> BoxSo
 
 
 def _feasible(program: BoxProgram) -> Field:
-    """Return a point x that is within the bounds and satisfies the linear condition (n,)."""
+    """Return a point x that satisfies the bounds and the linear condition of a program (n,)."""
     lower, upper, total = program.lower, program.upper, program.total
     if total is None:
         return np.where(np.isfinite(upper), 0.5 * (lower + upper), lower)
@@ -221,10 +224,11 @@ def _feasible(program: BoxProgram) -> Field:
 def _room(
     program: BoxProgram, x: Field, goal: Field, sides: Sides
 ) -> tuple[float, int | None, int]:
-    """Compute the largest admissible step from x towards the minimiser of the free components.
+    """Compute the largest step of a quadratic program that violates no bound.
 
-    Return the fraction of the step, the component that reaches its bound first, and the bound (-1
-    lower, +1 upper). The component is None if the full step is admissible.
+    The step goes from x towards the minimiser of the free components. Return the fraction of the
+    step, the component that reaches its bound first, and the bound (-1 lower, +1 upper). The
+    component is None if the full step is admissible.
 
     goal  minimiser of the free components (n,)
     """

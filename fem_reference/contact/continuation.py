@@ -61,8 +61,8 @@ class _Reached:
     """Converged point on the continuation path.
 
     root         iterate with its slipping points
-    values       scaled unknowns
-    derivative   derivative of the equations by the scaled unknowns
+    values       scaled unknowns: tractions, rigid motion and spring compliance (3 points + 3,)
+    derivative   derivative of the equations by the scaled unknowns (3 points + 2, 3 points + 3)
     corrections  number of Newton corrections
     """
 
@@ -91,15 +91,20 @@ class _Path:
         self._direction, self._sign = self._tangent(derivative, -self._softer)
 
     def lost(self, tolerance: float) -> NotConverged:
-        """Create the exception for a path that is not followed any further."""
+        """Create the exception that the continuation path is not followed any further.
+
+        tolerance  tolerance that the exception states [1]
+        """
         left = float(self._values[-1])
         return NotConverged("the path of continuation", self._solves, left, tolerance)
 
     def step(self, tolerance: float) -> Root | None:
-        """Try one step along the path.
+        """Try one step along the continuation path.
 
         Return the solution without springs if the path has reached its end. Return None otherwise.
         If the correction fails, the next step is shorter.
+
+        tolerance  limit of the norm of the residual at the end of the path [1]
         """
         ahead = self._values + self._length * self._direction
         if ahead[-1] > 0:
@@ -119,9 +124,9 @@ class _Path:
         return reached.root
 
     def _go_to(self, reached: _Reached) -> None:
-        """Move the current point to a converged point.
+        """Move the current point of the continuation to a converged point.
 
-        The direction and the step length are updated.
+        The direction of the path and the step length are updated.
         """
         direction, sign = self._tangent(reached.derivative, self._direction)
         self._values = reached.values
@@ -130,7 +135,7 @@ class _Path:
             self._length = min(GROWTH * self._length, LONGEST)
 
     def _shorten(self) -> None:
-        """Reduce the step length by half after a correction that failed.
+        """Reduce the step length of the continuation by half after a correction that failed.
 
         Below the least length the point is at a kink. The direction is then replaced by that on the
         other side of the kink.
@@ -144,7 +149,7 @@ class _Path:
         self._length = 100 * BEYOND_KINK
 
     def _corrected(self, ahead: Vector, across: Vector, tolerance: float) -> _Reached | None:
-        """Compute the intersection of the path with a plane by Newton's method.
+        """Compute the intersection of the continuation path with a plane by Newton's method.
 
         Return None if Newton's method fails.
 
@@ -167,12 +172,15 @@ class _Path:
         return None
 
     def _derivative(self, values: Vector) -> Matrix:
-        """Compute the derivative of the equations by the scaled unknowns."""
+        """Compute the derivative of the contact equations by the scaled unknowns.
+
+        values  scaled unknowns: tractions, rigid motion and spring compliance (3 points + 3,)
+        """
         _, jacobian, _ = self.equations.linearised(Iterate.of(values * self._scales))
         return np.asarray(jacobian * self._scales)
 
     def _tangent(self, derivative: Matrix, along: Vector) -> tuple[Vector, float]:
-        """Compute the unit tangent of the path.
+        """Compute the unit tangent of the continuation path.
 
         Return also the sign of the determinant of the extended derivative.
 
@@ -186,7 +194,12 @@ class _Path:
         return tangent / np.linalg.norm(tangent), float(sign)
 
     def _solved(self, derivative: Matrix, last: Vector, right: Vector) -> Vector:
-        """Solve the linear system of the derivative extended by one last row."""
+        """Solve the linear system of a derivative that is extended by one last row.
+
+        derivative  derivative of the equations by the scaled unknowns (3 points + 2, 3 points + 3)
+        last        last row (3 points + 3,)
+        right       right-hand side (3 points + 3,)
+        """
         self._solves += 1
         try:
             return np.asarray(np.linalg.solve(np.vstack([derivative, last]), right))
@@ -195,10 +208,11 @@ class _Path:
 
 
 def _scales(equations: Equations, at: Iterate, softness: float) -> Vector:
-    """Compute the units by which the unknowns of an iterate are scaled (3 points + 3,).
+    """Compute the units by which the unknowns of the contact equations are scaled (3 points + 3,).
 
     Tractions are weighted with the areas of their points.
 
+    at        iterate from which mean pressure and approach are taken
     softness  compliance of the bodies at a point, unit of the spring compliance [length^3/force]
     """
     w, n = equations.w, equations.n

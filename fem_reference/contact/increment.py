@@ -1,4 +1,4 @@
-"""Solve one load increment on points: from the contact state at its start to that at its end.
+"""Solve one load increment: from the contact state at its start to the state at its end.
 
 Pressure and shear of coupled bodies follow from the alternating iteration, completed by Newton's
 method. If both fail, they follow from continuation. With a penalty an increment has several passes.
@@ -150,11 +150,12 @@ class _Increment:
     tolerance: float
 
     def first(self) -> _Pass:
-        """Solve the first pass of the increment.
+        """Solve the first pass of the increment: the contact problem with the initial multipliers.
 
-        Without a penalty it is the only pass. At Gauss points the multiplier of the pressure is
-        zero at the start of every increment, because oscillations would accumulate otherwise. The
-        multiplier of the shear is the shear at the start of the increment.
+        Without a penalty it is the only pass, and the multipliers are zero. With a penalty at nodes
+        the multipliers are the tractions at the start of the increment, or zero if updates are not
+        allowed. At Gauss points the multiplier of the shear is the shear at the start. That of the
+        pressure is zero, because oscillations would accumulate over the increments otherwise.
         """
         before, penalty = self.before, self.contact.penalty
         multiplier = np.zeros_like(before.tractions)
@@ -166,9 +167,10 @@ class _Increment:
         return self._solve(multiplier, before.tractions, motion)
 
     def again(self, last: _Pass) -> _Pass:
-        """Solve the next pass, whose multipliers are the tractions of the last pass.
+        """Solve the next pass of the increment: the contact problem with updated multipliers.
 
-        The numbers of iterations and linear systems are the sums over all passes.
+        The multipliers are the tractions of the last pass. The numbers of iterations and linear
+        systems are the sums over all passes.
         """
         motion = last.motion, last.solution.approach
         after = self._solve(last.tractions, last.tractions, motion)
@@ -179,15 +181,16 @@ class _Increment:
         return replace(after, outer_iterations=outer_iterations, solves=solves)
 
     def left(self, one: _Pass) -> float:
-        """Compute the error of the penalty in a pass: the deformation of the springs, relative [1].
+        """Compute the relative error of the penalty in a pass, from the deformation of the springs
+        [1].
 
         The error is the larger of two ratios. The first is the overlap over the approach. The
         second is the tangential strain of the springs over the largest tangential displacement in
         the history, both as means weighted with the shear.
 
-        At Gauss points the error is multiplied by the square of the ratio of the contact radius to
-        the radius of the mesh's contact zone. The discretisation error is proportional to the
-        inverse of this square, and the error of the penalty need not be smaller.
+        At Gauss points the error is multiplied by (WIDEST_ZONE × contact radius / radius of the
+        mesh's contact zone)², at most 1. The discretisation error is proportional to the inverse of
+        this square, and the error of the penalty need not be smaller.
         """
         moved = self.moved(one) + ROUND_OFF * abs(one.solution.approach)
         left = max(one.overlap_share, over(self.weighted(one, one.strain[:2]), moved))
@@ -208,7 +211,7 @@ class _Increment:
     def weighted(self, one: _Pass, vectors: Field) -> float:
         """Compute the mean length of vectors over the contact, weighted with the shear of a pass.
 
-        vectors are an array (2, points), such as displacements.
+        vectors  vectors at the points, such as displacements (2, points)
         """
         shear = self.contact.compliance.areas * length(one.solution.shear)
         return over(float(np.sum(shear * length(vectors))), float(np.sum(shear)))

@@ -1,4 +1,4 @@
-"""Conversion of a contact state on points to an increment of the result."""
+"""Conversion of a contact state at the points of the surface to an increment of the result."""
 
 from dataclasses import replace
 from math import pi, sqrt
@@ -22,7 +22,7 @@ Scalar = TypeVar("Scalar", np.float64, np.bool_)
 def reported(
     contact: PointContact, state: PointState, direction: tuple[float, float], place: Place
 ) -> Increment:
-    """Convert a contact state on points to an increment of the result.
+    """Convert a contact state at the points of the surface to an increment of the result.
 
     Fields have the shape (rings, angles), or (rings,) if the state is axisymmetric.
 
@@ -126,15 +126,18 @@ def _ring(contact: PointContact, on_grid: NDArray[Scalar]) -> NDArray[Scalar]:
 def _edges(contact: PointContact, state: PointState) -> Field:
     """Compute the radius of the contact edge on every ray (angles,) [length].
 
-    The radius is the outer end of the last element if the last ring carries pressure, and 0 without
-    contact.
+    A ray is the set of points at one angle. The radius is the outer end of the last element if the
+    last ring carries pressure, and 0 without contact.
     """
     p = contact.compliance.scalar_on_grid(state.edge_tractions[2])
     return np.array([contact.rings.contact_edge(ray) for ray in p.T])
 
 
 def _contact_area(contact: PointContact, edges: Field) -> float:
-    """Compute the contact area ½∫a² dθ from the edge radius a on every ray [length^2]."""
+    """Compute the contact area from the radius of the contact edge on every ray [length^2].
+
+    The area is ½∫a² dθ with the radius a of the edge.
+    """
     return float(0.5 * np.sum(contact.compliance.grid.weights * np.square(edges)))
 
 

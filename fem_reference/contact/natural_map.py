@@ -1,4 +1,4 @@
-"""Natural map of the contact and friction laws on points, and its generalised derivative.
+"""Natural map of the contact and friction laws at points, and its generalised derivative.
 
 The laws are equivalent to the nonsmooth equations
 
@@ -52,7 +52,11 @@ class Iterate:
 
 
 class Equations:
-    """Equations of an increment: natural map of the laws at all points, then prescribed loads."""
+    """Contact equations of an increment: natural map of the laws at all points, and prescribed
+    loads.
+
+    The unknowns are tractions, rigid motion and the compliance of springs between the surfaces.
+    """
 
     def __init__(self, problem: CoupledProblem) -> None:
         compliance = problem.compliance
@@ -66,7 +70,10 @@ class Equations:
         self.scale = float(np.mean(self.w))
 
     def missed(self, at: Iterate) -> Vector:
-        """Compute the residual vector of all equations at an iterate (3 points + 2,)."""
+        """Compute the residual vector of the contact equations at an iterate (3 points + 2,).
+
+        The last two entries belong to the prescribed loads.
+        """
         return self._equations(at)[0]
 
     def linearised(self, at: Iterate) -> tuple[Vector, Matrix, Mask]:

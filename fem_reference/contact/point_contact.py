@@ -1,4 +1,4 @@
-"""Contact problem on points: compliance, undeformed gap, friction, and contact law."""
+"""Contact problem at the points of the surface: compliance, gap, friction, and contact law."""
 
 from dataclasses import dataclass, replace
 from typing import Any
@@ -28,7 +28,7 @@ COPIES = 4  # copies of the compliance matrix of all points during assembly and 
 
 @dataclass(frozen=True)
 class PointContact:
-    """Contact problem of two bodies on the points of the surface, without loads.
+    """Contact problem of two bodies at the points of the surface, without loads.
 
     compliance  displacement of all points per traction on all points
     friction    Coulomb friction between the surfaces

@@ -11,9 +11,10 @@ from contact_scene.quantities.summary import ContactStatus
 
 @dataclass(frozen=True)
 class PointState:
-    """Converged contact state on points. Vectors (2, points) have the components r and θ.
+    """Converged contact state at the points of the surface, at the end of an increment.
 
-    On Path.SHEARING the first component is the one along the load, and the second is zero.
+    Vectors (2, points) have the components r and θ. On Path.SHEARING the first component is the one
+    along the load, and the second is zero.
 
     axisymmetric       True if each point represents a whole ring
     displacement       tangential displacement of the lower surface relative to the upper one

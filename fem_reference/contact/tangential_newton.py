@@ -54,14 +54,17 @@ class ShearProblem:
         return np.asarray(0.5 * (diagonal[0] + diagonal[1]))
 
     def forced(self) -> Field:
-        """Return the linear term c of the energy, including a prescribed shift."""
+        """Return the linear term c of the energy of the shear, including a prescribed shift.
+
+        The shape is (2, points). Without a prescribed shift, c is the target of the problem.
+        """
         motion = self.control.motion
         return self.target if motion is None else self.target + motion * self.along
 
 
 @dataclass(frozen=True)
 class TangentialState:
-    """Solution of a tangential problem.
+    """Solution of the tangential problem at a given pressure.
 
     shear     shear at the points (2, points) [force/length^2]
     shift     shift [length] or twist [radian]; None at the friction limit, where it is undefined
@@ -119,15 +122,22 @@ def solve_shear(problem: ShearProblem, start: Field, tolerance: float) -> Tangen
 
 
 def _sum(areas: Vector, vectors: Field) -> float:
-    """Compute the integral of the length of vectors (2, points) over the contact."""
+    """Compute the integral of the length of vectors over the contact area.
+
+    areas    areas that the points represent (points,) [length^2]
+    vectors  shear vectors at the points (2, points)
+    """
     return float(np.sum(areas * np.sqrt(vectors[0] ** 2 + vectors[1] ** 2)))
 
 
 def _lowest(K: Matrix, slope: Field, q: Field, end: Field) -> tuple[Field, float]:
     """Return the shear of least energy on the line from q to `end`, and the decrease of the energy.
 
-    K      compliance matrix (2 points, 2 points)
-    slope  gradient of the energy at q (2, points)
+    The energy is that of the tangential problem, ½ qᵀKq − cᵀq.
+
+    K       compliance matrix (2 points, 2 points)
+    slope   gradient of the energy at q (2, points)
+    q, end  shear fields at the ends of the line (2, points)
     """
     step = end - q
     falls = float(np.sum(slope * step))

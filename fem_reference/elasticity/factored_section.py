@@ -101,7 +101,7 @@ class FactoredSection:
         return (0.5 * (matrix + matrix.T)).reshape(weights.shape * 2)
 
     def _prescribed(self, basis: Basis) -> Field:
-        """Return the prescribed degrees of freedom on the far boundary for a unit resultant load.
+        """Return the prescribed displacements on the far boundary for a unit resultant load.
 
         The values are the displacements of a half-space, or zero for a rigid base or a motion
         without far field. The array has an entry for every degree of freedom, zero except on the
@@ -122,7 +122,8 @@ class FactoredSection:
 def _assembled(
     section: SectionMesh, motion: Motion, basis: Basis, numbering: Numbering
 ) -> csr_array:
-    """Assemble the sparse stiffness matrix of all displacement degrees of freedom.
+    """Assemble the sparse stiffness matrix between all displacement degrees of freedom of a
+    section.
 
     Entries with the value zero remain in the sparsity pattern, because fill-in needs them.
     """
@@ -158,7 +159,8 @@ def _with_pressure(
 def _of_elements(basis: Basis, numbering: Numbering) -> tuple[Dofs, Field]:
     """Return the displacement degrees of freedom of all elements and their factors, both (e, 9 c).
 
-    The 9 nodes of a component are contiguous.
+    A nodal displacement is its factor times its degree of freedom. The 9 nodes of each of the c
+    components are contiguous.
     """
     shape = (-1, basis.nelems)
     return (

@@ -45,9 +45,10 @@ class ElementQuadLinear(Element):  # type: ignore[misc]
 
 
 def displacement_basis(section: SectionMesh, quadrature: Any = None) -> Basis:
-    """Create the basis of one displacement component on a section, with the integration weight r.
+    """Create the basis of one displacement component on a meridional section of a body.
 
-    The attribute `grad` of the functions contains u/r, u_,r and u_,z.
+    Integrals over the basis have the weight r. The attribute `grad` of the functions contains u/r,
+    u_,r and u_,z.
 
     quadrature  points and weights on the unit square; None for exact integration of the energy
     """

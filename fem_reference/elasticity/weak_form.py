@@ -161,7 +161,7 @@ class Dilatation:
 
 
 def dilatation(section: SectionMesh) -> Dilatation:
-    """Compute the resistance of every element to a change of volume from its material."""
+    """Compute the resistance of every element of a section to a change of volume."""
     nu = np.array([m.poisson_ratio for m in section.outline.materials])[section.layer]
     softness = (1.0 - 2.0 * nu) / (2.0 * shear_moduli(section))  # nu / lambda
     mixed = 2.0 * nu > STIFFEST * (1.0 - 2.0 * nu)
@@ -174,5 +174,5 @@ def dilatation(section: SectionMesh) -> Dilatation:
 
 
 def shear_moduli(section: SectionMesh) -> Field:
-    """Return the shear modulus mu of every element (e,)."""
+    """Return the shear modulus mu of every element of a section (e,)."""
     return np.array([m.shear_modulus for m in section.outline.materials])[section.layer]

@@ -42,7 +42,7 @@ _QUADRILATERAL = 3  # gmsh's number for the type of the quadrilateral with 4 nod
 
 
 class GmshMissing(SolverError):
-    """Error: the library gmsh cannot be loaded on this machine."""
+    """Exception: the library gmsh cannot be loaded on this machine."""
 
 
 def gmsh_section_mesh(
@@ -126,11 +126,12 @@ def _set(gmsh: Any, options: Mapping[str, float]) -> None:
 
 
 def _draw(geometry: Any, outline: SectionOutline) -> None:
-    """Create the lines and surfaces of a section in gmsh, and the number of elements on every line.
+    """Create the lines and surfaces of a section in gmsh, and divide the lines into elements.
 
     Curve loops start along r, then follow z.
 
     geometry  gmsh geometry kernel of the current model
+    outline   edges, interfaces and element sizes of the section
     """
     h = outline.size
     across = (0.0, outline.zone, outline.box)

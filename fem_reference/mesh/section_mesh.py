@@ -128,9 +128,10 @@ class SectionMesh:
 def section_mesh(
     body: Body, elements_per_radius: int, box: float | None = None, zone: float = CONTACT_ZONE
 ) -> SectionMesh:
-    """Create the graded mesh of rectangles for a body whose unit of length is the contact radius.
+    """Create the graded mesh of rectangles for the meridional section of a body.
 
-    Arguments and errors are those of `section_outline`.
+    The unit of length of the body is the contact radius. Arguments and errors are those of
+    `section_outline`.
     """
     outline = section_outline(body, elements_per_radius, box, zone)
     h = outline.size

@@ -63,8 +63,9 @@ class SectionOutline:
 def section_outline(
     body: Body, elements_per_radius: int, box: float | None, zone: float
 ) -> SectionOutline:
-    """Create the outline of a section for a body whose unit of length is the contact radius.
+    """Create the outline of the meridional section of a body: edges and element sizes.
 
+    body    layers and substrate; the unit of length is the contact radius
     elements_per_radius
             number N of elements per contact radius; elements of the contact zone have the side 1/N
     box     outer radius and depth of the section; None for `sufficient_box`
@@ -134,10 +135,10 @@ def _difference(layer: IsotropicMaterial, substrate: IsotropicMaterial) -> float
 
 
 def graded(start: float, end: float, origin: float, size: float) -> NDArray[np.float64]:
-    """Compute the coordinates of graded mesh lines from `start` to `end`.
+    """Compute the coordinates of graded mesh lines from `start` to `end`, both included.
 
-    Elements have the given size at `origin`. Neighbouring elements grow by the factor GROWTH with
-    the distance from there. There are at least LAYER_ELEMENTS elements.
+    Elements have the given size at `origin`. Neighbouring elements grow by about the factor GROWTH
+    with the distance from there. There are at least LAYER_ELEMENTS elements.
     """
     slope = np.log(GROWTH)
     reach = size * slope / (GROWTH - 1.0)

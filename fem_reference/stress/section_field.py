@@ -85,18 +85,21 @@ class SectionField:
         return self._sorted(on_it & (self.material == material), self.points[0])
 
     def _sorted(self, chosen: NDArray[np.bool_], along: Field) -> Indices:
-        """Return the indices of the chosen points, sorted by a coordinate.
+        """Return the indices of chosen points of a section, sorted by a coordinate.
 
         Points with equal coordinates are sorted by their material.
+
+        chosen  True for the points to return (n,)
+        along   coordinate of every point (n,)
         """
         found = np.flatnonzero(chosen)
         return found[np.lexsort((self.material[found], along[found]))]
 
     def _sum(self, fields: list[Field], as_sine: tuple[int, ...], theta: float) -> Field:
-        """Compute the sum of a field over all motions at the angle theta.
+        """Compute the sum of a field over all motions at the angle theta from the load.
 
-        fields   amplitudes of the field in every motion
-        as_sine  indices of the components that are ∝ sin n theta
+        fields   amplitudes of the field in every motion, such as the stress (6, n)
+        as_sine  indices of the components that are ∝ sin n theta; all others are ∝ cos n theta
         """
         total = np.zeros_like(fields[0])
         for part, field in zip(self.parts, fields, strict=True):

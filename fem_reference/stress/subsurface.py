@@ -35,23 +35,23 @@ def subsurface(
     *,
     upper: bool = False,
 ) -> SectionField:
-    """Compute displacement and stress of one body.
+    """Compute displacement and stress below the surface of one body under given tractions.
 
     Parameters
     ----------
     body
         Layers on a half-space or a rigid base.
     tractions
-        On the lower body.
+        Tractions on the lower body, also if the fields of the indenter are computed.
     discretisation
-        Elements per radius of the loaded circle, and the size of the section.
+        Number of elements per radius of the loaded circle, and size of the section.
     upper
-        True for the indenter: the shear is reversed, and z points up into it.
+        True for the indenter. The shear is then reversed, and z points up into the indenter.
 
     Raises
     ------
     UnsupportedScene
-        A material is nearly incompressible, so that its pressure does not follow from strain.
+        A material is nearly incompressible, so that its pressure does not follow from the strain.
     ResourceRefused
         The memory is insufficient.
     """

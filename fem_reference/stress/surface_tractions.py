@@ -128,7 +128,10 @@ class SurfaceTractions:
 
     @property
     def _fewest(self) -> float:
-        """Number of elements that carry pressure on the ray with the fewest such elements."""
+        """Number of elements that carry pressure on the ray with the fewest such elements.
+
+        A ray is the set of points at one angle.
+        """
         return float(np.min(np.count_nonzero(self._rays > 0, axis=0)) / self._per_element)
 
     @property
