@@ -171,6 +171,7 @@ def _largest_loads(scene: Scene, tilts: bool) -> list[NormalTarget]:
     """Select the normal loads of a history whose contact may extend farthest from the origin.
 
     These are the largest force and approach, and those of largest tilt or eccentricity.
+
     tilts  True if the indenter tilts
     """
     pressing = (ramp for ramp in scene.load_path() if ramp.normal.end)

@@ -30,6 +30,7 @@ class Increment(ReportedIncrement):
 
     Slip is that of the lower body relative to the indenter, opposite to the shear. Fields of shear
     are None without friction.
+
     moment                           (Σ p y Δ, Σ p x Δ) [force length]
     iterations                       iterations of the normal and tangential solvers on all grids
     convolutions                     number of convolutions of scalars on all grids
@@ -91,7 +92,11 @@ class Increment(ReportedIncrement):
     def slip_increment(
         self,
     ) -> Annotated[VectorField | None, Reported("m", "Slip (x, y) within the increment.", F)]:
-        """Slip within the increment (2, nx, ny) [length]; None without friction."""
+        """Slip of the lower body relative to the indenter within the increment (2, nx, ny)
+        [length].
+
+        None without friction.
+        """
         if self.slip is None or self.slip_before is None:
             return None
         return np.asarray(self.slip - self.slip_before)

@@ -8,10 +8,11 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True)
 class SurfaceGrid:
-    """Rectangular cells on a window centred at the origin of the contact plane.
+    """Grid of rectangular cells on a window centred at the origin of the contact plane.
 
     cells   number of cells along x and y, at least 2 each
     window  side lengths of the window [length], positive
+
     Raises ValueError for other values.
     """
 

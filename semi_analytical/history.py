@@ -68,6 +68,7 @@ def marked(
     """Iterate over the converged increments of the load history, each with its resume point.
 
     A resume point is the state from which the solution can be continued later.
+
     model, plan  contact model and effects to compute
     tolerance    limit of all dimensionless residuals
     since        checkpoint from which to resume; None to start at the beginning
@@ -94,7 +95,7 @@ def _advance(plan: Plan) -> Advance:
 
 
 def _correction(model: ContactModel, plan: Plan) -> Correct | None:
-    """Return the edge correction; None if the plan excludes it."""
+    """Return the edge correction that is applied to each state; None if the plan excludes it."""
     if plan.edge == "off":
         return None
     from semi_analytical.edge_correction.correction import EdgeCorrection
@@ -107,6 +108,7 @@ class _Solver:
     """Contact model with the solver of one increment, as required by the load stepping.
 
     Work is counted in convolutions.
+
     increment  function that solves one increment
     correct    edge correction; None without one
     tolerance  limit of all dimensionless residuals
@@ -188,6 +190,7 @@ def _increment(
     """Convert a converged state to an increment on the full window.
 
     Changes and cost are those since the last increment.
+
     last     preceding increment; None for the first
     spreads  True if the stick zone may have grown, see `stick_area`
     """
@@ -300,6 +303,7 @@ def _stick(
     increment.
 
     Force, shift and their work are not corrected.
+
     p        uncorrected pressure of the cells (nx, ny)
     spreads  True if the stick zone may have grown, see `stick_area`
     """

@@ -92,6 +92,7 @@ def path_increments(
     The number is the largest of: 1; for path-dependent steps the number by the error rules; the
     number for bulk strain; the number for the work of closed cycles. A number prescribed by the
     scene replaces all these numbers.
+
     shear     True if shear is solved for
     bodies    properties of the bodies
     accuracy  allowed increment error, Σ|error of q| / Σµp
@@ -183,7 +184,7 @@ class _LoadStep:
         return abs(cross) > STRAIGHT * hypot(*start) * hypot(*end)
 
     def matters(self, coupled: bool) -> tuple[bool, str]:
-        """Return True if the end state of the load step depends on the load path, and else the
+        """Determine if the end state of the load step depends on the load path; if not, state the
         reason.
 
         coupled  True if the normal and tangential problems are coupled
@@ -267,6 +268,7 @@ def _pressed_first(bodies: Bodies, accuracy: float, shape: ShapedBody) -> tuple[
 
     The error depends on the relative size of the stick zone, whose edge moves with that of the
     contact.
+
     accuracy  allowed increment error, Σ|error of q| / Σµp
     """
     layered = bodies.beta is None

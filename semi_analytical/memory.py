@@ -92,7 +92,7 @@ def _coupled(grid: SurfaceGrid, plan: Plan) -> float:
 
 
 def _edges(grid: SurfaceGrid, plan: Plan) -> float:
-    """Estimate the memory of the edge correction for uncoupled bodies [byte]."""
+    """Estimate the peak memory of the edge correction for uncoupled bodies [byte]."""
     if plan.edge == "off":
         return 0
     array, side = grid.cells[0] * grid.cells[1] * DOUBLE, sum(grid.cells) / 2

@@ -128,7 +128,8 @@ class ContactModel:
 
     @property
     def self_compliance(self) -> float:
-        """Tangential displacement of a cell by its own unit shear [length^3/force]."""
+        """Tangential displacement of a cell by its own unit shear, mean of x and y
+        [length^3/force]."""
         return self.operator(self.grid.cells).self_compliance
 
     @property
@@ -147,6 +148,7 @@ class ContactModel:
 
         Operators on the whole domain and on one other shape are stored: growing contacts rarely
         return to an earlier shape.
+
         shape  number of cells of the box along x and y
         """
         if shape not in self._operators:

@@ -23,7 +23,10 @@ class Shifted(Protocol):
 
     @property
     def defect(self) -> Vector:
-        """Sums of the traction minus the prescribed sums: gradient of the dual function."""
+        """Sums (forces, moments) of the projected traction minus the prescribed sums.
+
+        The defect is the gradient of the dual function.
+        """
 
     def settled(self, multiplier: Vector) -> bool:
         """Return True if the defect of the prescribed sums is at the level of rounding errors."""
@@ -43,6 +46,7 @@ def find_multiplier(
 
     Return the projected traction and the multipliers. The result is not settled if no traction has
     the prescribed sums.
+
     shifted_by  projected traction as a function of the multipliers
     multiplier  initial guess
     """

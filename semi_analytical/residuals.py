@@ -49,6 +49,7 @@ def slip_direction(q: Field, bound: Field, slip: Field, displacement: Field) -> 
 
     The residual is zero if the shear of all slipping cells is at the friction limit along the slip
     w.
+
     q             shear (2, nx, ny)
     bound         friction limit (nx, ny), zero outside the contact
     slip          slip w (2, nx, ny) of the indenter relative to the body, in the direction of q

@@ -101,6 +101,7 @@ def _semi_axis(marked: Mask, load: Field, area: float) -> float:
     weights.
 
     Each patch is replaced by the ellipse of the same area and the same ratio of second moments.
+
     marked  cells of the patches (nx, ny)
     load    load of each cell (nx, ny)
     area    area of all patches in cells, with sub-cell accuracy
@@ -132,6 +133,7 @@ def _wave(result: Result, touched: Mask) -> float | None:
 
     The formula is that of Longuet-Higgins (1957). m₂ and m₄ are mean squares of slope and curvature
     in the bounding rectangle of the contact. The result is the wavelength for a sine.
+
     touched  cells in contact (nx, ny)
     """
     indenter = result.scene.indenter

@@ -127,6 +127,7 @@ def solve_within(
     """Solve a scene on the first of several grids whose window contains the contact.
 
     Raises the errors of `solve`.
+
     grids      grids of successively larger windows
     tolerance  limit of every dimensionless residual
     """

@@ -30,6 +30,7 @@ class SurfaceTensileStress:
         σ_T is the largest value at the ends of the load steps of the cycle. The stress acts along
         the direction in which the tangential force changes. None is returned if the force is
         constant.
+
         path  increments of the cycle; cycles must be given in the order of their start
         """
         direction = _direction(path, self._result.grid.cell_area)
@@ -64,6 +65,7 @@ def _direction(path: Sequence[Increment], cell_area: float) -> Vector | None:
     load cycle.
 
     None is returned if the force is constant.
+
     path  increments of the cycle
     """
     force = np.array([increment.tangential_force for increment in path])

@@ -59,6 +59,7 @@ def solve_coupled(
     An inner solve reduces its initial residual by a factor, and stops earlier only if the residual
     meets the tolerance. The iteration has converged when the shear solved at a pressure and the
     normal problem at this pressure and shear both meet the tolerance.
+
     pressure, shear, motion  initial guesses: p (nx, ny), q (2, nx, ny) and rigid tangential motion
     most_iterations          limit of the sum of inner iterations, at most MAX_ITERATIONS
     raises                   NotConverged
@@ -104,6 +105,7 @@ def one_iteration(
     """Compute pressure, shear and rigid motion after one alternating iteration, from zero shear.
 
     The last value returned is the number of inner iterations.
+
     pressure  initial guess of the pressure (nx, ny)
     motion    initial guess of the rigid tangential motion
     raises    NotConverged

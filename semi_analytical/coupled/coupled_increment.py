@@ -71,6 +71,7 @@ def solve_coupled_increment(
 
     The increment is solved in a box of cells around the contact. The residuals are then computed on
     the whole domain with new convolutions.
+
     before              state at the start of the increment; None before first touch
     normal, tangential  prescribed loads at the end of the increment
     tolerance           limit of all dimensionless residuals
@@ -133,6 +134,7 @@ def _initial_guess(
 
     The predictor supplies the guess. Without a prediction, the guess is an approximate frictionless
     pressure and the shear of the previous increment.
+
     before, last  state at the start of the increment, and its tangential part
     """
     guess = None if before is None else predicted(model, before, normal, tangential)

@@ -86,6 +86,7 @@ class CoupledProblem:
 
         Its displacements are u + compliance * (t - tractions). Newton's method solves it and reads
         `together` only.
+
         compliance  additional displacement per traction [length^3/force]
         tractions   reference tractions (q_x, q_y, p) (3, nx, ny)
         """
@@ -125,7 +126,7 @@ class CoupledSolution:
 
     @property
     def approach(self) -> float:
-        """Approach of the bodies at the origin [length]."""
+        """Approach of the bodies at the origin in the solution of a coupled increment [length]."""
         return float(np.ravel(self.closing)[0])
 
     @property

@@ -1,21 +1,22 @@
 """Natural map of contact and Coulomb friction, and its generalised derivative.
 
-With γ the stiffness of a patch of cells, the increment is the root of (Alart and Curnier 1991)
+With γ the stiffness of a patch of cells, gap g, rigid motion ω, displacement c that stick requires
+and tangential displacement u_t, the increment is the root of (Alart and Curnier 1991)
 
     p = max(0, p - γ g)        q = P_b(z),  z = q + γ (ω + c - u_t),  b = b(p)
 
-P_b is the projection on the disc of radius b. The map is piecewise smooth. Its generalised
-derivative is that of the zones of contact, stick and slip at a point (semismooth Newton method:
-Christensen, Klarbring, Pang and Strömberg 1998). The free unknowns are
+P_b is the projection on the disc of radius b, the friction limit. The map is piecewise smooth. Its
+generalised derivative is that of the zones of contact, stick and slip at a point (semismooth Newton
+method: Christensen, Klarbring, Pang and Strömberg 1998). The free unknowns are
 
     p in contact,  q in the stick zone,  s in the slip zone: q = b n + s t
 
-with n along z and t normal to z. The equations are
+with n along z and t normal to z. With the approach δ and the undeformed gap h the equations are
 
     u_z - δ = -h        u_t - ω = c        t·(u_t - ω - c) + d s = 0,  d = (|z| - b) / (γ b)
 
 The term b n changes with the pressure by µ n, µ = db/dp. This makes the derivative unsymmetric, by
-about µ|β|.
+about µ|β|, with β Dundurs' parameter.
 """
 
 from dataclasses import dataclass
@@ -60,6 +61,7 @@ class Natural:
     nx, ny).
 
     The iterate is a solution if p = max(0, p - γ g) and q = P_b(z), see the module.
+
     pressure        p [force/length^2]
     gap             g [length]
     bound           friction limit b of max(0, p)
@@ -125,6 +127,7 @@ class Zones:
 
     Free unknowns and the rows of the derivative are vectors: q_x, then q_y of the stick zone, s of
     the slip zone, p of the contact.
+
     contact, stick   cells in contact and sticking cells (nx, ny)
     slip             flat indices of slipping cells (cells,)
     tangent          unit vector t perpendicular to the slip in slipping cells (2, cells)
@@ -247,8 +250,9 @@ class Zones:
     def nearest(self, tractions: Tractions, bound: Field) -> Tractions:
         """Return tractions near the given ones that are admissible in the zones.
 
-        Pressure is zero outside the contact. The shear along n of slipping cells is the friction
+        Tractions are zero outside the contact. The shear along n of slipping cells is the friction
         limit.
+
         tractions  (q_x, q_y, p), shape (3, nx, ny)
         bound      friction limit b (nx, ny)
         """

@@ -1,6 +1,7 @@
 """Sequence of methods for a coupled increment, of which the first that converges is used.
 
-Newton's method is tried first; the other methods converge from poorer initial guesses.
+Except in gross slip, Newton's method is tried first. The other methods converge from poorer initial
+guesses.
 """
 
 from collections.abc import Callable, Sequence
@@ -41,6 +42,7 @@ def solve_together(
     Newton's method converges fast from nearly correct zones and may stall otherwise. On failure the
     next method of the sequence starts from the same initial guess. Only the alternating iteration
     can return gross slip at the friction limit.
+
     raises  NotConverged
     """
     methods: tuple[Method, ...] = (solve_by_newton, _alternating_then_newton, solve_on_springs)

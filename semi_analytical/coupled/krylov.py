@@ -46,6 +46,7 @@ def least_residual(
 
     The solve ends when the residual is `depth` times the minimum over m at v = 0, or after `most`
     iterations. The rounding does not depend on the number of threads (no matrix products).
+
     apply  v -> A v and B v, another linear map of v to vectors of the size `extra`
     right  r (n,)
     free   columns of E (k, n); they may be linearly dependent
@@ -91,6 +92,7 @@ def _orthogonal(v: Vector, basis: Matrix) -> tuple[Vector, Vector]:
     """Return the components of a vector along an orthonormal basis, and its orthogonal remainder.
 
     Gram-Schmidt orthogonalisation is repeated once if the remainder is small.
+
     basis  orthonormal rows (k, n)
     """
     components = np.einsum("ik,k->i", basis, v)

@@ -47,6 +47,7 @@ class LinearisedIncrement:
 
     Unknowns are the free tractions and the rigid motions with a prescribed force. Steps do not
     change the prescribed forces.
+
     problem   coupled problem of the increment
     zones     zones of the iterate
     carriers  tractions that correct the prescribed forces (k, unknowns); None to compute them

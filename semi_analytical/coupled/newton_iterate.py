@@ -117,6 +117,7 @@ def _line_search(
 
     Without sufficient decrease the iterate of lowest merit is returned. Displacements are linear in
     tractions, so the search needs no convolutions.
+
     base, step  iterate before the Newton step, and the step
     merit       merit of the iterate before the step
     """

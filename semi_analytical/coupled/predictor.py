@@ -55,7 +55,8 @@ class Dilation:
         return cls((x, y), factor, domain)
 
     def __call__(self, values: Field) -> Field:
-        """Dilate a scalar (nx, ny) or vector field (2, nx, ny) by bilinear interpolation.
+        """Dilate a scalar (nx, ny) or vector field (2, nx, ny) by bilinear interpolation between
+        cell centres.
 
         The field is constant beyond the outermost cell centres.
         """
@@ -83,6 +84,7 @@ class Dilation:
         and shear.
 
         The ratio q/p at a material point of the dilation is constant.
+
         p, q  pressure (nx, ny) and shear (2, nx, ny)
         load  ratio of the normal forces after and before
         """
@@ -114,6 +116,7 @@ def _extrapolated(
     """Extrapolate pressure and shear linearly along a straight tangential load path.
 
     Without a valid extrapolation the last pressure and shear are returned.
+
     now, behind  data of the last state and of the state before
     """
     ratio = further(now, behind, tangential)
@@ -133,6 +136,7 @@ def _dilated(
 
     The dilation follows the growth of the last increment. Without a preceding increment, or after a
     much smaller one, radius and force follow the gap r^k. None is returned without a prediction.
+
     now, behind  data of the last state and of the state before
     normal       prescribed normal load at the end of the increment
     """

@@ -44,6 +44,7 @@ def solve_on_springs(
 
     The additional compliance λ acts like springs between the bodies. The final solve has λ = 0 and
     meets the tolerance.
+
     pressure, shear, motion  initial guesses: p (nx, ny), q (2, nx, ny) and rigid tangential motion
     raises                   NotConverged
     """

@@ -1,7 +1,9 @@
-"""Cell means of a power of the positive part of a linear function, and their inverse.
+"""Cell means of a power of the positive part of a linear function, and the inverse of this
+relation.
 
-The mean of (f + f_x x + f_y y)_+^a over the unit cell is the second difference of
-F(s) = s_+^(a+2)/((a+1)(a+2) b c) over the corners f ± b/2 ± c/2, with b = |f_x|, c = |f_y|.
+The mean of (f + f_x x + f_y y)_+^a over the unit cell is the second difference of F(s) =
+s_+^(a+2)/((a+1)(a+2) b c) over the corners f ± b/2 ± c/2, with b = |f_x|, c = |f_y|. The edge
+correction computes the mean pressure of partly covered cells by this formula.
 """
 
 from typing import Any
@@ -30,6 +32,7 @@ def mean_power(f: Field, f_x: Field, f_y: Field, exponent: Exponent) -> Field:
 
     The subscript + sets negative values to zero. The derivative with respect to f is exponent *
     mean_power(…, exponent - 1).
+
     f         value of the linear function at the cell centre
     f_x, f_y  slopes: change of the function across a cell
     exponent  above -1; with 0 the mean is the fraction of the cell with a positive function
@@ -119,6 +122,7 @@ def _cut_with_slope(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, F
     """Compute the mean of (f + b x + c y)_+^a over a cell and its derivative with respect to f.
 
     All arrays have the shape (n,). The zero line of the function may cut the cells.
+
     b, c  larger and smaller slope, not negative
     a     exponent
     """
@@ -172,6 +176,7 @@ def centre_value(
 
     This function is the inverse of `mean_power`. The result lies within half the sum of the slopes
     of mean^(1/exponent).
+
     mean      mean of the power over the cell, positive
     f_x, f_y  slopes: change of the function across a cell
     near      initial guess of f for cells that the zero line may cut
@@ -192,6 +197,7 @@ def _smooth_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
     cell.
 
     Each iteration divides the error by 200.
+
     target  mean^(1/a)
     b, c    larger and smaller slope, not negative
     a       exponent
@@ -207,6 +213,7 @@ def _initial_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
 
     The guess is exact if only one corner of the cell is positive. If two corners are positive, the
     smaller slope is neglected. Otherwise both slopes are neglected.
+
     target  mean^(1/a)
     b, c    larger and smaller slope, not negative
     """
@@ -220,6 +227,7 @@ def _cut_centre(target: Field, b: Field, c: Field, a: Exponent, near: Field | No
     """Solve mean^(1/a) = target for the centre value f in cells that the zero line may cut.
 
     The equation is almost linear in f. Newton's method is safeguarded by bisection.
+
     b, c  larger and smaller slope, not negative
     near  initial guess of f; None if unknown
     """

@@ -28,6 +28,7 @@ def covered_cells(values: Field, inside: Mask, domain: ReducedDomain = WINDOW) -
     values  (nx, ny), positive inside the region, falling like a square root towards the edge
     inside  cells whose centre is in the region (nx, ny)
     domain  domain of `values` and `inside`; the area excludes the mirror images
+
     An edge cell counts as 1 or 0 by its centre where the region is too thin for a fit, or where the
     values do not fall towards the edge (flat punch).
     """
@@ -55,6 +56,7 @@ def stuck_cells(shear: Field, bound: Field, in_stick: Mask) -> float:
     The deficit is the shear of gross slip minus the actual shear. Its direction of slip is that of
     the nearest slipping cell, because after a load reversal the shear just inside the stick zone
     still has the former direction.
+
     shear     shear q (2, nx, ny)
     bound     friction limit µp (nx, ny), zero outside the contact area
     in_stick  sticking cells (nx, ny)

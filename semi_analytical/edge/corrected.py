@@ -10,17 +10,18 @@ from semi_analytical.edge.subcell_tractions import SubcellTractions
 
 @dataclass(frozen=True)
 class CorrectedShear:
-    """Shear with a sub-cell stick border; fields on the full window.
+    """Shear with a stick border inside the cells, from the edge correction; fields on the full
+    window.
 
     shear         (2, nx, ny) mean over each cell [force/length^2]
     within        variation within the cells, of the components x and y
     slip          (2, nx, ny) direction of the shear in the slip zone, extended to the other cells
-    displacement  (2, nx, ny) u_t at the cell centres [length]
+    displacement  (2, nx, ny) tangential displacement u_t at the cell centres [length]
     shift         (2,) shift of the indenter [length]; None at the friction limit in force control
     stick         (nx, ny) cells whose centre sticks
     stick_cells   area of the stick zone in cells
     change        relative change of the shear in the last iteration, Σ|Δq|/Σµp
-    radius_left   relative error of the stick radius that the iteration leaves
+    radius_left   relative error of the stick radius due to the finite number of iterations
     """
 
     shear: Field
@@ -39,6 +40,7 @@ class EdgeReport:
     """Outcome of the edge correction of a state: cause of a failure, or errors of the iteration.
 
     All errors are relative and are caused by the finite number of iterations.
+
     cause     reason why the state is not corrected; None for a corrected state
     response  error of the approach, or of the normal force at a prescribed approach
     peak      error of the largest pressure
@@ -59,7 +61,7 @@ class EdgeReport:
 
 @dataclass(frozen=True)
 class Corrected:
-    """Corrected state; fields on the full window.
+    """State whose pressure is corrected for a contact edge inside cells; fields on the full window.
 
     pressure       (nx, ny) mean over each cell, also over partly covered cells whose centre is
                    outside the contact [force/length^2]
@@ -69,12 +71,12 @@ class Corrected:
     contact_cells  area of the contact in cells
     change         relative change of the pressure in the last iteration, Σ|Δp|/Σp
     edge           pressure in the cells along the contact edge
-    report         errors that the iteration leaves
+    report         errors due to the finite number of iterations
     tilt           tilt of the indenter (x, y); None for an indenter that does not tilt
     shear          (2, nx, ny) shear at the corrected pressure [force/length^2]; None without
                    friction
-    sheared        shear with a sub-cell stick border; None for coupled bodies, without shear, or
-                   if the border cannot be fitted
+    sheared        shear with a stick border inside cells; None for coupled bodies, without shear,
+                   or if the border cannot be fitted
     """
 
     pressure: Field

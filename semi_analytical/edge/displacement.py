@@ -59,6 +59,7 @@ class Within:
 
         Slopes are central differences of the means. In edge cells they are fitted to the subcell
         values.
+
         means   (nx, ny) cell means on the domain
         i, j    indices of the edge cells (n,)
         parts   (n, PARTS, PARTS) subcell values of the edge cells
@@ -112,6 +113,7 @@ class Within:
 
         Remainders of the same cell are added, so that the number of cells does not grow over load
         cycles.
+
         slopes  slopes of the result (2, nx, ny)
         terms   pairs of a smooth factor (nx, ny) and a variation
         """
@@ -204,6 +206,7 @@ def around(within: Within, near: Field, count: int) -> Field:
     """Sum the displacements that the remainders of edge cells cause in cells at most REACH away.
 
     The result (count, nx + 2 REACH, ny + 2 REACH) includes a margin of REACH cells on each side.
+
     within  variation of one traction component
     near    (count * offsets, PARTS²) displacement by unit traction on each subcell
     count   number of displacement components

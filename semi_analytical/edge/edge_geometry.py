@@ -24,6 +24,7 @@ class LocalEdge:
     """Geometry of the contact edge near given places, all arrays of one shape.
 
     φ is the function that vanishes at the edge (see `semi_analytical.edge`).
+
     distance   distance s of the places from the edge, negative outside
     normal     (2, …) inward unit normal of the edge
     slope      slope of φ along the normal at the edge
@@ -148,6 +149,7 @@ class EdgeLine:
         place.
 
         The edge near a point is a circular arc. Distances are of first order in its curvature.
+
         which  indices of the edge points; broadcast with x and y
         x, y   index coordinates of the places
         """

@@ -1,8 +1,8 @@
 """Wiener-Hopf solution for the pressure near the contact edge of layered bodies.
 
-Near its edge a contact is plane. Let s be the distance inwards from the edge, and
-X(k) = k E* F_zz/2, with F_zz of both bodies and E* of the outermost materials (X = 1 for short
-waves). Pressure p and slope u' of the displacement obey
+Near its edge a contact is plane. Let s be the distance inwards from the edge, and X(k) = k E*
+F_zz/2, with the wavenumber k, the frequency response F_zz of both bodies and the contact modulus E*
+of the outermost materials (X = 1 for short waves). Pressure p and slope u' of the displacement obey
 
     i sign(k) X(|k|) p~(k) = u'~(k),    p = 0 for s < 0,    u' smooth for s > 0
 
@@ -63,6 +63,7 @@ class FilmLaw:
 
     The law replaces √s of homogeneous bodies. Without layers the law is √s for all c: a factor 1 +
     ⅔ c s is fitted with φ instead. Distances s from the edge are in units of the layer thickness.
+
     response   X as a function of wavenumber times thickness; X is defined in the module
     stretched  sides of a cell along x and y over the thickness
     """
@@ -116,6 +117,7 @@ class FilmLaw:
 
         The second result is d ln(ratio) / d ln(mean of √s). For rectangles outside the edge the
         results are 1 and 0.
+
         s              distance of the centre of each rectangle from the edge; negative outside
         along, across  change of the distance along the two sides of each rectangle
         c              coefficient of the second term of the law
@@ -175,6 +177,7 @@ def film_law(lower: Body, upper: Body, spacing: tuple[float, float]) -> FilmLaw 
 
     None is returned if the pressure follows √s over the edge cells, and for a layer on a rigid
     base, where X(0) = 0.
+
     spacing  cell sides [length]
     """
     stacks = [stack_of(body) for body in (lower, upper) if body.deforms]

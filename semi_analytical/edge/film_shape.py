@@ -189,6 +189,7 @@ def _coefficient(local: LocalEdge, depth: Field, law: FilmLaw) -> Field:
     """Return the coefficient c of the pressure law at cells near the edge of curvature κ.
 
     c = ¾ (b - κ) for φ = g s (1 + b s) at the distance s from the edge.
+
     local  geometry of the edge near the cells
     depth  depth of the region in cells (nx, ny); the inscribed radius limits c
     """

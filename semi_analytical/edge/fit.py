@@ -26,7 +26,10 @@ CURVED = 0.1
 
 @dataclass(frozen=True)
 class Stencil:
-    """Window of (2 reach + 1)² cells with weights exp(-r²/(2 width²)), lengths in cells."""
+    """Square window of (2 reach + 1)² cells for a local fit, with Gaussian weights of the cells.
+
+    The weight at the distance r from the centre is exp(-r²/(2 width²)). Lengths are in cells.
+    """
 
     reach: int
     width: float

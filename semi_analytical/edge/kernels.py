@@ -42,7 +42,10 @@ PARITY = {
 
 
 def part_centres() -> Field:
-    """Return the subcell centres along one side of a cell (PARTS,), in cells."""
+    """Return the positions of the subcell centres along one side of a cell (PARTS,), in cells.
+
+    The position 0 is the cell centre.
+    """
     return (np.arange(PARTS) - PARTS // 2) / PARTS
 
 
@@ -67,7 +70,7 @@ class EdgeKernels:
 
     @property
     def even(self) -> bool:
-        """True if the coefficients have the same parity along x and y."""
+        """True if the influence coefficients have equal parities along x and y."""
         return self.parity[0] == self.parity[1]
 
     @cached_property
@@ -117,6 +120,7 @@ def _subcell_sums(weights: Field, parity: int) -> Field:
 
     The matrix maps values at subcell offsets >= 0 to sums at cell offsets >= 0. Negative offsets
     use the parity.
+
     weights  weight of each subcell along one side of the cell (PARTS,)
     """
     offsets = PARTS * np.arange(NEAR + 1)[:, None] - np.arange(PARTS) + PARTS // 2
@@ -130,6 +134,7 @@ def _slope(values: Field, axis: int, parity: int) -> Field:
     """Compute the derivative per cell, along one axis, of influence coefficients at offsets >= 0.
 
     The differences are of fourth order, at the far end of lower order.
+
     values  coefficients (nx, ny)
     parity  parity of the coefficients along the axis
     """
@@ -146,6 +151,7 @@ def spectra_of(
     """Compute the Fourier spectra of the displacement kernels (moments) of slopes along x and y.
 
     The spectra are -i times the real result if the component has the same parity along x and y.
+
     of     kernels of one component
     reach  slices of the offsets that are transformed
     known  spectrum of the influence coefficients of an even component; saves the transforms
@@ -174,6 +180,7 @@ def _by_differences(of: EdgeKernels, known: KernelSpectrum, axis: int) -> Kernel
 
     Far moments are differences of the periodic coefficients: the spectrum times a symbol. The
     transform of the near moments minus these differences is added.
+
     axis  direction of the slope: 0 for x, 1 for y
     """
     periods = known.quarter.shape[1] - 1, known.quarter.shape[0] - 1
@@ -212,6 +219,7 @@ def _waves(wave: np.ufunc, m: int, count: int) -> Field:
     count).
 
     Offsets strictly between 0 and m have the factor 2, because they occur with both signs.
+
     wave  sine or cosine
     """
     values = wave(np.pi / m * np.arange(2 * m))

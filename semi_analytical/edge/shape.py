@@ -88,6 +88,7 @@ class EdgeShape:
 
         The second result is the rms residual of the fits over the change of φ across a cell. It is
         infinite for fits with few data.
+
         adjacent  cells, and the fits that determine φ there
         fits      fits about `adjacent.fitted`
         """
@@ -118,13 +119,14 @@ class EdgeShape:
 
 
 class AdjacentCells:
-    """Pairs of cells and fits that determine φ about the cells.
+    """Assignment of fits of φ to cells in a region or next to its edge, as pairs of a cell and a
+    fit.
 
     A cell of the region uses the fit about itself. A cell outside uses the mean of the fits about
     its side neighbours in the region, or without side neighbours about its corner neighbours. This
     rule preserves mirror symmetry.
 
-    fitted  (2, m) cells that are fitted
+    fitted  (2, m) indices of the cells about which fits are needed
     which   index of the fit of each pair
     place   index of the cell of each pair
     at      coordinates of the cell of each pair, along x and y
@@ -156,6 +158,7 @@ def _downhill(here: Quadratic) -> tuple[Field, Field]:
     """Return the places nearest to given places where the linear part of φ vanishes.
 
     The distance is at most one cell.
+
     here  quadratic fits of φ about the given places
     """
     squared = np.maximum(here.slope**2, np.finfo(float).tiny)
@@ -187,6 +190,7 @@ def edge_shape(
 
     Cells that the edge cuts use the slopes of preceding fits, because there φ is not a power of the
     mean.
+
     means     (nx, ny) cell means of p, positive in the region
     region    (nx, ny) cells of the region
     stencil   stencil of the fits: `NARROW` for one ring, `WIDE` for two
@@ -200,6 +204,7 @@ def edge_shape(
     depth     depth of the region if known, see `depth_of`
     domain    domain of all fields
     before    φ of a previous iteration and fits along the edge; they replace the first fits
+
     Raises ValueError if no cell remains as data.
     """
     means = np.where(region, means, 0.0)

@@ -151,6 +151,7 @@ def fit_edge(
     """Fit the edge of a region of tractions and compute the subcell tractions along the edge.
 
     Return None if the region is too thin.
+
     means     (nx, ny) mean of the traction over each cell [force/length^2]
     loaded    (nx, ny) cells with a positive traction
     before    fitted edge of the previous iteration; cells outside that edge are not data
@@ -209,6 +210,7 @@ def means_of_power(phi: Quadratic, exponent: Exponent) -> Field:
     """Compute the means of φ_+^exponent over the subcells of each cell (n, PARTS, PARTS).
 
     Negative φ counts as zero. Cells are processed in chunks of CHUNK.
+
     phi  quadratics of φ about the cells (n,)
     """
     parts = np.empty((len(phi.f), PARTS**2))

@@ -73,6 +73,7 @@ class EdgeCorrection:
 
         If the bodies are uncoupled and the previous state has an equal pressure, its correction is
         reused.
+
         last      previous state; None before the first contact
         extended  `state` with its fields on the full window
         """
@@ -98,6 +99,7 @@ class EdgeCorrection:
         """Correct the shear of a solved state at the corrected pressure.
 
         Return None if the border of the stick zone cannot be fitted.
+
         before     earlier state that determines the border of the stick zone; may be None without
                    shear and in gross slip
         solved     tangential part of the solved state on the full window

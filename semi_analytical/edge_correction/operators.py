@@ -55,6 +55,7 @@ class EdgeOperators:
 
         None is returned if no layer changes the pressure within a few cells of the edge, or if the
         contact is narrow compared with the layers.
+
         contact  cells in contact (nx, ny)
         domain   domain of `contact`: full window or reduced domain
         """

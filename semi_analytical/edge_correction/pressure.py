@@ -68,6 +68,7 @@ def edge_pressure(
                bodies
     shear      shear as a function of the pressure; None without friction
     coupled    True if the shear causes normal displacements
+
     Raises NotFitted if the contact is too thin, its edge is rough, or the iteration does not
     converge.
     """
@@ -102,6 +103,8 @@ def next_change(changes: Sequence[float]) -> float:
 
     The prediction multiplies the last change by the ratio of the last two changes, at most 1. The
     first change is excluded from the ratio, because it is the discretisation error of the cells.
+    With fewer than three changes the last change is returned.
+
     changes  relative changes of all iterations so far, at least one
     """
     *before, last = changes
@@ -114,6 +117,7 @@ def left_over(changes: Sequence[float]) -> float:
     The contraction factor κ is the mean ratio of successive changes without the first change. It is
     1/2 if there are too few changes. It is limited to 0.9, because ten iterations cannot resolve
     slower convergence.
+
     changes  relative changes of all iterations
     """
     _, *later = changes
@@ -130,6 +134,7 @@ def relaxation_factor(factor: float, last: Field, change: Field) -> float:
     factor  relaxation factor that `last` was multiplied by
     last    change of the traction in the preceding iteration, before relaxation (nx, ny)
     change  change of the traction in the present iteration, before relaxation (nx, ny)
+
     The result lies between LEAST_FACTOR and 1.
     """
     fall = last - change
@@ -245,6 +250,7 @@ class _Problem:
         The problem is linear, because the edge determines the cells in contact. Partly covered
         cells whose centre lies outside the edge carry the fitted pressure. The cells in contact
         carry the rest of the load.
+
         p     mean pressure of each cell in the preceding iteration (nx, ny)
         edge  fitted contact edge of that pressure
         """
@@ -266,6 +272,7 @@ class _Problem:
 
         The result (nx, ny) [length] is the displacement by the variation of the pressure within
         cells. For coupled bodies the displacement by the shear is added.
+
         p     mean pressure of each cell (nx, ny)
         edge  pressure in the subcells along the contact edge
         """

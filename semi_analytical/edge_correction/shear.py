@@ -141,6 +141,7 @@ class ShearProblem:
         """Compute the deficit of the shear from gross slip; None if no stick border can be fitted.
 
         The direction of slip in the stick zone is that of adjacent slipping cells.
+
         q       shear (2, nx, ny) [force/length^2]
         bound   friction limit µp (nx, ny) [force/length^2]
         before  shear of the previous state (2, nx, ny)
@@ -165,6 +166,7 @@ class ShearProblem:
         Deep in the stick zone the result is the variation of the previous state plus central
         differences of the change of the shear. Elsewhere the variations of µp and of the deficit
         are combined.
+
         q        shear (2, nx, ny)
         deficit  deficit of q from gross slip
         """
@@ -200,6 +202,7 @@ class ShearProblem:
 
         The fit of the deficit lowers the friction limit of partly sticking cells whose centre
         slips.
+
         q        initial guess of the shear (2, nx, ny)
         motion   initial guess of the rigid tangential shift (2,) [length]
         deficit  deficit with the fitted stick border
@@ -237,6 +240,7 @@ def edge_shear(
     """Correct the shear of a solved state for a stick border inside the cells.
 
     Return None if the stick border cannot be fitted or the iteration does not converge.
+
     problem  tangential problem at the corrected pressure
     solved   tangential state with uniform tractions in each cell
     before   uncorrected shear of the previous state (2, nx, ny)

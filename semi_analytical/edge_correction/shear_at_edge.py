@@ -39,6 +39,7 @@ def direction_of_slip(q: VectorField, slips: Mask) -> VectorField:
 
     Other cells take the mean direction of adjacent cells, layer by layer. Beyond LAYERS layers they
     take the direction of the nearest cell.
+
     q      shear (2, nx, ny)
     slips  slipping cells (nx, ny)
     """
@@ -92,6 +93,7 @@ class FollowingShear:
         slip.
 
         Without slipping cells, n is the direction of the shear.
+
         friction  friction law
         pressure  pressure of the state (nx, ny)
         shear     shear of the state (2, nx, ny)

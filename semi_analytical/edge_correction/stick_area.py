@@ -49,6 +49,7 @@ def stick_area(shear: VectorField, bound: Field, stick: Mask, *, spreads: bool =
 
     A cell of the stick zone counts as 1 if neither power law fits there. Zones that are too thin
     for fits use `stuck_cells`.
+
     shear    cell means of q (2, nx, ny) at the corrected pressure
     bound    friction limit µp (nx, ny), zero outside the contact area
     stick    sticking cells (nx, ny)

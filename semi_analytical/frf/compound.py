@@ -51,7 +51,10 @@ def decaying_waves(x: Array) -> Waves:
 
 
 def _thin_series(x: Array) -> tuple[Array, Array]:
-    """Compute sinh x cosh x - x and sinh^2 x - x^2 for x < 1 by series, truncated at 1e-17."""
+    """Compute sinh x cosh x - x and sinh^2 x - x^2 for x < 1 by series, truncated at 1e-17.
+
+    For small x the closed forms would cancel.
+    """
     z = 4 * x * x
     c = np.zeros_like(x)
     s = np.zeros_like(x)
@@ -67,6 +70,7 @@ def echo_waves(x: Array) -> Waves:
 
     These terms represent an infinitely thick layer and cancel exactly in the difference from the
     half-space. The remaining terms are multiplied by exp(-2x).
+
     x  wavenumber times thickness of the layer
     """
     w = np.exp(-2 * x)
@@ -80,6 +84,7 @@ def compound_rows(y: tuple[Array, ...], nu: float, f: Waves) -> tuple[Array, ...
 
     The result has an arbitrary scale. C is in units of 1 / (2 G alpha), G the layer's shear
     modulus; the last row is the divisor.
+
     y   values at the underside
     nu  Poisson's ratio of the layer
     f   wave functions of the layer

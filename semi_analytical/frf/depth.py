@@ -28,16 +28,19 @@ from semi_analytical.frf.surface import (
 
 
 class DepthScalars(NamedTuple):
-    """Fields at one depth as real functions of the wavenumber.
+    """Displacement and traction in a layered body at one depth, as real functions of the
+    wavenumber.
 
-    The amplitudes are u_s = iU and t_s = iQ as in `surface.py`. The traction at depth is
-    tau = -(sigma_sz / i, sigma_zz). The first axis of a matrix is the component of the field (along
-    the wave vector, normal). The second axis is the surface traction (Q, p).
+    The amplitudes are u_s = iU and t_s = iQ as in `surface.py`. The traction at depth is tau =
+    -(sigma_sz / i, sigma_zz). The first axis of a matrix is the component of the displacement or
+    traction at depth (along the wave vector, normal). The second axis is the surface traction (Q,
+    p).
 
-    displacement  (U, u_z), shape (2, 2, wavenumbers) [length^3/force]
-    traction      (tau_s, tau_z), shape (2, 2, wavenumbers) [1]
-    transverse_displacement, transverse_traction
-                  u_t and -sigma_tz by the transverse traction t_t, shape (wavenumbers,)
+    displacement                                  (U, u_z), shape (2, 2, wavenumbers)
+                                                  [length^3/force]
+    traction                                      (tau_s, tau_z), shape (2, 2, wavenumbers) [1]
+    transverse_displacement, transverse_traction  u_t and -sigma_tz by the transverse traction t_t,
+                                                  shape (wavenumbers,)
     """
 
     displacement: Array
@@ -47,10 +50,12 @@ class DepthScalars(NamedTuple):
 
 
 class PlaneScalars(NamedTuple):
-    """In-plane stresses in the frame along the wave vector, per unit surface traction.
+    """Stresses in a horizontal plane at one depth, per unit surface traction, in Fourier space.
+
+    The axes are s along the wave vector and t across it.
 
     along, across  sigma_ss, sigma_tt by (Q, p), shape (2, wavenumbers)
-    shear          sigma_st / i by t_t, shape (wavenumbers,)
+    shear          sigma_st / i by the transverse traction t_t, shape (wavenumbers,)
     """
 
     along: Array
@@ -60,7 +65,7 @@ class PlaneScalars(NamedTuple):
 
 @dataclass(frozen=True)
 class Level:
-    """Depth in a given material; an interface belongs to two materials.
+    """Depth in a given material of a layered body; an interface belongs to two materials.
 
     depth  depth below the surface [length]
     layer  index of the layer; the number of layers denotes the base
@@ -150,7 +155,7 @@ class Descent:
 
 
 def material_at(stack: Stack, level: Level) -> HalfSpace:
-    """Return the elastic constants at a level; raise ValueError in a rigid base."""
+    """Return the elastic constants of the material at a level; raise ValueError in a rigid base."""
     if level.layer < len(stack.layers):
         film = stack.layers[level.layer]
         return HalfSpace(film.shear_modulus, film.poisson_ratio)
@@ -183,6 +188,7 @@ def _transmitted(below: Compliance, nu: float, x: Array) -> tuple[Array, Array]:
     The results are the sagittal matrix (2, 2, wavenumbers) and the transverse factor. M is the
     lower half of exp(-x A), A the matrix of the equations above, applied to (C, 1): tau_0 = M tau.
     Its determinant is the divisor of the compound recursion.
+
     below  compliance of the material below the lower plane
     nu     Poisson's ratio
     x      wavenumber times distance, alpha d

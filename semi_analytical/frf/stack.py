@@ -42,9 +42,11 @@ class Stack:
     base.
 
     Plain tuples are accepted. A rigid base without layers is a rigid body.
+
     layers  (shear modulus [force/length^2], Poisson's ratio, thickness [length]) of each layer;
             layers of zero thickness are removed
     base    (shear modulus, Poisson's ratio) of the half-space below, or None for a rigid base
+
     Raises ValueError unless G > 0, -1 < nu <= 1/2, thickness >= 0, all finite.
     """
 

@@ -32,9 +32,11 @@ class Compliance(NamedTuple):
 
 
 class SurfaceScalars(NamedTuple):
-    """The four scalar responses [length^3/force], each of the shape of the wavenumbers.
+    """Surface compliance of a body at given wavenumbers [length^3/force], as four functions.
 
-    c11  displacement along the wave vector by traction along it
+    Each array has the shape of the wavenumbers.
+
+    c11  displacement along the wave vector by traction along the wave vector
     c12  coupling between normal and tangential components
     c22  normal displacement by pressure
     csh  transverse displacement by transverse traction
@@ -51,6 +53,7 @@ def half_space_scalars(material: HalfSpace, alpha: ArrayLike) -> SurfaceScalars:
     solutions.
 
     See Johnson (1985, section 3.2).
+
     alpha  wavenumbers [1/length], > 0
     """
     G, nu = material
@@ -59,11 +62,12 @@ def half_space_scalars(material: HalfSpace, alpha: ArrayLike) -> SurfaceScalars:
 
 
 def scalars(stack: Stack, alpha: ArrayLike) -> SurfaceScalars:
-    """Compute the surface compliance of layers on a half-space or a rigid base by compounds.
+    """Compute the surface compliance of layers on a half-space or a rigid base by the compound
+    recursion.
 
     The error is a few units in the last place, for c12 relative to sqrt(c11 c22).
 
-    alpha    wavenumbers [1/length], > 0
+    alpha  wavenumbers [1/length], > 0
 
     Raises ValueError for alpha = 0: the displacement of an infinite body under uniform load is
     unbounded.
@@ -91,6 +95,7 @@ def remainder_scalars(stack: Stack, alpha: ArrayLike) -> SurfaceScalars:
 
     The differences vanish as exp(-2 alpha h), h the outermost thickness, and are computed with full
     relative accuracy. They are exactly zero without layers.
+
     alpha  wavenumbers [1/length], > 0
     """
     alpha = _checked(alpha)
@@ -138,6 +143,7 @@ def compliances_below(stack: Stack, alpha: Array) -> list[Compliance]:
     """Compute the compliance of the material below each layer of a body, in units of this layer.
 
     The list begins with the outermost layer and ends with the base in its own units.
+
     alpha  wavenumbers [1/length]
     """
     one, zero = np.ones_like(alpha), np.zeros_like(alpha)

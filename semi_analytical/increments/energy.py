@@ -43,6 +43,7 @@ class Configuration:
     """Tractions, displacements and loads of a converged state, as needed by the energy balance.
 
     Fields are on the reduced domain. Without shear the tangential fields have no cells.
+
     pressure, normal_displacement   p [force/length^2] and u_z [length], each (nx, ny)
     gap                             gap g (nx, ny) [length]; may be infinite where p is always zero
     shear, tangential_displacement  q and u, each (2, nx, ny)
@@ -125,6 +126,7 @@ class Energy:
         """Compute the relative residual of the energy balance of one increment [1].
 
         The scale is the largest energy so far. The result is None where the motion is undefined.
+
         before  energies at the start of the increment
         """
         terms = self._terms()
@@ -193,6 +195,7 @@ def pressed_work(pressure: Field, displacement: Field) -> float:
     pressure of each cell, Σ p (u_z - Δ²u_z/24) has an error of third order, with Δ² the sum of
     second differences. The cell integral of a smooth p u_z adds Δ²u_z/24 p, and the gradients of p
     and u_z contribute twice this amount with the opposite sign.
+
     pressure      mean pressure of each cell (nx, ny), on the window
     displacement  u_z at the cell centres (nx, ny), on the window
     """

@@ -25,6 +25,7 @@ def balanced(
     """Return the converged state `after` an increment, completed by its energies.
 
     No convolution is needed, because states include their displacements.
+
     before        state at the start of the increment; None at the start of the history
     path_matters  True if `after` depends on the number of increments of its load step
     """

@@ -74,6 +74,7 @@ def at_limit(
     """Return the tangential state of force control at the friction limit.
 
     The shear is µp in the direction of the force. The tangential shift is undefined (None).
+
     pressure  p (nx, ny) [force/length^2]
     last      tangential state of the previous increment
     load      tangential load with a prescribed force

@@ -139,6 +139,7 @@ def solve_increment(
     """Solve one increment of uncoupled bodies: the normal problem, then the tangential problem.
 
     The normal problem is not solved again if its load is unchanged.
+
     before      state at the start of the increment; None before first touch
     normal      prescribed normal load
     tangential  prescribed tangential load; None without shear

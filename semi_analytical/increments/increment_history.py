@@ -45,6 +45,7 @@ def further(
 
     The result is 0 where no extrapolation applies: the direction of the load or the normal load
     changes, the ratio exceeds FURTHEST, or torsion acts.
+
     now         data of the last converged state
     behind      data of the state before `now`; None if unknown
     tangential  tangential load of the next increment

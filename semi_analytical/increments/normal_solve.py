@@ -43,8 +43,8 @@ class NormalState:
     pressure         p (nx, ny) [force/length^2]
     displacement     u_z (nx, ny) [length]
     approach         approach of the bodies [length]
-    complementarity  residual Σ p |gap| / (Σp times overlap), dimensionless
-    penetration      largest negative gap over the overlap of the undeformed bodies, dimensionless
+    complementarity  residual Σ p |gap| / (Σp times overlap of the undeformed bodies), dimensionless
+    penetration      residual max(-gap) / overlap of the undeformed bodies, dimensionless
     iterations       iterations of all solves
     tilt             tilt of the indenter (x, y); None without tilt
     """
@@ -133,6 +133,7 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Normal
     The solver works in a box of cells around the contact. A convolution over the whole domain
     checks the solution. If bodies overlap outside the box, the box becomes the whole domain.
     Otherwise the solve is repeated with a tighter tolerance.
+
     tolerance  bound of complementarity and penetration residuals, dimensionless
     raises     ContactAtWindowEdge, ContactNotResolved, NotConverged
     """
@@ -174,8 +175,9 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Normal
 def nested_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
     """Return an initial guess of the pressure (nx, ny), and the iterations spent on it.
 
-    The guess is the solution on a coarser grid, whose initial guess is found in the same manner.
-    Without a coarser grid the guess follows from Hertz theory (`initial_pressure`).
+    The guess is the solution on a coarser grid, whose initial guess is found in the same manner. It
+    follows from Hertz theory (`initial_pressure`) without a coarser grid, or if no cell of that
+    grid comes into contact.
     """
     coarse = model.coarse
     if coarse is None or not _touches(coarse, target):
@@ -187,9 +189,11 @@ def nested_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]
 
 
 def rough_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
-    """Return a solution of the normal problem at the loose COARSE_TOLERANCE, and its iterations.
+    """Return an initial guess of the pressure (nx, ny) for the coupled problem, and the iterations
+    spent.
 
-    The solution on the coarser grid is used if there is one. The result is an initial guess.
+    The guess is that of `nested_start`. Without a coarser grid it is the solution on the model's
+    own grid at the loose COARSE_TOLERANCE.
     """
     return _rough(model, target) if model.coarse is None else nested_start(model, target)
 

@@ -29,6 +29,7 @@ def solve_one_way_increment(
     tangential one.
 
     The tangential problem includes the tangential displacement caused by the pressure.
+
     before  state at the start of the increment; None before first touch
     raises  NotConverged, GrossSliding, ContactAtWindowEdge, ContactNotResolved
     """

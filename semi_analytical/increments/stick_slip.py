@@ -91,6 +91,7 @@ def _trivial_state(
 
     These cases are: no tangential load so far, slip without friction, and a force at the friction
     limit.
+
     bound  friction limit µp (nx, ny)
     last   tangential state at the start of the increment
     """
@@ -168,6 +169,7 @@ def advanced(
 
     Slip, slip distance and dissipation of the increment are added to those of the previous state
     `last`.
+
     bound          friction limit µp (nx, ny)
     relative_slip  slip of the indenter relative to the body in the increment (2, nx, ny) [length]
     """

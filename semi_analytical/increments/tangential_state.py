@@ -95,6 +95,7 @@ def rigid(model: ContactModel, motion: Vector) -> VectorField:
     [length].
 
     The result broadcasts with (2, nx, ny).
+
     motion  shift (2,), or shift and twist (3,)
     """
     shift = everywhere(motion[:2])
@@ -109,6 +110,7 @@ def surface_target(
     The result consists of the displacement locked in by the previous increment, the strain of the
     lower body in this increment, and the prescribed twist. The rigid motion of the load is not
     included.
+
     last  tangential state at the start of the increment
     load  prescribed tangential load at its end
     """
@@ -123,6 +125,7 @@ def stretched(
     """Compute the surface displacement by a change of the bulk strain (2, nx, ny) [length].
 
     Return 0.0 without strain.
+
     strain  strain (xx, yy, xy) at the end; None without strain
     last    strain at the start; None for zero
     """
@@ -184,6 +187,7 @@ def touching_share(before: Field, after: Field, gap: Field) -> Field:
     mirrored contacts have mirrored slip. The result is correct to first order in the increment. In
     first contact the largest p² takes the place of the growth, and cells without gap have the
     fraction 1. Separation is treated as contact in reverse.
+
     before, after  pressure at the start and the end of the increment (nx, ny)
     gap            undeformed gap (nx, ny)
     """
@@ -202,6 +206,7 @@ def _new_contact_fraction(less: Field, more: Field, changes: Mask) -> Field:
 
     The fraction is p² of the cell over the growth of p² at the nearest cell in lasting contact, at
     most 1.
+
     less, more  pressure at the end with the smaller and with the larger contact (nx, ny)
     changes     cells whose contact changes (nx, ny)
     """

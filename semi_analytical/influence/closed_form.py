@@ -21,6 +21,7 @@ class RectangleIntegrals:
     The observers are at (i dx, j dy), i < nx, j < ny. (x, y) is the vector from the loaded point to
     the observer, r its length. Each integral has the shape (nx, ny) and the dimension [length], and
     is computed on first use.
+
     dx, dy  cell sides [length]
     shape   number of offsets along x and y, including zero
     """

@@ -50,6 +50,7 @@ class Composite:
 
     The upper body is a lower body mirrored in the contact plane: its normal-tangential terms change
     sign, F = F1 + J F2 J with J = diag(1, 1, -1). Tractions are those on the lower body.
+
     lower, upper  coefficients of the deformable bodies, at most one each
     along, down   tangential and normal displacement by the springs of a test rig, equal at all
                   offsets [length^3/force]

@@ -25,6 +25,7 @@ def hankel_points(r: float, limit: float) -> tuple[Array, Array]:
 
     Panels double in width, so that layers of all thicknesses are resolved. Beyond PANEL_PHASE / r
     they have equal widths, which resolve the Bessel functions.
+
     r      largest distance of the transform [length]
     limit  largest wavenumber [1/length]
     """

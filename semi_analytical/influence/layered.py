@@ -1,7 +1,7 @@
 """Influence coefficients of a layered body: integrals of its point response over the loaded cell.
 
 The integration in real space has neither aliasing nor periodic images. The rule depends on the
-distance and is exact to rounding:
+distance from the loaded cell and is exact to rounding:
 
     at the origin   closed form of the outer material plus Gauss points for the smooth remainder;
     near            Gauss points on boxes that are small compared with their distance;

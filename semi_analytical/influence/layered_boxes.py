@@ -46,13 +46,15 @@ class Boxes:
         return Boxes(*(values[which] for values in vars(self).values()))
 
     def batches(self, points: int) -> Iterator[Boxes]:
-        """Split the boxes into batches of about `points` Gauss points."""
+        """Split the boxes into batches with about `points` Gauss points each, to limit the
+        memory."""
         size = max(1, points // POINTS**2)
         for start in range(0, len(self.x), size):
             yield self.chosen(slice(start, start + size))
 
     def gauss_points(self) -> tuple[Array, Array, Array]:
-        """Return coordinates and weights of Gauss points, each of shape (boxes, POINTS^2)."""
+        """Return x, y and weight of the Gauss points of each box, each of shape (boxes,
+        POINTS^2)."""
         nodes, weights = np.polynomial.legendre.leggauss(POINTS)
         s, t = (grid.ravel() for grid in np.meshgrid(nodes, nodes, indexing="ij"))
         area = np.outer(weights, weights).ravel()

@@ -32,6 +32,7 @@ def cell_integrals(
     """Integrate the point response of a layered body over the cells at all offsets i < nx, j < ny.
 
     The result has the shape (components, nx, ny).
+
     table       point response up to MARGIN cells beyond the window
     components  displacement-traction pairs to be integrated
     spacing     cell sides [length]
@@ -80,6 +81,7 @@ def _averaged_along(field: Field, axis: int, parity: int) -> Field:
     """Average a response over the cells along one axis, from point values at offsets >= 0.
 
     The result is shorter by MARGIN.
+
     parity  parity of the response along the axis
     """
     mirrored = parity * np.flip(np.take(field, range(1, MARGIN + 1), axis), axis)

@@ -51,6 +51,7 @@ def point_response(table: RadialTable, components: Components, x: Field, y: Fiel
     """Compute surface displacements at points (x, y) by unit forces at the origin [length/force].
 
     The origin is excluded.
+
     returns  shape (number of components, *x.shape)
     """
     flat_x, flat_y = x.ravel(), y.ravel()

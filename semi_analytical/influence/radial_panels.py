@@ -50,6 +50,7 @@ def places_on_panels(edges: Array, r: Array) -> Iterator[tuple[int, Indices, Arr
     1].
 
     Panels without distances are skipped.
+
     edges  panel bounds (panels + 1,)
     r      distances (n,)
     """

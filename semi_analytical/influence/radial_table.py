@@ -43,6 +43,7 @@ class RadialTable:
     """Table of r times the four radial functions (zz, mean, twist, cross) on 0 <= r <= edges[-1].
 
     The functions yield the surface displacement of a layered body by a point force.
+
     edges         panel bounds [length], shape (panels + 1,), edges[0] = 0
     coefficients  Chebyshev coefficients, shape (panels, NODES, 4) [length^2/force]
     near          values at r = 0, those of a half-space of the outer material, shape (4,)

@@ -22,6 +22,7 @@ def bearing_pressure(gap: Field, load: NormalLoad, modulus: float, area: float) 
 
     The guess is uniform if the modulus is not positive, or if the cells below the bearing depth
     cannot carry the load.
+
     load     prescribed normal load
     modulus  E* [force/length^2]; not positive where a uniform pressure raises its centre, as on an
              incompressible film with rigid base
@@ -44,6 +45,7 @@ def modulus_of(compliance: Field, spacing: tuple[float, float]) -> float:
 
     Both bodies carry a uniform pressure on the same rectangle (Johnson 1985, eq. 3.25). The initial
     guess of the pressure uses E* for layered bodies.
+
     compliance  normal displacement of a cell by unit pressure on another (nx, ny), at offsets (i
                 dx, j dy) from the centre to half the sides of the rectangle [length^3/force]
     spacing     cell sides dx, dy [length]

@@ -58,6 +58,7 @@ class NormalLoad(Protocol):
         """Return the overlap of the undeformed bodies, the scale of residual gaps [length].
 
         By default the overlap is the magnitude of the approach.
+
         motion   rigid motion of the load
         gap      undeformed gap (nx, ny)
         allowed  cells of finite gap (nx, ny)

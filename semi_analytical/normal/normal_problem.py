@@ -130,6 +130,7 @@ def _solve_on(
     iterations.
 
     Conjugate gradients stop when the residual norm has fallen by the factor `depth`.
+
     contact  contact set, which contains all cells under pressure (nx, ny)
     p, u, g  pressure, displacement and gap at the start (nx, ny)
     """
@@ -150,6 +151,7 @@ def close_gap(
     gradients.
 
     Return pressure, displacement and iterations.
+
     projected  projection on the contact set and the prescribed forces
     p, u, g    pressure, displacement and gap at the start (nx, ny)
     depth      reduction of the residual norm at which the iteration stops
@@ -185,6 +187,7 @@ def _line_search(
     The energy must decrease sufficiently. Under a stiff coating pressure lifts adjacent cells, and
     setting all negative pressures to zero at once may raise the energy repeatedly. Cells then leave
     the contact set successively. Return pressure, displacement and iterations.
+
     newton, newton_u  pressure and displacement of the Newton point (nx, ny)
     p, u, g           pressure, displacement and gap of the last accepted point (nx, ny)
     """
@@ -219,6 +222,7 @@ def _remove_tension(
     those in tension, provided that the energy decreases sufficiently; else `many` is halved. With
     `many` = 1 the energy always decreases, so that every pass removes at least one cell. Return
     pressure, displacement and iterations.
+
     newton, newton_u  pressure and displacement of the Newton point (nx, ny)
     p, u, g           pressure, displacement and gap of the last accepted point (nx, ny)
     """
@@ -264,6 +268,7 @@ def _gradient_step(problem: _Problem, p: Field, u: Field, g: Field) -> tuple[Fie
     """Move the pressure along the projected gradient of the energy by an exact line search.
 
     The step length is at most 1. Return pressure and displacement.
+
     p, u, g  pressure, displacement and gap of the last accepted point (nx, ny)
     """
     unit = np.sum(p) / np.sum(np.abs(u))

@@ -30,6 +30,7 @@ class PressureMoments:
     """Normal load with prescribed moments Σp y and Σp x, and with prescribed Σp or approach.
 
     The rigid motion is (approach, tilt x, tilt y).
+
     arms      (y, x) of the cells (2, nx, ny) [length]
     cells     cells of finite gap (nx, ny)
     moments   (Σp y, Σp x) = (M_x, M_y) / cell area, shape (2,)
@@ -104,6 +105,7 @@ class PressureMoments:
         Negative values are set to zero, and the pressure is corrected by a plane, weighted by the
         pressure. Where this is impossible the correction has equal weight on all cells of finite
         gap.
+
         raises  NotConverged where no pressure has the prescribed sums
         """
         p = np.maximum(p, 0.0)
@@ -121,6 +123,7 @@ class PressureMoments:
 
         The cells must surround the point where Σp acts; if Σp is free, they must lie on both sides
         of the direction of the moments.
+
         cells  cells that may carry pressure (nx, ny)
         """
         y, x = self.arms[:, cells]
@@ -155,6 +158,7 @@ class PressureMoments:
 
         The projection restricts a field to the contact and removes the least-squares fit of a
         plane.
+
         inside  1 in contact, 0 elsewhere (nx, ny)
         """
         units = inside * self.shapes

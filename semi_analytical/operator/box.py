@@ -52,6 +52,7 @@ def box_around(cells: Mask, margin: int, domain: ReducedDomain = WINDOW) -> Box:
 
     A side that does not fit becomes the side of the window. On a reduced domain the box surrounds
     the marked cells and their mirror images and is then restricted to the domain.
+
     cells   marked cells (nx, ny)
     margin  number of cells around the marked cells
     domain  domain of `cells`

@@ -25,6 +25,7 @@ class ReducedDomain:
     """Domain of the computation: the window, its half x > 0 or y > 0, or its quarter x > 0, y > 0.
 
     Scalar fields (pressure, gap, u_z) are even about mirror planes. Indices count from the planes.
+
     mirrors  True for x = 0 and y = 0 if the plane is a mirror plane
     shear    for each plane, 1 if reflection preserves the shear field, -1 if it reverses the field
     """
@@ -95,12 +96,16 @@ class ReducedDomain:
         return x * cells[0], y * cells[1]
 
     def restrict(self, field: AnyField) -> AnyField:
-        """Restrict a field of the window (…, nx, ny) to the domain."""
+        """Restrict a field of the full window (…, nx, ny) to the reduced domain."""
         nx, ny = self.cells((field.shape[-2], field.shape[-1]))
         return np.ascontiguousarray(field[..., field.shape[-2] - nx :, field.shape[-1] - ny :])
 
     def extend(self, field: AnyField) -> AnyField:
-        """Extend a scalar (nx, ny) or tangential field (2, nx, ny) of the domain to the window."""
+        """Extend a scalar (nx, ny) or tangential field (2, nx, ny) from the reduced domain to the
+        window.
+
+        The mirror images have the parities `scalar` and `vector`.
+        """
         if not any(self.mirrors):
             return field
         if field.ndim == 2:
@@ -123,13 +128,15 @@ class ReducedDomain:
         return np.where(self.summed, np.sum(field, axis=(1, 2)), 0.0)
 
     def rim(self, values: AnyField) -> AnyField:
-        """Select the values of the cells at the border of the window from a field (nx, ny)."""
+        """Select the values of a field (nx, ny) in the cells at the border of the window, as a
+        flat array."""
         (x, y), (nx, ny) = self.mirrors, values.shape
         rows, columns = [0] * (not x) + [nx - 1], [0] * (not y) + [ny - 1]
         return np.concatenate([values[rows].ravel(), values[:, columns].ravel()])
 
     def framed(self, field: AnyField, width: int) -> AnyField:
-        """Extend a scalar field (nx, ny) by `width` cells: images beyond planes, elsewhere zero."""
+        """Add a frame of `width` cells to a scalar field (nx, ny): mirror images beyond planes,
+        else zeros."""
         nx, ny = field.shape
         framed = np.zeros((nx + 2 * width, ny + 2 * width), dtype=field.dtype)
         framed[width : width + nx, width : width + ny] = field
@@ -144,6 +151,7 @@ class ReducedDomain:
         """Remove a frame of `width` cells from a scalar response (adjoint of `framed`).
 
         The response beyond a mirror plane is added to its image in the domain.
+
         framed  response with its frame (nx + 2 width, ny + 2 width)
         """
         framed, images = framed.copy(), slice(width - 1, None, -1)
@@ -200,6 +208,7 @@ class ReducedGrid:
     """Grid of the cells of a reduced domain; the area of a cell includes its mirror images.
 
     A sum over the domain times the cell area is thus the integral over the window.
+
     window  grid of the full window
     domain  reduced domain
     """
@@ -219,7 +228,7 @@ class ReducedGrid:
 
     @property
     def cell_area(self) -> float:
-        """Area of a cell and its images [length^2]."""
+        """Area of a cell and its mirror images [length^2]."""
         return self.window.cell_area * self.domain.images
 
     def coordinates(self) -> tuple[Field, Field]:

@@ -51,6 +51,7 @@ def _in_order(lines: Field, one: int, other: int) -> Field:
 
     Waves have two amplitudes per wavenumber. Sines have the largest wavenumber in the place of 0,
     where the response between a sine and a cosine vanishes.
+
     one, other  parity of the two components along the axis; 0 for waves
     """
     if one == 0:
@@ -110,6 +111,7 @@ class DisplacementOperator:
 
     A call counts as 1/2 convolution per transformed component. Spectra, responses and approximate
     inverses are built on first use.
+
     coefficients  influence coefficients of both bodies
     shape         number of cells of the box along x and y
     domain        reduced domain that contains the box
@@ -130,23 +132,27 @@ class DisplacementOperator:
         self._products: dict[tuple[str, str], Product] = {}
 
     def normal(self, pressure: Field) -> Field:
-        """Compute u_z (nx, ny) caused by a pressure (nx, ny)."""
+        """Compute the normal surface displacement u_z (nx, ny) [length] caused by a pressure
+        (nx, ny)."""
         return self._product("z", "z", pressure[None])[0]
 
     def tangential(self, shear: Field) -> Field:
-        """Compute (u_x, u_y) caused by a shear, both (2, nx, ny)."""
+        """Compute the tangential surface displacement (2, nx, ny) [length] caused by a shear (2,
+        nx, ny)."""
         return self._product("xy", "xy", shear)
 
     def normal_by_shear(self, shear: Field) -> Field:
-        """Compute u_z (nx, ny) caused by a shear (2, nx, ny)."""
+        """Compute the normal surface displacement u_z (nx, ny) [length] caused by a shear (2,
+        nx, ny)."""
         return self._product("xy", "z", shear)[0]
 
     def tangential_by_pressure(self, pressure: Field) -> Field:
-        """Compute (u_x, u_y), shape (2, nx, ny), caused by a pressure (nx, ny)."""
+        """Compute the tangential surface displacement (2, nx, ny) [length] caused by a pressure
+        (nx, ny)."""
         return self._product("z", "xy", pressure[None])
 
     def together(self, tractions: Field) -> Field:
-        """Compute (u_x, u_y, u_z) caused by (q_x, q_y, p), both (3, nx, ny)."""
+        """Compute (u_x, u_y, u_z) [length] caused by (q_x, q_y, p), both (3, nx, ny)."""
         return self._product("xyz", "xyz", tractions)
 
     def _product(self, inputs: str, outputs: str, values: Field) -> Field:
@@ -217,6 +223,7 @@ class ApproximateInverse:
     The spectra are those of the coefficients with the unpadded period. A component costs 1/4
     convolution. Components are x, y and z if they have spectra, then the bins of slip compliance. A
     bin is a shear of one component, with the compliance of the bin added.
+
     spectra  spectra of the inverse (quarters) by pairs of components; real and symmetric
     dtype    precision of the transforms
     """
@@ -247,6 +254,7 @@ class ApproximateInverse:
         """Build the approximate inverse for bodies whose self-compliance is larger by `compliance`.
 
         The compliances of the bins increase in proportion to the self-compliance.
+
         compliance  additional displacement of a cell by its own unit traction [length^3/force]
         """
         xx, yy, xy = (self._spectra[pair] for pair in ("xx", "yy", "xy"))

@@ -40,6 +40,7 @@ def kernel_spectrum(
     """Transform the influence coefficients of two components to Fourier space.
 
     The result S is the spectrum; for zx and zy the spectrum is -i S.
+
     pair   names of the two components in alphabetical order, e.g. "xz"
     reach  slices of the offsets along x and y that are transformed
     """
@@ -54,7 +55,7 @@ def kernel_spectrum(
 
 
 def even_transform(coefficients: Field) -> KernelSpectrum:
-    """Transform coefficients that are even along both axes.
+    """Transform influence coefficients that are even along both axes.
 
     coefficients  values at offsets 0 … m along each axis. The convolution does not use the last
                   offset; its true value makes the periodic continuation continuous, and the

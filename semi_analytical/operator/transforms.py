@@ -39,6 +39,7 @@ class Convolutions:
 
     A convolution is one forward and one inverse transform of a padded grid of any size. Unpadded
     transforms (approximate inverses) do not count. The operators must not run concurrently.
+
     count  number of convolutions so far
     """
 
@@ -72,7 +73,7 @@ class Waves:
         self.count = (period if of_complex else period // 2 + 1) * (1 + in_pairs)
 
     def forward(self, values: Array, out: Array) -> Array:
-        """Transform values (…, cells) to amplitudes (…, count) in `out`."""
+        """Fourier transform the values of cells (…, cells) to amplitudes (…, count) in `out`."""
         spectrum = _complex(out) if self._in_pairs else out
         self._forward(values, n=self._period, axis=-1, out=spectrum)
         if self._turned:
@@ -80,7 +81,7 @@ class Waves:
         return out
 
     def back(self, amplitudes: Array) -> Array:
-        """Transform amplitudes (…, count) to values (…, cells)."""
+        """Transform Fourier amplitudes (…, count) to values of the cells (…, cells)."""
         spectrum = _complex(np.ascontiguousarray(amplitudes)) if self._in_pairs else amplitudes
         if self._turned:
             spectrum = -1j * spectrum
@@ -96,6 +97,7 @@ class MirroredWaves:
 
     Values are zero-padded to half the period m. Cosines have the wavenumbers 0 … m - 1. Sines have
     m, 1 … m - 1: the wavenumber m takes the place of 0, so that the others keep their places.
+
     cells   number of cells of the domain along the axis
     period  period of the window in cells
     sign    parity of the field: 1 for cosines, -1 for sines
@@ -114,7 +116,8 @@ class MirroredWaves:
             self._inverse[0] /= 2
 
     def forward(self, values: Array, out: Array) -> Array:
-        """Transform values (…, cells) to amplitudes (…, count) in `out`."""
+        """Cosine or sine transform the values of cells (…, cells) to amplitudes (…, count) in
+        `out`."""
         if self._matrix is not None:
             np.matmul(values, self._matrix, out=out)
         elif self._even:
@@ -125,7 +128,7 @@ class MirroredWaves:
         return out
 
     def back(self, amplitudes: Array) -> Array:
-        """Transform amplitudes (…, count) to values (…, cells)."""
+        """Transform cosine or sine amplitudes (…, count) to values of the cells (…, cells)."""
         if self._matrix is not None:
             return np.asarray(amplitudes @ self._inverse)
         if self._even:
@@ -152,6 +155,7 @@ class Transforms:
     """Transforms of the components of fields on a box of `shape` cells of a domain.
 
     Components are x and y (tangential), z (scalar) and bins of slip compliance, named by digits.
+
     half_period  (m_x, m_y) in cells of the window, even, equal on all domains: period of the
                  approximate inverses and half the period of the convolutions
     whole        True without mirror planes
@@ -189,8 +193,8 @@ class Transforms:
     def _turned(self, component: str) -> bool:
         """Return True for components whose amplitudes have an additional factor i.
 
-        The factor makes responses real. Scalars on the full window have it, and the even component
-        of vectors on half the window.
+        The factor makes the responses between components real. Scalars on the full window have the
+        factor, and the even component of vectors on half the window.
         """
         if component in "xy":
             return sorted(self.parity(component)) == [0, 1]

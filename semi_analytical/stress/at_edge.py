@@ -58,6 +58,7 @@ def change_at_depth(
     within cells.
 
     The stress by tractions that are uniform in each cell is the reference.
+
     edged     tractions with their variation within the edge cells
     x, y      positions (n,) in index coordinates
     depth     z > 0 [length], within the outermost material; accurate from a quarter of a cell on
@@ -128,6 +129,7 @@ def _by_points(
 
     The point forces lie at Gauss points of the cells at a distance of more than BOX and at most
     PATCH cells.
+
     x, y          positions (n,) in index coordinates
     depth         z >= 0 [length]
     points        number of Gauss points along a cell side
@@ -172,6 +174,7 @@ def _by_parts(
     tractions.
 
     Each subcell acts as a point force.
+
     x, y    positions (n,) in index coordinates
     count   number of subcells along a cell side
     within  first and last ring of cells about the position

@@ -88,6 +88,7 @@ def _averaged(
     """Average displacement and stress over all cells from nine points per cell and direction.
 
     The result is accurate only for cells far from the singularity.
+
     spacing  cell sides [length]
     shape    number of offsets along x and y
     """
@@ -111,6 +112,7 @@ def _averaged_along(field: Field, axis: int, sign: int) -> Field:
     """Average a response over the cells along one axis, from point values at offsets >= 0.
 
     The result is shorter by MARGIN.
+
     sign  parity of the response along the axis
     """
     mirrored = sign * np.flip(np.take(field, range(1, MARGIN + 1), axis), axis)

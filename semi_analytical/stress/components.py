@@ -29,6 +29,7 @@ def parity(field: str, traction: str) -> tuple[int, int]:
     odd.
 
     Each occurrence of an axis in the two names is one change of sign under reflection.
+
     field     entry of FIELDS
     traction  entry of TRACTIONS
     """

@@ -56,6 +56,7 @@ class _Side:
     """Fourier, sine or cosine transforms along the last axis of a field.
 
     Amplitudes have wavenumbers 0 … half, or all of a period.
+
     cells     number of cells of the window along the axis
     half      half the period in cells
     mirrored  True if the middle of the window, between cells, is a mirror plane
@@ -103,6 +104,7 @@ def plane_convolution(tractions: Field, offsets: tuple[int, int]) -> Convolution
     """Return a function that convolves tractions with response coefficients on the whole plane.
 
     The function maps coefficients (FIELDS, acting tractions, offsets) to fields (FIELDS, nx, ny).
+
     tractions  (acting tractions, nx, ny)
     offsets    number of offsets of the coefficients, at least those of `offsets_between`
     """
@@ -153,6 +155,7 @@ def row_convolution(tractions: Field, rows: Indices) -> Convolution:
 
     The function maps coefficients (FIELDS, acting tractions, offsets) to fields (FIELDS, nx,
     len(rows)).
+
     tractions  (acting tractions, nx, ny)
     rows       indices of the rows along y
     """

@@ -50,6 +50,7 @@ def default_depths(body: Body | Stack, contact_radius: float) -> tuple[Level, ..
     """Choose the default depths for stress output, from the surface to three contact radii.
 
     The depths include both sides of each interface, and three depths within each layer.
+
     contact_radius  length over which the tractions act [length]
     """
     stack = _stack(body)

@@ -26,6 +26,7 @@ def stress_by_root(phi: Quadratic, box: Field, slip: Field, nu: float) -> Field:
     """Compute the stress (6, n) at z = 0 by the tractions p = √φ+ and q = slip p within a box.
 
     The box surrounds the position of the stress (observer). Its sides are parallel to x and y.
+
     phi   quadratics of φ about the observers (n,); lengths in the unit of the box
     box   (4, n): positive distances of its sides at -x, +x, -y, +y from the observers
     slip  (2, n) shear over pressure
@@ -60,6 +61,7 @@ def _directions(phi: Quadratic, box: Field) -> tuple[Field, Field]:
 
     Gauss points lie between the corners of the box and the directions near which the integral along
     a ray varies rapidly.
+
     phi  quadratics of φ about the observers (n,)
     box  (4, n) distances of the sides of the box from the observers
     """

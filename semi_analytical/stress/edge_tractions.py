@@ -56,6 +56,7 @@ class EdgedTractions:
 
         The shape is (3, k, count, count) for k cells along the edge. The sum of `cells` and the
         result is the traction.
+
         count  number of subcells along a cell side
         """
         at = part_centres(count)
@@ -94,6 +95,7 @@ def edged_tractions(
     stuck           (nx, ny) cells of the contact that stick; None in gross slip
     stencil, rings  as in `edge_shape`; with two rings or more, the tractions of rejected rings are
                     replaced by those of the fit
+
     Raises ValueError where no cell is available for the fit.
     """
     region = pressure > 0

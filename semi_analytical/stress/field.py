@@ -40,6 +40,7 @@ class SubsurfaceField:
     body.
 
     A level is a depth in one layer. Each side of an interface is a separate level.
+
     x, y          positions, shapes (nx,) and (ny,) [length]
     levels        depth and layer of each level, in the order of the request
     displacement  (u_x, u_y, u_z), zero far away, shape (nz, 3, nx, ny) [length]
@@ -66,7 +67,7 @@ class SubsurfaceField:
 
     @property
     def depths(self) -> Field:
-        """Depth of each level, shape (nz,) [length]."""
+        """Depth of each level below the surface, shape (nz,) [length]."""
         return np.array([level.depth for level in self.levels])
 
     def along_x(self, y: float = 0.0) -> SubsurfaceField:
@@ -188,6 +189,7 @@ def depth_coefficients(
     the outermost material the whole response is tabulated. Entry (i, j) belongs to the offset (i
     dx, j dy) with i, j >= 0; other quadrants follow by `components.parity`. Displacements are in
     [length^3/force], stresses are dimensionless.
+
     spacing  cell sides [length]
     shape    number of offsets along x and y, including zero
     sheared  include the responses to shear, before those to pressure
@@ -216,6 +218,7 @@ def _closed_form(
     """Compute displacement and stress by unit tractions on a cell of a homogeneous half-space.
 
     The half-space has the material of the stack at this level.
+
     shape  number of offsets along x and y
     """
     x = (np.arange(shape[0] + 1, dtype=np.float64) - 0.5) * spacing[0]

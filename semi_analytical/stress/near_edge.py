@@ -85,12 +85,12 @@ class NearEdge:
 
     @property
     def x(self) -> Field:
-        """Coordinate x of the points of the edge (n,) [length]."""
+        """Coordinate x of the fitted points of the contact edge (n,) [length]."""
         return np.asarray(self.grid.x[0] + self.phi.x * self.grid.spacing[0])
 
     @property
     def y(self) -> Field:
-        """Coordinate y of the points of the edge (n,) [length]."""
+        """Coordinate y of the fitted points of the contact edge (n,) [length]."""
         return np.asarray(self.grid.y[0] + self.phi.y * self.grid.spacing[1])
 
     def stress(self) -> Field:
@@ -173,7 +173,9 @@ def near_edge(
     """Fit the contact edge of a smooth contact; arguments as for `subsurface`.
 
     The pressure must fall like a square root towards the edge.
+
     corrected  True if the tractions are cell means with edge correction
+
     Raises EdgeNotSeen, and the errors of `subsurface`.
     """
     if shear is not None and np.max(np.abs(shear)) <= NO_SHEAR * np.max(pressure):

@@ -30,6 +30,7 @@ def stress_from_beyond(
 
     The patch is centred at the nearest cell, which is at least NODES cells from the border of the
     plane.
+
     cells     (3, nx, ny) tractions
     plane     (6, nx, ny) stress at the cell centres by all tractions
     x, y      positions in index coordinates

@@ -15,6 +15,7 @@ def stress_by_force(x: Field, y: Field, depth: float, nu: float, force: Field) -
     """Compute stress times area (6, …) in a half-space under point forces on its surface.
 
     The components are in the order of CONVENTIONS.md. Points of action are excluded.
+
     x, y   observer minus force (…), not both zero at depth zero [length]
     depth  z >= 0 [length]
     nu     Poisson's ratio
@@ -63,6 +64,7 @@ def _at_surface(
     """Compute stress times area (6, …) at depth zero, where only xx, yy and xy are not zero.
 
     Arguments as for `stress_by_force`, with the force divided by 2π.
+
     sheared  True if q_x or q_y is not zero
     """
     q_x, q_y, p = force

@@ -25,6 +25,7 @@ class AxisPotentials:
     axis s.
 
     Each integral has shape (…, nx, ny). The potentials are defined in the module.
+
     s, o   corner offsets of the observers along this and the other axis, which broadcast [length]
     depth  z >= 0 [length]
     """
@@ -103,6 +104,7 @@ def half_space_response(
     The shape is (FIELDS, acting tractions, …, nx, ny). The fields are in equilibrium and regular at
     nu = 1/2. The divergence of the displacement is 2 (1 - 2 nu) / 2G times A_z under pressure, A_x
     and A_y under shear. Every normal stress includes 2 nu times these derivatives.
+
     x, y      corner offsets of the observers from the loaded rectangles, minus and plus half a
               side, shared by neighbours; shapes (…, nx + 1), (…, ny + 1), none zero at depth zero
               [length]

@@ -169,6 +169,7 @@ class SprungShift(FixedShift):
     The spring is part of the compliance. `nearest` uses the spring force after the step: with the
     force before the step, a soft spring would convert every change of the shift into slip of all
     cells. The motion is that of the contact.
+
     shift       shift of the actuator (2,) [length]
     compliance  displacement of the spring per sum of the shear [length^3/force]
     summed      see `ShearSum`
@@ -178,7 +179,8 @@ class SprungShift(FixedShift):
     summed: tuple[bool, bool] = (True, True)
 
     def extension(self, q: VectorField) -> Vector:
-        """Compute the extension of the spring under a shear (2,) [length]."""
+        """Compute the extension of the spring (2,) [length] under the force of a shear (2, nx,
+        ny)."""
         return np.asarray(self.compliance * np.sum(q, axis=(1, 2)) * self.summed)
 
     def nearest(
@@ -211,6 +213,7 @@ class NaturalShear(NamedTuple):
     """Value of the natural map P(z) of the tangential problem at a shear q, with P the projection.
 
     The shear is a solution if P(z) = q.
+
     z          q + γ (ω + c - u) (2, nx, ny): ω rigid motion, c displacement that stick requires, u
                displacement
     projected  P(z) (2, nx, ny)
@@ -238,6 +241,7 @@ def natural_shear(
 
     With a spring, z has the motion of the contact after the step and the slip that of the present
     extension; the two are equal in a solution.
+
     load    prescribed tangential load
     q       shear (2, nx, ny)
     apart   displacement that stick requires minus actual displacement, c - u (2, nx, ny) [length]
@@ -311,6 +315,7 @@ class ProjectedShear:
     """Projection of a shear z on the friction discs |q| <= bound, for one value of a multiplier.
 
     `multipliers.py` solves for the multiplier whose projected shear has the prescribed forces.
+
     defect     forces of the projected shear minus prescribed forces
     z, length  shear (2, ...) and its magnitude (...)
     outside    cells where the magnitude exceeds the bound

@@ -64,7 +64,11 @@ class LinearisedShear:
         self._shares = np.linalg.pinv(responses.reshape(count, count).T, rcond=UNDETERMINED)
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """Return an admissible shear near q whose slipping cells are at the friction limit.
+        """Return an admissible shear near q: within the friction limit and with the prescribed
+        forces.
+
+        Slipping cells first receive the friction limit along their slip. The result is then
+        corrected to the prescribed forces and projected.
 
         q      shear (2, nx, ny)
         bound  friction limit µp (nx, ny)
@@ -78,6 +82,7 @@ class LinearisedShear:
 
         Return the solution and the number of iterations. Iterations stop when the norm of the
         residual at the start has fallen by the factor `depth`.
+
         base     starting point
         slipped  slip ω + c - u at the starting point (2, nx, ny) [length]
         """

@@ -90,6 +90,7 @@ class ShearZones:
 
         with F, f and the weights χ_j of bins as in `ApproximateInverse` and `slip_compliance_bins`.
         Far beyond the last bin d dominates f: there M tends to t (K₀ + d)⁻¹ t.
+
         inverse  F⁻¹ of two components, then (f + d_j)⁻¹ of one component per bin
         """
         given = np.empty((len(self._shares) + 1, *v.shape[1:]))

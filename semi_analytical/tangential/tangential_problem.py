@@ -168,6 +168,7 @@ def _line_search(
     Close to the solution changes of the energy are below round-off. Only there a point is also
     accepted by its natural residual; elsewhere this criterion may increase the energy and lead to
     cycles.
+
     accepted  last accepted point and its natural residual; None in the first step
     newton    point after the Newton step
     motion    rigid motion, initial guess of the projection

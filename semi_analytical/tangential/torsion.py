@@ -34,6 +34,7 @@ class ShearMoments:
     """Tangential load with a prescribed torque Σ(q_y x - q_x y), and with prescribed Σq or shift.
 
     The rigid motion is (shift x, shift y, twist).
+
     rotation  (-y, x) of the cells (2, nx, ny) [length]
     torque    Σ(q_y x - q_x y) = M_z / cell area
     total     Σq = T / cell area, shape (2,); None where the shift is prescribed
@@ -143,6 +144,7 @@ class ShearMoments:
 
         Newton's method minimises the power of friction over all rigid motions on which the load
         does unit work. The load factor, limit load over prescribed load, is the minimum.
+
         bound  friction limit µp (nx, ny)
         """
         loaded, units = self._loaded(bound)
@@ -217,6 +219,7 @@ def _descended(
     """Apply a Newton step, bisected until the power of friction decreases sufficiently (Armijo).
 
     Return the accepted position and its power with gradient and Hessian.
+
     x, step      position and Newton step
     power, fall  power at x, and its decrease predicted by the gradient
     """
@@ -232,6 +235,7 @@ class _ShiftedMoments(ProjectedShear):
     """Projection of y + Σ λ unit on the friction discs of the loaded cells (2, n).
 
     The defect is that of the prescribed forces.
+
     multiplier  multipliers λ (k,) of the prescribed forces
     units       unit motions in the loaded cells (k, 2, n)
     given       prescribed forces conjugate to the unit motions (k,)
