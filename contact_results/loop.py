@@ -94,7 +94,10 @@ def _along(path: Sequence[Increment], name: str, direction: Vector) -> Vector | 
 
 
 def _half_range(values: Vector) -> float:
-    """Return half the difference between the largest and the smallest of the values (n,)."""
+    """Return half the range of a quantity in a load cycle: half of largest minus smallest value.
+
+    values  quantity at the end of each increment (n,)
+    """
     return float(np.ptp(values)) / 2
 
 

@@ -37,7 +37,10 @@ NO_BORDER = (
 
 
 def warnings_of(result: Result) -> tuple[str, ...]:
-    """Return all warnings about a result of any solver, one clause each."""
+    """Return all warnings about a result of any solver, one clause each.
+
+    They concern implausible input, large strains, the path of the loads, and unresolved details.
+    """
     found = (
         *unlikely(result.scene),
         *beyond_linear_theory(result.scene, result.steps),
@@ -83,7 +86,10 @@ def _first_cycle(result: Result) -> Iterator[str]:
 
 
 def _left_out(result: semi_analytical.Result) -> Iterator[str]:
-    """Yield a warning if the cells do not resolve the roughness of the height map."""
+    """Yield a warning if the cells do not resolve the roughness of the height map.
+
+    The warning states the pressure that would flatten the unresolved roughness.
+    """
     share, indenter = left_out(result), result.scene.indenter
     if share > NEGLIGIBLE and isinstance(indenter, HeightMap):
         nx, ny = (int(np.ceil(n)) for n in np.divide(result.grid.window, indenter.spacing))

@@ -65,11 +65,11 @@ class Surface(Protocol):
 
     @property
     def line(self) -> Line:
-        """Line through the z axis on which `along` and `vector_along` evaluate fields."""
+        """Line through the z axis on which profiles of the fields are drawn."""
 
     @property
     def direction(self) -> tuple[float, float]:
-        """Unit vector (x, y) along the line of the profiles."""
+        """Unit vector (x, y) along the line on which profiles of the fields are drawn."""
 
     def scalar(self, increment: Increment, name: str) -> NDArray[Any] | None:
         """Return a scalar field of an increment, such as the pressure, at all points.
@@ -98,10 +98,13 @@ class Surface(Protocol):
         """
 
     def along(self, field: Field) -> Field:
-        """Evaluate a scalar field at the n points of the line of the profiles (n,)."""
+        """Evaluate a scalar field at the n points of the line of profiles, see `line`.
+
+        Returns values of shape (n,).
+        """
 
     def vector_along(self, vector: Field) -> Field:
-        """Evaluate a vector field (2, …) at the n points of the line of the profiles.
+        """Evaluate a vector field (2, …) at the n points of the line of profiles, see `line`.
 
         Returns the components along and across the line (2, n).
         """
@@ -138,12 +141,12 @@ class Cells:
 
     @property
     def line(self) -> Line:
-        """Line of the profiles: all centres x, at y = 0."""
+        """Line on which profiles of the fields are drawn: all cell centres x, at y = 0."""
         return Line(self.x, "x at y = 0", ("x", "y"))
 
     @property
     def direction(self) -> tuple[float, float]:
-        """Unit vector along the line of the profiles: the x axis."""
+        """Unit vector along the line on which profiles of the fields are drawn: the x axis."""
         return 1.0, 0.0
 
     def scalar(self, increment: Increment, name: str) -> NDArray[Any] | None:
@@ -236,7 +239,7 @@ class Rings:
 
     @property
     def line(self) -> Line:
-        """Line of the profiles on the rings.
+        """Line on which profiles of the fields are drawn.
 
         The line is a radius if the fields depend on the radius alone, else the diameter along the
         load.
@@ -296,7 +299,7 @@ class Rings:
         )
 
     def on_both_sides(self) -> Rings:
-        """Return rings whose line of the profiles is the whole diameter along the load.
+        """Return rings on which profiles are drawn along the whole diameter in load direction.
 
         Rings without angles get the angles 0 and π, which are the two rays of this diameter. Rings
         with angles are returned unchanged.
@@ -304,7 +307,7 @@ class Rings:
         return self if self.angles is not None else replace(self, angles=np.array([0.0, np.pi]))
 
     def along(self, field: Field) -> Field:
-        """Evaluate a field at the points of the line of the profiles.
+        """Evaluate a field at the points of the line on which profiles are drawn.
 
         Without angles, the field itself is returned. With angles, the values follow the diameter
         from the outermost ring on the ray at angle π to the outermost ring on the ray at angle 0.
@@ -315,7 +318,7 @@ class Rings:
         return np.concatenate([field[..., ::-1, behind], field[..., :, 0]], axis=-1)
 
     def vector_along(self, vector: Field) -> Field:
-        """Evaluate a vector field (2, …) at the points of the line of the profiles.
+        """Evaluate a vector field (2, …) at the points of the line on which profiles are drawn.
 
         vector  x and y components of the vector
 
@@ -324,9 +327,10 @@ class Rings:
         return self.along(self._turned(vector, -1))
 
     def _everywhere(self, field: NDArray[Any] | None) -> NDArray[Any] | None:
-        """Repeat a field that depends on the radius alone at every angle of the grid.
+        """Repeat a field that depends on the radius alone at every angle of the surface grid.
 
-        Other fields, and None, are returned unchanged.
+        field  values (rings,), which become (rings, angles); fields with angles, and None, are
+               returned unchanged
         """
         if field is None or self.angles is None or field.ndim > 1:
             return field

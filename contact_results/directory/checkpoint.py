@@ -95,6 +95,8 @@ class CheckpointDirectory:
         """Store a checkpoint if enough time has passed since the last one was stored.
 
         A failed write disables further checkpoints of this solve, and the user gets a message.
+
+        standing  state of the solve after an increment
         """
         self.last()
         began = time.monotonic()
@@ -124,6 +126,8 @@ class CheckpointDirectory:
         """Write the increments since the last stored checkpoint to one or more files.
 
         A file has about MAX_IN_PART bytes of fields at most, but at least one increment.
+
+        standing  state of the solve after the last of these increments
         """
         new = standing.increments[self._kept :]
         self._extent = standing.extent

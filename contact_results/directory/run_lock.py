@@ -56,7 +56,10 @@ def acquire(directory: Path, *, wait: bool) -> int | None:
 
 
 def release(descriptor: int | None) -> None:
-    """Release the lock with this descriptor; do nothing for None."""
+    """Release the lock of a directory; do nothing for None.
+
+    descriptor  descriptor of the lock, from `acquire`
+    """
     if descriptor is not None:
         os.close(descriptor)
 

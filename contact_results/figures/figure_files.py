@@ -1,4 +1,4 @@
-"""Writer of the figures of a result."""
+"""Writer of the image files of a result: overview, profiles, maps."""
 
 from __future__ import annotations
 

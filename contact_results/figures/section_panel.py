@@ -81,8 +81,9 @@ def draw_section(
 
 
 def stretches(body: Body, deepest: float) -> bool:
-    """Return True if the depth axis must be stretched to show thin layers.
+    """Return True if the layers are so thin that a figure must stretch its depth axis there.
 
+    body     layers and base
     deepest  largest depth of the figure [length]
     """
     return 0 < sum(layer.thickness for layer in body.layers) < THIN * deepest
@@ -92,6 +93,7 @@ def show_depths(ax: Any, body: Body, deepest: float, length: EngineeringUnit) ->
     """Draw a line at every interface, and scale the depth axis so that thin layers are visible.
 
     ax       axes of matplotlib
+    body     layers and base
     deepest  largest depth of the figure [length]
     length   unit of the depth axis
 

@@ -133,7 +133,7 @@ def draw_surface(ax: Any, field: StressField) -> None:
 
 
 def _ends(field: StressField) -> StressPoints | None:
-    """Select the points of the fitted contact edge at which it crosses y = 0, along x.
+    """Select the points at which the fitted contact edge crosses y = 0, sorted along x.
 
     Each crossing is represented by the fitted point nearest to y = 0. Returns None if no edge was
     fitted or if the fit does not determine the stress.
@@ -161,22 +161,22 @@ def _places_of_ends(field: StressField) -> Sequence[float]:
 
 
 def _radius(field: StressField) -> float:
-    """Return the contact radius, or the loaded radius of a finite element mesh [length]."""
+    """Return the contact radius; for finite elements that of the last loaded ring [length]."""
     return float(str(field.how.get("contact_radius", field.how.get("loaded_radius"))))
 
 
 def _at_surface(field: StressField) -> StressPoints:
-    """Select the points of the section at its smallest depth, along x."""
+    """Select the points of the stress section at its smallest depth, sorted along x."""
     points = field.section
     at = np.flatnonzero(points.depth == points.depth.min())
     return points.chosen(at[np.argsort(points.x.flat[at], kind="stable")])
 
 
 def _below_edge(field: StressField) -> dict[str, StressPoints]:
-    """Select the points of the section below the trailing contact edge, downward.
+    """Select the points of the stress section below the trailing contact edge, sorted by depth.
 
-    The trailing edge is the edge with the larger σ_xx at the surface. The points are returned by
-    the title of their panel.
+    The trailing edge is the edge with the larger σ_xx at the surface. The result is a dictionary
+    with one entry: the title of the panel, and the points.
     """
     surface, points = _at_surface(field), field.section
     ends = [int(np.argmin(np.abs(surface.x - x))) for x in _places_of_ends(field)]

@@ -123,7 +123,7 @@ def load(directory: str | PathLike[str]) -> StoredRun:
     Raises
     ------
     FileNotFoundError
-        The directory has no run.
+        The directory is not the output of a run.
     ValueError
         A file is damaged, of an earlier version, or of another run.
     ResourceRefused

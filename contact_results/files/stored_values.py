@@ -119,6 +119,8 @@ def values(dataset: h5py.Dataset, row: int | None = None) -> NDArray[Any]:
 
     Nothing is read if an error is raised.
 
+    row  index along the first axis; None reads all values
+
     Raises
     ------
     ValueError

@@ -116,7 +116,7 @@ class LoadedBodies:
 
     @property
     def surface(self) -> Surface:
-        """Surface grid of the tractions."""
+        """Surface grid that carries the tractions: cells or rings."""
         return surface_on(self.axes, self.direction)
 
 

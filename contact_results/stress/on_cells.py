@@ -1,4 +1,7 @@
-"""Stress below tractions on the cells of a surface grid."""
+"""Computation of the stress below tractions on the cells of a surface grid.
+
+The semi-analytical solver computes such tractions.
+"""
 
 from __future__ import annotations
 

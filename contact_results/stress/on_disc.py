@@ -81,7 +81,7 @@ def stress_at_radii(
     x, y      coordinates of the points (n,) [length]
     levels    depth and layer of each point (n,)
     indenter  True for the stress in the indenter, False for the lower body
-    fineness  factor on the numbers of orders and points of the computation
+    fineness  multiple of the numbers of polynomials and quadrature points
 
     Raises UnsupportedScene as `RadialBody.of` does.
     """

@@ -1,4 +1,4 @@
-"""Displacement and stress at points of a body, from any solver."""
+"""Data structures for displacement and stress at points of a body, for all solvers."""
 
 from __future__ import annotations
 
@@ -65,7 +65,11 @@ class StressPoints:
 
     @property
     def measures(self) -> Mapping[str, Field]:
-        """Stress measures at the points (…) [force/length^2], by the names of `MEASURES`."""
+        """Stress measures at the points (…) [force/length^2], by the names of `MEASURES`.
+
+        These are von Mises, largest principal and largest shear stress, and shear and tensile
+        stress of an interface.
+        """
         first, _, last = self.principal
         of = self.components
         across = np.hypot(of["xz"], of["yz"])
@@ -99,7 +103,10 @@ class StressPoints:
 
     @staticmethod
     def joined(parts: Sequence[StressPoints]) -> StressPoints:
-        """Concatenate arrays of stress points along their last index, without cells."""
+        """Concatenate several arrays of stress points along their last index.
+
+        Cells between the points are omitted.
+        """
 
         def concatenated(name: str) -> Any:
             return np.concatenate([getattr(part, name) for part in parts], axis=-1)
@@ -107,7 +114,7 @@ class StressPoints:
         return StressPoints(**{name: concatenated(name) for name in FIELDS})
 
     def columns(self, which: slice) -> StressPoints:
-        """Select stress points along their last index, without cells.
+        """Select stress points along their last index; cells between the points are omitted.
 
         which  slice of the last index
         """
@@ -134,13 +141,16 @@ class StressPoints:
         return replace(self, cells=(kind, np.stack(corners, axis=-1).reshape(-1, len(corners))))
 
     def with_largest(self) -> StressPoints:
-        """Select the points at which each stress measure is largest (measures,), without cells."""
+        """Select the point at which each stress measure is largest.
+
+        Returns one point per measure, as a flat array (measures,) without cells.
+        """
         return self.chosen(np.array([np.argmax(values) for values in self.measures.values()]))
 
     def near(self, reach: float) -> StressPoints:
         """Select the cells that have a corner near the contact, with the points of these cells.
 
-        reach  largest |x| and largest depth of such a corner [length]
+        reach  distance to the sides and in depth within which this corner lies [length]
         """
         assert self.cells is not None
         kind, cells = self.cells
@@ -166,7 +176,7 @@ class StressPoints:
 
     @property
     def in_a_row(self) -> StressPoints:
-        """The same stress points as a flat array (n,), without cells."""
+        """The same stress points as a flat array (n,); cells between the points are omitted."""
         return self.chosen(np.arange(self.x.size))
 
     def on_side(self, depth: float, material: int) -> NDArray[np.bool_]:

@@ -77,7 +77,7 @@ class RadialBody:
 
         state     bodies and tractions that cause the stress
         indenter  True for the indenter, False for the lower body
-        fineness  factor on the numbers of orders and points of the computation; above 1 the contact
+        fineness  multiple of the numbers of polynomials and quadrature points; above 1 the contact
                   edge has another fit
 
         Raises UnsupportedScene for too few rings, for shear with infinite pressure, and for a
@@ -95,10 +95,11 @@ class RadialBody:
     ) -> RadialBody:
         """Prepare the stress of a contact without shear, from indenter shape and contact radius.
 
-        state        bodies and tractions that cause the stress
-        indenter     True for the indenter, False for the lower body
-        fineness     factor on the numbers of orders and points of the computation
-        body, stack  the body in which the stress is computed, in two representations
+        state     bodies and tractions that cause the stress
+        indenter  True for the indenter, False for the lower body
+        fineness  multiple of the numbers of polynomials and quadrature points
+        body      the body in which the stress is computed
+        stack     the elastic layers and the base of this body
         """
         from contact_scene import Scene
         from radial.normal.disc import disc
@@ -129,10 +130,12 @@ class RadialBody:
     ) -> RadialBody:
         """Prepare the stress of a contact with shear, from the tractions on rings.
 
-        state        bodies and tractions that cause the stress
-        indenter     True for the indenter, False for the lower body
-        fineness     factor on the numbers of orders and points of the computation
-        body, stack  the body in which the stress is computed, in two representations
+        state     bodies and tractions that cause the stress
+        indenter  True for the indenter, False for the lower body
+        fineness  multiple of the numbers of polynomials and quadrature points; above 1 the contact
+                  edge has another fit
+        body      the body in which the stress is computed
+        stack     the elastic layers and the base of this body
         """
         from radial.stress.circle_fit import (
             ANOTHER,
@@ -265,7 +268,7 @@ class RadialBody:
 
 
 def is_sheared(state: LoadedBodies) -> bool:
-    """Return True if the surface carries a shear traction that is not zero."""
+    """Return True if the surface carries a shear traction that is not zero everywhere."""
     return any(np.any(t) for name, t in state.tractions.items() if name != "pressure")
 
 

@@ -67,7 +67,7 @@ def load_stress(directory: str | PathLike[str]) -> StoredStress:
     Raises
     ------
     FileNotFoundError
-        The directory has no stress.
+        The directory is not the output of a stress.
     ValueError
         A file is damaged or of an earlier version.
     """
