@@ -38,7 +38,10 @@ DEEP = 100.0
 
 
 def sections_of(scene: Scene, discretisation: FiniteElementDiscretisation) -> list[SectionMesh]:
-    """Create the meshes of the deformable bodies of a scene. Equal bodies share one mesh."""
+    """Create the meshes of the deformable bodies of a scene, without a solve.
+
+    Equal bodies share one mesh.
+    """
     radius = meshed_radius(scene, discretisation.contact_radius)
     sections = ContactModel.of(scene, discretisation, radius).sections
     return list({id(section): section for section in sections if section is not None}.values())

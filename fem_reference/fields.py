@@ -69,10 +69,10 @@ class Result:
 
     @property
     def tolerance(self) -> float:
-        """Upper limit that every residual met at the end of every increment [1]."""
+        """Upper limit of every residual at the end of every increment [1]."""
         return self.discretisation.tolerance
 
     @property
     def steps(self) -> tuple[Increment, ...]:
-        """Last increment of each completed load step."""
+        """Converged state at the end of each completed load step: its last increment."""
         return tuple(i for i in self.increments if i.index == i.increments_in_step)

@@ -45,8 +45,7 @@ def solved_increments(method: ContactMethod, tolerance: float) -> Iterator[Incre
 def resumable_solve(
     method: ContactMethod, tolerance: float, since: Checkpoint | None = None
 ) -> Iterator[tuple[Increment, ResumePoint[PointState]]]:
-    """Solve the load history of a scene and yield its increments, each with the resume point after
-    it.
+    """Solve the load history of a scene and yield its increments with their resume points.
 
     method     contact method of the scene
     tolerance  upper limit of every residual [1]
@@ -71,7 +70,11 @@ class _Solver:
     most_spent: float = 0.0
 
     def spent(self) -> float:
-        """Return 0, because the amount of work does not limit the bisection of increments."""
+        """Return the work that the solver has spent so far, always 0 here.
+
+        The load stepping can limit the bisection of increments by their work. This solver sets no
+        limit.
+        """
         return 0.0
 
     def advance(

@@ -276,6 +276,6 @@ def _refuse_loads(scene: Scene, loaded: bool, twisted: bool, coupled: bool) -> N
 
 
 def _turns(one: tuple[float, float], other: tuple[float, float]) -> bool:
-    """Return True if two tangential loads (x, y) are not parallel or opposite, within round-off."""
+    """Return True if two tangential loads (x, y) are not along one line, within round-off."""
     cross = one[0] * other[1] - one[1] * other[0]
     return abs(cross) > STRAIGHT * hypot(*one) * hypot(*other)

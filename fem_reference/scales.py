@@ -19,12 +19,15 @@ class Scales:
 
     @property
     def force(self) -> float:
-        """Unit of force: modulus times length squared [force]."""
+        """Unit of force of the dimensionless problem: modulus times length squared [force]."""
         return self.modulus * self.length * self.length
 
     @property
     def moment(self) -> float:
-        """Unit of moment and torque: unit of force times unit of length [force length]."""
+        """Unit of moment and torque of the dimensionless problem [force length].
+
+        The unit is the product of the units of force and length.
+        """
         return self.force * self.length
 
     def dimensionless(self, body: Body) -> Body:

@@ -110,7 +110,10 @@ def _solver(
     discretisation: FiniteElementDiscretisation,
     method: Method,
 ) -> ContactMethod:
-    """Create the contact method on a model, with exact or penalty enforcement of the laws."""
+    """Create the contact method that solves the increments of a scene on a model.
+
+    The requested method determines exact or penalty enforcement of the contact laws.
+    """
     penalty = None
     if method is Method.PENALTY:
         penalty = Penalty(

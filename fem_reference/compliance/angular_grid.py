@@ -32,12 +32,15 @@ class AngularGrid:
 
     @property
     def points(self) -> int:
-        """Number of points on the half circle of a ring."""
+        """Number of points on the half circle of each ring.
+
+        The other half is its mirror image.
+        """
         return len(self.angles)
 
     @property
     def highest(self) -> int:
-        """Highest angular harmonic n of the transforms."""
+        """Highest angular harmonic n that the points on a ring can represent."""
         return len(self.cosines) - 1
 
     @property

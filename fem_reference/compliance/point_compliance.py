@@ -67,7 +67,10 @@ class PointCompliance:
 
     @cached_property
     def stretch(self) -> Field:
-        """Tangential displacement of points per unit equibiaxial strain (2, points) [length]."""
+        """Tangential displacement of the points per unit imposed strain (2, points) [length].
+
+        The strain of the surface is equibiaxial, so that the displacement is radial.
+        """
         outward = self.rings.stretch[self.ring_of_point]
         return np.stack([outward, np.zeros_like(outward)])
 
@@ -90,7 +93,10 @@ class PointCompliance:
 
     @cached_property
     def couples(self) -> bool:
-        """True if pressure causes relative tangential displacement of the two surfaces."""
+        """True if pressure causes relative tangential displacement of the two surfaces.
+
+        Normal and tangential problem are then coupled.
+        """
         return any(np.any(A[:2, :, 2]) for A in self.rings.harmonics)
 
     @cached_property

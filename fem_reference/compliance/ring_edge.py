@@ -81,7 +81,7 @@ class Edge(Protocol):
         """
 
     def radius(self, radii: Field, values: Field, last: int, step: int = 1) -> float:
-        """Compute the radius at which a traction that is given on rings decreases to zero [length].
+        """Compute the radius at which a traction given on rings decreases to zero [length].
 
         radii   radii of the rings, circles around the axis on the surface (n,) [length]
         values  traction at the rings (n,), positive at the ring `last` and before it, zero at the
@@ -110,7 +110,7 @@ class HatEdge:
         return HatEdge()
 
     def radius(self, radii: Field, values: Field, last: int, step: int = 1) -> float:
-        """Compute the radius at which a traction that is given on rings decreases to zero [length].
+        """Compute the radius at which a traction given on rings decreases to zero [length].
 
         The distance from the last ring with a positive value follows from the ratio of the last two
         positive values. Arguments are those of `Edge.radius`.
@@ -145,8 +145,7 @@ class GaussEdge:
         return self
 
     def radius(self, radii: Field, values: Field, last: int, step: int = 1) -> float:
-        """Compute the radius at which a traction that is given at Gauss points decreases to zero
-        [length].
+        """Compute the radius at which a traction given at Gauss points decreases to zero [length].
 
         The squares of the values near the edge are fitted by a parabola in r², whose zero is the
         result. If there are too few values or no zero nearby, the result is the middle between the

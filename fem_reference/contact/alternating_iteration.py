@@ -177,9 +177,10 @@ def _change(areas: Vector, p: Vector, answer: Vector) -> float:
 
 
 def sides_of(pressure: Vector) -> Sides:
-    """Guess the active set of the normal problem from a pressure (points,).
+    """Return the active set of the normal problem that belongs to a pressure (points,).
 
-    Points with pressure are free (0). All others are at the lower bound zero (-1).
+    Points with pressure are free (0). All others are at the lower bound zero (-1). Used as a guess
+    of the active set.
     """
     return np.where(pressure > 0, 0, -1).astype(np.int8)
 
@@ -187,7 +188,10 @@ def sides_of(pressure: Vector) -> Sides:
 def approach_of(problem: CoupledProblem, pressed: BoxSolution) -> float:
     """Return the rigid approach of a solution of the normal problem [length].
 
-    The result is the prescribed approach, or the multiplier of the prescribed force.
+    The result is the prescribed approach. Under a prescribed force, it is the multiplier of the
+    force.
+
+    pressed  solution of the normal problem
     """
     prescribed = problem.normal.approach
     return pressed.multiplier if prescribed is None else prescribed

@@ -59,11 +59,11 @@ def augmented(
 ) -> list[P]:
     """Repeat the penalty solve of an increment until the remaining overlap is allowed.
 
-    The multipliers are updated after each solve. Return the solutions of all passes. The last one
-    is the best. One update of stiff springs removes nearly all of the error of the penalty (Alart
-    and Curnier 1991, Comput. Methods Appl. Mech. Eng. 92, 353; Simo and Laursen 1992, Comput.
-    Struct. 42, 97). At Gauss points the displacements do not determine all pressures, and updates
-    beyond the allowed error would accumulate oscillations.
+    Each solve is a pass. The multipliers are updated after each pass. Return the solutions of all
+    passes. The last one is the best. One update of stiff springs removes nearly all of the error of
+    the penalty (Alart and Curnier 1991, Comput. Methods Appl. Mech. Eng. 92, 353; Simo and Laursen
+    1992, Comput. Struct. 42, 97). At Gauss points the displacements do not determine all pressures,
+    and updates beyond the allowed error would accumulate oscillations.
 
     first   solution of the first pass
     again   function from the solution of a pass to that of the next pass

@@ -12,7 +12,7 @@ AT_LIMIT = 1e-6
 
 
 def reaches_limit(load: float | None, capacity: float) -> bool:
-    """Return True if a tangential force or torque is at the friction limit, that is at gross slip.
+    """Return True if a tangential force or torque reaches the friction limit (gross slip).
 
     load      force or torque; None if the motion is prescribed
     capacity  largest load that friction can carry

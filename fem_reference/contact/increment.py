@@ -115,12 +115,18 @@ class _Pass:
 
     @property
     def tractions(self) -> Field:
-        """Shear and pressure as one array with the components r, θ, z (3, points)."""
+        """Shear and pressure of all points in one array (3, points).
+
+        The components are r, θ, z [force/length^2].
+        """
         return np.concatenate([self.solution.shear, self.solution.pressure[None]])
 
     @property
     def strain(self) -> Field:
-        """Deformation of the penalty springs, components r, θ, z (3, points) [length]."""
+        """Deformation of the penalty springs between the surfaces (3, points) [length].
+
+        The components are r, θ, z.
+        """
         return self.problem.compliance.springs * (self.tractions - self.multiplier)
 
     @property
@@ -181,8 +187,9 @@ class _Increment:
         return replace(after, outer_iterations=outer_iterations, solves=solves)
 
     def left(self, one: _Pass) -> float:
-        """Compute the relative error of the penalty in a pass, from the deformation of the springs
-        [1].
+        """Compute the relative error that the penalty causes in a pass of the increment [1].
+
+        The error follows from the deformation of the penalty springs.
 
         The error is the larger of two ratios. The first is the overlap over the approach. The
         second is the tangential strain of the springs over the largest tangential displacement in

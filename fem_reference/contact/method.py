@@ -112,7 +112,7 @@ class ContactMethod:
         return point_contact(self.model, self.plan.path, around, self.penalty)
 
     def _refuse_contact_at_edge(self, contact: PointContact, state: PointState) -> None:
-        """Raise ContactAtZoneEdge if the contact reaches the end of the fine elements.
+        """Raise ContactAtZoneEdge if the contact reaches the end of the zone of fine elements.
 
         A contact that ends at the rim of the indenter is allowed.
         """

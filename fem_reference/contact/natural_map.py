@@ -52,8 +52,9 @@ class Iterate:
 
 
 class Equations:
-    """Contact equations of an increment: natural map of the laws at all points, and prescribed
-    loads.
+    """Contact equations of an increment: laws at all points, then prescribed loads.
+
+    The contact and friction laws are written as a natural map.
 
     The unknowns are tractions, rigid motion and the compliance of springs between the surfaces.
     """

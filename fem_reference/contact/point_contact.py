@@ -41,7 +41,7 @@ class PointContact:
 
     @property
     def rings(self) -> RingCompliance:
-        """Rings that contain the points, with their compliance."""
+        """Rings of the surface that contain the points, with the compliance of the rings."""
         return self.compliance.rings
 
     @property
@@ -54,7 +54,7 @@ class PointContact:
 
     @property
     def axisymmetric(self) -> bool:
-        """True if each point represents a whole ring."""
+        """True if there is one point per ring, for fields that do not depend on the angle."""
         return self.compliance.grid.highest == 0
 
     @property

@@ -67,15 +67,24 @@ class PointState:
 
     @property
     def tractions(self) -> Field:
-        """Shear and pressure as one array with the components r, θ, z (3, points)."""
+        """Shear and pressure of all points in one array (3, points).
+
+        The components are r, θ, z [force/length^2].
+        """
         return np.concatenate([self.shear, self.pressure[None]])
 
 
 def length(vectors: Field) -> Vector:
-    """Compute the length of every vector of an array (2, points)."""
+    """Compute the Euclidean length of the vector at every point (points,).
+
+    vectors  tangential vectors at the points, such as shear or slip (2, points)
+    """
     return np.asarray(np.sqrt(vectors[0] ** 2 + vectors[1] ** 2))
 
 
 def longest(vectors: Field) -> float:
-    """Compute the length of the longest vector of an array (2, points)."""
+    """Compute the Euclidean length of the longest vector among all points.
+
+    vectors  tangential vectors at the points, such as shear or slip (2, points)
+    """
     return float(np.max(length(vectors)))

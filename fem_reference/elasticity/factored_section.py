@@ -122,8 +122,7 @@ class FactoredSection:
 def _assembled(
     section: SectionMesh, motion: Motion, basis: Basis, numbering: Numbering
 ) -> csr_array:
-    """Assemble the sparse stiffness matrix between all displacement degrees of freedom of a
-    section.
+    """Assemble the sparse stiffness matrix of all displacement degrees of freedom.
 
     Entries with the value zero remain in the sparsity pattern, because fill-in needs them.
     """

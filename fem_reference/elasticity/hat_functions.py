@@ -23,7 +23,10 @@ SAME = 1e-9
 
 @BilinearForm  # type: ignore[untyped-decorator]
 def product(hat: Any, trace: Any, w: Any) -> Any:
-    """Return the integrand φ ψ r of a hat function φ and a quadratic trace function ψ."""
+    """Return the product φ ψ r as integrand of a scikit-fem form.
+
+    φ is a hat function and ψ a quadratic trace function of the radius r.
+    """
     return hat * trace * w.x[0]
 
 

@@ -40,7 +40,7 @@ class Motion:
 
     @property
     def changes_volume(self) -> bool:
-        """True if the motion can change the volume of the material. Torsion cannot."""
+        """True if the displacement field can change the volume of the material. Torsion cannot."""
         return self.harmonic > 0 or self.components != TORSION.components
 
     def resultant_weights(self, radii: NDArray[np.float64]) -> NDArray[np.float64]:

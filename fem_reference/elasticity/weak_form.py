@@ -126,7 +126,10 @@ def _projected_volume(basis: Basis, strain: dict[str, Field]) -> Field:
 
 
 def _linear(basis: Basis) -> Field:
-    """Evaluate the functions 1, r and z of every element at its quadrature points (e, 3, q)."""
+    """Evaluate the linear functions of the pressure at the quadrature points (e, 3, q).
+
+    The functions of every element are 1, r and z.
+    """
     return np.stack([np.asarray(field[0]) for field in pressure_basis(basis).basis], axis=1)
 
 

@@ -71,7 +71,10 @@ class SectionMesh:
 
     @cached_property
     def layer(self) -> NDArray[np.int64]:
-        """Index of the material of every element in `outline.materials` (e,)."""
+        """Index of the material of every element (e,), 0 for the outermost layer.
+
+        The index refers to `outline.materials`.
+        """
         middle = self.points[1, self.quads].mean(axis=0)
         return np.searchsorted(np.asarray(self.outline.interfaces), middle)
 

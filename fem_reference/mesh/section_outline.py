@@ -56,7 +56,7 @@ class SectionOutline:
 
     @property
     def pieces(self) -> tuple[tuple[float, float], ...]:
-        """Upper and lower depth of every layer, with an elastic substrate as the last layer."""
+        """Upper and lower depth of every layer; an elastic substrate counts as the last layer."""
         return tuple(zip((0.0, *self.interfaces[:-1]), self.interfaces, strict=True))
 
 

@@ -90,8 +90,9 @@ class Recovery:
 
 
 def recovery_of(section: SectionMesh) -> Recovery:
-    """Create the stress recovery on a meridional section. The recovery is independent of the
-    motion.
+    """Create the stress recovery on a meridional section.
+
+    The recovery is independent of the motion.
     """
     xi, eta = (part.ravel() for part in np.meshgrid(GAUSS, GAUSS, indexing="ij"))
     basis = displacement_basis(section)

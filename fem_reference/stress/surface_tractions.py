@@ -81,21 +81,21 @@ class SurfaceTractions:
 
     @property
     def reach(self) -> float:
-        """Radius of the first ring without pressure [length].
+        """Radius of the first ring without pressure, where linear interpolation of pressure ends
+        [length].
 
-        The interpolated pressure becomes zero at this ring. If all rings carry pressure, the radius
-        is that of the last ring.
+        If all rings carry pressure, the radius is that of the last ring.
         """
         beyond = self.radii[self.radii > self.loaded_radius]
         return float(beyond[0]) if beyond.size else self.loaded_radius
 
     @property
     def edges(self) -> Field:
-        """Radii of the contact edge at θ = 0 and θ = π [length].
+        """Radii of the contact edge at θ = 0 and θ = π, counted from the direction of the load
+        [length].
 
-        These edges are in front of and behind the load. The two radii are equal for an axisymmetric
-        pressure. The array is empty if the tractions are not `rooted` or if too few rings carry
-        pressure.
+        The two radii are equal for an axisymmetric pressure. The array is empty if the tractions
+        are not `rooted` or if too few rings carry pressure. Used to refine the mesh for the stress.
         """
         if not self.rooted or self._fewest < FEWEST_RINGS:
             return np.empty(0)
@@ -144,7 +144,10 @@ class SurfaceTractions:
 
     @cached_property
     def _grid(self) -> AngularGrid:
-        """Angular grid of the rays, with or without the ray θ = 0."""
+        """Angular grid of the rays on which the tractions are given.
+
+        The first ray is at θ = 0, or half a step away from it.
+        """
         assert self.angles is not None
         count = len(self.angles)
         return end_grid(count - 1) if self.angles[0] == 0 else mid_grid(count)
@@ -159,7 +162,10 @@ class SurfaceTractions:
 
     @cached_property
     def _edges(self) -> Field:
-        """Radius of the contact edge on every ray (angles,) [length]."""
+        """Radius of the contact edge on every ray (angles,) [length].
+
+        A ray is the set of points at one angle.
+        """
         edge: Edge = HatEdge(self.edge)
         if self._per_element > 1:
             edge = GaussEdge(float(self.radii[POINTS_PER_EDGE] - self.radii[0]))
