@@ -98,11 +98,13 @@ class Coupling:
         return Response(zz, zr, rz, rr)
 
     def frictionless_displacement(self, contact: Disc, rings: Rings, fineness: int = 1) -> Array:
-        """Return the radial displacement of the surface by the pressure without friction [length].
+        """Return the radial surface displacement by the pressure without friction (rows,) [length].
 
-        The pressure is that of the contact without friction. The pressure is that of the contact
-        without friction. The displacement is that of the lower body relative to the indenter, at
-        the rows of the rings.
+        The displacement is that of the lower body relative to the indenter, at the nodes of the
+        rings and at points outside (`Rings.places`).
+
+        contact   frictionless contact
+        fineness  multiple of the number of wavenumbers
         """
         a, x = contact.radius, rings.places
         found = -self.crossed * a * np.divide(_carried(contact, x), x, where=x > 0, out=0 * x)
@@ -114,10 +116,11 @@ class Coupling:
         return np.asarray(found)
 
     def added(self, waves: Waves, radius: float) -> Array:
-        """Return the contribution of layers to k times the frequency responses [length²/force].
+        """Return the contribution of layers to the surface responses at wavenumbers k (4, κ).
 
-        The shape is (4, κ). The four responses are c11 (along the wave vector), c12 (coupling), c22
-        (normal) and csh (transverse), summed over both bodies. k = κ/radius is the wavenumber.
+        The responses are displacements per unit traction, times k [length²/force]: c11 along the
+        wave vector, c12 coupling, c22 normal, csh transverse. They are summed over both bodies.
+        Wavenumbers are k = κ/radius.
 
         radius  contact radius [length]
         """
@@ -131,11 +134,11 @@ class Coupling:
 
 
 def _carried(contact: Disc, x: Array) -> Array:
-    """Return the pressure integrated from the axis, ∫₀ˣ p x dx, at x = r/a (n,) [force/length²].
+    """Return the pressure of a frictionless contact integrated from the axis, ∫₀ˣ p x dx (n,).
 
-    The contact has no friction. The integral is the load over 2πa² minus the part outside x, (E*/π
-    a) [G(1) √(1-x²) - ∫ₓ¹ G'(t) √(t²-x²) dt]. G is the function of the contact equation, see
-    `disc`.
+    x is the radius over the contact radius a. The unit is [force/length²]. The integral is the load
+    over 2πa² minus the part outside x, (E*/π a) [G(1) √(1-x²) - ∫ₓ¹ G'(t) √(t²-x²) dt]. G is the
+    function of the contact equation, see `disc`.
     """
     inside = np.minimum(x, 1.0)[:, None]
     chord = np.sqrt((1 - inside) * (1 + inside))

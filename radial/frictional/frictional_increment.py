@@ -59,7 +59,10 @@ class FrictionalState:
 
     @property
     def approach(self) -> float:
-        """Return the approach, prescribed or computed, of the far end of the rig's spring."""
+        """Return the approach of the indenter, prescribed or computed [length].
+
+        With a spring in the rig (test machine) it is the approach of the far end of the spring.
+        """
         prescribed = self.target.approach
         return self.target.actuator_approach(self.end) if prescribed is None else prescribed
 

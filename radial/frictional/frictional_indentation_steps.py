@@ -347,11 +347,11 @@ def _reference_displacement(
 
 
 def _beyond(r: Array, field: Array, limit: float) -> Callable[[Array], Array]:
-    """Return a function of the radius that interpolates a field and continues it outwards.
+    """Return a function of the radius that interpolates a surface field and continues it outwards.
 
-    Beyond the last position the field decays to `limit` as 1/r.
+    Beyond the last position the field decays as 1/r to the value `limit`.
 
-    r      positions [length]
+    r      positions, from the axis to outside the contact [length]
     field  values at these positions
     """
     spline, last = CubicSpline(r, field), r[-1]

@@ -52,17 +52,24 @@ class Rings:
 
     @property
     def count(self) -> int:
-        """Return the number n of elements between the nodes."""
+        """Return the number of elements, the intervals between adjacent nodes."""
         return len(self.x) - 1
 
     @cached_property
     def places(self) -> Array:
-        """Return the positions of the rows over the contact radius: nodes, then points outside."""
+        """Return the positions at which displacements are evaluated, over the contact radius.
+
+        They are the n + 1 nodes, then points outside the contact. They are the rows of all
+        matrices.
+        """
         return np.concatenate([self.x, OUTSIDE])
 
     @cached_property
     def weights(self) -> Array:
-        """Return the weights ∫ φ x dx of nodal values in integrals over the contact (n + 1,)."""
+        """Return the weights of nodal values in integrals over the contact (n + 1,).
+
+        A weight is ∫ φ x dx, with the hat function φ of the node and x = r/a.
+        """
         return self._on_nodes(*self._integrals(1))
 
     def at(self, field: Array, x: Array) -> Array:
@@ -72,12 +79,12 @@ class Rings:
 
     @cached_property
     def logarithmic(self) -> tuple[Array, Array]:
-        """Return the direct responses to hats φ of pressure and of radial shear (rows, columns).
+        """Return the direct responses of half-spaces to traction on rings (rows, columns).
 
-            ∫ G₀ φ s ds for the pressure,    ∫ G₁ φ s ds for the shear
-
-        G_m = ∫₀^∞ J_m(kx) J_m(ks) dk is logarithmic at s = x and has complete elliptic integrals
-        (Gradshteyn and Ryzhik 6.512.1, 8.1).
+        They are the normal displacement by pressure, ∫ G₀ φ s ds, and the radial displacement by
+        radial shear, ∫ G₁ φ s ds. φ is the hat function of a node. The kernel G_m = ∫₀^∞ J_m(kx)
+        J_m(ks) dk is logarithmic at s = x and has complete elliptic integrals (Gradshteyn and
+        Ryzhik 6.512.1, 8.1). Rows are positions x of displacements, columns nodes of tractions.
         """
         inner, length = self.x[:-1], np.diff(self.x)
         v, weights = unit_gauss(POINTS)
@@ -104,11 +111,12 @@ class Rings:
 
     @cached_property
     def sideways(self) -> tuple[Array, Array]:
-        """Return the coupling responses to hats φ of radial shear and of pressure (rows, columns).
+        """Return the coupling responses of half-spaces to traction on rings (rows, columns).
 
-            ∫ₓ¹ φ ds for the shear,    (1/x) ∫₀ˣ φ s ds for the pressure
-
-        The kernel ∫₀^∞ J₀(kr) J₁(ks) dk is 1/s for r < s, else 0 (Gradshteyn and Ryzhik 6.512.3).
+        They are the normal displacement by radial shear, ∫ₓ¹ φ ds, and the radial displacement by
+        pressure, (1/x) ∫₀ˣ φ s ds. φ is the hat function of a node. The kernel ∫₀^∞ J₀(kr) J₁(ks)
+        dk is 1/s for r < s, else 0 (Gradshteyn and Ryzhik 6.512.3). Rows are positions x of
+        displacements, columns nodes of tractions.
         """
         inner, outer = self.x[:-1], self.x[1:]
         x = self.places[:, None]
@@ -121,9 +129,12 @@ class Rings:
         return by_shear[:, 1:-1], (by_pressure / reach)[:, :-1]
 
     def _integrals(self, power: int) -> tuple[Array, Array]:
-        """Return ∫ φ xᵐ dx over every element, for the hats φ of its inner and outer node (n,).
+        """Return the integrals of the hat functions over every element, ∫ φ xᵐ dx.
 
-        power  m
+        The two results (n,) are those of the hats φ of the inner and of the outer node of the
+        element.
+
+        power  exponent m of the radius x
         """
         v, weights = unit_gauss(POINTS)
         inner, length = self.x[:-1, None], np.diff(self.x)[:, None]
@@ -132,10 +143,11 @@ class Rings:
         return left.sum(-1), right.sum(-1)
 
     def _shapes(self, s: Array, share: Array, weights: Array) -> tuple[Array, Array]:
-        """Evaluate the hats of the inner and the outer node of elements at points, times weights.
+        """Evaluate hat functions at points of elements, multiplied by weights.
 
-        The hats contain the factor √(1-x²). In the last element the hat of the inner node is the
-        whole field.
+        The two results (…, n, points) are the hats of the inner and of the outer node of each
+        element. Hats contain the factor √(1-x²). In the last element the hat of the inner node
+        represents the whole traction.
 
         s        points (…, n, points)
         share    fraction of the element between its inner node and the point
@@ -153,7 +165,7 @@ class Rings:
     def _on_nodes(left: Array, right: Array) -> Array:
         """Add the contributions of all elements at their nodes (…, n + 1).
 
-        left, right  contributions at the inner and at the outer node of every element (…, n)
+        left, right  contributions of every element to its inner and to its outer node (…, n)
         """
         total = np.zeros((*left.shape[:-1], left.shape[-1] + 1))
         total[..., :-1] += left
@@ -161,18 +173,22 @@ class Rings:
         return total
 
     def transforms(self, waves: Waves) -> tuple[Array, Array, Array, Array]:
-        """Return the Hankel transforms of the hats φ, and Bessel functions at the rows.
+        """Return Hankel transforms of the hat functions, and Bessel functions at the positions.
+
+        Layers add displacements that are integrals of the products of both over the wavenumber κ. φ
+        is the hat function of a node. Rows are positions x of displacements, columns nodes of
+        tractions. The four results are
 
             ∫ φ J₀(κs) s ds for the pressure,    ∫ φ J₁(κs) s ds for the shear    (κ, columns)
             J₀(κx),    J₁(κx)    (rows, κ)
 
-        Layers add displacements that are integrals of these products over the wavenumber κ.
+        with κ of the panels `waves`.
         """
         return _transforms(self, waves)
 
 
 def _root(x: Array) -> Array:
-    """Return √(1 - x²), the factor of tractions at the edge."""
+    """Return √(1 - x²), the behaviour of tractions at the contact edge; x is r over the radius."""
     return np.asarray(np.sqrt((1 - x) * (1 + x)))
 
 
@@ -181,7 +197,10 @@ Transforms: TypeAlias = tuple[Array, Array, Array, Array]
 
 @cached_within(MAX_CACHED)
 def _transforms(rings: Rings, waves: Waves) -> Transforms:
-    """Compute the Hankel transforms of `Rings.transforms`, with a cache."""
+    """Compute Hankel transforms of hat functions and Bessel functions, with a cache.
+
+    See `Rings.transforms` for the results.
+    """
     kappa = waves.rule[0]
     length = np.diff(rings.x)[:, None]
     v, weights = unit_gauss(WAVE_POINTS)
@@ -202,7 +221,8 @@ def _transforms(rings: Rings, waves: Waves) -> Transforms:
 def place_of(front: float) -> int:
     """Return the index of the layout of rings for a given stick radius.
 
-    Stick radii with equal index share their rings.
+    A layout is dense at its stick radius. Similar stick radii have equal index and share their
+    rings, whose responses are cached.
 
     front  stick radius over the contact radius
     """
@@ -221,7 +241,7 @@ def rings_about(front: float, count: int) -> Rings:
 
 @lru_cache(maxsize=CACHED)
 def _rings(place: int, count: int) -> Rings:
-    """Create the rings of a layout.
+    """Create the rings of a layout, dense at its stick radius, at the axis and at the edge.
 
     place  index of the layout, see `place_of`
     count  approximate number of rings, without those of dense regions

@@ -80,7 +80,10 @@ class Disc:
 
     @property
     def load(self) -> float:
-        """Return the normal force of the contact, W = 2 E* a ∫₀¹ G dt [force]."""
+        """Return the normal force of the contact [force].
+
+        It is W = 2 E* a ∫₀¹ G dt, with the function G of the contact equation (see `disc`).
+        """
         mean = self.approach - self.profile.abel[0] + self.layers[0]
         return float(2 * self.bodies.modulus * self.radius * mean)
 
@@ -88,7 +91,8 @@ class Disc:
     def elastic_energy(self) -> float:
         """Return the elastic energy of both bodies, ½ ∫ p u_z dA [force length].
 
-        The integral is E* a ∫₀¹ G (δ - S) dt, with the functions G and S of the contact equation.
+        The integral is E* a ∫₀¹ G (δ - S) dt, with the approach δ and the functions G and S of the
+        contact equation (see the module).
         """
         t, weights = unit_gauss(len(self.profile.abel) + len(self.layers))
         moved = self.approach - self.profile.at(t)
@@ -96,30 +100,38 @@ class Disc:
 
     @property
     def edge(self) -> float:
-        """Return G(1), the strength of the singularity of the pressure at a rim [length].
+        """Return the strength of the singularity of the pressure at a rim [length].
 
-        The value is 0 at a smooth edge, where the pressure ends with zero.
+        The strength is G(1), the end value of the function G of the contact equation. It is 0 at a
+        smooth edge, where the pressure ends with zero.
         """
         value = float(self.transform(np.ones(1))[0])
         return value if abs(value) > SMOOTH * self.approach else 0.0
 
     def transform(self, t: Array) -> Array:
-        """Return the function G of the contact equation at s = a t, 0 ≤ t ≤ 1 [length].
+        """Return the function G of the contact equation, at s = a t for 0 ≤ t ≤ 1 [length].
 
-        The cosine transform of G is proportional to the Hankel transform of the pressure.
+        G represents the pressure: its cosine transform is proportional to the pressure's Hankel
+        transform.
         """
         changed = legendre.legval(t, every_order(self.layers))
         return np.asarray(self.approach - self.profile.at(t) + changed)
 
     def rate(self, t: Array) -> Array:
-        """Return the derivative dG/dt of G in the contact equation, at s = a t [length]."""
+        """Return the derivative dG/dt of the function G that represents the pressure [length].
+
+        t is the coordinate s over the contact radius, 0 ≤ t ≤ 1.
+        """
         changed = legendre.legval(t, legendre.legder(every_order(self.layers)))
         return np.asarray(changed - shifted(self.profile.rate, t))
 
     def wave_transform(self, waves: Waves) -> Array:
-        """Return the cosine transform G~ of G at every dimensionless wavenumber (κ,) [length].
+        """Return the cosine transform of the function G that represents the pressure (κ,) [length].
 
-        (E* a/π) G~ is the Hankel transform of the pressure at the wavenumber κ/a.
+        G~ = ∫₀¹ G(t) cos κt dt. (E* a/π) G~ is the Hankel transform of the pressure at the
+        wavenumber κ/a.
+
+        waves  dimensionless wavenumbers κ
         """
         bases = waves.even_transforms(len(self.layers))
         by_profile = waves.shifted_transform(self.profile.abel)
@@ -127,7 +139,9 @@ class Disc:
 
 
 class _Galerkin:
-    """Galerkin equations for the contribution C of the layers, for one contact radius.
+    """Galerkin equations for the contribution of layers to the pressure, for one contact radius.
+
+    The contribution is the function C of the contact equation, see the module.
 
     waves   dimensionless wavenumbers κ
     count   number of coefficients c_n of C
@@ -142,9 +156,9 @@ class _Galerkin:
 
     @cached_property
     def factor(self) -> Any:
-        """Return the Cholesky factor of the Galerkin matrix.
+        """Return the Cholesky factor of the Galerkin matrix of the contact equation.
 
-        The matrix is positive definite because X > 0.
+        The matrix is positive definite because the normal response of the bodies is positive.
         """
         kernel = np.zeros((self.count, self.count))
         for first in range(0, len(self.excess), AT_ONCE):
@@ -154,9 +168,9 @@ class _Galerkin:
         return cho_factor(matrix, lower=True, overwrite_a=True, check_finite=False)
 
     def changed(self, transform: Array) -> Array:
-        """Solve for the coefficients c_n of C in the contact equation G = f + C.
+        """Solve the contact equation G = f + C for the contribution C of the layers.
 
-        C is the contribution of the layers.
+        Returns the Legendre coefficients c_n of C (count,).
 
         transform  cosine transform of the given function f (κ,)
         """
@@ -176,9 +190,9 @@ class _Galerkin:
 
 @cached_within(MAX_CACHED)
 def _judged(waves: Waves, count: int) -> tuple[Array, Array]:
-    """Return P_2n(t) and cos κt at the check points t of the contact equation.
+    """Return Legendre polynomials and cosines at the points where the contact equation is checked.
 
-    The shapes are (points, count) and (points, κ).
+    They are P_2n(t), shape (points, count), and cos κt, shape (points, κ).
     """
     t = (np.arange(PLACES) + 0.5) / PLACES
     polynomials = np.asarray(legendre.legvander(t, 2 * count - 2)[:, ::2], dtype=float)

@@ -43,7 +43,10 @@ class Profile:
     apex: bool
 
     def at(self, t: Array) -> Array:
-        """Return the Abel transform S of the undeformed gap at s = a t, 0 ≤ t ≤ 1 [length]."""
+        """Return the Abel transform S of the undeformed gap at s = a t, 0 ≤ t ≤ 1 [length].
+
+        a is the contact radius.
+        """
         return shifted(self.abel, t)
 
     @property
@@ -109,9 +112,9 @@ def _coefficients(indenter: ShapedBody, radius: float, count: int) -> Array:
 
 @cache
 def _fit(count: int) -> tuple[Array, Array]:
-    """Return Chebyshev points 0 < x < 1, and the matrix from values there to coefficients.
+    """Return Chebyshev points on 0 < x < 1, and the matrix from values there to coefficients.
 
-    The coefficients are those of Chebyshev polynomials of 2x - 1.
+    The coefficients are those of a series in Chebyshev polynomials of 2x - 1.
     """
     points = chebyshev.chebpts1(count)
     fit = chebyshev.chebvander(points, count - 1).T * (2.0 / count)

@@ -148,7 +148,7 @@ def _least_squares(
     """
 
     def terms(s: Array, angle: Array) -> Array:
-        """Return the terms cos mθ s^k at points (…, terms)."""
+        """Return the terms cos mθ s^k of the fit at points (…, terms)."""
         return np.stack([
             np.cos(m * angle) * s**k for m in range(HARMONICS + 1) for k in range(powers + 1)
         ], axis=-1)  # fmt: skip

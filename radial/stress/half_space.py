@@ -80,10 +80,10 @@ def _waves(contact: Disc, x: Array, depth: float) -> tuple[Array, ...]:
     end, last = (part[:, 0] for part in _distance(x[:, None], depth, 1 - x[:, None]))
 
     def by_parts(inside: Complex, outside: Complex) -> Array:
-        """Return an integral with one more power of κ, integrated by parts.
+        """Return an integral ∫ G~ exp(-κz) κ f dκ of the pressure, integrated by parts.
 
         inside   factor of dG/dt at the quadrature points
-        outside  factor of G(1), the boundary term
+        outside  factor of G(1), the boundary term at the contact edge
         """
         return np.asarray((1j * contact.edge * outside - 1j * np.sum(by_rate * inside, 1)).real)
 

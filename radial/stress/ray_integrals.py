@@ -61,7 +61,10 @@ def below_circle(
 
 
 def _panels(smallest: Array) -> Array:
-    """Return the number of panels that grow in constant ratio from a smallest width to 1."""
+    """Return the number of panels whose widths grow in constant ratio from a smallest value to 1.
+
+    The number is not rounded.
+    """
     return np.asarray(1 - np.log(smallest) / np.log(WIDER))
 
 
@@ -85,7 +88,9 @@ def _of_angles(r: Array, count: int, fineness: int) -> tuple[Array, Array]:
 
 
 def _graded(smallest: Array, count: int) -> Array:
-    """Return edges of panels: 0, then from the smallest value to 1 in equal ratios (…, count + 1).
+    """Return the edges of panels between 0 and 1 that grow in constant ratio (…, count + 1).
+
+    They are 0, the smallest value, …, 1.
 
     smallest  first edge after 0 (…)
     count     number of panels
@@ -223,7 +228,7 @@ def _by_rays(
     q_x, q_y, p = t * weight
 
     def total(field: Array) -> Array:
-        """Sum a field over the points of every ray."""
+        """Sum an integrand over the points of every ray."""
         return np.asarray(np.sum(field, axis=-1))
 
     c, s = cos[..., None], sin[..., None]

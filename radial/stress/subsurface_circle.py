@@ -75,8 +75,10 @@ class SubsurfaceCircle:
         return found
 
     def _orders(self, at: Array) -> list[Array]:
-        """Return the Bessel functions J_0 … J_{M+2} at given arguments; M is the highest
-        harmonic."""
+        """Return the Bessel functions J_0 … J_{M+2} at given arguments.
+
+        M is the highest angular harmonic of the tractions.
+        """
         return list(bessel_functions(self.highest + 2, at))
 
     def _blocks(self, points: int) -> list[slice]:

@@ -113,9 +113,9 @@ def _initial_guesses(
 
 
 def _given(loads: Loads) -> Array:
-    """Return the prescribed T along and across θ = 0, and M (3,) [force, force length].
+    """Return the prescribed tangential force along and across θ = 0, and the torque (3,).
 
-    Components with a prescribed motion are 0.
+    The units are force and force length. Components with a prescribed motion are 0.
     """
     return np.array([force or 0.0 for force in loads.forces[:NORMAL]])
 
@@ -127,9 +127,9 @@ def _refuse_sliding(
     before: PointState | None,
     tolerance: float,
 ) -> None:
-    """Raise GrossSliding if the prescribed T and M exceed the limit load of the contact.
+    """Raise GrossSliding if the prescribed tangential force and torque reach the limit load.
 
-    The limit load is that of the pressure without T and M.
+    The limit load is computed with the friction limit of the contact without these loads.
     """
     normal_contact = solved_state(points, friction, loads.without_shear, before, tolerance)
     given = _given(loads)
@@ -194,10 +194,10 @@ def _line_search(laws: Laws, at: At, aim: Array, shortest: float) -> At:
 
 
 def _slides(force: float, carried: float) -> GrossSliding:
-    """Create the error GrossSliding of a tangential force.
+    """Create the error GrossSliding for a tangential force above the friction limit.
 
     force    prescribed tangential force [N]
-    carried  friction limit [N]
+    carried  friction limit of the tangential force [N]
     """
     return GrossSliding(
         f"T = {force:g} N is not below the friction limit {carried:g} N: the indenter slides. "
@@ -238,7 +238,7 @@ def limit_load_factor(points: Points, limit: Array, given: Array, free: NDArray[
     theorem; Goyal, Ruina and Papadopoulos 1991).
 
     limit  friction limit µp at the points (N,) [force/length²]
-    given  T along and across θ = 0, and M, not all zero (3,)
+    given  tangential force along and across θ = 0, and torque, not all zero (3,)
     free   true for motions that are not prescribed (3,)
     """
     free = free & np.any(points.rigid_motions, axis=1)
@@ -249,9 +249,9 @@ def limit_load_factor(points: Points, limit: Array, given: Array, free: NDArray[
     across = null_space(loads[None])
 
     def dissipated(part: Array) -> float:
-        """Return the dissipation of a rigid slip on which the given loads do unit work.
+        """Return the dissipation of a rigid slip on which the given loads do unit work [1].
 
-        part  components of the slip motion perpendicular to the loads
+        part  components of the rigid slip on which the loads do no work
         """
         motion = loads / loads_size**2 + across @ part / loads_size
         return float(limit @ np.hypot(*(motion @ motions).reshape(2, -1)))

@@ -72,8 +72,10 @@ class Laws:
     def of(
         cls, points: Points, friction: CoulombFriction, loads: Loads, before: PointState | None
     ) -> Laws:
-        """Create the laws of an increment.
+        """Create the equations of contact and friction of one increment.
 
+        points  points of the contact and their compliance
+        loads   prescribed loads and motions at the end
         before  state at the start of the increment; None before first contact
         """
         if before is None:
@@ -174,10 +176,12 @@ class Laws:
 
 
 def _shortened(y: Array, limit: Array) -> Array:
-    """Return factors that shorten trial shear vectors to the friction limit.
+    """Return factors that shorten trial shear vectors to the friction limit (…).
 
-    y      vectors (2, …)
-    limit  largest length
+    A factor is 1 for a vector below the limit.
+
+    y      trial shear (2, …) [force/length²]
+    limit  friction limit (…) [force/length²]
     """
     length = np.hypot(*y)
     longer = length > limit

@@ -83,9 +83,9 @@ def lay_out(
     r = radii[:-1, None] + length * v
 
     def integral(field: Array) -> Array:
-        """Return the integral of a field with the hat φ of every node, ∫ φ field dr (n,).
+        """Return the integrals of a field with the hat function φ of every node, ∫ φ field dr (n,).
 
-        field  values at the Gauss points of the elements
+        field  values at the Gauss points of the elements (n - 1, points)
         """
         part = field * length * weights
         return np.append(part @ (1 - v), 0.0) + np.append(0.0, part @ v)

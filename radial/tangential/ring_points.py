@@ -59,7 +59,7 @@ class Points:
 
     @cached_property
     def angles(self) -> Array:
-        """Return the angles of the points on a ring (count,) [radian]."""
+        """Return the angles of the points on each ring (count,) [radian]."""
         return self.circle.angles(self.highest)
 
     @cached_property
@@ -81,7 +81,11 @@ class Points:
         return self._at_points(self.arms)
 
     def _at_points(self, of_nodes: Array) -> Array:
-        """Distribute integrals over the rings (n,) among the angles of each ring (n count,)."""
+        """Distribute integrals with the hat function of every node over the angles of its ring.
+
+        of_nodes  ∫ φ … dr of the nodes (n,)
+        returns   values at the points, for the full circle (n count,)
+        """
         return np.repeat(of_nodes, self.count) * (2 * np.pi / self.count)
 
     @cached_property
@@ -104,9 +108,9 @@ class Points:
 
     @cached_property
     def compliance(self) -> Array:
-        """Return the matrix from tractions to displacements times areas [length^5/force].
+        """Return the compliance matrix of all points: displacements times areas by tractions.
 
-        The shape is (3 n count, 3 n count).
+        The shape is (3 n count, 3 n count), the unit [length^5/force].
         """
         return self._over_harmonics(self._harmonics, self._harmonic_energies)
 
@@ -202,7 +206,7 @@ class Points:
 
     @cached_property
     def round(self) -> Points:
-        """Return points with the same nodes and one angle, for axisymmetric fields."""
+        """Return the points of an axisymmetric contact: the same nodes with one angle."""
         return replace(self, energies=self.energies[:1], circle=Circle.ONE)
 
     def every_angle(self, field: Array) -> Array:
@@ -304,13 +308,18 @@ class Points:
 
     @property
     def output_angles(self) -> Array:
-        """Return the angles at which fields are output, which include the direction of the load."""
+        """Return the angles at which fields are output [radian].
+
+        They include the direction of the load, unlike the angles of the points.
+        """
         return self.circle.shown(self.highest)
 
     def _around(self, field: Array, sense: float, angles: Array) -> Array:
-        """Interpolate a field (n, count) to other angles by a periodic spline in θ.
+        """Interpolate a field from the angles of the points to other angles, by a periodic spline.
 
-        sense  1 for a field that is even about θ = 0, -1 for an odd field
+        field   values at the points (n, count)
+        sense   1 for a field that is even about θ = 0, -1 for an odd field
+        angles  other angles [radian]
         """
         return field @ self._spline(sense, tuple(angles))
 

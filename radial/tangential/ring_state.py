@@ -20,7 +20,8 @@ class Loads:
 
     Of each load and its conjugate motion one is None.
 
-    forces   T along θ = 0 and across it, M about the axis, W [force, force length]
+    forces   tangential force T along θ = 0 and across it, torque M, normal force W [force, force
+             length]
     motions  shifts along and across, twist, approach [length, radian]
     """
 
@@ -86,11 +87,14 @@ class PointState:
         return float(self.motion[NORMAL])
 
     def forces(self, points: Points) -> Array:
-        """Return the resultants of the tractions: T along and across θ = 0, M and W (4,)."""
+        """Return the resultants of the tractions (4,) [force, force length].
+
+        They are the tangential force along and across θ = 0, the torque and the normal force.
+        """
         return carried(points, self.tractions)
 
     def every_angle(self, points: Points) -> PointState:
-        """Extend an axisymmetric state to all angles of the points of a contact."""
+        """Extend an axisymmetric state with one angle per ring to all angles of the points."""
 
         def parts(field: Array, count: int) -> Array:
             """Repeat each component of a field at all angles.
@@ -110,8 +114,11 @@ class PointState:
 
 
 def carried(points: Points, tractions: Array) -> Array:
-    """Return the resultants of tractions: T along and across θ = 0, M and W (4,).
+    """Return the resultants of tractions (4,) [force, force length].
 
+    They are the tangential force along and across θ = 0, the torque and the normal force.
+
+    points     points of the contact
     tractions  q_r, q_θ, p (3 N,) [force/length²]
     """
     q, p = np.split(tractions, [2 * len(points.areas)])

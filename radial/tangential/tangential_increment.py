@@ -67,12 +67,18 @@ class TangentialState:
 
     @property
     def forces(self) -> tuple[float, ...]:
-        """Return T along and across θ = 0, M and W, prescribed or computed."""
+        """Return the loads, prescribed or computed [force, force length].
+
+        They are the tangential force along and across θ = 0, the torque and the normal force.
+        """
         return _either(self.prescribed.forces, self.carried)
 
     @property
     def motions(self) -> tuple[float, ...]:
-        """Return shifts, twist and approach, prescribed or computed [length, radian]."""
+        """Return the rigid motions, prescribed or computed [length, radian].
+
+        They are the shifts along and across θ = 0, the twist and the approach.
+        """
         return _either(self.prescribed.motions, self.end.motion)
 
     @property
@@ -91,9 +97,9 @@ class TangentialState:
 
 
 def _either(prescribed: tuple[float | None, ...], found: Array) -> tuple[float, ...]:
-    """Return prescribed values, and computed values where none is prescribed.
+    """Return the prescribed loads or motions, and computed ones where none is prescribed.
 
-    prescribed  values or None
+    prescribed  values, or None where the conjugate quantity is prescribed
     found       computed values
     """
     return tuple(
@@ -149,7 +155,12 @@ def tangential_state(
 
 
 def residuals_of(points: Points, friction: CoulombFriction, state: TangentialState) -> Residuals:
-    """Compute the residuals of contact, friction and equilibrium at the end of an increment."""
+    """Compute the residuals of contact, friction and equilibrium at the end of an increment.
+
+    points    points of the contact
+    friction  friction law
+    state     solved state
+    """
     end, prescribed = state.end, state.prescribed.forces
     W, force = float(state.carried[NORMAL]), prescribed[NORMAL]
     limit = friction.limit(end.pressure)

@@ -116,7 +116,10 @@ class TangentialSteps(StepsOnRings):
         edges = [largest, *(edge for edge in sorted(ends) if edge * count < NARROW * largest)]
 
         def at(circle: Circle) -> TangentialSteps:
-            """Create the solver with rings that are dense at the current contact radii."""
+            """Create the solver with rings that are dense at the edges of the current contacts.
+
+            circle  angles of the points on a ring
+            """
             harmonics = 0 if circle is Circle.ONE else highest
             points = lay_out(
                 both, scene.indenter, edges, count, harmonics, circle, friction.largest, scene.rig
@@ -198,15 +201,17 @@ class TangentialSteps(StepsOnRings):
         return self._at(Loads(forces, motions), before)
 
     def _vector(self, parts: tuple[float, ...]) -> Pair:
-        """Return the x and y components of a vector with components along and across θ = 0.
+        """Return the x and y components of a vector with components along and across the load.
 
-        parts  the two components, and others that are not used
+        parts  components along and across `direction`, and others that are not used
         """
         (x, y), (along, across, *_) = self.direction, parts
         return along * x - across * y, along * y + across * x
 
     def _from(self, vector: Pair | None) -> tuple[float | None, float | None]:
-        """Return the components of a vector along and across θ = 0; None for each without a vector.
+        """Return the components of a vector along and across the direction of the load.
+
+        Without a vector both components are None.
 
         vector  x and y components, or None
         """
@@ -247,11 +252,17 @@ class TangentialSteps(StepsOnRings):
         return tangential_state(points, self.friction, end, last, slip, loads, before, smooth)
 
     def _smooth_radius(self, loads: Loads) -> float:
-        """Return the contact radius without friction under the normal load of `loads` [length]."""
+        """Return the radius of the frictionless contact under the same normal load [length].
+
+        loads  prescribed loads and motions, of which only the normal one is used
+        """
         return self._pressed(loads).contact.radius
 
     def _pressed(self, loads: Loads) -> NormalContact:
-        """Solve the contact without friction under the normal load of `loads`."""
+        """Solve the frictionless contact under a prescribed normal force or approach.
+
+        loads  prescribed loads and motions, of which only the normal one is used
+        """
         prescribed = target(self.scene, loads.forces[NORMAL], loads.motions[NORMAL])
         return normal_contact(Bodies.of(self.scene), self.scene.indenter, prescribed)
 
@@ -395,6 +406,8 @@ class TangentialSteps(StepsOnRings):
         """Interpolate a scalar field from the points to the output angles (n, angles).
 
         At the axis all angles have the mean value.
+
+        field  values at the points (n count,)
         """
         if points.count == 1:
             return field

@@ -34,12 +34,14 @@ PANELS, NODES = 26, 26
 
 @dataclass(frozen=True)
 class FrictionLimit:
-    """Transform h/t of the shear q = p, on panels 2^-(n+1) < t < 2^-n of the range 2^-26 < t <= 1.
+    """Transform of the friction limit of a contact for a coefficient of friction of 1.
 
-    p is the pressure of a contact. The coefficient of friction is 1. The module defines h.
+    The shear at the friction limit is the pressure p. Its transform is h(t)/t (see the module),
+    expanded on panels 2^-(n+1) < t < 2^-n of the range 2^-26 < t <= 1. t is a coordinate between
+    the axis (0) and the edge (1).
 
     slopes  Chebyshev coefficients of h/t on each panel (panels, nodes) [force/length]
-    rates   Chebyshev coefficients of d(h/t)/dt, times 2^-n
+    rates   Chebyshev coefficients of d(h/t)/dt on each panel, times 2^-n
     """
 
     slopes: Array
@@ -61,18 +63,29 @@ class FrictionLimit:
         return cls(slopes, rates)
 
     def slope(self, t: Array) -> Array:
-        """Return the transform h/t of the friction limit at points t, any shape [force/length]."""
+        """Return the transform h/t of the friction limit at points t [force/length].
+
+        h represents shear equal to the pressure (see the module). t is a coordinate between the
+        axis (0) and the edge (1).
+        """
         panel, place = _place(t)
         return _summed(self.slopes, panel, place)
 
     def slope_rate(self, t: Array) -> Array:
-        """Return the derivative d(h/t)/dt of the friction limit's transform at t [force/length]."""
+        """Return the derivative d(h/t)/dt of the transform of the friction limit [force/length].
+
+        h represents shear equal to the pressure (see the module). t is a coordinate between the
+        axis (0) and the edge (1).
+        """
         panel, place = _place(t)
         return np.asarray(_summed(self.rates, panel, place) * 2.0**panel)
 
 
 def _place(t: Array) -> tuple[NDArray[np.int64], Array]:
-    """Return the index of the panel that contains t, and the position of t in it, from -1 to 1."""
+    """Return the index of the panel that contains a point t, and the position of t in the panel.
+
+    Panel n is the interval 2^-(n+1) < t < 2^-n. The position is between -1 and 1.
+    """
     panel = np.clip(np.floor(-np.log2(t)), 0, PANELS - 1).astype(np.int64)
     return panel, np.asarray(4 * t * 2.0**panel - 3)
 

@@ -76,38 +76,49 @@ class Torsion:
         return cls(contact, layered, modulus, friction, fineness)
 
     def points(self, width: float) -> int:
-        """Return the number of Gauss points of integrals over a part of the interval 0 < t < 1.
+        """Return the number of Gauss points that resolve the shear and its waves over an interval.
 
-        The integrands are N, the transform of the shear, and its products with the waves of
-        `waves`.
+        The interval is a part of 0 < t < 1, with t a coordinate between the axis (0) and the edge
+        (1).
 
-        width  length of the part
+        width  length of the interval
         """
         places, _ = self.waves
         waves = ceil(places[-1] * width / 2) if len(places) else 0
         return self.fineness * (POINTS + len(self.contact.layers) + waves)
 
     def limit(self, t: Array) -> Array:
-        """Return N/t at points t, where N is the transform of the friction limit µp [1]."""
+        """Return N(t)/t of shear at the friction limit [1].
+
+        N is the dimensionless function that represents circumferential shear (see the module). t is
+        a coordinate between the axis (0) and the edge (1).
+        """
         return np.asarray(self._scale * self._limit.slope(t))
 
     def limit_rate(self, t: Array) -> Array:
-        """Return d(N/t)/dt at points t, where N is the transform of the friction limit µp [1]."""
+        """Return the derivative of N(t)/t of shear at the friction limit [1].
+
+        N is the dimensionless function that represents circumferential shear (see the module). t is
+        a coordinate between the axis (0) and the edge (1).
+        """
         return np.asarray(self._scale * self._limit.slope_rate(t))
 
     @cached_property
     def _limit(self) -> FrictionLimit:
-        """Return the transform of the friction limit for a coefficient of friction of 1."""
+        """Return the transform of shear at the friction limit for a coefficient of friction 1."""
         return FrictionLimit.of(self.contact)
 
     @property
     def _scale(self) -> float:
-        """Return µ/(G a), the ratio of N to the transform h for µ = 1 [length/force]."""
+        """Return the factor from the transform of `_limit` to the dimensionless function N.
+
+        The factor is µ/(G a), with the torsional modulus G and the contact radius a [length/force].
+        """
         return self.friction / (self.modulus * self.contact.radius)
 
     @cached_property
     def whole(self) -> PartialSlip:
-        """Return the state of incipient slip: the whole contact still sticks."""
+        """Return the state at incipient slip, where all of the contact area still sticks."""
         return self.partial_slip(1.0)
 
     @cached_property
@@ -117,7 +128,7 @@ class Torsion:
 
     @cached_property
     def largest(self) -> float:
-        """Return the torque of gross slip, the friction limit [force length]."""
+        """Return the largest torque that friction can carry, at gross slip [force length]."""
         return self.partial_slip(0.0).torque
 
     @cached_property
@@ -165,9 +176,10 @@ class Torsion:
         return PartialSlip(self, stick, float(twist), layers, panels)
 
     def _panels(self, stick: float) -> list[Panel]:
-        """Return panels that cover the slip annulus, with the transform N of µp at their points.
+        """Return intervals that cover the slip annulus, with the function N of its shear.
 
-        A panel is not wider than its distance from the axis.
+        The shear is the friction limit, and N represents it (see the module). An interval is not
+        wider than its distance from the axis.
 
         stick  stick radius over the contact radius
         """
@@ -184,9 +196,12 @@ class Torsion:
 
 @dataclass(frozen=True)
 class Panel:
-    """Interval low < t < high with the transform N of the shear at its Gauss points.
+    """Interval of 0 < t < 1, with the function N that represents the shear at its Gauss points.
 
-    values  N at the points (n,)
+    N is defined in the module. t is a coordinate between the axis (0) and the edge (1).
+
+    low, high  ends of the interval of t
+    values     N at the Gauss points (n,)
     """
 
     low: float
@@ -194,16 +209,24 @@ class Panel:
     values: Array
 
     def integral(self, power: int, factor: int = 1) -> float:
-        """Return the integral ∫ N^factor t^power dt over the panel."""
+        """Return the integral ∫ N^factor t^power dt over the interval.
+
+        N represents the circumferential shear.
+
+        power   exponent of t
+        factor  exponent of N
+        """
         v, weights = unit_gauss(len(self.values))
         width = self.high - self.low
         t = self.low + width * v
         return float(width * np.sum(weights * self.values**factor * t**power))
 
     def transform(self, places: Array) -> Array:
-        """Return the sine transform ∫ N sin κt dt over the panel, at all wavenumbers κ.
+        """Return the sine transform ∫ N sin κt dt over the interval, at all wavenumbers (κ,).
 
-        places  κ
+        N represents the circumferential shear.
+
+        places  dimensionless wavenumbers κ
         """
         v, weights = unit_gauss(len(self.values))
         width = self.high - self.low
@@ -217,9 +240,9 @@ class PartialSlip:
 
     of      contact under torsion
     stick   stick radius over the contact radius, c/a
-    twist   twist φ [radian]
-    layers  Legendre coefficients of the contribution D of the layers in the stick disc
-    panels  transform N of the shear in the slip annulus
+    twist   twist φ of the indenter [radian]
+    layers  Legendre coefficients of the contribution of the layers to N in the stick disc
+    panels  function N of the shear in the slip annulus (see the module)
     """
 
     of: Torsion
@@ -229,14 +252,17 @@ class PartialSlip:
     panels: Sequence[Panel]
 
     def inside(self, t: Array) -> Array:
-        """Return the transform N of the shear at points t in the stick disc."""
+        """Return the function N that represents the shear, at points of the stick disc.
+
+        t  coordinates between the axis (0) and the stick radius (`stick`)
+        """
         every = np.zeros(2 * len(self.layers))
         every[1::2] = self.layers
         return np.asarray(4 / pi * self.twist * t - legendre.legval(t / self.stick, every))
 
     @property
     def _disc(self) -> list[Panel]:
-        """Return the transform N of the shear in the stick disc, as a list with one panel.
+        """Return the function N of the shear in the stick disc, as a list with one panel.
 
         The list is empty without a stick disc.
         """
@@ -247,24 +273,31 @@ class PartialSlip:
 
     @cached_property
     def torque(self) -> float:
-        """Return the torque 4π G a³ ∫ N t dt of the shear [force length]."""
+        """Return the torque of the circumferential shear [force length].
+
+        It is 4π G a³ ∫ N t dt, with the function N of the module and the torsional modulus G.
+        """
         total = sum(panel.integral(1) for panel in (*self._disc, *self.panels))
         return 4 * pi * self.of.modulus * self.of.contact.radius**3 * total
 
     @cached_property
     def transform(self) -> Array:
-        """Return the sine transform N~ of the function N of the shear, at all wavenumbers (κ,)."""
+        """Return the sine transform of the function N that represents the shear (κ,).
+
+        The wavenumbers κ are those of `Torsion.waves`.
+        """
         places, _ = self.of.waves
         parts = [panel.transform(places) for panel in (*self._disc, *self.panels)]
         return np.asarray(np.sum(parts, axis=0))
 
     @cached_property
     def elastic_energy(self) -> float:
-        """Return the elastic energy ½ ∫ q u dA of the shear, of both bodies [force length].
+        """Return the elastic energy of both bodies by the circumferential shear q [force length].
 
             ½ ∫ q u dA = π G a³ [(π/2) ∫ N² dt + ∫ (Y - 1) N~² dκ]
 
-        Y - 1 is the relative contribution of the layers to the torsional compliance.
+        N~ is the sine transform of the function N that represents the shear. Y - 1 is the relative
+        contribution of the layers to the torsional compliance.
         """
         squares = sum(panel.integral(0, 2) for panel in (*self._disc, *self.panels))
         _, wave_weights = self.of.waves
@@ -315,9 +348,9 @@ class PartialSlip:
         return found
 
     def _layers_rate(self, t: Array) -> Array:
-        """Return d(-D/t)/dt at points t in the stick disc.
+        """Return d(-D/t)/dt at points t in the stick disc, for the integral of the shear.
 
-        D is the contribution of the layers to the transform N of the shear.
+        D is the contribution of the layers to the function N that represents the shear.
         """
         every = np.zeros(2 * len(self.layers))
         every[1::2] = self.layers

@@ -84,11 +84,11 @@ class TwistPath:
         return 1.0 if last is None else last.stick
 
     def to_twist(self, twist: float) -> TwistPath:
-        """Continue the path to a given twist [radian], and return the new state."""
+        """Continue the path of torsion to a given twist [radian], and return the new state."""
         return self._on("twist", twist)
 
     def to_torque(self, torque: float) -> TwistPath:
-        """Continue the path to a given torque [force length], and return the new state.
+        """Continue the path of torsion to a given torque [force length], and return the new state.
 
         Raises GrossSliding if the torque is not below its friction limit.
         """
@@ -100,10 +100,10 @@ class TwistPath:
         return self._on("torque", torque)
 
     def _on(self, of: Named, target: float) -> TwistPath:
-        """Continue the path until the twist or the torque has a given value.
+        """Continue the path of torsion until the twist or the torque has a given value.
 
-        A change of direction begins a new branch. A branch that reaches the length of the preceding
-        one closes a loop with it.
+        A change of direction begins a new branch of the path. A branch that reaches the length of
+        the preceding branch closes a load cycle with it.
 
         of      "twist" or "torque", the prescribed quantity
         target  value of this quantity [radian or force length]
@@ -130,7 +130,7 @@ class TwistPath:
 
 
 def _sum(branches: list[Branch] | tuple[Branch, ...], of: str) -> float:
-    """Return the sum of a quantity over branches of the path, with directions and weights.
+    """Return the twist or torque of a path, the sum of the changes of its branches.
 
     of  "twist" or "torque"
     """
@@ -138,10 +138,10 @@ def _sum(branches: list[Branch] | tuple[Branch, ...], of: str) -> float:
 
 
 def _work(others: list[Branch], branch: Branch) -> float:
-    """Return the work ∫ M dφ of the torque along one branch of the path [force length].
+    """Return the work ∫ M dφ of the torque along one branch of a path [force length].
 
-    others  preceding branches, whose torque acts throughout
-    branch  the branch
+    others  preceding branches; their torque is constant during the branch
+    branch  the branch of the path
     """
     linear = branch.sense * branch.weight * branch.size("twist") * _sum(others, "torque")
     return linear + branch.weight**2 * branch.size("work")
@@ -154,9 +154,10 @@ def reached(
 
     The unknown is the stick radius.
 
-    of      "twist" or "torque", the prescribed quantity
-    needed  its value, above 0 [radian or force length]
-    since   earlier state, whose stick radius is an upper bound; None if there is none
+    torsion  contact under torsion
+    of       "twist" or "torque", the prescribed quantity
+    needed   value of this quantity, above 0 [radian or force length]
+    since    earlier state, whose stick radius is an upper bound; None if there is none
     """
     whole, none = torsion.whole, torsion.none
     if needed <= getattr(whole, of):
