@@ -1,4 +1,4 @@
-"""A case: scenes on grids, the quantities measured on them, and the references that judge these."""
+"""Data of a verification case: its runs, the quantities measured on them, and their references."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ if TYPE_CHECKING:
 
 
 class Level(IntEnum):
-    """Amount of computation: quick at every push, standard before a merge, full at night."""
+    """Amount of computation of a verification: quick at every push, standard before a merge, full
+    at night."""
 
     QUICK = 0
     STANDARD = 1
@@ -25,7 +26,11 @@ class Level(IntEnum):
 
 @dataclass(frozen=True)
 class Required:
-    """Tolerance that is required or set by hand, relative to the quantity's scale."""
+    """Tolerance of a judged quantity that is prescribed, not derived from refinement.
+
+    allowed  largest accepted error, relative to the error scale of the quantity
+    because  reason for this tolerance
+    """
 
     allowed: float
     because: str
@@ -33,12 +38,15 @@ class Required:
 
 @dataclass(frozen=True)
 class Derived:
-    """2 √(u_num² + u_ref²), with u_num from refinement; relative to the quantity's scale.
+    """Tolerance of a judged quantity that is derived from its convergence under refinement.
+
+    The tolerance is 2 √(u_num² + u_ref²), relative to the error scale of the quantity. u_num is the
+    numerical uncertainty from the refinement levels, u_ref the uncertainty of the reference.
 
     levels   labels of the runs, coarse to fine
-    order    expected order of the value's convergence
-    cap      no tolerance is wider than this, however poor the solver
-    because  where order and cap come from
+    order    expected order of convergence of the value
+    cap      upper bound of the tolerance, which a poor solver cannot exceed
+    because  reason for order and cap
     """
 
     levels: tuple[str, ...]
@@ -49,12 +57,15 @@ class Derived:
 
 @dataclass(frozen=True)
 class Quantity:
-    """A number measured on one run and judged against a reference.
+    """Number that is measured on one run of a case and judged against a reference.
 
-    scale       what an error is divided by; None: the reference's absolute value
-    scale_name  what the error is relative to, in words
-    scalar      registered scalar, component and load step, whose stated error is judged, too; None
-                for other numbers
+    run         label of the run
+    measure     function from the result of the run to the number
+    reference   reference value with its uncertainty
+    scale       error scale, in the unit of the number; None: absolute value of the reference
+    scale_name  description of the error scale
+    scalar      name, component and load step of a registered scalar, whose stated error is judged
+                in addition; None for other numbers
     """
 
     name: str
@@ -71,9 +82,12 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Check:
-    """A number that is measured without solving a scene, and judged against a reference.
+    """Number that is measured without solving a scene, and judged against a reference.
 
-    subject  what it is measured on
+    subject     object on which the number is measured, in words
+    measure     function that computes the number
+    scale       error scale, in the unit of the number; None: absolute value of the reference
+    scale_name  description of the error scale
     """
 
     name: str
@@ -89,12 +103,14 @@ class Check:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Two runs that must agree, because they state one problem in two forms.
+    """Comparison of two runs that must agree, because they state one problem in two forms.
 
-    runs        labels; the difference is relative to the second
-    difference  0 if they agree, dimensionless; or the error of what follows from both
-    kind        where the value comes from that the difference vanishes for
-    uncertainty standard uncertainty of that value, over the scale of the difference
+    runs         labels of the two runs; the difference is relative to the second run
+    difference   function from both results to a dimensionless difference, 0 if they agree; it may
+                 be the error of a quantity that follows from both results
+    allowed      largest accepted difference
+    kind         kind of the source that predicts the difference 0
+    uncertainty  standard uncertainty of that prediction, relative to the scale of the difference
     """
 
     name: str
@@ -110,7 +126,12 @@ class Comparison:
 
 @dataclass(frozen=True)
 class Finding:
-    """A number that is reported and not judged, with what it means."""
+    """Number that a report of a case shows with a remark, but does not judge.
+
+    run      label of the run on which the number is measured
+    measure  function from the result of the run to the number
+    remark   interpretation of the number
+    """
 
     name: str
     meaning: str
@@ -122,16 +143,20 @@ class Finding:
 
 @dataclass(frozen=True)
 class Case:
-    """A verification case.
+    """Verification case: runs to solve, and all quantities that are judged or reported.
 
-    name     for commands and files: letters, digits and underscores
-    problem  what is solved and why the answer is known, for a reader
-    runs     by either solver; what is measured takes the result of the run it names
-    checks   what is judged beside the runs; a case may have nothing else
-    charts   figures drawn from the results, by label of the run
-    limits   what this case does not show
-    equations  governing equations of the reference, in LaTeX
-    no_order   reason for which no order of convergence is judged; empty where one is
+    name         identifier for commands and files: letters, digits and underscores
+    problem      description of the problem and of the source of its answer
+    runs         solves of the case, by any solver
+    quantities   numbers that are measured on runs and judged against references
+    orders       orders of convergence that are judged
+    findings     numbers that are reported and not judged
+    comparisons  pairs of runs that must agree
+    checks       numbers that are judged without a run; a case may consist of checks alone
+    charts       function from the results, by label of the run, to the charts
+    limits       limits of the conclusions from this case
+    equations    governing equations of the reference, in LaTeX
+    no_order     reason for which no order of convergence is judged; empty if one is judged
     """
 
     name: str
@@ -149,5 +174,5 @@ class Case:
     no_order: str = ""
 
     def run(self, label: str) -> AnyRun:
-        """The run of this label; KeyError if there is none."""
+        """Return the run of the case with the given label; raise KeyError for an unknown label."""
         return {run.label: run for run in self.runs}[label]

@@ -1,4 +1,7 @@
-"""Stated errors of judged numbers: an error is covered by |value - reference| ≤ stated + u_ref."""
+"""Comparison of the errors that the solvers state with the actual errors of judged numbers.
+
+A stated error covers a number if |value - reference| ≤ stated error + uncertainty of the reference.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +23,15 @@ LEAST_SHARE = 0.95
 
 
 def stated_errors(case: Case, results: Mapping[str, Any]) -> dict[str, StatedErrors]:
-    """State the errors of the runs on which scalars are judged, as a user's run states them."""
+    """Compute the error estimates that the solvers state for the runs of a case.
+
+    case     verification case
+    results  results of the solved runs, by label of the run
+
+    Only runs on which the case judges a registered scalar are included. Runs on cells with another
+    than the default edge correction are left out, because users do not run them. The keys of the
+    returned mapping are the labels of the runs.
+    """
     judged = {q.run for q in case.quantities if q.scalar is not None} & results.keys()
     return {
         run.label: _stated(run, results[run.label])
@@ -44,7 +55,14 @@ def _stated(run: AnyRun, result: Any) -> StatedErrors:
 
 
 def error_of(quantity: Quantity, errors: StatedErrors | None) -> float | None:
-    """Return the stated error of a judged number; None where none is stated, or has converged."""
+    """Return the stated error of a judged number, in the unit of the number.
+
+    The result is None if the number is no registered scalar, if the run has no stated errors, or if
+    the status of the error is not ESTIMATED.
+
+    quantity  judged quantity of a case
+    errors    stated errors of the run on which the quantity is measured; None if there are none
+    """
     if quantity.scalar is None or errors is None:
         return None
     name, component, step = quantity.scalar
@@ -55,12 +73,16 @@ def error_of(quantity: Quantity, errors: StatedErrors | None) -> float | None:
 
 
 def judged_errors(cases: tuple[CaseOutcome, ...]) -> Iterator[tuple[CaseOutcome, Verdict]]:
-    """Yield the verdicts on numbers with a stated error."""
+    """Yield all verdicts on numbers with a stated error, each together with the outcome of its
+    case."""
     for case in cases:
         yield from ((case, verdict) for verdict in case.verdicts if verdict.covered is not None)
 
 
 def share_covered(cases: tuple[CaseOutcome, ...]) -> float:
-    """Return the share of the numbers with a stated error that it covers; 1 without any."""
+    """Return the fraction of the stated errors that cover the actual error, over all given cases.
+
+    Numbers without a stated error do not count. The fraction is 1 if there are no stated errors.
+    """
     found = [verdict.covered for _, verdict in judged_errors(cases)]
     return sum(map(bool, found)) / len(found) if found else 1.0

@@ -1,4 +1,8 @@
-"""Declaration of a case: problems on refinement levels, and rows of judged quantities."""
+"""Declaration of a verification case: problems on refinement levels, and rows of judged quantities.
+
+A row names an observable and the way in which it is judged. `judged` expands the rows into the
+runs, quantities and orders of a case.
+"""
 
 from __future__ import annotations
 
@@ -49,22 +53,24 @@ Measure = Callable[[Any, int, Problem], float]
 
 @dataclass(frozen=True)
 class Observable:
-    """A number of a step's end, or the norm of an error there.
+    """Number that is read from a result at the end of a load step: a value, or the norm of an
+    error.
 
-    name     of its order of convergence, after `order_of_`
-    meaning  for people. In braces is what each discretisation has its own words for
-    unit     SI; empty for a ratio
-    measure  from a result, the index of a step and the problem to the number
-    value    the same in the problem's answer to the step; None: an error, which should vanish
-    over     the scale that errors are relative to, by its name in the problem; empty: the value
-             itself, or one for an error
-    over_is  what an error without scale is relative to, in words
-    of       what an order of it is an order of
-    step     index of the loading step
-    label    in charts
-    source   of this number, where it is not the problem's
-    part     the load that it is measured at, over its limit, where that tells numbers apart
-    scalar   registered scalar and component, whose error solvers state; None for other numbers
+    name     name of the number; its order of convergence is named `order_of_` + name
+    meaning  description, with placeholders in braces for words of the discretisation
+    unit     SI unit; empty for a ratio
+    measure  function from a result, the index of a load step and the problem to the number
+    value    function from the exact answer of the step to the exact number; None for the norm of an
+             error, whose exact value is zero
+    over     name of the error scale in the problem; empty: the exact value, or 1 for an error norm
+    over_is  description of the error scale, if `over` is empty
+    of       quantity whose order of convergence the error has
+    step     index of the load step
+    label    name in charts
+    source   source of the exact value, if it differs from the source of the problem
+    part     load at the end of the step as a fraction of its limit, if verdict names need it
+    scalar   name and component of the registered scalar, for which solvers state errors; None for
+             other numbers
     """
 
     name: str
@@ -82,7 +88,12 @@ class Observable:
     scalar: tuple[str, int] | None = None
 
     def at(self, step: int, part: float, of: str) -> Observable:
-        """The same at the end of another step, which the load reaches a part of something in."""
+        """Return the observable at the end of another load step, with a label for this step.
+
+        step  index of the load step
+        part  load at the end of the step, as a fraction of `of`
+        of    reference load in words, such as "µW"
+        """
         when = f"{part:g} {of}"
         return replace(
             self,
@@ -94,16 +105,17 @@ class Observable:
 
     @property
     def verdict(self) -> str:
-        """The name of a verdict on it."""
+        """Name of the verdict on the observable; it contains the load fraction if one is set."""
         return self.name if self.part is None else f"{self.name}_at_{self.part:g}"
 
     def over_stops(self, stops: str) -> Observable:
-        """Return the root mean square of the errors over all steps but the first.
+        """Return an observable for the root mean square error over all load steps but the first.
 
-        Errors of single steps change sign from grid to grid, because the edges of contact and
-        stick zone lie anywhere within cells.
+        Errors of single steps change sign from grid to grid, because the edges of the contact and
+        of the stick zone lie at arbitrary positions within cells. Their root mean square varies
+        less.
 
-        stops  in words
+        stops  description of the load steps, in words
         """
 
         def mean(result: Any, step: int, problem: Problem) -> float:
@@ -115,15 +127,19 @@ class Observable:
         return replace(changed, scalar=None)
 
     def said(self, words: Mapping[str, str]) -> str:
-        """Return the meaning in the words of a discretisation."""
+        """Return the description of the observable, with its placeholders replaced by the given
+        words."""
         return self.meaning.format_map({"when": "", **words})
 
     def read(self, problem: Problem) -> Callable[[Any], float]:
-        """Return the function that measures the observable on a result."""
+        """Return a function that measures the observable on a result of the problem."""
         return lambda result: self.measure(result, self.step, problem)
 
     def reference(self, problem: Problem) -> Reference:
-        """Return the reference of the observable."""
+        """Return the exact value of the observable in the problem, with its uncertainty and source.
+
+        For the norm of an error the value is zero.
+        """
         scale = problem.scale(self.over) if self.over else None
         if self.value is None:
             known = problem.no_error(1.0 if scale is None else scale)
@@ -132,18 +148,20 @@ class Observable:
         return replace(known, source=self.source or known.source)
 
     def scale(self, problem: Problem) -> float | None:
-        """Return the scale of errors; None for the reference."""
+        """Return the error scale of the observable; None if errors are relative to the reference
+        value."""
         if self.over:
             return problem.scale(self.over)
         return 1.0 if self.value is None else None
 
     @property
     def scale_name(self) -> str:
-        """Name of the scale of errors."""
+        """Description of the error scale of the observable."""
         return self.over or self.over_is or "the reference"
 
     def error(self, problem: Problem) -> Callable[[Any], float]:
-        """Return the relative error of a result, of either sign."""
+        """Return a function from a result to the relative error of the observable, of either
+        sign."""
         read, value, scale = self.read(problem), self.reference(problem).value, self.scale(problem)
         if scale is None:
             return lambda result: read(result) / value - 1
@@ -160,10 +178,17 @@ def number(
     of: Followed | None = None,
     source: str = "",
 ) -> Observable:
-    """Return a registered quantity of a step's end; NaN where the step has none.
+    """Create an observable for a registered scalar at the end of a load step.
 
-    quantity  its registered name, with _x or _y of a vector; empty: the name
-    exact     what the exact answer calls it; empty: the name
+    The observable is NaN if the step does not have the scalar.
+
+    name      name of the observable
+    meaning   description of the scalar
+    quantity  registered name of the scalar, with _x or _y for a vector; default: `name`
+    exact     attribute of the exact answer; default: `name`
+    over      name of the error scale in the problem; empty: the exact value
+    of        quantity whose order of convergence the error has
+    source    source of the exact value, if it differs from the source of the problem
     """
     quantity = quantity or name
     known = next(known for known in SCALARS if quantity in components(known))
@@ -199,9 +224,14 @@ def error_norm(
     norm: str = "",
     source: str = "",
 ) -> Observable:
-    """Return the norm of the error of a field.
+    """Create an observable for the norm of the error of a field, whose exact value is zero.
 
-    norm  in charts
+    name     name of the observable
+    meaning  description of the norm
+    measure  function from a result, the index of a load step and the problem to the norm
+    over_is  description of the error scale, if `over` is empty
+    over     name of the error scale in the problem
+    norm     name of the norm in charts
     """
     label = "" if of is None else f"{of.value} ({norm})" if norm else of.value
     return Observable(
@@ -301,12 +331,14 @@ Drawing = Callable[[Results], Chart]
 
 @dataclass(frozen=True)
 class Within:
-    """Tolerance that is required or set by hand.
+    """Row that judges an observable by a prescribed tolerance.
 
-    allowed  relative to the scale of errors: a number, a number for each count of cells (these
-             levels are judged), or a function of the level. Default: the finest level is judged
-    name     of the verdict, if it differs from the observable's
-    each     every level is judged
+    what     observable
+    allowed  tolerance relative to the error scale: a number, a number for each number of cells
+             (then exactly these levels are judged), or a function of the level
+    because  reason for the tolerance
+    name     name of the verdict, if it differs from that of the observable
+    each     True if every level is judged; else only the finest level is judged
     """
 
     what: Observable
@@ -318,7 +350,15 @@ class Within:
 
 @dataclass(frozen=True)
 class Refined:
-    """A tolerance derived from refinement: twice the numerical uncertainty, no wider than a cap."""
+    """Row that judges an observable by a tolerance that is derived from refinement.
+
+    The tolerance is the expanded numerical uncertainty (2 standard uncertainties).
+
+    what     observable
+    order    expected order of convergence
+    cap      upper bound of the tolerance
+    because  reason for order and cap
+    """
 
     what: Observable
     order: float
@@ -328,7 +368,14 @@ class Refined:
 
 @dataclass(frozen=True)
 class Falls:
-    """An order of convergence."""
+    """Row that judges the observed order of convergence of an observable.
+
+    what      observable
+    expected  expected order
+    because   reason for the expected order
+    not_yet   allowance for levels that are not asymptotic
+    meaning   description; default: that of the observable
+    """
 
     what: Observable
     expected: float
@@ -339,7 +386,7 @@ class Falls:
 
 @dataclass(frozen=True)
 class Reported:
-    """A number that is not judged."""
+    """Row that reports an observable with a remark and does not judge it."""
 
     what: Observable
     remark: str
@@ -350,9 +397,13 @@ Row = Within | Refined | Falls | Reported
 
 @dataclass(frozen=True)
 class Judged:
-    """Runs of refinement levels with their judged quantities.
+    """Runs of refinement levels and all quantities that are judged or reported on them.
 
-    equations  of the reference, in LaTeX
+    runs        runs to solve
+    quantities  numbers that are judged against references
+    orders      orders of convergence that are judged
+    findings    numbers that are reported and not judged
+    equations   governing equations of the reference, in LaTeX
     """
 
     runs: tuple[AnyRun, ...]
@@ -363,7 +414,13 @@ class Judged:
 
 
 def judged(ladder: RefinementLevels, rows: Sequence[Row]) -> Judged:
-    """Judge each row on its levels; levels that are not solved have no verdicts."""
+    """Expand rows of judged observables into runs, quantities, orders of convergence and findings.
+
+    Levels that no row requires are not solved.
+
+    ladder  refinement levels of one problem
+    rows    observables with the way in which each is judged
+    """
     quantities = tuple(quantity for row in rows for quantity in _quantities(row, ladder))
     runs = ladder.runs
     if ladder.uncorrected:
@@ -398,7 +455,16 @@ def case(
     equations: tuple[str, ...] = (),
     no_order: str = "",
 ) -> Case:
-    """Build a case from parts and from quantities that fit no row. Parts may share runs."""
+    """Create a verification case from expanded rows and from additional quantities.
+
+    name        identifier for commands and files
+    problem     description of the problem and of the source of its answer
+    parts       expanded rows on refinement levels; several parts may share runs
+    runs        additional runs; the same holds for quantities, findings, orders and checks
+    charts      functions from the results to one chart each
+    limits      limits of the conclusions from this case
+    no_order    reason for which no order of convergence is judged
+    """
     return Case(
         name=name,
         title=title,

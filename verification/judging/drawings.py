@@ -1,4 +1,4 @@
-"""Charts of refinement levels: a field with the exact one, and errors over the cell size."""
+"""Charts of a verification case: profiles of computed and exact fields, and convergence plots."""
 
 from __future__ import annotations
 
@@ -32,10 +32,17 @@ def radial_chart(
     traction: Field,
     exact: tuple[Field, Field],
 ) -> Chart:
-    """A traction over the radius with what it should be in grey, and their difference below.
+    """Create a chart of a finite element traction over the radius, together with its reference.
 
-    radius  that r is divided by; scale what the traction is divided by
-    exact   radii and values of the reference
+    The upper panel shows the traction and, in grey, the reference; the lower panel their
+    difference.
+
+    labels     texts of the chart
+    radius     contact radius, the unit of the abscissa [length]
+    scale      unit of the ordinate [force/length²]
+    increment  increment that the traction belongs to
+    traction   values at the rings of the increment [force/length²]
+    exact      radii [length] and values [force/length²] of the reference
     """
     shown = increment.radii <= SHOWN * radius
     r, found = increment.radii[shown] / radius, traction[shown] / scale
@@ -65,9 +72,12 @@ POINTS = 120  # of an exact profile
 
 @dataclass(frozen=True)
 class Drawn:
-    """A field at the end of a step.
+    """Description of one curve in a profile chart: a field at the end of a load step.
 
-    found, exact  from the end of the step, and of the exact answer as a function of r
+    found  function from the increment at the end of the step to the computed field
+    exact  function from the exact answer to the exact field, a function of the radius r
+    label  name of the curve
+    step   index of the load step
     """
 
     found: Callable[[Any], Field]
@@ -88,9 +98,17 @@ def profile(
     unit: float,
     *drawn: Drawn,
 ) -> Drawing:
-    """Draw fields of the judged run with the exact ones, in units of `unit`.
+    """Return a function that draws computed fields of the judged run together with the exact
+    fields.
 
-    Cells show the row next to y = 0, rings one field over the radius."""
+    On cells the chart shows the row of cells next to y = 0. On rings it shows one field over the
+    radius.
+
+    ladder   refinement levels, of which the judged run is drawn
+    y_label  label of the ordinate
+    unit     unit of the ordinate, in SI
+    drawn    fields to draw; default: the pressure at the end of the last step
+    """
     problem, run = ladder.problem, ladder.judged.run
     fields = drawn or (PRESSURE,)
 
@@ -134,10 +152,13 @@ def convergence(
     also: Sequence[Observable] = (),
     beside: Mapping[str, RefinementLevels] | None = None,
 ) -> Drawing:
-    """Draw relative errors on the levels that orders are computed from, with the expected slopes.
+    """Return a function that draws relative errors over the cell or element size, with expected
+    slopes.
 
-    also    errors without an expected order
-    beside  further refinement levels with the same sizes, by name
+    ladder  refinement levels from which orders of convergence are computed
+    rows    rows of the case; those of type Falls have an expected slope
+    also    observables whose errors are drawn without an expected slope
+    beside  further refinement levels with equal sizes, by the name that their curves have
     """
     cells = isinstance(ladder.judged.run, Run)
     unit = ladder.problem.radius if cells else 1.0

@@ -1,4 +1,9 @@
-"""Errors of a field at the end of a step against the exact one, by either solver."""
+"""Error norms of computed pressure and shear fields against the exact fields of a problem.
+
+Each function compares one field at the end of a load step. Its arguments are the result of a solver
+on cells or on finite elements, the index of the load step, and the problem with the exact fields.
+Verification cases judge these norms.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +28,17 @@ AT_EDGE = 0.1  # contact radii to each side of a stick edge
 
 
 def _exact(result: Any, end: Any, exact: Callable[..., Field], problem: Problem) -> Field:
-    """Return the exact field at the centres of cells, or its cell means if edges are corrected."""
+    """Evaluate an exact field (nx, ny) on the cells of a result, for comparison with the computed
+    field.
+
+    The values are those at the cell centres. If the edge correction is applied, they are means over
+    the cells, because corrected tractions are means.
+
+    result   result on cells
+    end      increment at the end of the load step
+    exact    exact field as a function of the distance from the axis, or of x and y
+    problem  problem that the field belongs to
+    """
     x, y = result.grid.coordinates()
     if not is_corrected(end):
         return problem.on_surface(exact, x, y)
@@ -32,7 +47,8 @@ def _exact(result: Any, end: Any, exact: Callable[..., Field], problem: Problem)
 
 
 def pressure_l1(result: Any, step: int, problem: Problem) -> float:
-    """Return Σ|p - p_exact| / Σ p_exact over all cells [1]."""
+    """Compute the relative L1 error Σ|p - p_exact| / Σ p_exact of the pressure over all cells
+    [1]."""
     end = result.steps[step]
     return norms.relative_l1(
         end.pressure, _exact(result, end, problem.ends[step].pressure, problem)
@@ -40,7 +56,11 @@ def pressure_l1(result: Any, step: int, problem: Problem) -> float:
 
 
 def pressure_l2(result: Any, step: int, problem: Problem) -> float:
-    """Relative L2 error of the pressure over all cells, or over the rings, linear between [1]."""
+    """Compute the relative L2 error of the pressure [1].
+
+    On cells the sums extend over all cells. On finite elements the computed pressure is
+    interpolated linearly between the rings, and the integrals extend over the radius.
+    """
     end, exact = result.steps[step], problem.ends[step].pressure
     if hasattr(result, "grid"):
         return norms.relative_l2(end.pressure, _exact(result, end, exact, problem))
@@ -48,7 +68,12 @@ def pressure_l2(result: Any, step: int, problem: Problem) -> float:
 
 
 def largest_pressure_error(result: Any, step: int, problem: Problem) -> float:
-    """Return the largest error of the pressure of rings away from the edge, over p_H [1]."""
+    """Compute the largest pressure error of finite elements away from the contact edge, over p_H
+    [1].
+
+    The points are the rings, or the radii of the reference if it is tabulated, up to 0.9 of the
+    contact radius (less on coarse meshes). p_H is the peak pressure of Hertz theory.
+    """
     end, exact = result.steps[step], problem.ends[step]
     within = judged_within(result.discretisation.elements_per_radius) * problem.radius
     error = ring_errors.largest_error(end, end.pressure, exact, exact.pressure, 0.0, within)
@@ -56,9 +81,10 @@ def largest_pressure_error(result: Any, step: int, problem: Problem) -> float:
 
 
 def shear_error(result: Any, step: int, problem: Problem) -> float:
-    """Return Σ|q - q_exact| / Σµp over all cells [1].
+    """Compute the relative L1 error of the shear q over all cells, Σ|q - q_exact| / Σµp [1].
 
-    On rings it is the ratio of the integrals, with the shear along the load."""
+    On finite elements the sums are integrals over the contact, and q is the shear along the load.
+    """
     end, exact = result.steps[step], problem.ends[step].shear
     if hasattr(result, "grid"):
         known = _exact(result, end, exact, problem)
@@ -68,9 +94,15 @@ def shear_error(result: Any, step: int, problem: Problem) -> float:
 
 
 def away_from_edges(r: Field, judged: float, edges: Sequence[float], radius: float) -> NDArray[Any]:
-    """Mark radii within a part of the contact radius and away from the stick edges.
+    """Select the radii that are inside the contact and not close to the edge of a stick zone.
 
-    The shear has a cusp at a stick edge."""
+    The exact shear has a cusp at the edge of a stick zone, where no pointwise error can converge.
+
+    r       distances from the axis [length]
+    judged  fraction of the contact radius up to which radii are selected
+    edges   radii of the edges of the stick zones [length]
+    radius  contact radius; radii within 0.1 of it from an edge are not selected [length]
+    """
     smooth = r <= judged * radius
     for edge in edges:
         smooth &= np.abs(r - edge) > AT_EDGE * radius
@@ -78,7 +110,12 @@ def away_from_edges(r: Field, judged: float, edges: Sequence[float], radius: flo
 
 
 def shear_around_error(result: Any, step: int, problem: Problem) -> float:
-    """Return the largest error of the circumferential shear away from the edges, over µp_H [1]."""
+    """Compute the largest error of the circumferential shear of a contact in torsion, over µp_H
+    [1].
+
+    The points are the rings inside the contact, without those close to the contact edge and to the
+    edge of the stick zone. p_H is the peak pressure of Hertz theory.
+    """
     end, exact = result.steps[step], problem.ends[step]
     within = judged_within(result.discretisation.elements_per_radius)
     smooth = away_from_edges(end.radii, within, [exact.stick_radius], problem.radius)

@@ -1,4 +1,4 @@
-"""Solving a case and collecting what came out."""
+"""Solution of a verification case and collection of its verdicts, findings and charts."""
 
 from __future__ import annotations
 
@@ -53,8 +53,13 @@ WITHIN = (
 
 
 def judge_laws(case: Case, results: Mapping[str, Any]) -> tuple[Verdict, ...]:
-    """The largest violation and the largest imbalance of all runs that were solved, each against
-    the tolerance of its run."""
+    """Judge the laws of contact and friction, and the energy balance, in the results of all runs.
+
+    Returns one verdict on the largest violation of a law, and one on the largest energy imbalance
+    if any run has energies. Each number is compared with the tolerance of its run.
+
+    results  results of the solved runs, by label of the run
+    """
     found = {run.label: observed(results[run.label]) for run in case.runs if run.label in results}
     violated = {label: laws.violation for label, laws in found.items()}
     missing = {
@@ -86,7 +91,13 @@ def judge_laws(case: Case, results: Mapping[str, Any]) -> tuple[Verdict, ...]:
 
 
 def _excluded(what: str, found: Mapping[str, Observed], results: Mapping[str, Any]) -> str:
-    """Count the increments for which slip or energy is not compared, by reason."""
+    """Describe the number of increments in which slip or energy is not fully compared, with the
+    reasons.
+
+    what     "slip" or "energy"
+    found    evaluated laws, by label of the run
+    results  results of the solved runs, by label of the run
+    """
     total = sum(len(results[label].increments) for label in found)
     counts = sum((getattr(laws, f"of_{what}") for laws in found.values()), Counter[str]())
     return "".join(
@@ -103,9 +114,12 @@ DISCRETISATION = ("title", "cells", "window", "tolerance", "path accuracy")
 
 
 def judge(case: Case, solve: Solve = lambda run: run.solve()) -> CaseOutcome:
-    """Solve all runs of a case and judge its quantities and checks.
+    """Solve all runs of a verification case and judge its quantities, orders and checks.
 
-    A run that the solver gives up is a failed verdict; what would be measured on it is left out.
+    A run that the solver gives up becomes a failed verdict. Quantities of that run are left out.
+
+    case   verification case
+    solve  function that solves one run
     """
     results: dict[str, Any] = {}
     failures: list[Verdict] = []
@@ -143,7 +157,7 @@ def _verdicts(case: Case, results: Results) -> tuple[Verdict, ...]:
 
 
 def _needs(quantity: Quantity) -> set[str]:
-    """Labels of the runs a verdict on the quantity rests on."""
+    """Return the labels of all runs that the verdict on a quantity requires."""
     levels = quantity.tolerance.levels if isinstance(quantity.tolerance, Derived) else ()
     return {quantity.run, *levels}
 
@@ -182,7 +196,11 @@ def _run_record(run: AnyRun, case: Case, result: Any) -> RunRecord:
 
 
 def _planned(run: AnyRun, case: Case) -> str | None:
-    """The label of the run that differs from this one in leaving the effects to the plan."""
+    """Return the label of the run that differs from this run only in following the plan of its
+    scene.
+
+    The result is None if the given run follows its plan, or if the case has no counterpart.
+    """
     if not isinstance(run, Run) or run.effects is None:
         return None
     same = (one for one in case.runs if replace(run, label=one.label, effects=None) == one)
@@ -190,7 +208,8 @@ def _planned(run: AnyRun, case: Case) -> str | None:
 
 
 def _scenes(case: Case, results: Results) -> tuple[SceneRecord, ...]:
-    """Return the scenes of a case, each once, with the effects of the solver's plan."""
+    """Describe each scene of a case once, with the effects that the plan of the solver switches
+    on."""
     records: dict[Scene, SceneRecord] = {}
     for run in case.runs:
         if run.label in results and run.scene not in records:

@@ -1,4 +1,7 @@
-"""An order of convergence that a case judges: what is followed, over which levels, and why."""
+"""Declarations of observed orders of convergence that a verification case judges.
+
+A declaration names the quantity, the refinement levels, the expected order and its reason.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +14,7 @@ from verification.convergence.observed_order import ORDER_WIDTH
 
 
 class Followed(StrEnum):
-    """Quantities compared under refinement."""
+    """Quantities whose error is followed under refinement, to determine an order of convergence."""
 
     PRESSURE = "pressure"
     PEAK_PRESSURE = "peak pressure"
@@ -24,7 +27,8 @@ class Followed(StrEnum):
 
 
 class Refinement(StrEnum):
-    """Discretisation parameter that is refined."""
+    """Discretisation parameters that are refined from level to level: the mesh or the
+    increments."""
 
     MESH = "mesh"
     INCREMENTS = "increments"
@@ -32,10 +36,14 @@ class Refinement(StrEnum):
 
 @dataclass(frozen=True)
 class NotYetAsymptotic:
-    """Allowed difference from the expected order on levels that are not asymptotic, with its cause.
+    """Allowance for an observed order of convergence on levels that are too coarse for the theory.
 
-    The larger of the allowance and the order's interval counts, not their sum. Raises ValueError
-    for an allowance that any order would meet."""
+    allowance  accepted difference from the expected order
+    because    cause of the difference
+
+    The tolerance of the order is the larger of the allowance and the interval of the order, not
+    their sum. Raises ValueError for an allowance that any order would meet.
+    """
 
     allowance: float
     because: str
@@ -47,15 +55,17 @@ class NotYetAsymptotic:
 
 @dataclass(frozen=True)
 class OrderOfConvergence:
-    """The rate at which an error falls with the cell side, against the rate theory expects.
+    """Order at which the error of a quantity falls with the cell or element size h, and its
+    expectation.
 
-    of        the quantity that it is an order of
-    levels    coarse to fine; runs with cells of one size are one level, and count by the root
-              mean square of their errors
-    error     error on one run, of either sign
-    expected  order p of h^p
-    because   why this order
-    not_yet   what keeps these levels from it; None where nothing is known to
+    of        quantity whose order is determined
+    meaning   description of the error
+    levels    labels of the runs, coarse to fine; runs with cells of one size form one level, with
+              the root mean square of their errors
+    error     function from the result of a run to its error, of either sign
+    expected  exponent p of h^p according to theory
+    because   reason for the expected order
+    not_yet   allowance for levels that are not asymptotic; None if there is no known reason
     """
 
     name: str
@@ -70,19 +80,22 @@ class OrderOfConvergence:
 
 @dataclass(frozen=True)
 class OrderOfChange:
-    """The rate at which neighbouring levels approach each other, where the exact answer is not
-    known or has the error of another kind of refinement: a change falls with the order of the
-    error.
+    """Order at which the differences between successive refinement levels fall, and its
+    expectation.
 
-    of        the quantity that it is an order of
-    refined   what the levels refine
-    levels    coarse to fine
-    change    from the first of two levels to the second, > 0; the second finer by one factor
-    size      what is refined, h of a level
-    expected  order p of h^p
-    because   why this order
-    not_yet   what keeps these levels from it; None where nothing is known to
-    apart     levels from the first of a change to the second
+    Used where the exact answer is not known, or contains the error of another kind of refinement.
+    The differences fall with the order of the error.
+
+    of        quantity whose order is determined
+    refined   discretisation parameter that is refined
+    meaning   description of the difference
+    levels    labels of the runs, coarse to fine
+    change    difference > 0 between the results of two levels; the ratio of their sizes is constant
+    size      function from a result to its discretisation parameter h
+    expected  exponent p of h^p according to theory
+    because   reason for the expected order
+    not_yet   allowance for levels that are not asymptotic; None if there is no known reason
+    apart     distance between the two compared levels in the list of levels
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""Outcome of a case, in plain values as stored in `report.json`."""
+"""Outcome of a verification case as stored in `report.json`, and its texts for reports and logs."""
 
 from __future__ import annotations
 
@@ -52,12 +52,12 @@ class ChangeKind(StrEnum):
 
     @property
     def matters(self) -> bool:
-        """Return True if the baseline does not describe the number any more."""
+        """True if the recorded baseline no longer describes the number."""
         return self is not ChangeKind.UNCHANGED
 
     @property
     def regresses(self) -> bool:
-        """Return True if it must be accepted with a reason before the commit passes."""
+        """True if a person must accept the change with a reason before the commit passes."""
         return self in (
             ChangeKind.OUTSIDE, ChangeKind.WORSE, ChangeKind.DEARER, ChangeKind.GONE
         )  # fmt: skip
@@ -125,12 +125,13 @@ class Origin(Description):
 
     @property
     def name(self) -> str:
-        """The commit as a reader sees it."""
+        """Git commit of the recorded numbers, as text for a reader."""
         return commit_text(self.commit, changed=self.changed)
 
 
 def commit_text(commit: str | None, *, changed: bool) -> str:
-    """Return a commit in a sentence."""
+    """Return a git commit as text for a sentence: its short hash, and a remark if the source
+    differed."""
     text = "an unknown commit" if commit is None else commit[:SHORT_COMMIT]
     return f"{text} with changes" if changed else text
 
@@ -229,7 +230,11 @@ class Verdict(Description):
 
     @model_validator(mode="after")
     def _states_what_it_measured(self) -> Verdict:
-        """A record that was changed by hand, or by a defect, contradicts itself somewhere."""
+        """Check that the numbers of a verdict agree with each other; raise ValueError if they do
+        not.
+
+        A record that was edited by hand or damaged contradicts itself.
+        """
         problem = _contradiction(self)
         if problem:
             raise ValueError(f"{self.name} [{self.run}]: {problem}")
@@ -237,13 +242,16 @@ class Verdict(Description):
 
     @property
     def most_allowed(self) -> float:
-        """The bound of the case, in the unit of the value."""
+        """Largest accepted error of the case, in the unit of the value."""
         return (self.allowed if self.bound is None else self.bound) * self.scale
 
     @property
     def clearance(self) -> float | None:
-        """Error as a part of what is allowed, finite; above 1 is a failure. None without an error
-        in numbers, and for one where nothing is allowed."""
+        """Error over the accepted error; a value above 1 is a failure.
+
+        The ratio is None if there is no finite error, or if the accepted error is zero and the
+        error is not.
+        """
         if self.error is None or (self.allowed == 0 and self.error > 0):
             return None
         if self.error == 0:
@@ -252,7 +260,8 @@ class Verdict(Description):
 
 
 def _contradiction(verdict: Verdict) -> str:
-    """What the numbers of a verdict do not agree about; empty if they do."""
+    """Describe the first contradiction between the numbers of a verdict; return "" if there is
+    none."""
     if verdict.tolerance_kind not in TOLERANCE_KINDS:
         return f"its tolerance is {verdict.tolerance_kind!r}, not {', '.join(TOLERANCE_KINDS)}"
     # Uncertainties that are derived vanish where refinement changes nothing.
@@ -302,7 +311,11 @@ def _status_of(verdict: Verdict) -> Status:
 
 
 def order_status(kept: bool | None) -> Status:
-    """The verdict on an order; None where it is not known well enough."""
+    """Convert the judgement of a convergence order to a status.
+
+    kept  True if the order agrees with the expected order, False if not, None if the observed order
+          is too uncertain (inconclusive)
+    """
     if kept is None:
         return Status.INCONCLUSIVE
     return Status.PASS if kept else Status.FAIL
@@ -358,14 +371,14 @@ class RunRecord(Description):
 
     @property
     def solver(self) -> Solver:
-        """What solved it."""
+        """Solver of the run: radial, finite elements or semi-analytical cells."""
         if self.rings is not None:
             return Solver.RADII
         return Solver.ELEMENTS if self.cells is None else Solver.CELLS
 
     @property
     def fineness(self) -> int:
-        """Cells a side, elements per contact radius, or rings."""
+        """Number of cells per side, of elements per contact radius, or of rings."""
         if self.cells is not None:
             return self.cells[0]
         return self.elements_per_radius or self.rings or 0
@@ -420,12 +433,12 @@ class CaseOutcome(Description):
         return self
 
     def count(self, status: Status) -> int:
-        """How many verdicts have this status."""
+        """Return the number of verdicts of the case with the given status."""
         return sum(verdict.status is status for verdict in self.verdicts)
 
     @property
     def status(self) -> Status:
-        """The worst status of its verdicts."""
+        """Worst status among the verdicts of the case: fail, then inconclusive, then pass."""
         if self.count(Status.FAIL):
             return Status.FAIL
         return Status.INCONCLUSIVE if self.count(Status.INCONCLUSIVE) else Status.PASS
@@ -444,7 +457,8 @@ PERCENT_SHOWN_TO = 9.995
 
 
 def clearance_text(verdict: Verdict) -> str:
-    """The error as a part of what is allowed: 45 %, or a multiple if much larger."""
+    """Return the error of a verdict as a percentage of the accepted error, or as a multiple if
+    large."""
     part = verdict.clearance
     if part is None:
         return "–"
@@ -454,13 +468,18 @@ def clearance_text(verdict: Verdict) -> str:
 
 
 def uncertainty_text(verdict: Verdict) -> str:
-    """The reference's own uncertainty relative to what errors are; empty where it is rounding."""
+    """Return the uncertainty of the reference relative to the error scale, as text such as "± 1e-4,
+    ".
+
+    The text is empty if the uncertainty is not above rounding.
+    """
     part = (verdict.reference_uncertainty or 0.0) / verdict.scale
     return f"± {plain(part, 2)}, " if part > ROUNDING else ""
 
 
 def order_text(verdict: Verdict) -> str:
-    """An observed order with its interval; words where that is too wide for a number."""
+    """Return an observed order of convergence with its interval; words if the interval is too
+    wide."""
     if verdict.value is None or verdict.interval is None:
         return NOT_FINITE
     half = verdict.interval
@@ -470,12 +489,18 @@ def order_text(verdict: Verdict) -> str:
 
 
 def moved_text(change: Change) -> str:
-    """How far a number is from the recorded one, in units of what is allowed."""
+    """Return the change of a number since its recording as text, in units U of the accepted
+    error."""
     return "–" if change.moved is None else f"{plain(change.moved, 2)} U"
 
 
 def failure_line(case: str, verdict: Verdict, level: str) -> str:
-    """What failed, where, by how much, since when, and how to see it again."""
+    """Return one line for a log about a failed or changed verdict, with the command that repeats
+    it.
+
+    case   name of the case
+    level  amount of computation, as in the command line
+    """
     word = "FAIL" if verdict.status is Status.FAIL else "MOVED"
     return (
         f"{word} {case}/{verdict.name} [{verdict.run}]: {failure_text(verdict)}; "
@@ -484,7 +509,8 @@ def failure_line(case: str, verdict: Verdict, level: str) -> str:
 
 
 def failure_text(verdict: Verdict) -> str:
-    """The value, what was expected and allowed, and the recorded value where there is one."""
+    """Return the value of a failed verdict, the expected and accepted values, and the recorded
+    value."""
     if verdict.name == SOLVED:
         return verdict.meaning + _was_text(verdict)
     measured, reference = (
@@ -497,7 +523,7 @@ def failure_text(verdict: Verdict) -> str:
 
 
 def _allowed_text(verdict: Verdict) -> str:
-    """What is allowed, in the unit that the value or its reference is shown in."""
+    """Return the accepted error of a verdict as text, in the unit in which its value is shown."""
     allowed, unit = verdict.allowed * verdict.scale, verdict.unit
     if unit in ("", "°"):
         return plain(allowed, 2) + unit
@@ -507,7 +533,7 @@ def _allowed_text(verdict: Verdict) -> str:
 
 
 def _was_text(verdict: Verdict) -> str:
-    """The recorded value and the commit it is from, where there is one."""
+    """Return the recorded value and its commit as text; "" if no value is recorded."""
     change = verdict.regression
     if change is None or not change.recorded:
         return ""

@@ -1,5 +1,8 @@
-"""Errors of tractions at the radii that a contact pressed with friction is tabulated at, by either
-solver."""
+"""Errors of pressure and shear of a ball that is pressed onto a body with friction.
+
+The reference is a table of tractions at a few radii. The results are those of the solver on cells
+or of the finite elements.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +25,12 @@ ROUNDING = 1e-9  # of the radii of a table
 
 
 def pressure_at(result: Any, r: Field) -> Field:
-    """Return the pressure (radii, directions) at the end of a result [force/length²]."""
+    """Interpolate the computed pressure of the last load step to given radii [force/length²].
+
+    The result has the shape (radii, directions): 16 directions on cells, one on finite elements.
+
+    r  distances from the axis [length]
+    """
     end = result.steps[-1]
     if hasattr(result, "grid"):
         return along_radii(end.pressure, result.grid, r)
@@ -30,7 +38,13 @@ def pressure_at(result: Any, r: Field) -> Field:
 
 
 def shear_at(result: Any, r: Field) -> Field:
-    """Return the outward shear (radii, directions) at the end of a result [force/length²]."""
+    """Interpolate the computed radial shear of the last load step to given radii [force/length²].
+
+    Positive shear points outwards. The result has the shape (radii, directions): 16 directions on
+    cells, one on finite elements.
+
+    r  distances from the axis [length]
+    """
     end = result.steps[-1]
     if hasattr(result, "grid"):
         return along_radii(outward(shear_of(end), result.grid), result.grid, r)
@@ -38,7 +52,11 @@ def shear_at(result: Any, r: Field) -> Field:
 
 
 def judged_radii(result: Any, problem: Problem) -> Field:
-    """Those of the table that are away from axis and edge [length]."""
+    """Select the radii of the reference table at which tractions are judged [length].
+
+    Radii within 0.1 of the contact radius from the axis and close to the contact edge are excluded.
+    On cells the limit is 0.95 of the contact radius; on finite elements it depends on the mesh.
+    """
     outermost = OUTERMOST
     if not hasattr(result, "grid"):
         outermost = judged_within(result.discretisation.elements_per_radius)
@@ -48,15 +66,20 @@ def judged_radii(result: Any, problem: Problem) -> Field:
 
 
 def pressure_error(result: Any, _: int, problem: Problem) -> float:
-    """Return the largest error of the pressure, over p_H [1]."""
+    """Compute the largest error of the pressure at the judged radii, over p_H of Hertz theory
+    [1]."""
     r = judged_radii(result, problem)
     error = np.abs(pressure_at(result, r) - problem.ends[-1].pressure(r)[:, None])
     return float(np.max(error) / problem.scale(OVER_PEAK))
 
 
 def shear_errors(result: Any, problem: Problem) -> tuple[Field, NDArray[np.bool_]]:
-    """Errors over µp_H at the judged radii, and which of these are cells at the edge of
-    the stick zone."""
+    """Compute the errors of the radial shear at the judged radii, over µp_H [1].
+
+    Returns the largest error of all directions at each radius, and a mask of the radii that lie
+    less than two cells from the edge of the stick zone. On finite elements the mask is false
+    everywhere.
+    """
     r, exact = judged_radii(result, problem), problem.ends[-1]
     error = np.max(np.abs(shear_at(result, r) - exact.shear(r)[:, None]), axis=1)
     width = EDGE_CELLS * result.grid.spacing[0] if hasattr(result, "grid") else 0.0
@@ -65,15 +88,17 @@ def shear_errors(result: Any, problem: Problem) -> tuple[Field, NDArray[np.bool_
 
 
 def shear_error(result: Any, _: int, problem: Problem) -> float:
-    """Return the largest error of the outward shear away from the edge of the stick zone."""
+    """Compute the largest error of the radial shear away from the stick edge, over µp_H [1]."""
     error, at_edge = shear_errors(result, problem)
     return float(np.max(error[~at_edge]))
 
 
 def edge_error(result: Any, _: int, problem: Problem) -> float:
-    """Return the largest error of the outward shear at the edge of the stick zone.
+    """Compute the largest error of the radial shear within two cells of the stick edge, over µp_H
+    [1].
 
-    It is zero if the reference has no point there."""
+    The error is zero if the reference table has no radius there.
+    """
     error, at_edge = shear_errors(result, problem)
     return float(np.max(error, where=at_edge, initial=0.0))
 

@@ -1,4 +1,5 @@
-"""A problem on finer and finer cells or elements, or under stiffer and stiffer springs."""
+"""Refinement levels of a problem: runs on finer and finer cells, elements or rings, or with a
+penalty."""
 
 from __future__ import annotations
 
@@ -24,10 +25,11 @@ PER_OCTAVE = 5
 
 
 def refinement(coarsest: int, finest: int) -> tuple[int, ...]:
-    """Even counts of cells per side, five per doubling, down from the finest.
+    """Return even numbers of cells per side from coarse to fine, about five per doubling.
 
-    Many levels that are not multiples of each other: how a round contact cuts the cells differs
-    from grid to grid, and only many grids tell that scatter from the order of convergence.
+    The last number is `finest`; no number is smaller than `coarsest`. The numbers are not multiples
+    of each other, because the error depends on the positions of the cells relative to the round
+    contact edge. Many different grids separate this scatter from the order of convergence.
     """
     counts = []
     number = 0
@@ -71,10 +73,11 @@ ASKED_AT = 64  # elements per radius
 
 @dataclass(frozen=True)
 class RefinementLevel:
-    """A run, and how fine it is.
+    """One refinement level: a run, and the size of its discretisation.
 
-    count  cells per side, elements per radius, or rings at which fields are told
-    reach  that these go over, in radii
+    run    run of a solver
+    count  number of cells per side, of elements per contact radius, or of rings of the output
+    reach  length over which `count` extends, in contact radii
     """
 
     run: AnyRun
@@ -83,7 +86,11 @@ class RefinementLevel:
 
     @property
     def words(self) -> dict[str, str]:
-        """What this discretisation calls what is measured."""
+        """Words for measured quantities in the discretisation of this level, by placeholder.
+
+        The meaning of an observable contains the placeholders, such as {point} for "cell" or
+        "ring".
+        """
         if isinstance(self.run, Run):
             return CELLS
         if isinstance(self.run, RadiiRun):
@@ -95,12 +102,13 @@ class RefinementLevel:
 
 @dataclass(frozen=True)
 class RefinementLevels:
-    """Runs of one problem.
+    """Runs of one problem on several refinement levels.
 
-    rungs     coarse to fine
-    judged    the one that numbers are judged on
-    followed  those that orders are read off; on cells without edge correction, as only the errors
-              of the uncorrected method have an order
+    problem   problem with its known answer
+    rungs     levels, coarse to fine
+    judged    level on which values are judged
+    followed  levels from which orders of convergence are computed; on cells they are without edge
+              correction, because only the uncorrected method has an order
     """
 
     problem: Problem
@@ -110,33 +118,42 @@ class RefinementLevels:
 
     @property
     def uncorrected(self) -> bool:
-        """Return True if orders are read off runs of their own, without edge correction."""
+        """True if orders of convergence are computed from separate runs without edge correction."""
         return isinstance(self.judged.run, Run) and self.followed != self.rungs
 
     @property
     def runs(self) -> tuple[AnyRun, ...]:
-        """Runs of all levels, those that orders are read off."""
+        """Runs from which orders of convergence are computed: separate uncorrected runs, or all
+        levels."""
         return tuple(rung.run for rung in (self.followed if self.uncorrected else self.rungs))
 
     @property
     def refined(self) -> RefinementLevel:
-        """The level whose error follows from refinement: on cells the finest uncorrected one."""
+        """Level whose numerical error can be estimated from refinement: on cells the finest
+        uncorrected one."""
         return self.followed[-1] if self.uncorrected else self.judged
 
     @property
     def levels(self) -> tuple[str, ...]:
-        """Labels of the runs that orders are read off."""
+        """Labels of the runs from which orders of convergence are computed, coarse to fine."""
         return tuple(rung.run.label for rung in self.followed)
 
     def of(self, count: int) -> RefinementLevel:
-        """The rung that is so fine; KeyError if there is none."""
+        """Return the refinement level with the given number of cells, elements or rings.
+
+        Raises KeyError if there is no such level.
+        """
         return {rung.count: rung for rung in self.rungs}[count]
 
 
 def ladder(
     problem: Problem, rungs: Sequence[RefinementLevel], followed: Sequence[RefinementLevel] = ()
 ) -> RefinementLevels:
-    """The last rung is judged; orders are read off all unless others are named."""
+    """Combine refinement levels of a problem; values are judged on the last level.
+
+    rungs     levels, coarse to fine
+    followed  levels from which orders of convergence are computed; default: all
+    """
     return RefinementLevels(problem, tuple(rungs), rungs[-1], tuple(followed or rungs))
 
 
@@ -147,11 +164,14 @@ def on_cells(
     of: str = "",
     offsets: Sequence[tuple[float, float]] = (),
 ) -> RefinementLevels:
-    """Grids around the contact, as many cells along x and y.
+    """Create refinement levels on grids of cells around the contact, for the semi-analytical
+    solver.
 
-    window   over the contact, along x and y
-    of       which problem of the case it is, in words; begins the labels
-    offsets  of the centre from the contact's axis, in cells: as many grids of each size
+    cells    numbers of cells per side, coarse to fine
+    window   side of the grid over the contact size, along x and y
+    of       name of the problem within its case, with which the labels begin
+    offsets  positions of the grid centre relative to the contact axis, in cells; each number of
+             cells gets one grid for each offset
     """
     sides = window * problem.radius, window * (problem.across or problem.radius)
 
@@ -179,10 +199,15 @@ def with_edge_at(
     studied: Sequence[tuple[int, float]] = (),
     of: str = "",
 ) -> RefinementLevels:
-    """Meshes that have the edge of the contact at a part of an element: values are judged with the
-    edge in the middle of one, as where it lies moves an error more than a few elements do.
+    """Create refinement levels of finite elements, with a prescribed position of the contact edge.
 
-    studied  elements and place of the edge, for the orders; none: the same meshes
+    The position of the edge within an element changes the error more than a few elements do. Values
+    are judged with the edge in the middle of an element.
+
+    elements  numbers of elements per contact radius, with the edge in the middle of an element
+    studied   numbers of elements with the position of the edge (fraction of an element), for the
+              orders of convergence; default: the meshes of `elements`
+    of        name of the problem within its case, with which the labels begin
     """
     meshes = tuple(dict.fromkeys((*((n, MIDDLE) for n in elements), *studied)))
     rungs = {mesh: _placed(problem, *mesh, of) for mesh in meshes}
@@ -198,8 +223,13 @@ def _placed(problem: Problem, n: int, place: float, of: str) -> RefinementLevel:
 
 
 def meshed(radius: float, elements: int, place: float = MIDDLE) -> float:
-    """The radius over which so many elements go where the edge of the contact is to lie at this
-    part of the next one [length]."""
+    """Compute the radius [length] over which a mesh counts its elements, for a wanted edge
+    position.
+
+    radius    contact radius [length]
+    elements  number of complete elements inside the contact
+    place     position of the contact edge in the next element, as a fraction of that element
+    """
     return radius * elements / (elements + place)
 
 
@@ -209,9 +239,12 @@ def on_elements(
     over: float | None = None,
     of: str = "",
 ) -> RefinementLevels:
-    """Meshes of so many elements over a part of the contact radius, or over its estimate.
+    """Create refinement levels of finite elements with given numbers of elements.
 
-    of  which problem of the case it is, in words; begins the labels
+    elements  numbers of elements per contact radius, coarse to fine
+    over      radius over which the elements are counted, in contact radii; None: the solver
+              estimates the contact radius
+    of        name of the problem within its case, with which the labels begin
     """
     radius = None if over is None else over * problem.radius
     return ladder(
@@ -235,9 +268,13 @@ def on_radii(
     laws: float = OVER_RINGS,
     at_points: bool = False,
 ) -> RefinementLevels:
-    """Discs, or rings so many times as fine as the solver chooses; values are judged at 1.
+    """Create refinement levels of the radial solver; values are judged on the level of fineness 1.
 
-    name  of the run; the others as `RadiiRun` has them
+    name       label of the run of fineness 1
+    fineness   factors on the numbers of orders and rings that the solver chooses; must include 1
+    rings      number of rings at which the solver returns its fields
+    laws       largest accepted violation of a law of contact or friction [1]
+    at_points  True if torsion is solved at points on rings although a closed form would suffice
     """
 
     def rung(times: float) -> RefinementLevel:
@@ -252,10 +289,12 @@ def on_radii(
 
 
 def on_springs(of: RefinementLevels, name: str, **penalty: float) -> RefinementLevels:
-    """Return the judged mesh with springs instead of exact contact.
+    """Return the judged finite element mesh as a level with penalty contact in place of exact
+    contact.
 
-    name     of the run
-    penalty  fields of the discretisation that are about the springs
+    of       refinement levels, of which the judged level is used
+    name     label of the new run
+    penalty  fields of the discretisation that concern the penalty method
     """
     run = of.judged.run
     assert isinstance(run, SectionRun)
@@ -265,29 +304,43 @@ def on_springs(of: RefinementLevels, name: str, **penalty: float) -> RefinementL
 
 
 def cells_label(cells: int, of: str = "") -> str:
-    """Of a run on a grid."""
+    """Return the label of a run on a grid of cells × cells, beginning with the name of its
+    problem."""
     return f"{of}, {cells}x{cells}" if of else f"{cells}x{cells}"
 
 
 def mesh_label(elements: int, place: float = MIDDLE, of: str = "") -> str:
-    """Of a run on a mesh."""
+    """Return the label of a run on finite elements, beginning with the name of its problem.
+
+    elements  number of elements per contact radius
+    place     position of the contact edge within an element, as a fraction
+    """
     name = f"{of}, " if of else ""
     aside = "" if place == MIDDLE else f", edge at {place:g}"
     return f"{name}{elements} elements per radius{aside}"
 
 
 def asked(figure: float, order: float) -> Callable[[RefinementLevel], float]:
-    """Scale a tolerance for 64 elements per radius to other meshes by the convergence order."""
+    """Scale a tolerance for 64 elements per radius to other meshes by the convergence order.
+
+    Returns a function from a refinement level to its tolerance.
+
+    figure  tolerance at 64 elements per contact radius
+    order   order of convergence
+    """
     return lambda rung: figure * (ASKED_AT / rung.count) ** order
 
 
 def part_of_side(part: float) -> Callable[[RefinementLevel], float]:
-    """Return a part of a cell or element over the radius."""
+    """Return a tolerance as a fraction of a cell or element side, over the contact radius.
+
+    Returns a function from a refinement level to the tolerance.
+    """
     return lambda rung: part * rung.reach / rung.count
 
 
 def named(name: str, of: RefinementLevels) -> RefinementLevels:
-    """The same with another label of the judged run."""
+    """Return refinement levels with another label of the judged run."""
     judged = replace(of.judged, run=replace(of.judged.run, label=name))
 
     def renamed(rungs: tuple[RefinementLevel, ...]) -> tuple[RefinementLevel, ...]:

@@ -1,4 +1,5 @@
-"""One solve as part of a case: a scene, how finely, by which solver."""
+"""Runs of a verification case: one scene, its discretisation and the solver, for each of 3
+solvers."""
 
 from __future__ import annotations
 
@@ -28,12 +29,13 @@ OVER_RINGS, OVER_ANGLES, ENERGY_OVER_RINGS = 2e-3, 5e-3, 2e-4
 
 @dataclass(frozen=True)
 class Run:
-    """One solve: a scene on a grid to a tolerance. The label names it within its case.
+    """Run of the semi-analytical solver: one scene on a grid of cells, solved to a tolerance.
 
-    effects  from the plan of the scene to the one to solve with; None: as planned
-    edge     when the edge correction is applied; as a user's run applies it unless orders of the
-             uncorrected method are judged
-    problem  which of the problems of its case, in words; empty where there is one
+    label     name of the run within its case tolerance bound of every residual
+    effects   function that changes the plan of the scene before the solve; None: no change
+    problem   name of the problem, if a case has several problems; else empty
+    edge      setting of the edge correction; the default of users, unless orders of convergence of
+              the uncorrected method are judged
     """
 
     label: str
@@ -48,21 +50,24 @@ class Run:
 
     @property
     def laws(self) -> float:
-        """By how much its fields may violate a law."""
+        """Largest accepted violation of a law of contact or friction in the fields of this run
+        [1]."""
         return OTHER_NORMS * self.tolerance
 
     @property
     def energy(self) -> float:
-        """Part of the energy that an increment may leave unaccounted for."""
+        """Largest accepted energy imbalance of an increment, relative to the largest energy so far
+        [1]."""
         return self.laws
 
     @property
     def spacing(self) -> float:
-        """The longer side of a cell [length]."""
+        """Longer side of a cell of the grid [length]."""
         return max(self.grid.spacing)
 
     def solve(self) -> semi_analytical.Result:
-        """Return the solution; raises what `semi_analytical.solve` raises."""
+        """Solve the scene on the grid of cells; raises the exceptions of
+        `semi_analytical.solve`."""
         from semi_analytical import plan, solve
 
         decided = plan(self.scene, edge=self.edge)
@@ -73,11 +78,13 @@ class Run:
 
 @dataclass(frozen=True)
 class SectionRun:
-    """One solve: a scene on the mesh of a section. The label names it within its case.
+    """Run of the finite element solver: one scene on an axisymmetric mesh.
 
-    beyond  elements by which the contact reaches past the radius that the mesh counts them over,
-            where that is known; the mean, where meshes differ in that alone
-    problem  which of the problems of its case, in words; empty where there is one
+    label    name of the run within its case
+    method   contact algorithm
+    beyond   number of elements between the radius over which the mesh counts its elements and the
+             contact edge, if known; the mean for meshes that differ in this number alone
+    problem  name of the problem, if a case has several problems; else empty
     """
 
     label: str
@@ -91,26 +98,28 @@ class SectionRun:
 
     @property
     def tolerance(self) -> float:
-        """Bound of every residual."""
+        """Bound of every residual of the finite element solve [1]."""
         return self.discretisation.tolerance
 
     @property
     def laws(self) -> float:
-        """By how much its fields may violate a law."""
+        """Largest accepted violation of a law of contact or friction in the fields of this run
+        [1]."""
         return OTHER_NORMS * self.tolerance
 
     @property
     def energy(self) -> float:
-        """Part of the energy that an increment may leave unaccounted for."""
+        """Largest accepted energy imbalance of an increment, relative to the largest energy so far
+        [1]."""
         return self.laws
 
     @property
     def spacing(self) -> float:
-        """Side of an element at the contact over the contact radius."""
+        """Side of an element at the contact, relative to the contact radius [1]."""
         return 1 / (self.discretisation.elements_per_radius + self.beyond)
 
     def solve(self) -> fem_reference.Result:
-        """Return the solution; raises what `fem_reference.solve` raises."""
+        """Solve the scene with finite elements; raises the exceptions of `fem_reference.solve`."""
         import fem_reference
 
         method = fem_reference.Method(self.method.value)
@@ -119,13 +128,14 @@ class SectionRun:
 
 @dataclass(frozen=True)
 class RadiiRun:
-    """One solve: a scene of revolution on radii. The label names it within its case.
+    """Run of the radial solver: one axisymmetric geometry on rings.
 
-    fineness   how many times as many orders and rings as the solver chooses
-    rings      at which fields are told
-    laws       by how much its fields may violate a law
-    at_points  whether torsion is solved at points on rings where a closed form would do
-    problem    which of the problems of its case, in words; empty where there is one
+    label      name of the run within its case
+    fineness   factor on the numbers of orders and rings that the solver chooses
+    rings      number of rings at which the solver returns its fields
+    laws       largest accepted violation of a law of contact or friction in these fields [1]
+    at_points  True if torsion is solved at points on rings although a closed form would suffice
+    problem    name of the problem, if a case has several problems; else empty
     """
 
     label: str
@@ -142,11 +152,12 @@ class RadiiRun:
 
     @property
     def spacing(self) -> float:
-        """Rings that the solver chooses over those that it takes."""
+        """Relative size of the discretisation: number of rings that the solver chooses over the
+        number used."""
         return 1 / self.fineness
 
     def solve(self) -> radial.Result:
-        """Return the solution; raises what `radial.solve` raises."""
+        """Solve the scene on rings; raises the exceptions of `radial.solve`."""
         import radial
         from contact_scene import RadialDiscretisation
         from radial.angular_grid import Circle
@@ -162,7 +173,12 @@ AnyRun = Run | SectionRun | RadiiRun
 
 
 def per_radius(elements: int, contact_radius: float | None = None) -> FiniteElementDiscretisation:
-    """So many elements over this contact radius [length], or over the estimated one."""
+    """Return the finite element discretisation with a given number of elements over the contact
+    radius.
+
+    elements        number of elements over the radius
+    contact_radius  radius over which the elements are counted [length]; None: the estimated radius
+    """
     return FiniteElementDiscretisation(
         elements_per_radius=elements, contact_radius=contact_radius, tolerance=SOLVER_TOLERANCE
     )

@@ -1,4 +1,5 @@
-"""From a measured number to a verdict."""
+"""Verdicts of a verification case: comparison of measured numbers with references and
+tolerances."""
 
 from __future__ import annotations
 
@@ -36,9 +37,12 @@ COVERAGE = 2.0  # standard uncertainties in a tolerance
 def judge_quantity(
     quantity: Quantity, case: Case, results: Results, stated: float | None = None
 ) -> Verdict:
-    """The measured value against its reference; a value that is not finite fails.
+    """Judge the value of a quantity, measured on a run, against its reference.
 
-    stated  error that the solver states of the value, in its unit
+    A value that is not finite fails. A tolerance that is derived from refinement is computed first.
+
+    stated  error estimate of the solver for the value, in the unit of the value; None if there is
+            none
     """
     tolerance = quantity.tolerance
     if isinstance(tolerance, Derived):
@@ -59,12 +63,12 @@ def judge_quantity(
 
 
 def judge_check(check: Check) -> Verdict:
-    """The measured value against its reference; a value that is not finite fails."""
+    """Judge a number that needs no run against its reference; a value that is not finite fails."""
     return _judged(check, check.subject, check.measure(), "required", check.tolerance.allowed)
 
 
 def judge_comparison(comparison: Comparison, results: Results) -> Verdict:
-    """The difference of two runs, against zero."""
+    """Judge the difference between the results of two runs, whose expected value is zero."""
     one, other = comparison.runs
     value = comparison.difference(results[one], results[other])
     same = Check(
@@ -76,7 +80,8 @@ def judge_comparison(comparison: Comparison, results: Results) -> Verdict:
 
 
 def _scale(quantity: Quantity | Check) -> float:
-    """Return the scale of an error: the stated one, else the size of the reference."""
+    """Return the scale to which an error is relative: the stated scale, else the size of the
+    reference."""
     return abs(quantity.reference.value) if quantity.scale is None else quantity.scale
 
 
@@ -108,7 +113,13 @@ def _judged(
 def expanded_uncertainty(
     quantity: Quantity, tolerance: Derived, case: Case, results: Results
 ) -> float:
-    """Return 2 √(u_num² + u_ref²), in the unit of the quantity; infinite if a number is missing."""
+    """Compute the expanded uncertainty 2 √(u_num² + u_ref²) of a quantity, in the unit of the
+    quantity.
+
+    u_num is the numerical uncertainty, estimated from the values on the refinement levels of the
+    tolerance. u_ref is the uncertainty of the reference. The result is infinite if a value is not
+    finite.
+    """
     values = [quantity.measure(results[label]) for label in tolerance.levels]
     if not all(map(math.isfinite, values)):
         return math.inf
@@ -117,7 +128,11 @@ def expanded_uncertainty(
 
 
 def judge_order(study: OrderOfConvergence | OrderOfChange, case: Case, results: Results) -> Verdict:
-    """The observed order against the promised one, or INCONCLUSIVE where it is not well known."""
+    """Judge an observed order of convergence against the expected order.
+
+    The verdict is INCONCLUSIVE if the 95 % interval of the observed order is too wide. It is a
+    failure if an error is zero or not finite.
+    """
     sizes, errors = _refined(study, case, results)
     known = all(math.isfinite(error) and error > 0 for error in errors)
     observed = observed_order(sizes, errors) if known else None
@@ -169,7 +184,11 @@ def _not_yet(study: OrderOfConvergence | OrderOfChange) -> str:
 def _refined(
     study: OrderOfConvergence | OrderOfChange, case: Case, results: Results
 ) -> tuple[list[float], list[float]]:
-    """Sizes, coarse to fine, and the errors or changes there."""
+    """Return the discretisation sizes, coarse to fine, and the errors (or changes) at these sizes.
+
+    The sizes are cell or element sizes, or the sizes that an order of change defines. Runs on cells
+    of one size are combined by the root mean square of their errors.
+    """
     levels = [results[label] for label in study.levels]
     if isinstance(study, OrderOfChange):
         pairs = list(zip(levels, levels[study.apart :], strict=False))
@@ -178,7 +197,8 @@ def _refined(
 
 
 def judge_residuals(case: Case, results: Results) -> Verdict:
-    """The largest residual of any increment of any run that was solved, against its tolerance."""
+    """Judge the largest residual of all increments of all solved runs, against the tolerance of its
+    run."""
     found = {r.label: largest_residual(results[r.label]) for r in case.runs if r.label in results}
     return judge_worst(
         case, found, RESIDUAL, "largest residual of any increment of the {runs} run(s); it is in "
@@ -197,13 +217,19 @@ def judge_worst(
     allowed: Callable[[AnyRun], float],
     where: Mapping[str, str] = MappingProxyType({}),
 ) -> Verdict:
-    """Judge numbers that should vanish, by the label of their run.
+    """Judge the worst of several numbers that should vanish, one number for each run.
 
-    The verdict is that of the run with the largest ratio of number to allowance; a number that is
-    not finite is the worst.
+    The worst number has the largest ratio to the accepted value of its run. NaN counts as the
+    worst.
 
-    meaning  with the number of runs in place of {runs}, and the place in the run of {where}
-    where    by label
+    case     verification case
+    found    numbers, by label of the run
+    name     name of the verdict
+    meaning  description, with placeholders {runs} for the number of runs and {where} for the place
+    source   law or equation that predicts zero
+    because  reason for the accepted values
+    allowed  function from a run to its accepted value
+    where    place of the number in the run, by label of the run
     """
     ratio = {label: value / allowed(case.run(label)) for label, value in found.items()}
     worst = max(ratio, key=lambda label: (math.isnan(ratio[label]), ratio[label]))
@@ -212,14 +238,17 @@ def judge_worst(
 
 
 def unsolved(run: AnyRun, message: str) -> Verdict:
-    """The verdict on a run that the solver gave up."""
+    """Return the failed verdict on a run that the solver gave up, with the message of the
+    solver."""
     return lost(run.label, f"the solver gave up: {message}", "run", run.tolerance)
 
 
 def lost(where: str, meaning: str, what: str, tolerance: float = 1.0) -> Verdict:
-    """The verdict on a run or case that has no result.
+    """Return the failed verdict on a run or case that has no result.
 
-    what  it is
+    where    label of the run, or name of the case
+    meaning  description of the failure
+    what     "run" or "case"
     """
     return _law(
         SOLVED, meaning, where, math.nan, "every run of a case has a solution", tolerance,
@@ -230,7 +259,15 @@ def lost(where: str, meaning: str, what: str, tolerance: float = 1.0) -> Verdict
 def _law(
     name: str, meaning: str, run: str, value: float, source: str, allowed: float, because: str
 ) -> Verdict:
-    """Judge a dimensionless number that vanishes by the equations."""
+    """Judge a dimensionless number that must vanish according to the equations.
+
+    name     name of the verdict
+    meaning  description of the number
+    run      label of the run on which the number was measured
+    source   law or equation that predicts zero
+    allowed  largest accepted value
+    because  reason for the accepted value
+    """
     return judge_check(
         Check(
             name, meaning, "", run, lambda: value, identity(0.0, source),
@@ -240,7 +277,7 @@ def _law(
 
 
 def finite(value: float) -> float | None:
-    """The value for a record that holds no NaN and no infinity."""
+    """Return a value as stored in records: None in place of NaN and infinity."""
     return float(value) if math.isfinite(value) else None
 
 

@@ -1,4 +1,4 @@
-"""States of the semi-analytical method for the laws of contact and friction."""
+"""States of the contact surface from semi-analytical results, for the evaluation of the laws."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ INNER = 0.1  # of the change, to which the solves of the correction end
 
 
 def states_on_cells(result: Result) -> list[ContactState]:
-    """Return the states of all increments.
+    """Compute the states of the contact surface in all increments of a result on cells.
 
-    With the edge correction, complementarity and the tangential force hold to the last change of
-    the correction, and slip and energies are those before the correction.
+    With the edge correction, complementarity and the balance of the tangential force hold only to
+    the last change of the correction. Slip and energies are those before the correction.
     """
     undeformed = result.scene.indenter.initial_gap(*result.grid.coordinates())
     before_touch = _before_touch(result.increments[0], undeformed)
@@ -103,7 +103,13 @@ def _state(
 
 
 def _traces(before: Increment | None, now: Increment, area: float) -> list[float]:
-    """Compare the sums of the fields of dissipation and slip with the stated numbers."""
+    """Compare sums over the fields of dissipation and slip with the stated numbers of an increment
+    [1].
+
+    Returns the relative deviation of the dissipated energy, and the largest deviation of the growth
+    of the accumulated slip distance from the change of the slip. The list is empty if a field is
+    missing.
+    """
     lost, way, slip = now.dissipated_energy, now.slip_distance, now.slip
     if lost is None or way is None or slip is None or now.dissipation is None:
         return []
@@ -116,11 +122,12 @@ def _traces(before: Increment | None, now: Increment, area: float) -> list[float
 
 
 def _before_touch(first: Increment, undeformed: Field) -> Field:
-    """Compute the relative motion of particles before first contact in the first increment (2, nx,
-    ny).
+    """Compute the relative motion of particles in the first increment before first contact
+    [length].
 
-    Where there is a gap, the slip is (p/p₀)² of the motion, as p² grows with the motion of the
-    edge.
+    The result has the shape (2, nx, ny). At cells with an initial gap, slip is (p/p₀)² of the whole
+    relative motion, because p² grows with the motion of the contact edge. p₀ is the largest
+    pressure.
     """
     if first.slip is None:
         return np.zeros((2, *undeformed.shape))

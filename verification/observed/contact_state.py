@@ -1,7 +1,8 @@
-"""Laws of contact and friction and the first law, for increments of any solver.
+"""Laws of contact and friction and the energy balance, for increments of any solver.
 
-An increment is a set of points of the contact surface with weights. A function for each solver
-creates the states from a result; the laws are the same for all solvers.
+An increment is described by the state at points of the contact surface, with the area of each point
+as weight. One function per solver creates the states from a result. The laws are the same for all
+solvers.
 """
 
 from __future__ import annotations
@@ -34,9 +35,12 @@ FEW_RINGS = "the contact has too few rings for integrals"
 
 @dataclass(frozen=True)
 class Balance:
-    """Force or moment of the tractions, its prescribed value, and its largest possible value.
+    """Balance of a force or moment: the value of the computed tractions against the expected value.
 
-    eased  the tolerance of the solver over that of this balance
+    carried  force or moment of the tractions
+    due      expected value
+    most     largest possible value, the scale of the difference
+    eased    tolerance of the solver over the tolerance of this balance
     """
 
     carried: Any
@@ -46,34 +50,39 @@ class Balance:
 
     @property
     def missing(self) -> float:
-        """Difference over the largest possible value [1]."""
+        """Difference of the carried from the expected force, over the largest possible force [1].
+
+        The difference is multiplied by `eased`.
+        """
         off = np.linalg.norm(np.subtract(self.carried, self.due))
         return float(off / self.most) * self.eased
 
 
 @dataclass(frozen=True)
 class ContactState:
-    """An increment at points of the surface; vectors are (2, ...).
+    """State of the contact surface at the end of an increment; vector fields have the shape (2,
+    ...).
 
-    increment   as the solver states it
+    increment   increment with the numbers that the solver states
     weights     area of the points [length^2]
-    undeformed  gap before any load; gap that of the deformed surfaces, less than 0 where springs of
-                a penalty are compressed [length]
-    limit       of friction [force/length^2]
-    slip        as stated; passed is the motion of the lower surface relative to the indenter since
-                the start [length], None if it is undefined
-    forces      forces and moments; motions are conjugate
+    undeformed  gap before any load [length]
+    gap         gap of the deformed surfaces, negative where contact springs are compressed [length]
+    limit       friction limit µp [force/length^2]
+    slip        slip as stated by the solver [length]
+    passed      motion of the lower surface relative to the indenter since the start [length]; None
+                if it is undefined
+    forces      forces and moments; `motions` are conjugate to them
     depth       scale of gaps [length]
-    balances    of forces and moments
-    stated      differences of stated numbers from those of the fields, as parts of their size
-    give        length by which springs are compressed per pressure [length^3/force]
-    loose       largest slip of springs without motion of the points, or 0 [length]
-    eased       the tolerance of the solver over that of p g = 0
+    balances    balances of forces and moments
+    stated      relative differences between stated numbers and those of the fields
+    give        compliance of contact springs of a penalty [length^3/force]
+    loose       largest slip of contact springs without motion of the points, or 0 [length]
+    eased       tolerance of the solver over the tolerance of p g = 0
     coarse      factor on the scale of energies, for the edge correction
     least_work  smallest scale of the dissipated energy [force length]
-    unseen      reason for which the slip is not compared with the shear; empty if it is
-    open        reason for which the energies are not compared with those of the preceding state
-    told        true if stored energy and unresolved work cannot be computed from the fields
+    unseen      reason for which slip is not compared with the shear; empty if it is compared
+    open        reason for which energies are not compared with those of the preceding state
+    told        True if stored energy and unresolved work cannot be computed from the fields
     """
 
     increment: Any
@@ -101,16 +110,17 @@ class ContactState:
 
     @property
     def not_compared(self) -> str:
-        """Reason for which some energies are not compared; empty if all are."""
+        """Reason for which some energies are not compared; empty if all are compared."""
         return self.open or (GROWN if self.told else CORRECTED if self.coarse > 1 else "")
 
     def over(self, field: Field) -> float:
-        """Integrate a field over the surface."""
+        """Integrate a field over the contact surface."""
         return float(np.sum(self.weights * field))
 
     @property
     def stored(self) -> float:
-        """Energy ½ ∫ (p u_z + q·u) dA of bodies and springs [force length]."""
+        """Energy ½ ∫ (p u_z + q·u) dA stored in bodies and contact springs, from the fields [force
+        length]."""
         assert self.passed is not None
         closed = np.zeros_like(self.pressure)
         np.subtract(self.gap, self.undeformed, out=closed, where=self.pressure > 0)
@@ -120,17 +130,19 @@ class ContactState:
 
     @property
     def springs(self) -> bool:
-        """True for a penalty: the stated elastic energy is that of the bodies alone."""
+        """True for a penalty method, for which the stated elastic energy contains the bodies
+        alone."""
         return self.increment.overlap is not None
 
     @property
     def energy(self) -> float:
-        """Stored energy, as stated if the solver states it [force length]."""
+        """Stored energy as stated by the solver, else computed from the fields [force length]."""
         alone = self.increment.elastic_energy
         return self.stored if alone is None or self.springs else float(alone)
 
     def at_rest(self) -> ContactState:
-        """Return the state before first contact at the same points."""
+        """Return the state of the surface before first contact, without tractions, at the same
+        points."""
         nothing, still = np.zeros_like(self.pressure), np.zeros_like(self.shear)
         return ContactState(
             None, self.weights, self.undeformed, nothing, self.undeformed, still, nothing, still,
@@ -139,7 +151,11 @@ class ContactState:
 
 
 def violations(states: Sequence[ContactState]) -> Iterator[float]:
-    """Yield the violations of the laws of contact and friction in all increments [1]."""
+    """Yield the relative violations of the laws of contact and friction in all increments [1].
+
+    The laws are: no tension, no penetration, complementarity of pressure and gap, balance of
+    forces, the friction limit, and slip opposite to the shear.
+    """
     for before, now in pairwise([None, *states]):
         assert now is not None
         yield from _of_pressure(now)
@@ -163,7 +179,14 @@ def _of_pressure(now: ContactState) -> Iterator[float]:
 
 
 def _of_slip(before: ContactState | None, now: ContactState) -> Iterator[float]:
-    """Check that slip is the relative motion, opposes the shear at its limit, and dissipates."""
+    """Yield relative violations of the friction law in one increment [1].
+
+    Slip must be the relative motion of the surfaces, must oppose the shear at its limit, and must
+    dissipate the stated energy.
+
+    before  state of the preceding increment; None for the first
+    now     state of the increment
+    """
     start = now.at_rest() if before is None or before.passed is None else before
     assert start.passed is not None
     assert now.passed is not None
@@ -184,11 +207,13 @@ def _of_slip(before: ContactState | None, now: ContactState) -> Iterator[float]:
 
 
 def _other_than_motion(slip: Field, passed: Field, touched: Mask) -> Field:
-    """Compute the difference of the slip from the relative motion in an increment [length].
+    """Compute the difference of slip and relative motion of the surfaces in an increment [length].
 
-    Points that came into contact in the increment may have a fraction of the motion as slip.
+    For points that came into contact in the increment, slip may be a fraction of the motion.
 
-    touched  before the increment
+    slip     change of the slip (2, ...) [length]
+    passed   relative motion of the surfaces (2, ...) [length]
+    touched  mask of the points that were in contact before the increment
     """
     squared, along = np.sum(passed**2, axis=0), np.sum(slip * passed, axis=0)
     part = np.clip(np.divide(along, squared, out=np.ones_like(squared), where=squared > 0), 0, 1)
@@ -196,9 +221,10 @@ def _other_than_motion(slip: Field, passed: Field, touched: Mask) -> Field:
 
 
 def imbalances(states: Sequence[ContactState]) -> Iterator[Imbalance]:
-    """Yield the energy differences of all increments, over the largest energy so far.
+    """Yield the energy imbalances of all increments, relative to the largest energy so far.
 
-    The differences are those of the energy balance, and of the fields from the stated energies.
+    Two kinds of differences are included: those of the energy balance, and those of energies
+    computed from the fields against stated energies.
     """
     largest = 0.0
     for number, (before, now) in enumerate(pairwise([None, *states]), start=1):
@@ -223,7 +249,13 @@ def imbalances(states: Sequence[ContactState]) -> Iterator[Imbalance]:
 
 
 def _missing(start: ContactState, now: ContactState) -> Iterator[tuple[float, dict[str, float]]]:
-    """Yield differences from the first law and from stated energies, each with its terms."""
+    """Yield the energy differences of one increment, each with the compared energies by name.
+
+    The first difference is that of the energy balance; the others are those from stated energies.
+
+    start  state at the beginning of the increment
+    now    state at the end of the increment
+    """
     last, end = start.increment, now.increment
     work = 0.5 * float(np.sum((start.forces + now.forces) * (now.motions - start.motions)))
     stored = now.energy - (0.0 if last is None else start.energy)
@@ -244,9 +276,10 @@ def _missing(start: ContactState, now: ContactState) -> Iterator[tuple[float, di
 
 
 def _dissipated(start: ContactState, now: ContactState) -> float:
-    """Compute the energy dissipated along the slip, by the mean of the friction limits.
+    """Compute the energy dissipated by friction in an increment, from slip and mean friction limit.
 
-    Points that lose contact may have stuck until then: they take half their shear at the start.
+    Points that lose contact may have stuck until then. For these the friction is half their shear
+    at the start of the increment.
     """
     limit = 0.5 * (start.limit + now.limit)
     parted = (start.pressure > 0) & (now.pressure == 0)
@@ -255,9 +288,9 @@ def _dissipated(start: ContactState, now: ContactState) -> float:
 
 
 def _unresolved(start: ContactState, now: ContactState) -> float:
-    """Compute the work that a finite increment does not resolve, including dissipation.
+    """Compute the unresolved work of a finite increment plus its dissipation [force length].
 
-    Loads are linear in time where gaps close or open, and so is the shear (see
+    The loads are taken as linear in time where gaps close or open, and the shear as well (see
     `semi_analytical.increments.energy`).
     """
     assert start.passed is not None

@@ -1,10 +1,10 @@
-"""States of finite elements for the laws of contact and friction.
+"""States of the contact surface from finite element results, for the evaluation of the laws.
 
-The stated gap contains no overlap. Gap and relative motion are therefore computed again from the
-tractions. After an augmentation of a penalty the pressure at a Gauss point is p = ⟨λ + εv⟩, with v
-the overlap and λ the pressure of the preceding pass, which the result does not contain. For every
-λ ≥ 0 the overlap is at most p/ε. With λ = p - εv the change of the shear between the passes is at
-most the sum of the friction limits of p and λ.
+The stated gap contains no overlap (penetration of a penalty method). Gap and relative motion are
+therefore computed again from the tractions. After an augmentation of a penalty the pressure at a
+Gauss point is p = ⟨λ + εv⟩, with v the overlap and λ the pressure of the preceding pass, which the
+result does not contain. For every λ ≥ 0 the overlap is at most p/ε. With λ = p - εv the change of
+the shear between the passes is at most the sum of the friction limits of p and λ.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ Field = NDArray[np.float64]
 
 
 def states_on_elements(result: Result) -> list[ContactState]:
-    """Return the states of all increments.
+    """Compute the states of the contact surface in all increments of a finite element result.
 
-    Raises ValueError for augmented springs on harmonics, whose deformation the result does not
-    contain.
+    Raises ValueError for an augmented penalty with harmonics: the result does not contain the
+    deformation of the contact springs.
     """
     last = result.increments[-1]
     penalty, harmonics = last.overlap is not None, result.plan.path is Path.HARMONICS
@@ -37,9 +37,9 @@ def states_on_elements(result: Result) -> list[ContactState]:
 
 
 def _spring_stiffness(result: Result, element: float) -> float:
-    """Compute ε = c E*/h with E* of the outermost materials [force/length^3].
+    """Compute the penalty stiffness ε = c E*/h with E* of the outermost materials [force/length^3].
 
-    element  length of a contact edge [length]
+    element  length h of a contact edge of an element [length]
     """
     softness = 0.0
     for body in (result.scene.body, result.scene.indenter):
@@ -87,7 +87,11 @@ def _state(increment: Increment, rings: Rings, result: Result, give: float) -> C
 
 
 def _load(increment: Increment, result: Result) -> tuple[float, float | None]:
-    """Return the force and the shift along the load, or torque and twist; None if undefined."""
+    """Return the force and the shift along the tangential load, or in torsion the torque and the
+    twist.
+
+    The shift or twist is None if it is undefined.
+    """
     if result.plan.path is Path.TWISTING:
         return increment.torque or 0.0, increment.twist
     direction, shift = result.plan.direction, increment.tangential_shift

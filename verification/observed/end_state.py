@@ -1,4 +1,4 @@
-"""Numbers at the end of a run or of a load step, as judged by the cases."""
+"""Numbers at the end of the last or of a given load step, as read by verification cases."""
 
 from __future__ import annotations
 
@@ -14,26 +14,31 @@ if TYPE_CHECKING:
 
 
 def normal_force(result: Result) -> float:
-    """Return the normal force [force]."""
+    """Return the normal force at the end of the last load step [force]."""
     return float(result.steps[-1].normal_force)
 
 
 def approach(result: Result) -> float:
-    """Return the approach since first touch [length]."""
+    """Return the approach of the bodies since first touch, at the end of the last load step
+    [length]."""
     return float(result.steps[-1].approach)
 
 
 def peak_pressure(result: Result) -> float:
-    """Return the largest pressure of all cells or rings [force/length²]."""
+    """Return the largest pressure of all cells or rings at the end of the last step
+    [force/length²]."""
     return float(result.steps[-1].peak_pressure)
 
 
 def central_pressure(result: Any, step: int = -1) -> float:
-    """Return the pressure on the axis [force/length²].
+    """Return the pressure on the axis at the end of a load step [force/length²].
 
-    Below a stiff thin coating this is not the largest pressure. On cells the result is the mean of
-    the cells nearest to the axis. With the edge correction it is the value on the axis of p₀ - c r²
-    through these cells and the next.
+    Below a stiff thin coating this pressure is not the largest. On finite elements it is the value
+    at the first ring. On cells it is the mean of the cells nearest to the axis. With the edge
+    correction it is the value p₀ of the parabola p₀ - c r² through the means of these cells and the
+    next ones.
+
+    step  index of the load step
     """
     end = result.steps[step]
     pressure = end.pressure
@@ -50,12 +55,12 @@ def central_pressure(result: Any, step: int = -1) -> float:
 
 
 def contact_radius(result: Result) -> float:
-    """Return √(contact area / π) [length]."""
+    """Return the contact radius √(contact area / π) at the end of the last load step [length]."""
     return float(result.steps[-1].contact_radius)
 
 
 def stick_radius(result: Result, step: int = -1) -> float:
-    """Return √(stick area / π) [length]; NaN without friction.
+    """Return the radius √(stick area / π) at the end of a load step [length]; NaN without friction.
 
     step  index of the load step
     """
@@ -64,6 +69,6 @@ def stick_radius(result: Result, step: int = -1) -> float:
 
 
 def is_corrected(increment: Any) -> bool:
-    """Return true if the increment has the edge correction."""
+    """Return True if the edge correction was applied to the increment."""
     report = getattr(increment, "edge_report", None)
     return report is not None and report.cause is None

@@ -1,4 +1,5 @@
-"""Laws of contact and friction for the results of any solver."""
+"""Evaluation of the laws of contact and friction, and of the energy balance, in any solver's
+result."""
 
 from __future__ import annotations
 
@@ -10,13 +11,13 @@ from verification.observed.prescribed import largest_of, missed
 
 
 class Observed(NamedTuple):
-    """What the laws give for a result.
+    """Violations of the laws of contact and friction in a result, and its energy imbalance.
 
-    violation  the largest of any law in any increment; infinite if a number is not finite [1]
-    imbalance  the largest of the energy, over the largest energy so far; None if the bodies are
-               coupled one way, because they then have no energy
-    of_slip    increments for which a law of slip is not evaluated, by reason
-    of_energy  increments for which the energies are not compared, by reason
+    violation  largest violation of any law in any increment; infinite if a number is not finite [1]
+    imbalance  largest energy imbalance of any increment, over the largest energy so far [1]; None
+               for one-way coupling, for which no energies are computed
+    of_slip    number of increments in which a law of slip is not evaluated, by reason
+    of_energy  number of increments in which energies are not fully compared, by reason
     """
 
     violation: float
@@ -26,7 +27,8 @@ class Observed(NamedTuple):
 
 
 def observed(result: Any) -> Observed:
-    """Evaluate the laws of contact and friction and the first law for all increments."""
+    """Evaluate the laws of contact and friction and the energy balance in all increments of a
+    result."""
     states = _states(result)
     energy = None if _has_no_energy(result) else largest_of(imbalances(states))
     return Observed(

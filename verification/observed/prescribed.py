@@ -1,4 +1,5 @@
-"""Comparison of the loads at the ends of the load steps with the prescribed loads."""
+"""Comparison of computed loads and motions at the ends of the load steps with the prescribed
+ones."""
 
 from __future__ import annotations
 
@@ -15,12 +16,14 @@ if TYPE_CHECKING:
 
 
 def missed(scene: Scene, steps: Sequence[Any]) -> Iterator[float]:
-    """Yield the deviations of the ends of all steps from the prescribed loads or motions.
+    """Yield the relative deviations from the prescribed loads and motions at the ends of all load
+    steps.
 
-    Forces are relative to the normal force, displacements to the approach, moments and rotations to
-    these with the contact radius as arm. Without friction tangential loads and torques are skipped,
-    because no solver computes them.
+    Forces are relative to the normal force, and displacements to the approach. Moments and
+    rotations use these scales with the contact radius as arm. Without friction, tangential loads
+    and torques are skipped, because no solver computes them.
 
+    scene  scene with the prescribed loads
     steps  last increment of every load step, of any solver
     """
     for ramp, end in zip(scene.load_path(), steps, strict=True):
@@ -41,7 +44,15 @@ def missed(scene: Scene, steps: Sequence[Any]) -> Iterator[float]:
 def _missed(
     control: ScalarControl | VectorControl, force: Any, motion: Any, *scales: float
 ) -> float:
-    """Compute the deviation of one load or motion; a value that a solver omits is zero."""
+    """Compute the relative deviation of one load or motion from its prescribed end value.
+
+    A value that a solver omits counts as zero.
+
+    control  prescribed force or motion of the load step
+    force    computed force or moment
+    motion   computed displacement or rotation
+    scales   scale of the force, and scale of the motion
+    """
     by_force = control.kind is ControlKind.FORCE
     found_end, scale = (force, scales[0]) if by_force else (motion, scales[1])
     return (
@@ -51,15 +62,22 @@ def _missed(
 
 
 class Imbalance(float):
-    """Difference of two energies of an increment, relative to the largest energy so far.
+    """Difference of energies that should balance in an increment, relative to the largest energy so
+    far.
 
-    terms  the increment, from 1, and the energies, in words
+    terms  text with the number of the increment, from 1, and the compared energies
     """
 
     terms: str
 
     def __new__(cls, number: int, largest: float, difference: float, **terms: float) -> Imbalance:
-        """Compare energies [force length] of the increment of this number."""
+        """Create the imbalance of one increment from a difference of energies [force length].
+
+        number      number of the increment, from 1
+        largest     largest energy so far, the scale of the imbalance
+        difference  energy difference that should vanish
+        terms       compared energies, by name
+        """
         found = super().__new__(cls, abs(difference) / largest)
         texts = (f"{name.replace('_', ' ')} {energy:.6g} J" for name, energy in terms.items())
         found.terms = f"increment {number}: {', '.join(texts)}; difference {difference:.3g} J"
@@ -67,6 +85,7 @@ class Imbalance(float):
 
 
 def largest_of(found: Iterable[float]) -> float:
-    """Return the largest of dimensionless numbers; infinite if one is not finite, 0 without any."""
+    """Return the largest of dimensionless numbers; infinite if one is not finite, 0 for no
+    numbers."""
     numbers = list(found)
     return max(numbers, default=0.0) if np.all(np.isfinite(numbers)) else float("inf")

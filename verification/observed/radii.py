@@ -1,13 +1,13 @@
-"""States of the radial solver for the laws of contact and friction.
+"""States of the contact surface from results of the radial solver, for the evaluation of the laws.
 
-On a disc r = a sin φ integrals are those of a spline in φ, because tractions fall to zero or rise
+On a disc r = a sin φ, integrals are those of a spline in φ, because tractions fall to zero or rise
 as a root at the edge. Tractions at points on rings are hat functions (piecewise linear in r), which
 are integrated exactly. The angles of the points have equal weights. Between these angles the solver
 interpolates: there the shear is within its limit, but opposite to the slip only approximately.
 
-Without friction during indentation a contact has the normal displacement δ - f, and a tangential
-displacement of slip and rigid motion. Otherwise particles move relative to each other before first
-contact, and the stored energy is not recomputed.
+If there is no slip during indentation, a contact has the normal displacement δ - f and a tangential
+displacement of slip and rigid motion. δ is the approach and f the initial gap. Otherwise particles
+move relative to each other before first contact, and the stored energy is not recomputed.
 """
 
 from __future__ import annotations
@@ -33,7 +33,8 @@ GAUSS = np.polynomial.legendre.leggauss(4)
 
 
 def states_on_radii(result: Result) -> list[ContactState]:
-    """Return the states of all increments."""
+    """Compute the states of the contact surface in all increments of a result of the radial
+    solver."""
     states, before = list[ContactState](), None
     on_disc, coupled = result.plan.circle is None, result.plan.coupled
     for now in result.increments:
@@ -57,7 +58,11 @@ def states_on_radii(result: Result) -> list[ContactState]:
 
 
 def _state(now: Increment, result: Result, *, few: bool) -> ContactState:
-    """Create the state; contacts with too few rings have equal weights and no balances."""
+    """Compute the state of one increment.
+
+    few  True if the contact has too few rings for integrals; the points then have equal weights,
+         and the state has no balances
+    """
     r, gap = now.radii, result.scene.indenter.initial_gap
     p = now.pressure.reshape(len(r), -1)
     nothing = np.zeros_like(p)
@@ -100,9 +105,13 @@ def _state(now: Increment, result: Result, *, few: bool) -> ContactState:
 
 
 def _carried(now: Increment, w: Field, arm: Field, q: Field, along: tuple[float, float]) -> Field:
-    """Compute the forces in x and y and the moment about the axis, of the shear (3,).
+    """Compute the forces along x and y and the moment about z of a shear traction, as an array
+    (3,).
 
-    along  unit vector at angle zero
+    w      area of the points (rings, angles) [length²]
+    arm    distance of the rings from the axis (rings, 1) [length]
+    q      radial and circumferential shear (2, rings, angles) [force/length²]
+    along  unit vector of the direction of angle zero
     """
     outward, around = q
     if now.angles is None:
@@ -117,15 +126,17 @@ def _carried(now: Increment, w: Field, arm: Field, q: Field, along: tuple[float,
 
 
 def _has_few_rings(now: Increment, result: Result) -> bool:
-    """Return true if the contact has too few rings for integrals."""
+    """Return True if the contact has too few rings for an accurate integral over the contact."""
     fewest = FEWEST if result.plan.circle is None else FEWEST_HATS
     return bool(np.count_nonzero(now.radii < now.contact_radius) < fewest)
 
 
 def _weights_on_disc(r: Field, radius: float, *, ends: bool) -> Field:
-    """Compute the weights of rings in the integral over a disc.
+    """Compute the areas of rings that integrate a traction over a disc by a spline [length²].
 
-    ends  true if tractions fall to zero at the edge
+    r       radii of the rings [length]
+    radius  radius of the disc [length]
+    ends    True if tractions fall to zero at the edge
     """
     inside = (r < radius) & (r > 0)
     phi = np.arcsin(r[inside] / radius)
@@ -139,7 +150,11 @@ def _weights_on_disc(r: Field, radius: float, *, ends: bool) -> Field:
 
 
 def _over_hats(r: Field, function: Callable[[Field], Field]) -> Field:
-    """Compute 2π ∫ ψ g r dr for the hat functions ψ of the rings."""
+    """Compute 2π ∫ ψ g r dr for the hat functions ψ of all rings.
+
+    r         radii of the rings [length]
+    function  g(r)
+    """
     nodes, shares = GAUSS
     v, length = (1 + nodes) / 2, np.diff(r)[:, None]
     at = r[:-1, None] + length * v
@@ -148,7 +163,8 @@ def _over_hats(r: Field, function: Callable[[Field], Field]) -> Field:
 
 
 def _shares(angles: Field | None) -> Field:
-    """Return the weights of the angles, of a full circle or of a half circle with both ends."""
+    """Return the weights of the angles, with sum 1, on a full circle or a half circle with both
+    ends."""
     if angles is None:
         return np.ones(1)
     shares = np.ones(len(angles))

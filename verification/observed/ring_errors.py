@@ -1,4 +1,5 @@
-"""Tractions over the radius of finite elements, and their errors."""
+"""Interpolation of tractions between the rings of finite elements and between cells; error
+norms."""
 
 from __future__ import annotations
 
@@ -21,9 +22,10 @@ IN_ELEMENT = 40  # points of a sum that stands for an integral
 
 
 def at_radii(increment: Increment, traction: Field, r: Field) -> Field:
-    """Interpolate a traction between rings.
+    """Interpolate a traction of finite elements from the rings to radii r.
 
-    The square of the traction is linear in r² between rings, as it nearly is towards an edge.
+    The square of the traction is interpolated linearly in r², which is nearly exact for a square
+    root at the contact edge. The sign is kept.
     """
     squared = np.interp(np.square(r), increment.radii**2, np.sign(traction) * traction**2)
     return np.asarray(np.sign(squared) * np.sqrt(np.abs(squared)))
@@ -33,9 +35,15 @@ def largest_error(
     increment: Increment, traction: Field, answer: Any, exact: Callable[[Field], Field],
     start: float, end: float,
 ) -> float:  # fmt: skip
-    """Compute the largest error between two radii, in the dimension of the traction.
+    """Compute the largest error of a traction between two radii, in the dimension of the traction.
 
-    The points are the rings, or the radii of the reference if the reference is tabulated.
+    The points are the rings, or the radii of the exact answer if it is tabulated.
+
+    traction  values at the rings
+    answer    exact answer; a tabulated one has the attribute `radii`
+    exact     exact traction as a function of the radius
+    start     smallest radius [length]
+    end       largest radius [length]
     """
     tabulated = getattr(answer, "radii", None)
     r = increment.radii if tabulated is None else tabulated
@@ -45,7 +53,8 @@ def largest_error(
 
 
 def between_rings(increment: Increment, radius: float) -> Field:
-    """Return radii up to 1.1 times a radius, with many points in every element [length]."""
+    """Return integration points between the rings up to 1.1 times a radius, 40 per element
+    [length]."""
     judged = increment.radii[:-1] < SHOWN * radius
     starts, sides = increment.radii[:-1][judged], np.diff(increment.radii)[judged]
     parts = (np.arange(IN_ELEMENT) + 0.5) / IN_ELEMENT
@@ -55,7 +64,13 @@ def between_rings(increment: Increment, radius: float) -> Field:
 def relative_l2(
     increment: Increment, traction: Field, exact: Callable[[Field], Field], radius: float
 ) -> float:
-    """Compute √∫(traction - exact)² r dr / √∫ exact² r dr, linear between the rings [1]."""
+    """Compute the L2 error √∫(traction - exact)² r dr / √∫ exact² r dr of a traction over the
+    radius [1].
+
+    The traction is linear between the rings.
+
+    radius  contact radius; the integrals extend to 1.1 times this radius [length]
+    """
     r = between_rings(increment, radius)
     known = exact(r)
     error = np.interp(r, increment.radii, traction) - known
@@ -65,7 +80,12 @@ def relative_l2(
 def relative_l1(
     increment: Increment, traction: Field, exact: Callable[[Field], Field], radius: float
 ) -> float:
-    """Compute ∫|traction - exact| r dr / ∫p r dr, to be divided by a friction coefficient [1]."""
+    """Compute the L1 error ∫|traction - exact| r dr / ∫p r dr of a traction over the radius [1].
+
+    For a shear error relative to µp the caller divides the result by the friction coefficient.
+
+    radius  contact radius; the integrals extend to 1.1 times this radius [length]
+    """
     r = between_rings(increment, radius)
     error = np.interp(r, increment.radii, traction) - exact(r)
     pressure = np.interp(r, increment.radii, increment.pressure)
@@ -84,9 +104,12 @@ def judged_within(elements: int) -> float:
 def tractions_at(
     increment: Increment, x: Field, y: Field, direction: tuple[float, float] = (1.0, 0.0)
 ) -> tuple[Field, Field]:
-    """Evaluate the shear (2, …) along x and y, and the pressure (…), at points of any shape.
+    """Evaluate the tractions of a finite element increment at points of the surface.
 
-    direction  of the tangential load in the plan
+    Returns the shear (2, …) along x and y, and the pressure (…) [force/length²].
+
+    x, y       positions, of any shape [length]
+    direction  unit vector of the tangential load
 
     The interpolation is that of the solution: linear between rings, the trigonometric polynomial
     through the points of a ring, and zero beyond the last ring.
@@ -124,7 +147,10 @@ def _grid_of(increment: Increment) -> AngularGrid:
 
 
 def _between_rings(amplitudes: Field, radii: Field, r: Field) -> Field:
-    """Interpolate amplitudes (points, harmonics) to radii r."""
+    """Interpolate angular amplitudes (rings, harmonics) linearly to radii r (points,).
+
+    The result has the shape (points, harmonics); it is zero beyond the last ring.
+    """
     return np.stack([np.interp(r, radii, f, right=0.0) for f in amplitudes.T], axis=1)
 
 
@@ -132,19 +158,20 @@ DIRECTIONS = 16
 
 
 def outward(shear: Field, grid: SurfaceGrid) -> Field:
-    """Compute the radial component (nx, ny) of a shear (2, nx, ny)."""
+    """Compute the radial component (nx, ny) of a shear (2, nx, ny) on a grid, positive outwards."""
     x, y = grid.coordinates()
     r = np.hypot(x, y)
     return np.asarray((shear[0] * x + shear[1] * y) / np.where(r > 0, r, 1.0))
 
 
 def along_radii(field: Field, grid: SurfaceGrid, r: Field) -> Field:
-    """Interpolate a field to (distances, directions) at distances r from the axis, in 16
-    directions.
+    """Interpolate a field on cells to given distances from the axis, in 16 directions.
 
-    field  (nx, ny), not negative, falling as a square root towards the edge of the contact
+    The result has the shape (distances, directions). The square of the field is interpolated,
+    because it is nearly linear at the contact edge.
 
-    The square of such a field is nearly linear at the edge, so that the square is interpolated.
+    field  values (nx, ny), not negative, falling as a square root towards the edge of the contact
+    r      distances from the axis [length]
     """
     angle = (np.arange(DIRECTIONS) + 0.5) * 2 * np.pi / DIRECTIONS
     x, y = r[:, None] * np.cos(angle), r[:, None] * np.sin(angle)

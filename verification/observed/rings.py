@@ -1,4 +1,4 @@
-"""Forces and motions of the surfaces of finite elements, computed again from the tractions.
+"""Forces and surface motions of finite elements, computed again from the tractions of a result.
 
 Displacements are computed with the compliances of the sections and averaged over the functions that
 carry the tractions: hat functions of the rings, or Gauss points of a penalty.
@@ -25,9 +25,9 @@ PLACES, PARTS = np.polynomial.legendre.leggauss(2)
 
 
 def model_of(result: Result, length: float) -> ContactModel:
-    """Create the contact model of the bodies of a result.
+    """Create the finite element contact model of the bodies of a result, without the test rig.
 
-    length  unit of length of its sections [length]
+    length  unit of length of the sections [length]
     """
     scales = Scales(length, outermost_modulus(result.scene))
     bodies = result.scene.model_copy(update={"rig": None})  # motions of the contact
@@ -35,17 +35,24 @@ def model_of(result: Result, length: float) -> ContactModel:
 
 
 def section_radii(result: Result) -> Field:
-    """Return the radii of the nodes of a section, corner and midside alternating [1]."""
+    """Return the radii of the surface nodes of a section, corner and midside nodes alternating [1].
+
+    The unit of length is that of the section.
+    """
     return next(np.asarray(s.radii) for s in result.sections if s is not None)
 
 
 @dataclass(frozen=True)
 class Rings:
-    """Points on rings and angles; fields are (rings, angles), vectors (2, rings, angles) in r, θ.
+    """Points of a contact surface on rings and angles, with the compliance of the bodies.
 
-    path    of the result
-    basis   functions of the tractions
-    angles  of the half circle, ends included; one angle for axisymmetric fields
+    Scalar fields have the shape (rings, angles), vector fields (2, rings, angles) with components
+    along r and θ.
+
+    model   finite element contact model
+    path    kind of load history of the result
+    basis   functions that carry the tractions over the radius
+    angles  angles of the half circle, ends included; one angle for axisymmetric fields [radian]
     """
 
     model: ContactModel
@@ -55,9 +62,9 @@ class Rings:
 
     @classmethod
     def of(cls, result: Result, *, on_points: bool) -> Rings:
-        """Create the rings of the increments of a result.
+        """Create the rings and angles that carry the tractions of a result.
 
-        on_points  tractions are those of a penalty at Gauss points
+        on_points  True if the tractions are those of a penalty at Gauss points
         """
         last, nodes = result.increments[-1], section_radii(result)
         if on_points:
@@ -71,9 +78,10 @@ class Rings:
 
     @cached_property
     def driven(self) -> Field:
-        """Motion of the points per unit shift along the load, or per unit twist, of the indenter.
+        """Motion of the points (2, rings, angles) per unit motion of the indenter.
 
-        Zero without a tangential load. The motion by a twist is the mean over a ring [length].
+        The motion is a shift along the load [1], or a twist, for which the mean over each ring is
+        taken [length]. It is zero without a tangential load.
         """
         if self.path is Path.TWISTING:
             return np.stack([self.on_grid(None), self.on_grid(self.arms)])
@@ -83,33 +91,39 @@ class Rings:
 
     @property
     def arms(self) -> Field:
-        """Mean distance from the axis [length]."""
+        """Mean distance of each ring from the axis, weighted with its hat function [length]."""
         return np.asarray(self.basis.arms / self.basis.weights)
 
     @cached_property
     def weights(self) -> Field:
-        """Area of the points [length^2]."""
+        """Area of the points (rings, angles) [length^2]."""
         return np.outer(self.basis.weights, self._around)
 
     @cached_property
     def undeformed(self) -> Field:
-        """Gap before any load [length]."""
+        """Gap before any load at the points (rings, angles) [length]."""
         return self.on_grid(self.basis.of(self.model.gap) / self.basis.weights)
 
     def on_grid(self, values: Field | None) -> Field:
-        """Extend values of the rings to all angles; None is zero."""
+        """Extend values of the rings to all angles; None becomes zero."""
         if values is None:
             return np.zeros(self._shape)
         return np.broadcast_to(values if values.ndim == 2 else values[:, None], self._shape)
 
     def stretched(self, increment: Increment) -> Field:
-        """Compute the displacement by the strain of the lower body, averaged over a ring
-        [length]."""
+        """Compute the displacement caused by bulk strain of the lower body, averaged over rings
+        [length].
+
+        The result has the shape (2, rings, angles).
+        """
         strain = 0.0 if increment.bulk_strain is None else increment.bulk_strain[0]
         return np.stack([self.on_grid(strain * self.arms), self.on_grid(None)])
 
     def vector(self, increment: Increment, name: str) -> Field:
-        """Return the shear or the slip of an increment."""
+        """Return the shear or the slip of an increment as a vector field (2, rings, angles).
+
+        name  "shear" or "slip"
+        """
         along = getattr(increment, f"{name}_along_load")
         if along is not None:
             return np.stack([self.on_grid(along), self.on_grid(None)])
@@ -117,7 +131,8 @@ class Rings:
         return np.stack([self.on_grid(component) for component in around])
 
     def integral(self, values: Field) -> float:
-        """Integrate values over the surface, linear between rings."""
+        """Integrate a scalar field (rings, angles) over the surface; the field is linear between
+        rings."""
         if self.basis is not self.model.hats:
             return float(np.sum(self.weights * values))
         radii, on_ring = self.basis.radii, values @ self._around
@@ -127,8 +142,13 @@ class Rings:
         return float(np.sum(0.5 * width * PARTS * r * at_points))
 
     def displacement(self, p: Field, q: Field) -> tuple[Field, Field]:
-        """Compute u along the surface and u_z of the lower body relative to the indenter
-        [length]."""
+        """Compute the surface displacements of the lower body relative to the indenter [length].
+
+        Returns u (2, rings, angles) along the surface and u_z (rings, angles).
+
+        p  pressure (rings, angles) [force/length²]
+        q  shear (2, rings, angles) [force/length²]
+        """
         if self.path in (Path.SHEARING, Path.TWISTING):
             u, component = np.zeros((2, *self._shape)), int(self.path is Path.TWISTING)
             if component:
@@ -157,7 +177,8 @@ class Rings:
 
     @cached_property
     def _around(self) -> Field:
-        """Weights of the angles: the trapezium rule."""
+        """Integration weights of the angles by the trapezium rule, over the full circle
+        [radian]."""
         if len(self.angles) == 1:
             return np.array([2 * np.pi])
         share = np.full(len(self.angles), 2 * self.angles[1])
@@ -165,15 +186,18 @@ class Rings:
         return share
 
     def _waves(self, n: int) -> Field:
-        """Return the angular functions of the r, θ and z components of harmonic n (3, angles)."""
+        """Return the angular functions of the r, θ and z components of harmonic n, shape (3,
+        angles)."""
         inner = (self.angles > 0) & (np.arange(len(self.angles)) < len(self.angles) - 1)
         cos, sin = np.cos(n * self.angles), np.where(inner, np.sin(n * self.angles), 0.0)
         # There are as many angles as harmonics, so that the last sine vanishes on all of them.
         return np.stack([cos, sin if n < len(self.angles) - 1 else 0.0 * sin, cos])
 
     def _amplitudes(self, n: int, tractions: Field) -> Field:
-        """Compute the amplitudes (3, rings) of harmonic n, for which the trapezium rule is
-        exact."""
+        """Compute the amplitudes (3, rings) of harmonic n of tractions (3, rings, angles).
+
+        The trapezium rule over the angles is exact for these harmonics.
+        """
         waves = self._waves(n)
         norms = np.sum(self._around * waves**2, axis=1)
         found = np.einsum("cra,ca,a->cr", tractions, waves, self._around)
@@ -184,7 +208,10 @@ class Rings:
         return np.asarray(self.basis.products.T @ displaced) / self.basis.weights
 
     def _join_on_axis(self, u: Field) -> None:
-        """Replace the motions of the points on the axis by their common mean."""
+        """Replace the displacements of the points on the axis by their common mean, in place.
+
+        u  displacements (3, rings, angles) along r, θ and z [length]
+        """
         share, direction = self._around / (2 * np.pi), self.driven[:, 0]
         u[:2, 0] = np.sum(share * u[:2, 0] * direction) * direction
         u[2, 0] = np.sum(share * u[2, 0])
