@@ -1,1 +1,1 @@
-"""The open challenge: other codes solve our problems and are judged as ours are."""
+"""Open challenge: other codes solve the verification problems and are judged by equal criteria."""

@@ -1,4 +1,4 @@
-"""Answers of another code: levels with values and fields, in SI."""
+"""Answer of another code to a challenge: numbers and fields on several refinement levels, in SI."""
 
 from __future__ import annotations
 
@@ -16,11 +16,12 @@ SAMPLINGS = ("point", "cell")
 
 @dataclass(frozen=True)
 class Field:
-    """A traction at own points.
+    """Traction of an answer at points that the other code has chosen.
 
-    x, y   where [m]
-    value  [Pa]
-    area   that each point stands for [m²]
+    x, y   coordinates of the points [m]
+    value  traction at the points [Pa]
+    area   area of the surface that each point represents [m²]
+
     Raises ValueError for arrays of unequal lengths, without points, or areas that are not positive.
     """
 
@@ -45,15 +46,17 @@ class Field:
 
 @dataclass(frozen=True)
 class Answer:
-    """One level.
+    """Answer of another code to a challenge on one refinement level.
 
-    h         size of a cell or element at the contact's edge; √area where it is oblong [m]
-    scalars   a value [SI], or a value with its standard uncertainty
-    fields    tractions on the lower body [Pa]
-    points    numbers at the places that are asked, in their order [SI]
-    gave_up   reasons by loading step, where there is no answer
-    unknowns  of the whole level; None where nobody counted
-    seconds   likewise
+    h         size of a cell or element at the contact edge, or √area if its sides differ [m]
+    scalars   values by quantity and load step, or pairs of a value and its standard uncertainty
+              [SI]
+    fields    tractions on the lower body, by quantity and load step [Pa]
+    gave_up   reason for a missing answer, by load step; step 0 stands for all steps
+    unknowns  number of unknowns of the level; None if it is not given
+    seconds   computing time of the level [s]; None if it is not given
+    label     name of the level
+    points    numbers at the required points, in their order, by quantity and load step [SI]
     """
 
     h: float
@@ -66,28 +69,41 @@ class Answer:
     points: Mapping[Key, Vector] = field(default_factory=dict)
 
     def value(self, key: Key) -> float | None:
-        """Return the value of a number; None if it is not answered."""
+        """Return the value of a number; None if the answer does not contain the number.
+
+        key  quantity and load step
+        """
         found = self.scalars.get(key)
         return found[0] if isinstance(found, tuple) else found
 
     def has(self, key: Key) -> bool:
-        """Return True if a number, the numbers at places, or a field are answered."""
+        """Return True if the answer contains the given number, numbers at points, or field.
+
+        key  quantity and load step
+        """
         return key in self.scalars or key in self.points or key in self.fields
 
     def uncertainty(self, key: Key) -> float | None:
-        """Return the claimed standard uncertainty; None without one."""
+        """Return the standard uncertainty that the other code states for a number; None if it
+        states none.
+
+        key  quantity and load step
+        """
         found = self.scalars.get(key)
         return found[1] if isinstance(found, tuple) else None
 
 
 @dataclass(frozen=True)
 class Solver:
-    """Solver that answers a challenge.
+    """Description of a code that answers challenges.
 
-    sampling      of fields: "point", or "cell" for means over squares of the areas
-    knows_answer  quantities that the discretisation contains, such as a radius at a mesh node
-    meshless      True if numbers may be exact to rounding on every level, as those of series
-    claims        grade, and orders by quantity
+    sampling         meaning of field values: "point", or "cell" for means over squares
+    knows_answer     quantities that the discretisation prescribes, such as a contact radius at a
+                     node
+    claimed_grade    accuracy class that the code claims; None: no claim
+    claimed_orders   convergence orders that the code claims, by quantity
+    meshless         True if numbers may be exact to rounding on every level, such as those of
+                     series
     """
 
     name: str
@@ -100,5 +116,5 @@ class Solver:
     meshless: bool = False
 
     def document(self) -> dict[str, Any]:
-        """As a sheet shows it."""
+        """Return name, version and address of the code as a JSON record for a result sheet."""
         return {"solver": self.name, "version": self.version, "url": self.url}

@@ -1,4 +1,4 @@
-"""Filled files, read with every mistake named by file and line."""
+"""Reader of the answer files of a challenge. Each mistake is reported with its file and line."""
 
 from __future__ import annotations
 
@@ -53,7 +53,14 @@ MAX_BYTES = 100_000_000
 def rows(
     folder: Path, table: str, columns: tuple[str, ...]
 ) -> Iterator[tuple[str, dict[str, str]]]:
-    """Yield the place and cells of every row of LEVELS or ANSWERS. Raises Refused."""
+    """Yield the file position and the cells of every row of a CSV file of levels or answers.
+
+    Raises Refused if the file cannot be read or its columns do not fit.
+
+    folder   folder of the answer
+    table    name of the file
+    columns  names of the required columns
+    """
     path = folder / table
     reader = csv.DictReader(text_of(path).splitlines(), restkey="more")
     columns_are_there(f"{path}:1", reader.fieldnames or (), columns)
@@ -68,7 +75,12 @@ def rows(
 
 
 def columns_are_there(where: str, found: Sequence[str], expected: Sequence[str]) -> None:
-    """Raises Refused where one is missing, with what is there instead."""
+    """Check that a table has all expected columns; raise Refused with the found columns if not.
+
+    where     file and line
+    found     column names of the file
+    expected  required column names
+    """
     missing = [name for name in expected if name not in found]
     if not missing:
         return
@@ -82,7 +94,7 @@ def columns_are_there(where: str, found: Sequence[str], expected: Sequence[str])
 
 
 def text_of(path: Path) -> str:
-    """Read a regular file of allowed size; raise Refused."""
+    """Return the text of a regular UTF-8 file of limited size; raise Refused for any other file."""
     try:
         if path.exists() and not path.is_file():
             raise Refused(f"{path}: is not a regular file")
@@ -104,7 +116,13 @@ Columns = Mapping[str, Any]  # numbers by the head of their column
 def read_fields(
     folder: Path, challenge: Challenge, levels: Mapping[str, Any]
 ) -> dict[str, dict[Key, Field]]:
-    """Read the fields by level, quantity and load step; raise Refused."""
+    """Read the tractions of an answer from the files of its field folder.
+
+    Returns the fields by level, and by quantity and load step. Raises Refused for a mistake.
+
+    folder  folder of the answer
+    levels  levels of the answer, by name
+    """
     found: dict[str, dict[Key, Field]] = {}
     for where, level, step, columns in _in_files(folder):
         if level not in levels or not step.isdigit():
@@ -137,7 +155,8 @@ def read_fields(
 
 
 def _in_files(folder: Path) -> Iterator[tuple[str, str, str, Columns]]:
-    """Yield the place, level, loading step, columns."""
+    """Yield file position, level, load step and columns of every field file in the folder of an
+    answer."""
     tables = folder / FIELDS
     for path in sorted(tables.glob("*")) if tables.is_dir() else ():
         level, _, step = path.stem.rpartition("_")
@@ -166,9 +185,10 @@ SOLVED, GAVE_UP = "solved", "gave up"
 
 
 def read_answers(directory: Path) -> tuple[Challenge, Solver, tuple[Answer, ...]]:
-    """The challenge, who answers, and the levels that have an answer, coarse to fine.
+    """Read the answer to a challenge from its folder.
 
-    Raises Refused with file, line, what came and what is expected.
+    Returns the challenge, the description of the code, and the answers on all levels, coarse to
+    fine. Raises Refused with file, line, found and expected value.
     """
     challenge = _challenge(directory)
     file = directory / ANSWERS
@@ -307,7 +327,11 @@ def _levels(folder: Path, window: float) -> Iterator[tuple[str, dict[str, Any]]]
 def _values(
     folder: Path, challenge: Challenge
 ) -> Iterator[tuple[str, str, Key, int, float | tuple[float, float]]]:
-    """Yield the place in the file, level, key, point (0: none), value with u if one is given."""
+    """Yield the filled-in numbers of the answer file.
+
+    Each item has the file position, the level, quantity and load step, the number of the point (0
+    for a number without points), and the value, as a pair with its uncertainty if one is given.
+    """
     for where, row in rows(folder, ANSWERS, ANSWER_COLUMNS):
         if not row["value"]:
             continue
@@ -354,7 +378,12 @@ def _number(where: str, text: str) -> float:
 
 
 def _counted(where: str, name: str, text: str) -> float | None:
-    """Read a count; None for an empty cell. Raises Refused."""
+    """Read a positive number from a cell of a table; None for an empty cell. Raises Refused.
+
+    where  file and line
+    name   name of the column
+    text   content of the cell
+    """
     if not text:
         return None
     number = _number(where, text)
@@ -364,8 +393,15 @@ def _counted(where: str, name: str, text: str) -> float | None:
 
 
 def _si(where: str, text: str, unit: str, kind: Kind) -> float:
-    """Return a number with its unit; one that is not finite stays what it is, and fails where it is
-    judged."""
+    """Convert a number with a unit from a table to SI; raise Refused for an unsuitable unit.
+
+    A number that is not finite is returned unchanged and fails when it is judged.
+
+    where  file and line
+    text   number
+    unit   unit of the number
+    kind   physical dimension that is expected
+    """
     value = _number(where, text)
     if not unit:
         raise Refused(f"{where}: {text} has no unit; give one such as {kind.si}")

@@ -1,6 +1,8 @@
-"""Challenges: problems with certain answers.
+"""Challenges for other codes: problems with accurately known answers.
 
-Axes and bodies differ where equal ones would hide an exchange."""
+Geometries differ along x and y, and bodies differ from each other, where equal ones would hide an
+exchange of axes or bodies.
+"""
 
 from __future__ import annotations
 
@@ -61,13 +63,16 @@ WORDS = (
 
 
 def tilted() -> Iterator[Challenge]:
-    """Yield all of them."""
+    """Yield the challenges of a tilted flat punch and a tilted ball."""
     yield tilted_punch()
     yield tilted_ball()
 
 
 def tilted_punch() -> Challenge:
-    """Return a plane of displacement below the whole end."""
+    """Create the challenge of a flat punch that is pressed and tilted.
+
+    The punch remains in contact over its whole end, whose displacement is a plane.
+    """
     arm = 4 / 3 * CONTACT_MODULUS * PUNCH_RADIUS**3 / NORMAL_FORCE  # per slope
     force_at = (arm * PUNCH_TILT[1], arm * PUNCH_TILT[0])
     exact = TiltedPunch(PUNCH_RADIUS, CONTACT_MODULUS, NORMAL_FORCE, force_at)
@@ -79,7 +84,10 @@ def tilted_punch() -> Challenge:
 
 
 def tilted_ball() -> Challenge:
-    """A tilted paraboloid is a shifted one: x²/2R - φx = (x - Rφ)²/2R - Rφ²/2."""
+    """Create the challenge of a ball that is pressed and tilted by φ.
+
+    A tilted paraboloid is a shifted paraboloid: x²/2R - φx = (x - Rφ)²/2R - Rφ²/2.
+    """
     drop = 0.5 * RADIUS * (BALL_TILT[0] ** 2 + BALL_TILT[1] ** 2)
     return _tilted(
         "tilted_ball", "A ball pressed and tilted", paper.paraboloid(STEEL), BALL_TILT,
@@ -131,7 +139,10 @@ MEANINGS = {
 
 
 def scene_of(poisson_ratio: float) -> Scene:
-    """Return the identical bodies with the compliance of the paper's pair under pressure."""
+    """Create the scene of two identical bodies with Poisson's ratio ν under changing loads.
+
+    The contact modulus E* is that of the standard ball for every ν.
+    """
     modulus = 2 * CONTACT_MODULUS * (1 - poisson_ratio**2)
     material = IsotropicMaterial(young_modulus=modulus, poisson_ratio=poisson_ratio)
     scene = paper.frictional(
@@ -141,7 +152,10 @@ def scene_of(poisson_ratio: float) -> Scene:
 
 
 def changing_loads() -> Iterator[Challenge]:
-    """All of them, with numbers of the radial solver in the limit of fine increments."""
+    """Yield the challenges of a ball under changing normal and tangential forces and a torque.
+
+    The references are numbers of the radial solver, extrapolated to fine increments.
+    """
     content = load_reference("changing_loads")
     for nu in RATIOS:
         scene, ends = scene_of(nu), content["ends"][f"{nu:g}"]
@@ -159,7 +173,15 @@ def changing_loads() -> Iterator[Challenge]:
 
 
 def _asked(step: str, name: str, value: float, ends: dict[str, dict[str, float]]) -> AskedValue:
-    """Return a number of the path, relative to the largest shift, twist or energy."""
+    """Create a required number of the changing loads, with its error scale and uncertainty.
+
+    The scale is the largest shift, twist or energy of the history.
+
+    step   number of the load step, as text
+    name   name of the quantity
+    value  reference value
+    ends   reference values by load step and name
+    """
     kind = name.partition("_")[0]
     scale = max(
         abs(number)
@@ -180,7 +202,10 @@ UNCERTAINTY = 1e-4
 
 
 def paper_figure() -> Challenge:
-    """Return the ball on a coating twice as stiff as its base and as thick as the Hertz radius."""
+    """Create the challenge of a rigid ball on a coating, pressed with friction and then sheared.
+
+    The coating is twice as stiff as its substrate and as thick as the Hertz contact radius.
+    """
     pushes = (LoadStep(tangential_force=(part * FRICTION_LIMIT, 0.0)) for part in SHIFTS)
     title = "Coated body under a rigid ball, pressed with friction, then sheared"
     scene = pressed(title, rigid_ball(), COATED.body, pressing(), *pushes, friction=FRICTION)
@@ -210,7 +235,7 @@ SERIES = 24  # of a coated pressure: 1e-13 in all rows
 
 @cache
 def challenges() -> dict[str, Challenge]:
-    """Return all, by name."""
+    """Return all challenges, by name."""
     classical = (hertz_point(), hertz_elliptical(), cone(), punch(), cattaneo_mindlin(), loop())
     return {
         one.name: one
@@ -222,13 +247,14 @@ def challenges() -> dict[str, Challenge]:
 
 
 def hertz_point() -> Challenge:
-    """Return the frictionless ball."""
+    """Create the challenge of a frictionless ball on a half-space (Hertz)."""
     pressure = round_halves((HERTZ.contact_radius, HERTZ.peak_pressure))
     return _pressed("hertz_point", "Hertz: a ball on a half-space", BALL, pressure)
 
 
 def hertz_elliptical() -> Challenge:
-    """Return the barrel on a square window, which reveals exchanged axes."""
+    """Create the challenge of a barrel with an elliptical contact, whose square window reveals
+    exchanged axes."""
     exact = BARREL.ends[0]
     a, b = exact.semi_axes
     axes = (
@@ -244,12 +270,16 @@ def hertz_elliptical() -> Challenge:
 
 
 def cone() -> Challenge:
-    """Return the cone, whose peak pressure is infinite."""
+    """Create the challenge of a frictionless cone on a half-space, whose peak pressure is
+    infinite."""
     return _pressed("cone_contact", "A cone on a half-space", CONE, None)
 
 
 def punch() -> Challenge:
-    """Return the flat punch; its contact radius is known, so only the approach is judged."""
+    """Create the challenge of a frictionless flat punch; only the approach is required.
+
+    The contact radius is prescribed by the geometry.
+    """
     exact = PUNCH.ends[0]
     return Challenge(
         "flat_punch", "A flat punch on a half-space", _words(PUNCH), PUNCH.scene, PUNCH.source,
@@ -258,7 +288,7 @@ def punch() -> Challenge:
 
 
 def coated() -> Iterator[Challenge]:
-    """Yield one challenge for each coating below a ball."""
+    """Yield one challenge of a frictionless rigid ball for each tabulated coating."""
     for row in ROWS:
         problem = coated_ball(row)
         exact = solved_here(problem).ends[0]
@@ -271,7 +301,7 @@ def coated() -> Iterator[Challenge]:
 
 
 def cattaneo_mindlin() -> Challenge:
-    """Return the ball pressed and then pushed in steps."""
+    """Create the challenge of a ball that is pressed and then sheared in several load steps."""
     problem = sheared("Ball pressed and sheared, ν = 0", PARTS)
     values, fields = [approach(HERTZ.approach)], []
     for step, end in enumerate(problem.ends[1:], start=2):
@@ -284,7 +314,7 @@ def cattaneo_mindlin() -> Challenge:
 
 
 def loop() -> Challenge:
-    """Return a fretting loop as a list of equilibria, independent of our increments."""
+    """Create the challenge of a fretting loop, as a list of equilibria at prescribed forces."""
     turns = (*QUARTERS, *reversed(QUARTERS[:-1]), 0.0, *(-q for q in QUARTERS))
     turns += (*(-q for q in reversed(QUARTERS[:-1])), 0.0, *QUARTERS)
     problem = sheared("Fretting loop, ν = 0", tuple(AMPLITUDE * part for part in turns))
@@ -323,7 +353,14 @@ def _pressed(
     more: tuple[AskedValue, ...] = (),
     shares: str = "",
 ) -> Challenge:
-    """Return one loading step under the paper's force."""
+    """Create a challenge with one load step to a normal force of 1 kN.
+
+    name      name of the challenge
+    problem   problem with its exact answer
+    pressure  exact pressure; None if no pressure is required
+    more      required numbers in place of the contact radius
+    shares    parts that the reference has in common with our own solvers
+    """
     exact, u = problem.ends[0], problem.uncertainty
     values = [approach(exact.approach, u), *more]
     if not more:

@@ -1,4 +1,4 @@
-"""Files of a challenge for another code, readable without this program."""
+"""Export of a challenge to files that another code can read without this program."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from verification.challenge.requested_quantities import Challenge, Patch
 
 
 def toml_text(scene: Scene | Patch) -> str:
-    """All that is not usual."""
+    """Return the text of a scene file in TOML, with all values that differ from the defaults."""
     if isinstance(scene, Patch):
         tables = scene.document(exclude_defaults=True)
         return "\n".join(_table(tables, ())).lstrip("\n") + "\n"
@@ -34,7 +34,11 @@ def toml_text(scene: Scene | Patch) -> str:
 
 
 def _table(content: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
-    """Yield TOML lines: values first, then tables and arrays of tables."""
+    """Yield the TOML lines of a table: first its values, then its subtables and arrays of tables.
+
+    content  values by key
+    path     keys of the enclosing tables
+    """
     deeper = {name: v for name, v in content.items() if _is_table(v) or _is_tables(v)}
     for name, value in content.items():
         if name not in deeper:
@@ -79,7 +83,10 @@ GIVEN = ("scene.toml", "asked.csv", POINTS)  # must come back as they went
 
 
 def export(challenge: Challenge, directory: Path, *, blind: bool) -> None:
-    """Write the files; raises Refused where answers are waiting already."""
+    """Write the files of a challenge to a folder; raise Refused if it already contains answers.
+
+    blind  True if the reference values are withheld
+    """
     if (directory / ANSWERS).exists():
         raise Refused(f"{directory / ANSWERS} exists: take another folder, or delete it")
     reference = json.dumps(challenge.reference(), indent=1) + "\n"
@@ -109,7 +116,7 @@ def export(challenge: Challenge, directory: Path, *, blind: bool) -> None:
 
 
 def digest(text: str) -> str:
-    """Return the digest of a file, to detect changes."""
+    """Return the SHA-256 digest of a text, by which changes of an exported file are detected."""
     return hashlib.sha256(text.encode()).hexdigest()
 
 
@@ -144,7 +151,7 @@ def _empty_answers(challenge: Challenge) -> list[Sequence[Any]]:
 
 
 def _points(challenge: Challenge) -> Iterator[Sequence[Any]]:
-    """Yield the points, numbered from 1 for each quantity."""
+    """Yield the rows of the table of required points, numbered from 1 for each quantity."""
     for p in challenge.points:
         for n, place in enumerate(p.places, start=1):
             yield p.quantity, p.step, n, *(f"{x:.10g}" for x in place)
@@ -162,7 +169,7 @@ def _problem(challenge: Challenge) -> str:
 
 
 def _own_points(challenge: Challenge) -> str:
-    """Return the instructions for tractions; empty without fields."""
+    """Return the instructions for tractions at self-chosen points; "" if no field is required."""
     if not challenge.fields:
         return ""
     step, heads = challenge.fields[0].step, list(FIELD_COLUMNS)
@@ -171,7 +178,10 @@ def _own_points(challenge: Challenge) -> str:
 
 
 def _ends(ramp: LoadRamp) -> Iterator[str]:
-    """Yield the prescribed quantities at the end of a step, without constant rotations."""
+    """Yield the prescribed loads and motions at the end of a load step as text.
+
+    Rotations that are prescribed as zero are left out.
+    """
     for words, control in (
         (("W", "N", "approach", "m"), ramp.normal),
         (("T", "N", "tangential shift", "m"), ramp.tangential),

@@ -1,4 +1,8 @@
-"""Challenges where friction acts without a tangential force: torsion, pressing, full stick."""
+"""Challenges with friction but without tangential force, and stresses and patches at given points.
+
+The problems are torsion, indentation with friction, full stick, the stress below a sliding ball,
+and layered half-spaces under a uniform patch of traction.
+"""
 
 from __future__ import annotations
 
@@ -74,7 +78,7 @@ PROFILE_ERROR = 3e-4  # between the reference's radii: 2.5e-4 from the finer one
 
 
 def frictional() -> Iterator[Challenge]:
-    """Yield all of them."""
+    """Yield the challenges with friction and without tangential force."""
     yield torsion()
     yield torsion_loop()
     for one in (WEAK, STRONG, NU_ZERO, COATED):
@@ -85,7 +89,7 @@ def frictional() -> Iterator[Challenge]:
 
 
 def torsion() -> Challenge:
-    """Return Lubkin's contact at three torques."""
+    """Create the challenge of a pressed ball that is twisted to three torques (Lubkin)."""
     values, fields = [], []
     for step, end in enumerate(TWISTED.ends[1:], start=2):
         values += [
@@ -109,12 +113,12 @@ def torsion() -> Challenge:
 
 
 def around(end: TorsionalPartialSlip) -> RoundTable:
-    """Return the shear around the axis."""
+    """Tabulate the circumferential shear of a ball in torsion over the radius."""
     return tabulated(end.shear, end.stick_radius, end.contact_radius)
 
 
 def torsion_loop() -> Challenge:
-    """Return the torsion loop."""
+    """Create the challenge of a pressed ball under a torque that alternates between two limits."""
     values = [
         _twist(step, end.twist, LARGEST.twist, OVER_TWIST)
         for step, end in enumerate(TO_AND_FRO.ends[1:], start=2)
@@ -132,7 +136,11 @@ def torsion_loop() -> Challenge:
 
 
 def pressed_with_friction(one: Indentation) -> Challenge:
-    """Return normal loading with friction from a reference row, with tractions away from edges."""
+    """Create the challenge of a rigid ball that is pressed with friction, from a tabulated
+    reference.
+
+    Tractions are required at radii away from the contact edge and the stick edge.
+    """
     problem, a = one.problem(one.increments), one.contact_radius
     scene = problem.scene.model_copy(update={"loading": (pressing(),)})
     r = ROUND_RADII[AMONG * a > ROUND_RADII]
@@ -160,9 +168,15 @@ def pressed_with_friction(one: Indentation) -> Challenge:
 
 
 def between(one: Indentation, profile: str, r: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Interpolate a profile between its radii by cubics inside and outside the stick zone.
+    """Interpolate a tabulated profile of a traction to distances r from the axis.
 
-    The profile is divided by its square root at the edge of contact first."""
+    Cubic splines inside and outside the stick zone interpolate the profile, divided by its square
+    root at the contact edge.
+
+    one      tabulated contact
+    profile  name of the column
+    r        distances from the axis [length]
+    """
     part, values = np.array(one.row["r_over_a"]), np.array(one.row[profile])
     smooth, at = values / np.sqrt(1 - part**2), r / one.contact_radius
     inside = part < one.stick_part * (1 + 1e-3)
@@ -174,7 +188,10 @@ def between(one: Indentation, profile: str, r: NDArray[np.float64]) -> NDArray[n
 
 
 def stuck_punch(nu: float) -> Challenge:
-    """Return Mossakovskii's factor of stiffness."""
+    """Create the challenge of a flat punch in full stick on a half-space with Poisson's ratio nu.
+
+    The answer is Mossakovskii's factor on the contact stiffness.
+    """
     punch = FlatPunch(radius=PUNCH_RADIUS, material=RIGID)
     scene = pressed("Flat punch that does not slip", punch, half_space(nu), pressing(1),
                     friction=FRICTION)  # fmt: skip
@@ -188,7 +205,8 @@ def stuck_punch(nu: float) -> Challenge:
 
 
 def stuck_ball(nu: float) -> Challenge:
-    """Return Spence's ball without slip."""
+    """Create the challenge of a rigid ball in full stick on a half-space with Poisson's ratio nu
+    (Spence)."""
     scene = pressed("Rigid ball that does not slip", rigid_ball(), half_space(nu), pressing(),
                     friction=FRICTION)  # fmt: skip
     over_a_squared, over_load = BALL[nu]
@@ -229,13 +247,16 @@ MOVED = {
 
 
 def at_places() -> Iterator[Challenge]:
-    """Yield all of them."""
+    """Yield the challenges whose numbers are required at given points."""
     yield sliding_stress()
     yield from layered_patches()
 
 
 def sliding_stress() -> Challenge:
-    """Return Hertz's pressure and µ times it along x, by sliding."""
+    """Create the challenge of the stress below a ball in gross slip along x.
+
+    The tractions are the Hertz pressure and µ times this pressure along x.
+    """
     scene = Scene(
         title="Ball that slides on a half-space",
         indenter=paper.paraboloid(STEEL),
@@ -261,7 +282,10 @@ def sliding_stress() -> Challenge:
 
 
 def layered_patches() -> Iterator[Challenge]:
-    """Yield patches on one layer of unit thickness, from the dimensionless reference rows."""
+    """Yield challenges of a uniform traction on a square of a layered half-space, without contact.
+
+    The references are dimensionless; the layer is given a thickness of 1 mm.
+    """
     rows = load_reference("influence_coefficients")["rows"]
     for ratio in dict.fromkeys(row["G1"] / row["G2"] for row in rows):
         own = [row for row in rows if row["G1"] / row["G2"] == ratio]

@@ -1,4 +1,4 @@
-"""All verdicts on an answer, and what they amount to."""
+"""Judgement of an answer to a challenge: verdicts on all numbers and fields, and their summary."""
 
 from __future__ import annotations
 
@@ -31,10 +31,11 @@ SCATTER = 3.0
 def sums_of(
     asked: AskedField, field: Field
 ) -> Iterator[tuple[str, str, float, float, float, float]]:
-    """Yield the sums that points of a field must satisfy.
+    """Yield the sums over the points of a traction field that must agree with the exact field.
 
-    Each has a name, a description, value, required value, scale, and the unavoidable scatter of the
-    points.
+    The sums are the load, its second moment, and the covered contact area. Each item has a name, a
+    description, the value, the expected value, the scale of the difference, and the unavoidable
+    scatter of the points.
     """
     forces, exact = field.value * field.area, asked.traction
     yield "load carried", "Σ value·area", float(np.sum(forces)), asked.total, asked.scale, 0.0
@@ -46,12 +47,13 @@ def sums_of(
 
 
 def _covered(field: Field, semi_axes: tuple[float, float]) -> tuple[float, float]:
-    """Part of an ellipse that the areas of a field cover, and how far an honest one may be from 1.
+    """Compute the fraction of the contact area that the points of a field cover, and its tolerance.
 
-    Areas are summed outwards, each in the middle of itself, up to where the edge lies between two
-    points. Rings, which stand on one ray, may end half a ring before it; centres of cells scatter.
+    The areas of the points are summed outwards, each centred at its point, up to the contact edge
+    between two points. For rings, given by points on one ray, the sum may end half a ring before
+    the edge. For cell centres it scatters. The second number is this unavoidable deviation from 1.
 
-    semi_axes  of the ellipse around the origin, along x and y [length]
+    semi_axes  semi-axes of the contact ellipse around the origin, along x and y [length]
     """
     whole = pi * semi_axes[0] * semi_axes[1]
     out = (field.x / semi_axes[0]) ** 2 + (field.y / semi_axes[1]) ** 2
@@ -77,11 +79,19 @@ WHOLE = "–"  # in place of a loading step
 
 @dataclass(frozen=True)
 class Row:
-    """Verdict on one number or field.
+    """Verdict on one number, one field or one property of an answer.
 
-    value, reference, error  in the required unit; the error over its scale; None without a number
-    bound    of the error; None if something else is judged
-    grade    best class whose bound the error meets; None for none
+    quantity   name of the quantity
+    step       number of the load step; None for the whole history
+    level      refinement level
+    because    reason for the status
+    value      value in the required unit; None if there is no number
+    reference  reference value in the required unit
+    error      error relative to its scale
+    bound      accepted error; None if a property other than the error is judged
+    grade      best accuracy class whose bound the error meets; None for no class
+    order      observed order of convergence and half-width of its interval
+    errors     pairs of size h and error of all levels
     """
 
     quantity: str
@@ -101,10 +111,11 @@ class Row:
 def rows_of(
     challenge: Challenge, solver: Solver, answers: Sequence[Answer], asked: Grade | None
 ) -> Iterator[Row]:
-    """Yield the verdicts on the finest level and on the convergence of all levels.
+    """Yield the verdicts on the finest level of an answer, and on the convergence over all levels.
 
     answers  levels in any order
-    asked    class that all must meet; None for the claimed class, else the default of each
+    asked    accuracy class that all errors must meet; None: the class that the solver claims, else
+             the default class of each quantity
     """
     levels = sorted(answers, key=lambda one: -one.h)
     demanded = asked or (Grade(solver.claimed_grade) if solver.claimed_grade else None)
@@ -120,9 +131,11 @@ def rows_of(
 
 
 def omitted(challenge: Challenge, answers: Sequence[Answer]) -> list[tuple[str, int, bool]]:
-    """List the missing numbers of the finest level: quantity, step, True if required.
+    """List the required and optional quantities that the finest level of an answer does not
+    contain.
 
-    Steps that the solver gave up are not listed.
+    Each item has the quantity, the load step, and True if the quantity is required. Load steps that
+    the solver gave up are not listed.
     """
     finest = min(answers, key=lambda one: one.h)
     if 0 in finest.gave_up:
@@ -168,12 +181,13 @@ def _of_claims(
     claims: Sequence[tuple[float | None, float]],
     grade: Grade,
 ) -> Iterator[Row]:
-    """Judge the claimed uncertainty of the finest level: it must cover the error.
+    """Judge the uncertainty that the solver states for a number: twice this must cover the error.
 
-    The verdict is inconclusive if the uncertainty exceeds the class and, on every level, by far the
-    error.
+    The verdict is inconclusive if the uncertainty exceeds the bound of the class and is far above
+    the error on every level.
 
-    claims  standard uncertainty in the required unit and error over the scale, for each level
+    level   finest level
+    claims  standard uncertainty in the required unit, and error over its scale, for each level
     """
     claimed, error = claims[-1]
     if claimed is None:
@@ -192,7 +206,8 @@ def _of_claims(
 
 
 def order_text(order: tuple[float, float]) -> str:
-    """Return the order with its interval; "not known" if the interval is too wide."""
+    """Return an order of convergence with its interval as text; "not known" if the interval is too
+    wide."""
     value, half = order
     # Zero has no sign.
     return f"{round(value, 2) + 0.0:.2f} ± {half:.2f}" if half < ILLEGIBLE else "not known"
@@ -227,9 +242,13 @@ def _of_field(
 
 
 def _of_areas(asked: AskedField, field: Field, level: str, bound: float) -> Iterator[Row]:
-    """Judge the areas of the points: their sums must give the load, its spread and the contact.
+    """Judge the areas of the points of a field: load, second moment and contact area must be
+    correct.
 
-    Otherwise points may omit the places with the largest errors.
+    Without these checks an answer could omit the points with the largest errors.
+
+    level  refinement level
+    bound  accepted relative difference
     """
     for name, sums, has, should, scale, least in sums_of(asked, field):
         missed, allowed = abs(has - should) / scale, max(bound, least)
@@ -265,7 +284,14 @@ def _of_points(
 
 
 def _not_on_finest(key: Key, judged: Answer, finest: Answer) -> Iterator[Row]:
-    """Or who left out the worst would be judged by the rest."""
+    """Yield an inconclusive verdict if a quantity is missing on the finest level of an answer.
+
+    Without this verdict an answer that omits its worst numbers would be judged by the rest.
+
+    key     quantity and load step
+    judged  finest level that has the quantity
+    finest  finest level of the answer
+    """
     quantity, step = key
     if not finest.has(key) and not {0, step} & finest.gave_up.keys():
         yield Row(f"{quantity}: finest level", step, finest.label, Status.INCONCLUSIVE,
@@ -282,7 +308,15 @@ def _judged(
     uncertainty: float,
     hint: str,
 ) -> Row:
-    """Judge the error of the finest level by a bound, with twice the reference's uncertainty."""
+    """Judge the error of the finest level against the bound of an accuracy class.
+
+    The verdict allows for twice the uncertainty of the reference.
+
+    key          quantity and load step
+    errors       pairs of size h and relative error, coarse to fine
+    uncertainty  standard uncertainty of the reference, over the error scale
+    hint         explanation that is added to a failure
+    """
     error, wide = errors[-1][1], 2 * uncertainty
     if error + wide <= grade.bound:
         status, because = Status.PASS, f"within class {grade}"
@@ -301,7 +335,13 @@ def _judged(
 def _convergence(
     key: Key, solver: Solver, errors: Sequence[tuple[float, float]], uncertainty: float
 ) -> Iterator[Row]:
-    """Judge the convergence: errors must not stall, and a claimed order must be right."""
+    """Yield verdicts on the convergence: errors must not stall, and a claimed order must be
+    correct.
+
+    key          quantity and load step
+    errors       pairs of size h and relative error, coarse to fine
+    uncertainty  standard uncertainty of the reference, over the error scale
+    """
     quantity, step = key
     fit = _order(errors, 2 * uncertainty)
     if fit is None:
@@ -323,7 +363,14 @@ def _convergence(
 
 
 def _order(errors: Sequence[tuple[float, float]], wide: float) -> tuple[float, float] | None:
-    """Fit the order to errors above the uncertainty of the reference; None for too few levels."""
+    """Fit the order of convergence to the errors that are well above the uncertainty of the
+    reference.
+
+    Returns the order and the half-width of its interval; None if fewer than 3 levels remain.
+
+    errors  pairs of size h and relative error
+    wide    twice the standard uncertainty of the reference
+    """
     told = [(h, e) for h, e in errors if e > 1.5 * wide and e > 0 and math.isfinite(e)]
     if len({h for h, _ in told}) < FEWEST_LEVELS:
         return None
@@ -332,13 +379,17 @@ def _order(errors: Sequence[tuple[float, float]], wide: float) -> tuple[float, f
 
 
 def _known(asked: AskedValue, errors: Sequence[tuple[float, float]]) -> bool:
-    """Return True if every level has an answer that no discretisation finds by itself."""
+    """Return True if the errors of all levels are zero within the uncertainty of the reference.
+
+    No discretisation computes an exact value; the mesh then contains the reference.
+    """
     exact = max(KNOWN, 3 * asked.uncertainty)
     return asked.limit is not None and len(errors) > 1 and all(e < exact for _, e in errors)
 
 
 def _hint(value: float, asked: AskedValue) -> str:
-    """Return a hint at a wrong sign, factor 2 or unit that would explain the error."""
+    """Return a hint if another sign, a factor of 2 or a unit would explain a wrong value; else
+    ""."""
     slips = {"with the other sign": -1.0, "halved": 0.5, "doubled": 2.0}
     slips |= {f"times 1e{n}": 10.0**n for n in (-9, -6, -3, 3, 6, 9)}
     for words, factor in slips.items():
@@ -353,9 +404,10 @@ COLOURS = {"A": "brightgreen", "B": "green", "C": "yellowgreen"}
 
 @dataclass(frozen=True)
 class Judgement:
-    """Result of judging one solver on one challenge.
+    """Result of the judgement of one solver on one challenge.
 
-    omitted  missing numbers: quantity, step, True if required
+    rows     verdicts
+    omitted  missing quantities: name, load step, True if required
     """
 
     challenge: Challenge
@@ -365,7 +417,7 @@ class Judgement:
     omitted: tuple[tuple[str, int, bool], ...]
 
     def count(self, status: Status) -> int:
-        """Return the number of verdicts with this status."""
+        """Return the number of verdicts with the given status."""
         return sum(row.status is status for row in self.rows)
 
     @property
@@ -383,7 +435,7 @@ class Judgement:
 
     @property
     def line(self) -> str:
-        """One line for a log."""
+        """Summary of the judgement in one line for a log."""
         counts = ", ".join(
             f"{self.count(status)} {status}"
             for status in (Status.PASS, Status.FAIL, Status.INCONCLUSIVE)
@@ -394,10 +446,13 @@ class Judgement:
         return f"{self.challenge.name} | {self.solver.name} | {grade} | {counts}, {left_out}"
 
     def exit_code(self, *, strict: bool = False, partial: bool = False) -> int:
-        """Return 0 if all passed, 1 if a verdict failed or a required number is omitted, 3 if the
-        solver gave up and nothing else failed; with `strict`, 6 if something is inconclusive.
+        """Return the exit code of the judgement for a command line.
 
-        partial  accept omissions
+        0: all verdicts passed. 1: a verdict failed, or a required quantity is missing. 3: the
+        solver gave up, and nothing else failed. 6: with `strict`, a verdict is inconclusive.
+
+        strict   True if inconclusive verdicts are reported
+        partial  True if missing quantities are accepted
         """
         failed = [row for row in self.rows if row.status is Status.FAIL]
         if failed and all(row.quantity == "solved" for row in failed):
@@ -407,7 +462,7 @@ class Judgement:
         return INCONCLUSIVE if strict and self.count(Status.INCONCLUSIVE) else PASSED
 
     def badge(self) -> str:
-        """Return the JSON of a badge (endpoint format of shields)."""
+        """Return the JSON text of a status badge, in the endpoint format of shields.io."""
         passed, all_rows = self.count(Status.PASS), len(self.rows)
         colour = "red" if self.count(Status.FAIL) else COLOURS.get(self.grade, "lightgrey")
         content: dict[str, Any] = {
@@ -420,9 +475,11 @@ class Judgement:
 def judged(
     challenge: Challenge, solver: Solver, answers: Sequence[Answer], grade: Grade | None = None
 ) -> Judgement:
-    """Return the verdicts.
+    """Judge the answers of a solver to a challenge.
 
-    grade  that all must meet; None: what the solver claims, else the par of each quantity
+    answers  one answer for each refinement level
+    grade    accuracy class that all errors must meet; None: the class that the solver claims, else
+             the default class of each quantity
     """
     rows = tuple(rows_of(challenge, solver, answers, grade))
     return Judgement(challenge, solver, tuple(answers), rows, tuple(omitted(challenge, answers)))

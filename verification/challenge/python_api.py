@@ -1,4 +1,4 @@
-"""The same from Python: a function that answers, without files."""
+"""Python interface of the challenge: a solver is a function, and no files are needed."""
 
 from __future__ import annotations
 
@@ -30,21 +30,23 @@ LEVELS = 4
 
 
 class CannotDo(Exception):
-    """Raised by a solver: it has no such problem."""
+    """Exception that a solver raises for a challenge outside its scope."""
 
 
 @dataclass(frozen=True)
 class Posed:
-    """A challenge without its reference.
+    """Challenge without its reference, as the argument of a solver function.
 
-    scene   SI numbers, as in a scene file; a body and a `patch` where the traction is given
-    loads   at the end of every loading step: normal and tangential force [N], NaN where a motion
-            is prescribed; `scene["loading"]` has the rest
-    asked   quantity and loading step, with its unit
-    since   of what is counted from the end of an earlier loading step: which
-    places  (points, 3) where numbers are asked at x, y and depth z, by quantity and step [m]
-    fields  tractions that are wanted at own points
-    window  side of a square in which all of it happens, with room [m]
+    scene   scene as in a scene file, in SI; a body and a `patch` if the traction is given
+    loads   normal and tangential force at the end of every load step [N], NaN for a prescribed
+            motion; `scene["loading"]` contains the other loads
+    asked   unit of each required number, by quantity and load step
+    since   load step from whose end a number counts, for numbers that do not count from the
+            beginning
+    places  points (points, 3) with x, y and depth z at which numbers are required, by quantity and
+            load step [m]
+    fields  tractions that are required at points of the solver's choice
+    window  side of a square that contains the contact with a margin [m]
     """
 
     name: str
@@ -58,7 +60,8 @@ class Posed:
 
 
 def posed(name: str) -> Posed:
-    """Return a challenge without its reference; KeyError lists the challenges."""
+    """Return a challenge without its reference; raise KeyError with all names for an unknown
+    name."""
     if name not in challenges():
         raise KeyError(f"no challenge {name!r}; there are {', '.join(challenges())}")
     challenge = challenges()[name]
@@ -122,9 +125,9 @@ def judge(
 
 
 def _checked(answer: object, challenge: Challenge, level: int) -> Answer:
-    """Check the answer of a function; raise Refused.
+    """Check the answer of a solver function on one level and convert its numbers; raise Refused.
 
-    Further quantities are accepted if another challenge requires them; other names are refused.
+    A quantity that only another challenge requires is accepted. Other names are refused.
     """
     if not isinstance(answer, Answer):
         raise Refused(f"level {level}: {type(answer).__name__} came back, expected an Answer")
@@ -165,7 +168,7 @@ def _asked(challenge: Challenge) -> list[Key]:
 
 @cache
 def _names() -> frozenset[str]:
-    """Return the names of the quantities of all challenges."""
+    """Return the names of all quantities that any challenge requires."""
     return frozenset(name for one in challenges().values() for name, _ in _asked(one))
 
 
@@ -173,14 +176,15 @@ EXPECTED = "expected FILE.py:FUNCTION or MODULE:FUNCTION"
 
 
 def names_a_solver(text: str) -> bool:
-    """Return True if the text names a function of a file, not a folder."""
+    """Return True if a command-line text names a solver function as FILE:FUNCTION, not a folder."""
     return ":" in text and not Path(text).exists()
 
 
 def named_solver(text: str) -> Callable[[Posed, int], Answer]:
-    """Run a file and return its function.
+    """Import the solver function that a text FILE.py:FUNCTION or MODULE:FUNCTION names.
 
-    Raises Refused if there is no such function, and what the file raises."""
+    Raises Refused if there is no such function, and any exception of the executed file.
+    """
     place, _, name = text.rpartition(":")
     module = module_of(Path(place)) if place.endswith(".py") else _imported(place, text)
     found: object = getattr(module, name, None)
@@ -190,7 +194,7 @@ def named_solver(text: str) -> Callable[[Posed, int], Answer]:
 
 
 def module_of(path: Path) -> ModuleType:
-    """Run a file like a script and return its module; it can import modules of its folder.
+    """Execute a Python file and return its module; the file can import modules of its folder.
 
     Raises Refused if the file cannot be read or imports a missing module.
     """

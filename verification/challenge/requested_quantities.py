@@ -1,4 +1,4 @@
-"""Required quantities of a challenge, their references and classes of error."""
+"""Quantities that a challenge requires from other codes, with references and accuracy classes."""
 
 from __future__ import annotations
 
@@ -30,10 +30,12 @@ NODES = 64
 
 @dataclass(frozen=True)
 class Half:
-    """One term.
+    """Traction over an ellipse: a half-ellipsoid times a Chebyshev series.
 
-    semi_axes    b_x, b_y [length]
-    coefficient  of the traction [force/length²]
+    With s = (x/b_x)² + (y/b_y)², the traction is coefficient · √(1 - s) Σ c_k T_k(2 s - 1).
+
+    semi_axes    b_x, b_y of the ellipse [length]
+    coefficient  amplitude of the traction [force/length²]
     series       c_0, c_1, …
     """
 
@@ -42,7 +44,8 @@ class Half:
     series: tuple[float, ...] = (1.0,)
 
     def __call__(self, x: Field, y: Field) -> Field:
-        """Return the traction at positions [length]."""
+        """Evaluate the traction at points (x, y) of the surface [length]; zero outside the
+        ellipse."""
         b_x, b_y = self.semi_axes
         s = np.minimum((x / b_x) ** 2 + (y / b_y) ** 2, 1.0)
         shape = np.sqrt(1 - s) * chebyshev.chebval(2 * s - 1, self.series)
@@ -50,16 +53,21 @@ class Half:
 
     @property
     def total(self) -> float:
-        """Its integral [force]."""
+        """Integral of the traction over the ellipse [force]."""
         return self._integral(0)
 
     @property
     def spread(self) -> float:
-        """Its integral times x² + y² [force*length²]."""
+        """Second moment of the traction: the integral of x² + y² times the traction
+        [force*length²]."""
         return 0.5 * (self.semi_axes[0] ** 2 + self.semi_axes[1] ** 2) * self._integral(1)
 
     def _integral(self, power: int) -> float:
-        """Return π b_x b_y ∫ s^(2 power) √(1 - s²) Σ c_k T_k ds²."""
+        """Compute the integral π b_x b_y ∫ s^power √(1 - s) Σ c_k T_k(2 s - 1) ds, times the
+        coefficient.
+
+        The integral extends from s = 0 at the centre to s = 1 at the edge.
+        """
         nodes, weights = np.polynomial.legendre.leggauss(NODES)
         root = 0.5 * (nodes + 1)  # √(1 - s²): smooth in it
         shape = 2 * root**2 * chebyshev.chebval(1 - 2 * root**2, self.series)
@@ -70,31 +78,32 @@ class Half:
 
 @dataclass(frozen=True)
 class HalfEllipsoids:
-    """The sum of terms."""
+    """Traction as a sum of half-ellipsoids times Chebyshev series."""
 
     terms: tuple[Half, ...]
 
     def at(self, x: Field, y: Field) -> Field:
-        """Return the traction at positions [length]."""
+        """Evaluate the traction at points (x, y) of the surface [length]."""
         return np.asarray(sum(term(x, y) for term in self.terms))
 
     @property
     def total(self) -> float:
-        """The force carried."""
+        """Integral of the traction over the surface [force]."""
         return sum(term.total for term in self.terms)
 
     @property
     def spread(self) -> float:
-        """The force carried, times the square of its distance from the axis [force*length²]."""
+        """Second moment of the traction: the integral of x² + y² times the traction
+        [force*length²]."""
         return sum(term.spread for term in self.terms)
 
     @property
     def semi_axes(self) -> tuple[float, float]:
-        """Semi-axes of the largest term, which contains the others [length]."""
+        """Semi-axes of the largest half-ellipsoid, which contains all others [length]."""
         return max(term.semi_axes for term in self.terms)
 
     def document(self) -> dict[str, Any]:
-        """As it is written for others."""
+        """Return the traction as a JSON record for reference files."""
         terms = [
             {"b": list(t.semi_axes), "coef": t.coefficient, "cheb": list(t.series)}
             for t in self.terms
@@ -103,14 +112,22 @@ class HalfEllipsoids:
 
 
 def round_halves(*terms: tuple[float, float]) -> HalfEllipsoids:
-    """Return half-ellipsoids from radii and coefficients."""
+    """Create a traction as a sum of half-ellipsoids over circles.
+
+    terms  pairs of radius [length] and amplitude [force/length²]
+    """
     return HalfEllipsoids(tuple(Half((b, b), coefficient) for b, coefficient in terms))
 
 
 def fitted(pressure: Callable[[Field], Field], radius: float, terms: int) -> HalfEllipsoids:
-    """Return a round pressure with a square-root edge as one term with a series, by interpolation.
+    """Approximate a round pressure with a square root at the edge by one half-ellipsoid with a
+    series.
 
-    pressure  at distances from the axis [force/length²]
+    The series is an interpolation at Chebyshev points.
+
+    pressure  function of the distance from the axis [force/length²]
+    radius    contact radius [length]
+    terms     number of terms of the series
     """
     t = chebyshev.chebpts1(terms)
     r = radius * np.sqrt(0.5 * (t + 1))
@@ -125,36 +142,42 @@ INTERVALS = 200  # of each part between two kinks
 
 @dataclass(frozen=True, eq=False)
 class RoundTable:
-    """It stands for a `HalfEllipsoids` where no series of half-ellipsoids does.
+    """Traction over a circle as a table over the radius, linear between the radii.
 
-    radii   from 0 to the edge [length]
-    values  there [force/length²]
+    Used in place of `HalfEllipsoids` for tractions that no series of half-ellipsoids represents.
+
+    radii   radii from 0 to the edge [length]
+    values  traction at these radii [force/length²]
     """
 
     radii: Field
     values: Field
 
     def at(self, x: Field, y: Field) -> Field:
-        """Return the traction at positions [length]."""
+        """Evaluate the traction at points (x, y) of the surface [length]."""
         return np.interp(np.hypot(x, y), self.radii, self.values, right=0.0)
 
     @property
     def total(self) -> float:
-        """Its integral over the surface [force]."""
+        """Integral of the traction over the surface [force]."""
         return self._integral(1)
 
     @property
     def spread(self) -> float:
-        """The same, times the square of the distance from the axis [force*length²]."""
+        """Second moment of the traction: the integral of r² times the traction [force*length²]."""
         return self._integral(3)
 
     @property
     def torque(self) -> float:
-        """The same, times the distance: of a traction around the axis [force*length]."""
+        """Torque of a circumferential traction: the integral of r times the traction
+        [force*length]."""
         return self._integral(2)
 
     def _integral(self, power: int) -> float:
-        """Return 2π ∫ q r^power dr by three points of Gauss, exact for a line times r³."""
+        """Compute 2π ∫ q r^power dr by the three-point Gauss rule between the radii.
+
+        The rule is exact, because q is linear between the radii and power is at most 3.
+        """
         nodes, weights = np.polynomial.legendre.leggauss(3)
         width, middle = np.diff(self.radii), 0.5 * (self.radii[1:] + self.radii[:-1])
         r = middle[:, None] + 0.5 * width[:, None] * nodes
@@ -163,18 +186,20 @@ class RoundTable:
 
     @property
     def semi_axes(self) -> tuple[float, float]:
-        """The largest radius, twice [length]."""
+        """Semi-axes of the loaded circle: twice its radius as a pair [length]."""
         return float(self.radii[-1]), float(self.radii[-1])
 
     def document(self) -> dict[str, Any]:
-        """As it is written for others."""
+        """Return the table as a JSON record for reference files."""
         return {"radii": self.radii.tolist(), "values": self.values.tolist()}
 
 
 def tabulated(traction: Callable[[Field], Field], *kinks: float) -> RoundTable:
-    """Tabulate a function of the radius, with dense points where it is steep.
+    """Tabulate a traction over the radius, with closely spaced radii at its kinks.
 
-    kinks  radii of jumps of the function or its slope; the last is the edge [length]
+    traction  function of the distance from the axis [force/length²]
+    kinks     radii at which the function or its slope jumps, in increasing order; the last is the
+              edge of the contact [length]
     """
     crowded = 0.5 * (1 - np.cos(np.pi * np.arange(INTERVALS + 1) / INTERVALS))  # at both ends
     parts, start = [np.zeros(1)], 0.0
@@ -190,7 +215,8 @@ DIGITS = 10  # of the references, by which versions are told apart
 
 
 class Grade(StrEnum):
-    """Bounds of errors over their scale; they do not depend on who answers."""
+    """Accuracy classes A, B and C of a challenge: bounds of relative errors, equal for all
+    codes."""
 
     A = "A"
     B = "B"
@@ -198,18 +224,24 @@ class Grade(StrEnum):
 
     @property
     def bound(self) -> float:
-        """The largest error."""
+        """Largest relative error of the accuracy class."""
         return {Grade.A: 1e-4, Grade.B: 1e-3, Grade.C: 1e-2}[self]
 
 
 @dataclass(frozen=True)
 class AskedValue:
-    """A number at the end of a loading step.
+    """Number that a challenge requires at the end of a load step.
 
-    step     from 1
-    scale    what its error is divided by, and `over` in words
-    par      the grade that is asked where nothing else is
-    since    the loading step from whose end it counts; None where it is a state
+    quantity     name of the quantity
+    step         number of the load step, from 1
+    value        reference value
+    scale        error scale, in the unit of the number
+    over         description of the error scale
+    par          accuracy class that is required by default
+    required     False if the number is optional
+    uncertainty  standard uncertainty of the reference, over the scale
+    limit        order of convergence that piecewise constant collocation reaches; None: unknown
+    since        load step from whose end the number counts; None: it counts from the beginning
     """
 
     quantity: str
@@ -228,11 +260,17 @@ class AskedValue:
 
 @dataclass(frozen=True)
 class AskedField:
-    """A traction at the answerer's own points, with the area that each stands for.
+    """Traction that a challenge requires at points of the solver's choice, with the area of each
+    point.
 
-    norm   "L2", relative to the field's own, or "L1", relative to the scale
-    scale  [force]
-    total  the force that it carries, which Σ value·area must give [force]
+    traction     exact traction
+    norm         norm of the error: "L2", relative to the norm of the exact field, or "L1", relative
+                 to the scale
+    scale        scale of the L1 norm [force]
+    total        force that the traction carries, which Σ value·area must equal [force]
+    par          accuracy class that is required by default
+    uncertainty  standard uncertainty of the reference
+    limit        order of convergence that piecewise constant collocation reaches
     """
 
     quantity: str
@@ -249,12 +287,17 @@ class AskedField:
 
 @dataclass(frozen=True, eq=False)
 class AskedPoints:
-    """Numbers at given places at the end of a loading step: the largest error is judged.
+    """Numbers that a challenge requires at given points at the end of a load step.
 
-    places       (points, 3): x, y and depth z [length]
-    values       there [unit]
-    scale        what errors are divided by, and `over` in words
-    uncertainty  standard, over the scale
+    The largest error of all points is judged.
+
+    places       points (points, 3): x, y and depth z [length]
+    values       reference values at the points
+    scale        error scale, in the unit of the numbers
+    over         description of the error scale
+    par          accuracy class that is required by default
+    required     False if the numbers are optional
+    uncertainty  standard uncertainty of the reference, over the scale
     """
 
     quantity: str
@@ -272,10 +315,10 @@ class AskedPoints:
 
 @dataclass(frozen=True)
 class Patch:
-    """No contact: a uniform traction on a square of a body's surface around the origin.
+    """Body without contact under a uniform traction on a square of its surface around the origin.
 
-    side      [length]
-    traction  [force/length²]
+    side      side of the square [length]
+    traction  magnitude of the traction [force/length²]
     """
 
     body: Body
@@ -283,19 +326,26 @@ class Patch:
     traction: float
 
     def document(self, *, exclude_defaults: bool = False) -> dict[str, Any]:
-        """Return the tables of the scene file."""
+        """Return the body and its traction as the tables of a scene file.
+
+        exclude_defaults  True if values that equal the defaults are left out
+        """
         body = self.body.model_dump(mode="json", exclude_defaults=exclude_defaults)
         return {"body": body, "patch": {"side": self.side, "traction": self.traction}}
 
 
 @dataclass(frozen=True)
 class Challenge:
-    """A problem for others.
+    """Problem for other codes: a scene, the required quantities, and their references.
 
-    problem  in words
-    scene    a contact, or a body under a given traction
-    window   side of a square in which all of it happens, with room [length]
-    shares   what its reference has in common with our own solvers; empty: nothing
+    problem  description in words
+    scene    contact scene, or body under a given traction
+    source   source of the references
+    values   required numbers
+    fields   required tractions
+    window   side of a square that contains the contact with a margin [length]
+    shares   parts that the references have in common with our own solvers; empty: none
+    points   required numbers at given points
     """
 
     name: str
@@ -311,12 +361,13 @@ class Challenge:
 
     @property
     def version(self) -> str:
-        """Digest of required quantities and references, rounded for all machines."""
+        """Digest of the scene, the required quantities and the references, rounded to be equal on
+        all machines."""
         text = json.dumps([self.document, self.reference()], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:16]
 
     def reference(self) -> dict[str, Any]:
-        """Return the references as written to `reference.json`."""
+        """Return the references as a JSON record, as written to `reference.json`."""
         answers = {
             "case": self.name,
             "source": self.source,
@@ -352,30 +403,31 @@ class Challenge:
 
     @property
     def document(self) -> dict[str, Any]:
-        """The scene as in a scene file, with all that is usual."""
+        """Scene of the challenge as in a scene file, including all default values."""
         if isinstance(self.scene, Patch):
             return self.scene.document()
         return self.scene.model_dump(mode="json")
 
     @property
     def ramps(self) -> tuple[LoadRamp, ...]:
-        """The loading steps; none where the tractions are given."""
+        """Load steps of the scene; empty if the tractions are given."""
         return self.scene.load_path() if isinstance(self.scene, Scene) else ()
 
     @property
     def loads(self) -> list[tuple[float, tuple[float, float]]]:
-        """Normal and tangential force at the end of every loading step, NaN where a motion is
-        prescribed [force]."""
+        """Normal and tangential force at the end of every load step [force]; NaN for prescribed
+        motions."""
         return [(_force(r.normal, nan), _force(r.tangential, (nan, nan))) for r in self.ramps]
 
     def one(self, quantity: str, step: int) -> AskedValue | AskedPoints | None:
-        """Return the required number or numbers of this name and step; None if there are none."""
+        """Return the required number, or numbers at points, of a quantity in a load step; None if
+        none."""
         found = (v for v in self.numbers if (v.quantity, v.step) == (quantity, step))
         return next(found, None)
 
     @property
     def numbers(self) -> tuple[AskedValue | AskedPoints, ...]:
-        """Required numbers and numbers at points, without fields."""
+        """Required numbers and required numbers at points, without fields."""
         return (*self.values, *self.points)
 
 
@@ -384,7 +436,7 @@ def _force(control: Control[Value], unknown: Value) -> Value:
 
 
 def _digits(value: Any) -> Any:
-    """Round the numbers of nested lists and records to DIGITS digits."""
+    """Round all numbers in nested lists and records to 10 digits."""
     if isinstance(value, float):
         return float(f"{value:.{DIGITS}g}")
     if isinstance(value, list):
@@ -401,21 +453,23 @@ CLOSED = 1e-12  # of closed and semi-closed forms, relative
 
 
 def approach(value: float, uncertainty: float = CLOSED, step: int = 1) -> AskedValue:
-    """Return the approach as a required number, relative to itself."""
+    """Create a required number for the approach, with errors relative to the approach."""
     meaning = "approach of points far from the contact in both bodies; positive when pressed"
     return AskedValue("approach", step, "m", meaning, value, value, "itself",
                       uncertainty=uncertainty, limit=2)  # fmt: skip
 
 
 def contact_radius(value: float, uncertainty: float = CLOSED) -> AskedValue:
-    """Return the contact radius as a required number, relative to itself."""
+    """Create a required number for the contact radius, with errors relative to the contact
+    radius."""
     meaning = "radius of the contact, or √(contact area / π)"
     return AskedValue("contact_radius", 1, "m", meaning, value, value, "itself",
                       uncertainty=uncertainty, limit=1)  # fmt: skip
 
 
 def stick_radius(value: float, step: int, uncertainty: float = CLOSED) -> AskedValue:
-    """Return the stick radius as a required number, relative to the Hertz contact radius."""
+    """Create an optional number for the stick radius, with errors relative to the Hertz contact
+    radius."""
     return AskedValue(
         "stick_radius", step, "m", "radius of the zone that has not slipped since the last turn",
         value, HERTZ.contact_radius, "the contact radius", Grade.C, required=False,

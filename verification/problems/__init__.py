@@ -1,1 +1,1 @@
-"""Problems with known answers."""
+"""Contact problems with known answers: scenes, exact or tabulated solutions, and their sources."""

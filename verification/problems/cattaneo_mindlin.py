@@ -1,4 +1,8 @@
-"""Cattaneo and Mindlin's contact with stops along the tangential load; exact for ν = 0."""
+"""Ball that is pressed and then loaded tangentially in steps, with the answer of Cattaneo and
+Mindlin.
+
+The answer is exact for Poisson's ratio ν = 0.
+"""
 
 from __future__ import annotations
 
@@ -20,10 +24,12 @@ def sheared(
     material: IsotropicMaterial = NU_ZERO,
     increments: int = 1,
 ) -> Problem:
-    """Return the problem of tangential steps to fractions of µW.
+    """Create the problem of a pressed ball under a tangential force that changes in several load
+    steps.
 
-    parts       of µW, at the ends of the steps
-    increments  per tangential step
+    parts       tangential force at the end of each step, as a fraction of the friction limit µW
+    material    material of both bodies
+    increments  number of increments of each tangential step
     """
     steps = (paper.tangential_step(part, increments) for part in parts)
     stops = tuple(paper.partial_slip(material, part * FRICTION_LIMIT) for part in parts)

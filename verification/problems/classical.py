@@ -1,4 +1,7 @@
-"""Cone and flat punch under the paper's force: an infinite pressure at the apex or at the rim."""
+"""Classical frictionless problems under a force of 1 kN: ball, cone, flat punch and barrel.
+
+The pressure is infinite at the apex of the cone and at the rim of the punch.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +19,11 @@ SOURCE = "Hertz 1882; Johnson 1985, ch. 4"
 
 
 def hertzian(scene: Scene) -> Problem:
-    """Create the problem of a scene with one step that ends in the paper's contact."""
+    """Create the problem of a scene whose only load step ends in the Hertz contact of the standard
+    ball.
+
+    The standard ball has a radius of 18 mm and a normal force of 1 kN.
+    """
     return Problem(
         scene,
         (HERTZ,),
@@ -69,7 +76,8 @@ PUNCH = Problem(
 
 
 def mean_pressure(of: Problem) -> float:
-    """Return the mean pressure of a round contact under the paper's force [force/length²]."""
+    """Compute the mean pressure of the round contact of a problem under a force of 1 kN
+    [force/length²]."""
     return NORMAL_FORCE / (pi * of.radius**2)
 
 

@@ -1,4 +1,5 @@
-"""The paper's ball, rigid, on its coatings, without friction."""
+"""Frictionless contact of a rigid ball with coated bodies, with tabulated and semi-closed
+answers."""
 
 from __future__ import annotations
 
@@ -27,7 +28,11 @@ BARE = hertzian(pressed("Rigid ball on the uncoated half-space", rigid_ball(), c
 
 
 def coated_ball(row: Mapping[str, Any]) -> Problem:
-    """Create the problem of a row of the reference."""
+    """Create the problem of a rigid ball on a coated body from one row of the tabulated reference.
+
+    row  numbers relative to the Hertz contact of the substrate, modulus ratio E1/E2 of coating and
+         substrate, and coating thickness over the Hertz radius
+    """
     contact = TabulatedContact(row)
     ratio, thickness = row["E1_over_E2"], row["h_over_aH"]
     title = f"Rigid ball on a coating, E1/E2 = {ratio:g}, h = {thickness:g} a_H"
@@ -44,7 +49,10 @@ def coated_ball(row: Mapping[str, Any]) -> Problem:
 
 
 def solved_here(problem: Problem) -> Problem:
-    """Replace the answer by the semi-closed solution, which gives the pressure at every radius."""
+    """Replace the tabulated answer of a coated problem by the semi-closed solution of its contact.
+
+    The semi-closed solution gives the pressure at every radius.
+    """
     exact = exact_contact(problem.scene.body)
     return replace(
         problem, ends=(exact,), radius=exact.contact_radius, source=FREDHOLM,

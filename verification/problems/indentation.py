@@ -1,4 +1,5 @@
-"""Indentation with friction: contacts with a tabulated reference solution."""
+"""Rigid ball that is pressed onto a body with friction: problems with tabulated reference
+solutions."""
 
 from __future__ import annotations
 
@@ -20,10 +21,12 @@ REFERENCE_ERROR = 1e-7  # of radii and approach, relative
 
 @dataclass(frozen=True, eq=False)
 class Indentation(TabulatedContact):
-    """Row of a reference, and the body of the row.
+    """Tabulated contact of a rigid ball that is pressed onto a body with friction.
 
-    name        label; file_name is the label in file names
-    increments  number that the accuracy target of the shear requires
+    name        description; file_name is the corresponding text in file names
+    body        body below the ball
+    source      source of the table
+    increments  number of increments that the accuracy target of the shear requires
     """
 
     name: str
@@ -34,11 +37,12 @@ class Indentation(TabulatedContact):
 
     @property
     def stick_part(self) -> float:
-        """Reference stick radius over contact radius."""
+        """Radius of the stick zone over the contact radius, from the reference table."""
         return float(self.row["c_over_a"])
 
     def problem(self, increments: int) -> Problem:
-        """Create the problem of the rigid ball pressed on the body in a number of increments."""
+        """Create the problem of the rigid ball that is pressed onto the body in a number of
+        increments."""
         title = f"Rigid ball pressed with friction: {self.name}"
         return Problem(
             pressed(title, rigid_ball(), self.body, pressing(increments), friction=self.friction),

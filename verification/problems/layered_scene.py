@@ -1,4 +1,4 @@
-"""Scenes of the paper's coated bodies, and their semi-closed solution."""
+"""Scenes with coated bodies below a rigid ball, and their semi-closed frictionless solution."""
 
 from __future__ import annotations
 
@@ -39,9 +39,10 @@ SEMI_CLOSED_ERROR = 1e-12
 
 
 def film(modulus_ratio: float, thickness_over_radius: float) -> Layer:
-    """Return a coating.
+    """Create a coating layer for the standard substrate (E = 210 GPa, ν = 0.3).
 
-    The modulus is relative to that of the substrate, the thickness to the Hertz radius.
+    modulus_ratio          Young's modulus of the coating over that of the substrate
+    thickness_over_radius  thickness of the coating over the Hertz contact radius
     """
     material = IsotropicMaterial(
         young_modulus=modulus_ratio * SUBSTRATE.young_modulus, poisson_ratio=0.3
@@ -50,17 +51,21 @@ def film(modulus_ratio: float, thickness_over_radius: float) -> Layer:
 
 
 def coated(*layers: Layer) -> Body:
-    """Return the substrate with layers, outermost first."""
+    """Create the standard substrate (E = 210 GPa, ν = 0.3) with coating layers, outermost layer
+    first."""
     return Body(material=SUBSTRATE, layers=layers)
 
 
 def rigid_ball() -> Paraboloid:
-    """Return the paper's ball as a rigid paraboloid."""
+    """Create the standard ball (radius 18 mm) as a rigid paraboloid."""
     return Paraboloid(radius=paper.RADIUS, material=RIGID)
 
 
 def half_space(poisson_ratio: float) -> Body:
-    """Return a half-space that has the paper's E* under a rigid indenter."""
+    """Create a half-space that has the standard contact modulus E* below a rigid indenter.
+
+    The modulus E* is that of two bodies with E = 420 GPa, ν = 0.3.
+    """
     modulus = paper.CONTACT_MODULUS * (1 - poisson_ratio**2)
     return Body(material=IsotropicMaterial(young_modulus=modulus, poisson_ratio=poisson_ratio))
 
@@ -68,9 +73,10 @@ def half_space(poisson_ratio: float) -> Body:
 def pressed(
     title: str, indenter: Indenter, body: Body, *loading: LoadStep, friction: float | None = None
 ) -> Scene:
-    """Return the scene of an indenter on a body under the given loads, or the paper's force.
+    """Create the scene of an indenter on a body under given load steps.
 
-    friction  µ; None or zero: no friction
+    loading   load steps; default: one step to a normal force of 1 kN
+    friction  coefficient of friction µ; None or zero: no friction
     """
     return Scene(
         title=title,
@@ -82,10 +88,12 @@ def pressed(
 
 
 def pressed_and_pushed(title: str, body: Body) -> Scene:
-    """Return the scene of the paper's figures 3 and 4.
+    """Create the scene of a rigid ball that is pressed on a body with friction and then sheared.
 
-    The rigid ball is pressed with friction in 15 increments, then loaded tangentially to 0.95 µW in
-    20.
+    The normal force grows in 15 increments, then the tangential force grows to 0.95 µW in 20
+    (figures 3 and 4 of the reference paper).
+
+    body  body below the ball
     """
     push = LoadStep(tangential_force=(0.95 * paper.FRICTION_LIMIT, 0.0), increments=20)
     return pressed(title, rigid_ball(), body, pressing(15), push, friction=paper.FRICTION)
@@ -93,7 +101,10 @@ def pressed_and_pushed(title: str, body: Body) -> Scene:
 
 @cache
 def surface_of(*bodies: Body) -> LayeredSurface:
-    """Return the normal response of two bodies, or of one body under a rigid indenter."""
+    """Create the normal compliance of the surfaces of two layered bodies, in wavenumber space.
+
+    A rigid body contributes nothing.
+    """
     stacks = [stack_of(body) for body in bodies if body.deforms]
 
     def compliance(k: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -106,5 +117,8 @@ def surface_of(*bodies: Body) -> LayeredSurface:
 
 @cache
 def exact_contact(*bodies: Body) -> LayeredIndentation:
-    """Solve the paper's ball on these bodies under the paper's force, semi-closed."""
+    """Solve the frictionless contact of the standard ball with layered bodies, in semi-closed form.
+
+    The ball has a radius of 18 mm and a normal force of 1 kN.
+    """
     return paraboloid_under(paper.NORMAL_FORCE, surface_of(*bodies), paper.RADIUS)

@@ -1,4 +1,7 @@
-"""Fretting loop of the paper's figure 1, and its closed form at every increment."""
+"""Fretting loop of a ball under constant normal force, with its closed form at every increment.
+
+The tangential force goes from 0 to T*, to -T* and to T* again, with T* = 0.9 µW.
+"""
 
 from __future__ import annotations
 
@@ -38,7 +41,10 @@ WINDOW_PER_RADIUS = 2.2  # the contact takes 1/1.1 of the width of the window
 
 
 def loop_steps(quarter: int) -> tuple[LoadStep, ...]:
-    """Return the load steps from 0 to T*, -T* and T*, with `quarter` increments per T*."""
+    """Create the load steps of a fretting loop, from 0 to T*, to -T* and to T*, with T* = 0.9 µW.
+
+    quarter  number of increments per change of the force by T*
+    """
     return (
         paper.tangential_step(AMPLITUDE, quarter),
         paper.tangential_step(-AMPLITUDE, 2 * quarter),
@@ -48,32 +54,39 @@ def loop_steps(quarter: int) -> tuple[LoadStep, ...]:
 
 @dataclass(frozen=True)
 class ExactLoop:
-    """Mindlin and Deresiewicz's loop for two identical bodies of a material."""
+    """Exact fretting loop of two identical bodies (Mindlin and Deresiewicz 1953).
+
+    material  material of both bodies; the closed form is exact for ν = 0
+    """
 
     material: IsotropicMaterial
 
     @cached_property
     def virgin(self) -> TangentialHistory:
-        """The contact before any tangential force."""
+        """State of the contact before any tangential force."""
         return TangentialHistory(paper.partial_slip(self.material, 0.0))
 
     @property
     def sliding_shift(self) -> float:
-        """Shift at which the whole contact slides [length]."""
+        """Tangential shift at the onset of gross slip [length]."""
         return self.virgin.virgin.sliding_shift
 
     @property
     def end(self) -> TangentialHistory:
-        """State at the end of the first loading."""
+        """State of the contact at the end of the first loading to T*."""
         return self.virgin.loaded_to(AMPLITUDE * paper.FRICTION_LIMIT)
 
     @property
     def energy_per_cycle(self) -> float:
-        """Area of the closed loop [force*length]: four times what the first loading takes."""
+        """Energy that friction dissipates in one closed cycle [force*length].
+
+        The energy is four times the energy dissipated in the first loading.
+        """
         return 4 * self.end.dissipated_energy
 
     def along(self, result: Result) -> Iterator[tuple[Increment, TangentialHistory]]:
-        """Every increment with tangential force, and the closed form under the same force."""
+        """Yield every increment after the normal loading, with the closed form at the same
+        tangential force."""
         state = self.virgin
         for increment in result.increments:
             if increment.step > PRESSED:
@@ -81,7 +94,8 @@ class ExactLoop:
                 yield increment, state
 
     def largest_shear_error(self, result: Result) -> float:
-        """Return the largest Σ|q - q_exact| / Σµp of any increment [1]."""
+        """Compute the largest shear error Σ|q - q_exact| / Σµp of all tangential increments of a
+        result [1]."""
         r = np.hypot(*result.grid.coordinates())
         return float(np.max([
             shear_error(shear_of(i), exact.shear(r), FRICTION * i.pressure)
@@ -89,19 +103,19 @@ class ExactLoop:
         ]))  # fmt: skip
 
     def largest_shift_error(self, result: Result) -> float:
-        """Return the largest difference of the shift from the closed form in any increment
-        [length]."""
+        """Compute the largest error of the tangential shift in all tangential increments of a
+        result [length]."""
         return float(np.max([abs(shift_along_x(i) - e.shift) for i, e in self.along(result)]))
 
     @property
     def cycled(self) -> CycledContact:
-        """The steady cycle, for ν = 0."""
+        """Steady fretting cycle between T* and -T*, exact for ν = 0."""
         force = AMPLITUDE * paper.FRICTION_LIMIT
         return CycledContact(paper.partial_slip(self.material, force), paper.HERTZ.peak_pressure)
 
     def largest_slip_amplitude_error(self, result: Result) -> float:
-        """Return the largest difference of the slip amplitude from the closed form in the
-        contact [length]."""
+        """Compute the largest error of the slip amplitude of a result inside the contact
+        [length]."""
         a = paper.HERTZ.contact_radius
         r = np.hypot(*result.grid.coordinates())
         expected = self.cycled.slip_amplitude(np.minimum(r, a))
@@ -109,10 +123,11 @@ class ExactLoop:
         return float(np.max(error[r < a]))
 
     def largest_slip_distance_error(self, result: Result) -> float:
-        """Return the largest difference of the accumulated slip from the closed form in the contact
+        """Compute the largest error of the accumulated slip distance at the end of a result
         [length].
 
-        The slip reverses only where the force does, at ± its amplitude.
+        The exact distance is 5 times the slip amplitude, because slip reverses only where the force
+        does.
         """
         a, way = paper.HERTZ.contact_radius, result.steps[-1].slip_distance
         assert way is not None
@@ -121,16 +136,20 @@ class ExactLoop:
         return float(np.max(np.abs(way - expected)[r < a]))
 
     def largest_stick_radius_error(self, result: Result) -> float:
-        """Return the largest difference of the stick radius from the closed form [length]."""
+        """Compute the largest error of the stick radius in all tangential increments of a result
+        [length]."""
         return float(np.max([
             abs((i.stick_radius or 0.0) - e.stick_radius) for i, e in self.along(result)
         ]))  # fmt: skip
 
 
 def fretting_loop(title: str, material: IsotropicMaterial, quarter: int) -> Problem:
-    """Create the problem of the loop of the paper's ball, with `quarter` increments per T*.
+    """Create the problem of the fretting loop of the standard ball (radius 18 mm, 1 kN).
 
-    The answer is that of the whole loop, and exact for ν = 0.
+    The answer describes the whole loop and is exact for ν = 0.
+
+    material  material of both bodies
+    quarter   number of increments per change of the tangential force by T* = 0.9 µW
     """
     exact = ExactLoop(material)
     slip = float(exact.cycled.slip_amplitude(HERTZ.contact_radius))
@@ -154,12 +173,12 @@ def fretting_loop(title: str, material: IsotropicMaterial, quarter: int) -> Prob
 
 
 def loop_energy(result: Result) -> float:
-    """Return the energy dissipated from T* to -T* and back [force*length]."""
+    """Compute the energy that a result dissipates from T* to -T* and back to T* [force*length]."""
     return energy_between(result, LOADED, RELOADED)
 
 
 def loop_cycle(result: Result) -> FrettingCycle:
-    """Return the fretting cycle of the loop."""
+    """Return the only fretting cycle of a result of the fretting loop."""
     from contact_results.cycles import fretting_cycles
 
     (cycle,) = fretting_cycles(result)
@@ -167,12 +186,12 @@ def loop_cycle(result: Result) -> FrettingCycle:
 
 
 def largest_f2(result: Result) -> float:
-    """Return the largest value of Ruiz's second parameter of the loop [force²/length³]."""
+    """Return the largest value of Ruiz's second fretting parameter in the loop [force²/length³]."""
     f2 = loop_cycle(result).ruiz_f2
     assert f2 is not None
     return float(np.max(f2))
 
 
 def largest_imbalance(result: Result) -> float:
-    """Return the largest energy imbalance of any increment, relative [1]."""
+    """Return the largest relative energy imbalance that any increment of a result states [1]."""
     return max(i.energy_imbalance for i in result.increments if i.energy_imbalance is not None)

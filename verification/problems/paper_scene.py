@@ -1,9 +1,11 @@
-"""Data of the paper: a ball on a half-space, bodies with the paper's E*, and grids.
+"""Data of the standard ball of the verification, from the reference paper, and scenes with this
+ball.
 
-The paper prints a contact radius of 0.388 mm and a peak pressure of 3.1684 GPa under 1 kN. These
-belong to the compliance of one body of E = 210 GPa, ν = 0.3. Two identical bodies of 420 GPa have
-the same total compliance and are uncoupled, as the closed form assumes. Two bodies with ν = 0 and E
-= 2 E* have it as well; for these the closed form of the tangential problem is exact.
+A ball of radius 18 mm is pressed on a half-space with 1 kN. The paper prints a contact radius of
+0.388 mm and a peak pressure of 3.1684 GPa. These values belong to the compliance of one body with E
+= 210 GPa, ν = 0.3. Two identical bodies with E = 420 GPa have the same total compliance and are
+uncoupled, as the closed form assumes. Two bodies with ν = 0 and E = 2 E* have this compliance as
+well; for these bodies the closed form of the tangential problem is exact.
 """
 
 import math
@@ -35,32 +37,39 @@ WINDOW_PER_RADIUS = 3.0
 
 
 def square_grid(cells: int, half_width: float) -> SurfaceGrid:
-    """Return a square grid on the window |x|, |y| <= `half_width`."""
+    """Create a square grid of cells × cells on the window |x|, |y| <= `half_width` [length]."""
     return SurfaceGrid((cells, cells), (2 * half_width, 2 * half_width))
 
 
 def hertz_grid(cells: int) -> SurfaceGrid:
-    """Return a square grid on a window of three Hertz radii."""
+    """Create a square grid of cells × cells on a window whose side is 3 Hertz contact radii."""
     return square_grid(cells, WINDOW_PER_RADIUS / 2 * HERTZ.contact_radius)
 
 
 def paraboloid(material: IsotropicMaterial) -> Paraboloid:
-    """Return the ball as a paraboloid, as in Hertz's theory."""
+    """Create the standard ball (radius 18 mm) as a paraboloid of the given material.
+
+    Hertz theory assumes this shape.
+    """
     return Paraboloid(radius=RADIUS, material=material)
 
 
 def frictionless(title: str, indenter: Indenter, body: IsotropicMaterial, load: LoadStep) -> Scene:
-    """Return the scene of an indenter on a half-space under one load step."""
+    """Create the scene of an indenter on a half-space without friction under one load step."""
     return Scene(title=title, indenter=indenter, body=Body(material=body), loading=(load,))
 
 
 def frictional(
     title: str, indenter: Indenter, body: IsotropicMaterial, *loading: LoadStep
 ) -> Scene:
-    """Return the scene of an indenter with the paper's friction and force, followed by `loading`.
+    """Create the scene of an indenter that is pressed with 1 kN and friction 0.1, then loaded
+    further.
 
-    The bodies are uncoupled: the pressure does not depend on the load path, so that one increment
-    is sufficient for the normal force.
+    The bodies must be uncoupled. The pressure then does not depend on the load history, so that one
+    increment is sufficient for the normal force.
+
+    body     material of the half-space
+    loading  load steps after the normal loading
     """
     return Scene(
         title=title,
@@ -72,18 +81,25 @@ def frictional(
 
 
 def pressing(increments: int | None = None) -> LoadStep:
-    """Return the load step of the paper's force."""
+    """Create the load step to a normal force of 1 kN, with the given number of increments."""
     return LoadStep(normal_force=NORMAL_FORCE, increments=increments)
 
 
 def tangential_step(part_of_limit: float, increments: int) -> LoadStep:
-    """Return the load step of a tangential force along x to a fraction of µW."""
+    """Create a load step to a tangential force along x.
+
+    part_of_limit  force at the end of the step over the friction limit µW
+    increments     number of increments
+    """
     force = part_of_limit * FRICTION_LIMIT
     return LoadStep(tangential_force=(force, 0.0), increments=increments)
 
 
 def partial_slip(material: IsotropicMaterial, tangential_force: float) -> PartialSlip:
-    """Return the Cattaneo-Mindlin state of two identical bodies of a material."""
+    """Create the Cattaneo-Mindlin state of the standard ball under a tangential force [force].
+
+    Both bodies are of the given material. Forces above the friction limit are reduced to the limit.
+    """
     constants = (material.young_modulus, material.poisson_ratio)
     modulus = tangential_modulus(constants, constants)
     limited = math.copysign(min(abs(tangential_force), FRICTION_LIMIT), tangential_force)

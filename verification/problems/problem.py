@@ -1,4 +1,4 @@
-"""Problems with a known answer: the scene, the reference and its source."""
+"""Definition of a verification problem: a scene, its known answer, and the source of the answer."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ ROUNDING = 1e-12  # relative uncertainty of a closed form in double precision
 
 
 class ReferenceKind(StrEnum):
-    """Kind of source of a reference."""
+    """Kinds of sources that a reference value may have."""
 
     CLOSED_FORM = "closed form"
     SEMI_CLOSED = "semi-closed"
@@ -30,8 +30,11 @@ class ReferenceKind(StrEnum):
 
 @dataclass(frozen=True)
 class Reference:
-    """Number from another source than the run.
+    """Reference value of a number, from another source than the run that is judged.
 
+    value        reference value, in the unit of the number
+    kind         kind of the source
+    source       description of the source
     uncertainty  standard uncertainty u_ref, in the unit of the value
     """
 
@@ -42,14 +45,16 @@ class Reference:
 
 
 def closed_form(value: float, source: str, scale: float | None = None) -> Reference:
-    """Return a closed form whose uncertainty is rounding, of its value or of the scale of the
-    comparison."""
+    """Create a reference value from a closed form, whose uncertainty is rounding.
+
+    scale  magnitude to which the rounding error is relative; None: the value
+    """
     uncertainty = ROUNDING * abs(value if scale is None else scale)
     return Reference(value, ReferenceKind.CLOSED_FORM, source, uncertainty)
 
 
 def identity(value: float, source: str) -> Reference:
-    """Return a value that follows from the equations."""
+    """Create a reference value that follows exactly from the equations, without uncertainty."""
     return Reference(value, ReferenceKind.IDENTITY, source)
 
 
@@ -59,16 +64,17 @@ OVER_RADIUS, OVER_PEAK = "the contact radius", "p_H"
 
 @dataclass(frozen=True)
 class Problem:
-    """Scene and its answer.
+    """Verification problem: a scene with its known answer.
 
     ends         exact answer at the end of every load step: records with the attribute names of the
                  quantities of a result; fields are functions of the distance from the axis, or of x
-                 and y where the contact is not round
-    radius       of the contact, or its semi-axis along x [length]
+                 and y if the contact is not round
+    radius       contact radius, or semi-axis of the contact along x [length]
     source       source of the answer
-    scales       scales of errors by name, in addition to the contact radius
-    uncertainty  of the numbers, relative to their scale
-    across       semi-axis along y; None where the contact is round [length]
+    kind         kind of the source
+    uncertainty  standard uncertainty of the numbers, relative to their scale
+    scales       error scales by name, in addition to the contact radius
+    across       semi-axis of the contact along y; None if the contact is round [length]
     equations    governing equations of the answer, in LaTeX
     """
 
@@ -83,62 +89,74 @@ class Problem:
     equations: tuple[str, ...] = ()
 
     def scale(self, name: str) -> float:
-        """Return the scale of errors by name; raise KeyError for an unknown name."""
+        """Return the error scale with the given name; raise KeyError for an unknown name."""
         return self.radius if name == OVER_RADIUS else self.scales[name]
 
     def on_surface(self, exact: Callable[..., Field], x: Field, y: Field | float) -> Field:
-        """Evaluate a field of the answer at positions on the surface [length]."""
+        """Evaluate an exact field of the answer at points of the surface.
+
+        exact  function of the distance from the axis, or of x and y if the contact is not round
+        x, y   coordinates of the points [length]
+        """
         return exact(np.hypot(x, y)) if self.across is None else exact(x, y)
 
     def reference(self, value: float, scale: float | None = None) -> Reference:
-        """Return a number of the answer; its uncertainty is relative to the number or to the
-        error scale."""
+        """Create the reference for a number of the answer, with the uncertainty of the problem.
+
+        scale  magnitude to which the uncertainty is relative; None: the value
+        """
         uncertainty = self.uncertainty * abs(value if scale is None else scale)
         return Reference(value, self.kind, self.source, uncertainty)
 
     def no_error(self, scale: float) -> Reference:
-        """Return the reference of an error norm: zero, with the uncertainty of the answer."""
+        """Create the reference for the norm of an error: zero, with the uncertainty of the answer.
+
+        scale  magnitude to which the uncertainty is relative
+        """
         return Reference(0.0, self.kind, self.source, self.uncertainty * scale)
 
 
 @dataclass(frozen=True, eq=False)
 class TabulatedContact:
-    """Tabulated numbers of a contact, with profiles at a few radii.
+    """Reference contact from a table: numbers, and profiles of tractions at a few radii.
 
-    row  of the reference: numbers relative to Hertz's contact of the substrate
+    row  row of the table; its numbers are relative to the Hertz contact of the substrate
     """
 
     row: Mapping[str, Any]
 
     @property
     def contact_radius(self) -> float:
-        """[length]."""
+        """Contact radius [length]."""
         return float(self.row["a_over_aH"]) * HERTZ.contact_radius
 
     @property
     def approach(self) -> float:
-        """[length]."""
+        """Approach of the bodies since first touch [length]."""
         return float(self.row["delta_over_deltaH"]) * HERTZ.approach
 
     @property
     def friction(self) -> float:
-        """µ."""
+        """Coefficient of friction µ."""
         return float(self.row["mu"])
 
     @property
     def radii(self) -> Field:
-        """Distances from the axis at which profiles are given [length]."""
+        """Distances from the axis at which the tractions are tabulated [length]."""
         return np.array(self.row["r_over_a"]) * self.contact_radius
 
     def pressure(self, r: Field) -> Field:
-        """Interpolate the pressure linearly between the radii of the row [force/length²]."""
+        """Interpolate the tabulated pressure linearly to distances r from the axis
+        [force/length²]."""
         return np.interp(r, self.radii, np.array(self.row["p_over_pH"]) * HERTZ.peak_pressure)
 
     def shear(self, r: Field) -> Field:
-        """Interpolate the outward shear linearly between the radii of the row [force/length²]."""
+        """Interpolate the tabulated shear, positive outwards, linearly to distances r
+        [force/length²]."""
         limit = self.friction * HERTZ.peak_pressure
         return np.interp(r, self.radii, np.array(self.row["q_over_mu_pH"]) * limit)
 
     def size_of_shear(self, r: Field) -> Field:
-        """Return the absolute value of the shear [force/length²]."""
+        """Interpolate the magnitude of the tabulated shear to distances r from the axis
+        [force/length²]."""
         return np.abs(self.shear(r))

@@ -1,4 +1,4 @@
-"""Grids whose centre is at a prescribed position of a cell."""
+"""Grids of cells with a prescribed position of the contact axis within a cell."""
 
 from dataclasses import dataclass
 
@@ -16,19 +16,19 @@ UNLIKE = ((0.5, 0.0), (0.25, 0.25))
 
 @dataclass(frozen=True)
 class ShiftedGrid(SurfaceGrid):
-    """Grid with an offset between its centre and the axis of the contact.
+    """Grid of cells whose centre is shifted from the axis of the contact.
 
-    offset  of the grid's centre from the contact's axis, in cells
+    offset  position of the grid centre relative to the contact axis, in cell sides along x and y
     """
 
     offset: tuple[float, float] = (0.0, 0.0)
 
     @property
     def x(self) -> NDArray[np.float64]:
-        """Cell centres along x [length]."""
+        """Coordinates x of the cell centres, relative to the contact axis [length]."""
         return np.asarray(super().x + self.offset[0] * self.spacing[0])
 
     @property
     def y(self) -> NDArray[np.float64]:
-        """Cell centres along y [length]."""
+        """Coordinates y of the cell centres, relative to the contact axis [length]."""
         return np.asarray(super().y + self.offset[1] * self.spacing[1])

@@ -1,4 +1,5 @@
-"""Torsion of the paper's ball under its normal force, and of a flat punch with full stick."""
+"""Torsion problems with known answers: the standard ball in partial slip, and a flat punch in
+stick."""
 
 from __future__ import annotations
 
@@ -20,7 +21,8 @@ AMPLITUDE = 0.9  # of the sliding torque, in the loop
 
 
 def virgin(torque: float) -> TorsionalPartialSlip:
-    """Return the paper's ball in its first torsion, by a torque >= 0."""
+    """Compute the partial slip of the standard ball in its first torsion by a torque >= 0
+    [force*length]."""
     return TorsionalPartialSlip.under_moment(
         torque, HERTZ.contact_radius, HERTZ.peak_pressure, FRICTION, MODULUS
     )
@@ -31,7 +33,7 @@ LARGEST = virgin(AMPLITUDE * SLIDING_TORQUE)
 
 
 def torque_step(part: float) -> LoadStep:
-    """Return a load step to a fraction of the torque at gross slip.
+    """Create a load step to a fraction of the torque at gross slip.
 
     One increment is exact, because the load path is linear.
     """
@@ -40,9 +42,11 @@ def torque_step(part: float) -> LoadStep:
 
 @dataclass(frozen=True)
 class Twisted:
-    """Exact state at the end of a step of the loop.
+    """Exact state at the end of a load step of a torsion loop.
 
-    energy_per_cycle  dissipated from the first to the second torque of + AMPLITUDE [force*length]
+    twist             rotation of the ball about z [radian]
+    energy_per_cycle  energy dissipated between the first and the second maximum of the torque
+                      [force*length]; 0 for other steps
     """
 
     twist: float
@@ -76,9 +80,10 @@ LED = _problem(
 
 
 def _loop() -> tuple[Twisted, ...]:
-    """Derive the loop from the first loading by Masing's rule.
+    """Compute the states of a torsion loop from the first loading by Masing's rule.
 
-    After a reversal at M* the change of the twist is twice that of half the change of the torque.
+    After a reversal, the change of the twist is twice the first-loading twist at half the change of
+    the torque.
     """
     reached = LARGEST.twist
     back = reached - 2 * virgin(0.5 * AMPLITUDE * SLIDING_TORQUE).twist

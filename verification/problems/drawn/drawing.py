@@ -1,4 +1,7 @@
-"""Distributions of the drawn scenes: materials, bodies, shapes, histories and grids."""
+"""Random distributions of materials, bodies, indenter shapes, load histories and grids.
+
+The drawn scenes test the error estimates of the solvers.
+"""
 
 from __future__ import annotations
 
@@ -60,10 +63,11 @@ KIND_OF = {quantity: kind for kind, names in KINDS.items() for quantity in names
 
 @dataclass(frozen=True)
 class Truth:
-    """A known number; of a vector, its component along x.
+    """Known number of a drawn scene; of a vector, its component along x.
 
-    step       load step at whose end it holds, from 1
-    reference  in SI, with its uncertainty
+    step       number of the load step at whose end it holds, from 1
+    quantity   registered name
+    reference  value in SI, with its uncertainty
     """
 
     step: int
@@ -72,20 +76,25 @@ class Truth:
 
     @property
     def kind(self) -> str:
-        """Kind of number that it counts for."""
+        """Kind of quantity under which the number is counted, such as "tangential_shift" for shifts
+        and forces."""
         return KIND_OF[self.quantity]
 
     def read(self, steps: Sequence[Values]) -> float | None:
-        """Return the same number of a result; None for an absent number."""
+        """Return the corresponding number of a result; None if the result does not have the number.
+
+        steps  numbers at the end of every load step of the result
+        """
         value = steps[self.step - 1].get(self.quantity)
         return None if value is None else float(value[0])
 
 
 class Fineness(NamedTuple):
-    """Discretisation that is judged.
+    """Discretisation with which a drawn scene is solved and judged.
 
-    solver      name on the command line
-    per_radius  cells or elements per contact radius
+    solver      name of the solver on the command line
+    asked       cells or elements
+    per_radius  number of cells or elements per contact radius
     """
 
     solver: str
@@ -95,7 +104,7 @@ class Fineness(NamedTuple):
 
 @dataclass(frozen=True)
 class KnownScene:
-    """A scene, its known numbers, and the discretisation that is judged."""
+    """Drawn scene with its known numbers and with the discretisation that is judged."""
 
     scene: Scene
     truths: tuple[Truth, ...]
@@ -105,7 +114,11 @@ class KnownScene:
 def known(
     step: int, source: str, values: Mapping[str, float], uncertainty: float, kind: ReferenceKind
 ) -> Iterator[Truth]:
-    """Yield known numbers at the end of a step, with one relative uncertainty."""
+    """Yield known numbers at the end of a load step, which share one relative uncertainty.
+
+    values       numbers by registered name [SI]
+    uncertainty  standard uncertainty relative to each number
+    """
     for quantity, value in values.items():
         yield Truth(step, quantity, Reference(value, kind, source, uncertainty * abs(value)))
 
@@ -123,7 +136,7 @@ MAP_POINTS, MAP_WIDTH = 24, 4.0  # of a height map: along a side; over the conta
 
 
 def logarithmic(rng: Rng, low: float, high: float) -> float:
-    """Draw a number with a uniform logarithm."""
+    """Draw a random number between two bounds, whose logarithm is uniformly distributed."""
     return float(np.exp(rng.uniform(np.log(low), np.log(high))))
 
 
@@ -131,7 +144,8 @@ def logarithmic(rng: Rng, low: float, high: float) -> float:
 
 
 def material(rng: Rng, poisson_ratio: float | None = None) -> IsotropicMaterial:
-    """Draw E from 5 to 400 GPa, and ν from 0 to 0.49 unless given."""
+    """Draw an isotropic material: E between 5 and 400 GPa, ν between 0 and 0.49 unless ν is
+    given."""
     nu = float(rng.uniform(0.0, 0.49)) if poisson_ratio is None else poisson_ratio
     return IsotropicMaterial(young_modulus=logarithmic(rng, 5e9, 4e11), poisson_ratio=nu)
 
@@ -139,7 +153,14 @@ def material(rng: Rng, poisson_ratio: float | None = None) -> IsotropicMaterial:
 def layered(
     rng: Rng, a: float, contrast: float, thickness: tuple[float, float], most_layers: int = 1
 ) -> Body:
-    """Draw layers within h/a, and within a ratio of Young's moduli to that of the base."""
+    """Draw a body with random layers on a random base material.
+
+    a            contact radius [length]
+    contrast     largest ratio of Young's moduli of the layer and the base, above or below 1, for
+                 one layer; for two layers its square root holds for each layer
+    thickness    bounds of the thickness of each layer over the contact radius
+    most_layers  largest number of layers
+    """
     base, count = material(rng), int(rng.integers(1, most_layers + 1))
     layers = tuple(
         Layer(
@@ -156,37 +177,43 @@ def layered(
 
 
 def coated(rng: Rng, a: float) -> Body:
-    """Draw one or two layers of 1/10 to 10 times the base modulus."""
+    """Draw a body with one or two layers on a base.
+
+    The modulus of one layer is within a factor of 10 of the base modulus, that of each of two
+    layers within √10.
+    """
     return layered(rng, a, 10.0, (0.2, 3.0), 2)
 
 
 def film(rng: Rng, a: float) -> Body:
-    """Draw a film of 1/100 to 100 times the base modulus."""
+    """Draw a body with one film, with a modulus within a factor of 100 of the base modulus."""
     return layered(rng, a, 100.0, (0.03, 3.0))
 
 
 def bare(rng: Rng, a: float) -> Body:
-    """Draw an uncoated body."""
+    """Draw a body of one material, without coating."""
     return Body(material=material(rng))
 
 
 def without_poisson(rng: Rng, a: float) -> Body:
-    """Draw an uncoated body with ν = 0."""
+    """Draw a body without coating, of a material with ν = 0."""
     return Body(material=material(rng, 0.0))
 
 
 def below_rigid(lower: Lower) -> Pair:
-    """Create pairs of a body and a rigid indenter."""
+    """Return a distribution of pairs: a body from the given distribution, below a rigid
+    indenter."""
     return lambda rng, a: (lower(rng, a), Body(material=RIGID))
 
 
 def alike(lower: Lower) -> Pair:
-    """Create pairs of a body and an indenter of equal materials, which are uncoupled."""
+    """Return a distribution of pairs of two equal bodies, which are uncoupled."""
     return lambda rng, a: (lower(rng, a),) * 2
 
 
 def unlike(lower: Lower) -> Pair:
-    """Create pairs of a body and an uncoated indenter."""
+    """Return a distribution of pairs: a body from the given distribution and another, uncoated
+    indenter."""
     return lambda rng, a: (lower(rng, a), bare(rng, a))
 
 
@@ -194,9 +221,14 @@ def unlike(lower: Lower) -> Pair:
 
 
 class Profile(ShapedBody):
-    """Shape of revolution.
+    """Axisymmetric indenter shape with a power-law gap, optionally around a flat or a ring.
 
-    Its gap is max(|r - ring| - flat, 0)^power / (power scale^(power-1)).
+    The gap at radius r is max(|r - ring| - flat, 0)^power / (power scale^(power-1)).
+
+    power  exponent
+    scale  length that sets the curvature [length]
+    flat   radius of the flat, or half-width of a flat ring [length]
+    ring   radius of the ring of first touch [length]
     """
 
     power: float = 2.0
@@ -206,73 +238,81 @@ class Profile(ShapedBody):
 
     @property
     def is_of_revolution(self) -> bool:
-        """Always true."""
+        """Always True: the shape is axisymmetric."""
         return True
 
     @property
     def gap_exponent(self) -> float | None:
-        """The power at a point of first touch."""
+        """Exponent of the gap at the point of first touch; None for a flat or a ring."""
         return None if self.flat or self.ring else self.power
 
     def initial_gap(self, x: Any, y: Any) -> NDArray[np.float64]:
-        """Return the gap, a function of the radius."""
+        """Compute the gap at points (x, y) before any load [length]."""
         r = np.maximum(np.abs(np.hypot(x, y) - self.ring) - self.flat, 0.0)
         return np.asarray(r**self.power / (self.power * self.scale ** (self.power - 1)))
 
 
 def ball(rng: Rng, r: float, a: float) -> ShapedBody:
-    """Return a paraboloid."""
+    """Return a paraboloid with radius of curvature r."""
     return Paraboloid(radius=r, material=RIGID)
 
 
 def sphere(rng: Rng, r: float, a: float) -> ShapedBody:
-    """Return a sphere."""
+    """Return a sphere of radius r."""
     return Sphere(radius=r, material=RIGID)
 
 
 def cone(rng: Rng, r: float, a: float) -> ShapedBody:
-    """Return a cone with the height of the ball at r = a."""
+    """Return a cone whose height at the contact radius a is that of the paraboloid of radius r."""
     return Cone(slope_angle=a / (2 * r), material=RIGID)
 
 
 def punch(rng: Rng, r: float, a: float) -> ShapedBody:
-    """Return a flat punch."""
+    """Return a flat punch of radius a."""
     return FlatPunch(radius=a, material=RIGID)
 
 
 def ellipsoid(rng: Rng, r: float, a: float) -> ShapedBody:
-    """Draw radii of curvature with a ratio of 0.3 to 3."""
+    """Draw an indenter with radii of curvature r along x and 0.3 r to 3 r along y."""
     return Ellipsoid(radii=(r, r * logarithmic(rng, 0.3, 3.0)), material=RIGID)
 
 
 def power_law(rng: Rng, r: float, a: float) -> ShapedBody:
-    """Draw r^k with k from 1.5 to 8: above 2 the pressure has a ridge near the edge."""
+    """Draw an indenter with a gap ∝ r^k, k between 1.5 and 8.
+
+    For k above 2 the pressure has its maximum near the contact edge.
+    """
     k = logarithmic(rng, 1.5, 8.0)
     return Profile(power=k, scale=a * (r / a) ** (1 / (k - 1)), material=RIGID)
 
 
 def rounded_flat(rng: Rng, r: float, a: float) -> ShapedBody:
-    """Draw the radius of the flat."""
+    """Draw an indenter with a flat of radius 0.2 a to 0.8 a and a rounded edge."""
     return Profile(scale=r, flat=a * float(rng.uniform(0.2, 0.8)), material=RIGID)
 
 
 def ring(rng: Rng, r: float, a: float) -> ShapedBody:
-    """Draw the radius of a ring-shaped indenter."""
+    """Draw a ring-shaped indenter with first touch at a radius between 0.3 a and 0.7 a."""
     return Profile(scale=r, ring=a * float(rng.uniform(0.3, 0.7)), material=RIGID)
 
 
 def smooth_map(rng: Rng, r: float, a: float) -> ShapedBody:
-    """Draw a paraboloid with waves of two thirds of the contact radius and longer."""
+    """Draw a height map: a paraboloid with waves of about 2/3 of the contact radius and longer."""
     return _height_map(rng, r, a, waves=float(rng.uniform(2.0, 4.0)), rough=0.1)
 
 
 def rough_map(rng: Rng, r: float, a: float) -> ShapedBody:
-    """Draw a paraboloid with short waves, so that the contact has several patches."""
+    """Draw a height map: a paraboloid with short waves, so that the contact has several patches."""
     return _height_map(rng, r, a, waves=float(rng.uniform(1.0, 1.5)), rough=0.4)
 
 
 def _height_map(rng: Rng, r: float, a: float, waves: float, rough: float) -> ShapedBody:
-    """Draw heights: waves [points] and their root mean square over the height at r = a."""
+    """Draw a height map: a paraboloid of radius r with smoothed random waves.
+
+    a      contact radius [length]
+    waves  smoothing length of the waves, in points of the map
+    rough  root mean square height of the waves, over the height of the paraboloid at the radius a
+    """
     side = MAP_WIDTH * a / MAP_POINTS
     x = (np.arange(MAP_POINTS) - (MAP_POINTS - 1) / 2) * side
     field = gaussian_filter(rng.standard_normal((MAP_POINTS, MAP_POINTS)), waves, mode="wrap")
@@ -285,9 +325,11 @@ def _height_map(rng: Rng, r: float, a: float, waves: float, rough: float) -> Sha
 
 
 def pushes(rng: Rng) -> tuple[float, ...]:
-    """Draw tangential forces or torques over the limit at the ends of steps.
+    """Draw tangential forces (or torques) at the ends of load steps, over their limit at gross
+    slip.
 
-    A push with a stop, a push and a way back, or one of two loops.
+    The history is one of: two steps in one direction, a push followed by a smaller force of either
+    sign, or a fretting loop of one of two forms.
     """
     most = float(rng.uniform(0.3, 0.95))
     between = most * float(rng.uniform(-0.9, 0.9))
@@ -301,22 +343,25 @@ def pushes(rng: Rng) -> tuple[float, ...]:
 
 
 def near_gross_slip(rng: Rng) -> tuple[float, ...]:
-    """Draw one push to nearly the friction limit."""
+    """Draw one tangential force between 0.99 and 0.9999 of the friction limit."""
     return (1 - logarithmic(rng, 1e-4, 1e-2),)
 
 
 def closes(forces: Sequence[float]) -> bool:
-    """Determine if the last of the forces closes a cycle."""
+    """Return True if the last force of a history is equal to the first, so that a cycle is
+    closed."""
     return len(forces) > 1 and forces[-1] == forces[0]
 
 
 def fineness(
     rng: Rng, reach: tuple[float, float], solver: str, limits: tuple[float, float]
 ) -> Fineness:
-    """Draw a grid around a contact, odd or even along each side, or elements over its radius.
+    """Draw the discretisation of a scene: a grid of cells around the contact, or a number of
+    elements.
 
     reach   semi-axes of the contact [length]
-    limits  of the cells per contact radius
+    solver  name of the solver
+    limits  smallest and largest number of cells per contact radius
     """
     if solver == ELEMENTS:
         count = round(logarithmic(rng, *ELEMENTS_PER_RADIUS))

@@ -1,4 +1,7 @@
-"""Families of drawn scenes: their bodies, shapes and histories, and the rule for their answers."""
+"""Families of randomly drawn scenes: distributions of bodies, shapes and load histories.
+
+Each family also has the rule that computes the answers of its scenes.
+"""
 
 from __future__ import annotations
 
@@ -45,18 +48,20 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Family:
-    """Scenes drawn from the same distributions.
+    """Distribution from which random scenes of one kind are drawn, with the rule for their answers.
 
-    shapes, pairs  distributions of the indenter shape and of the materials of both bodies, of which
-                   each scene draws one
-    rule           for the answer
-    count          scenes above the quick level, which takes one of each family
-    forces         after the normal force, over the friction limit; None for none
-    twists         whether these are torques
-    friction       whether there is friction without them
-    coarsest       cells per contact radius, at least
-    finest         at most
-    stressed       whether the largest stresses are judged
+    shapes    distributions of the indenter shape; each scene draws one
+    pairs     distributions of the materials of both bodies; each scene draws one
+    rule      function that computes the known numbers of a scene
+    count     number of scenes in a verification above the quick level, which takes one scene
+    forces    distribution of the forces after the normal loading, over the friction limit; None: no
+              such forces
+    twists    True if these are torques, False if tangential forces
+    friction  True if there is friction without these forces, too
+    coarsest  smallest number of cells per contact radius
+    finest    largest number of cells per contact radius
+    stressed  True if the largest stresses are judged
+    solver    name of the solver that is judged
     """
 
     shapes: Sequence[Callable[[Rng, float, float], ShapedBody]]
@@ -72,7 +77,7 @@ class Family:
     solver: str = CELLS
 
     def posed(self, rng: Rng) -> Posed:
-        """Draw a scene."""
+        """Draw a scene of the family and the discretisation to be judged, without the answer."""
         radius = logarithmic(rng, 1e-3, 0.1)
         a = radius * logarithmic(rng, *of.STRAINS)
         lower, upper = _one_of(rng, self.pairs)(rng, a)
@@ -106,7 +111,7 @@ class Family:
         return Posed(scene, fineness, forces, self.stressed)
 
     def known(self, rng: Rng) -> KnownScene:
-        """Draw a scene with its answer, again if its contact reaches the edge of the map."""
+        """Draw a scene with its answer; repeat if its contact reaches the edge of the window."""
         while True:
             try:
                 return self.rule(rng, self.posed(rng))
@@ -119,8 +124,13 @@ def _one_of(rng: Rng, ways: Sequence[T]) -> T:
 
 
 def _reach(scene: Scene, load: float, a: float) -> tuple[float, float]:
-    """Return the semi-axes of the contact without friction, approximately a for shapes without
-    reference."""
+    """Estimate the semi-axes of the frictionless contact of a scene [length].
+
+    For shapes without reference solution both are a.
+
+    load  normal force [force]
+    a     nominal contact radius [length]
+    """
     shape = scene.indenter
     if isinstance(shape, Ellipsoid):
         return EllipticalContact.under_load(load, shape.radii, contact_modulus(scene)).semi_axes
@@ -197,5 +207,10 @@ FAMILIES = {
 
 
 def drawn(family: str, seed: int, number: int) -> KnownScene:
-    """One scene of a family, equal at every call."""
+    """Return one random scene of a family with its answer; equal arguments give equal scenes.
+
+    family  name of the family
+    seed    seed of the random numbers
+    number  number of the scene within the family
+    """
     return FAMILIES[family].known(np.random.default_rng([seed, crc32(family.encode()), number]))

@@ -1,7 +1,7 @@
-"""Rules for the answers of drawn scenes: ring solver, closed forms, finer cells and increments.
+"""Rules that compute the known numbers of randomly drawn scenes.
 
-Each rule completes a posed scene: it may prescribe motions in place of forces, and returns the
-scene with its known numbers. No rule uses an error estimate.
+The sources are the radial solver, closed forms, and solutions with more cells and increments. A
+rule may replace prescribed forces by motions. No rule uses an error estimate.
 """
 
 from __future__ import annotations
@@ -77,7 +77,14 @@ WHOLE = "body"  # among the regions
 def stress_maxima(
     result: Any, step: int, errors: StatedErrors | None = None
 ) -> dict[str, tuple[float, StatedError]]:
-    """Return those of the whole body at the end of a step, by measure [force/length²]."""
+    """Compute the largest stresses in the whole body at the end of a load step, with stated errors.
+
+    Returns value and error by stress measure [force/length²].
+
+    result  result of any solver
+    step    number of the load step, from 1
+    errors  stated errors of the result, if they are known
+    """
     state = state_of_result(result, step, errors)
     below = stress_on_disc if state.pressed else stress_on_section if state.on_rings else None
     field = (below or stress_on_cells)(state)
@@ -111,10 +118,12 @@ LED = (SHIFT, TANGENTIAL, TWIST, TORQUE)  # zero before the first force or torqu
 
 @dataclass(frozen=True)
 class Posed:
-    """A drawn scene without answer.
+    """Randomly drawn scene without its answer.
 
-    forces    tangential forces or torques at the ends of the steps after pressing
-    stressed  whether the largest stresses are judged
+    scene     the scene
+    fineness  discretisation that is judged
+    forces    tangential forces or torques at the ends of the load steps after the normal loading
+    stressed  True if the largest stresses are judged
     """
 
     scene: Scene
@@ -123,8 +132,15 @@ class Posed:
     stressed: bool = False
 
     def known(self, truths: Iterable[Truth], scene: Scene | None = None) -> KnownScene:
-        """Keep each finite number that is neither prescribed nor one of this unit, equal to two
-        digits, that shares its error."""
+        """Select the known numbers that are judged, and combine them with the scene.
+
+        Infinite, zero and prescribed numbers are left out. So are numbers that repeat an earlier
+        number by symmetry, or agree with a selected number in unit and two digits, because they
+        share its error.
+
+        truths  known numbers
+        scene   scene to judge; default: the drawn scene
+        """
         scene, sizes, seen = scene or self.scene, [0.0, *map(abs, self.forces)], set()
         infinite = scene.indenter.rim is not None or scene.indenter.gap_exponent == 1
         path, kept = scene.load_path(), []
@@ -144,7 +160,14 @@ class Posed:
 
 
 class Pressed(NamedTuple):
-    """A contact without friction."""
+    """Numbers of a frictionless contact under a normal force.
+
+    load      normal force [force]
+    approach  approach of the bodies [length]
+    radius    contact radius, or √(ab) of an ellipse with semi-axes a and b [length]
+    peak      largest pressure [force/length²]
+    elastic   elastic energy [force length]
+    """
 
     load: float
     approach: float
@@ -161,7 +184,10 @@ class Pressed(NamedTuple):
 
 
 def pressed(scene: Scene, load: float) -> Pressed:
-    """Solve the contact without friction: ellipses in closed form, others by the ring solver."""
+    """Solve a frictionless contact: an ellipsoid in closed form, other shapes by the radial solver.
+
+    load  normal force [force]
+    """
     if isinstance(tip := scene.indenter, Ellipsoid):
         contact = EllipticalContact.under_load(load, tip.radii, contact_modulus(scene))
         radius = sqrt(contact.semi_axes[0] * contact.semi_axes[1])
@@ -172,7 +198,10 @@ def pressed(scene: Scene, load: float) -> Pressed:
 
 
 def rings(scene: Scene, load: float) -> Any:
-    """Solve the contact without friction by the ring solver."""
+    """Solve a frictionless contact by the radial solver, and return its last increment.
+
+    load  normal force [force]
+    """
     alone = {"friction": None, "loading": (LoadStep(normal_force=load),)}
     return radial.solve(scene.model_copy(update=alone)).steps[-1]
 
@@ -181,7 +210,13 @@ def rings(scene: Scene, load: float) -> Any:
 
 
 def by_rings(rng: Rng, posed: Posed) -> KnownScene:
-    """Solve by the ring solver; twice the rings and increments give the uncertainty."""
+    """Compute the known numbers of a drawn scene by the radial solver.
+
+    The difference from a solution with half the rings and increments is the uncertainty. Some
+    scenes with one load step are converted from a prescribed force to the prescribed approach.
+
+    rng  random numbers, for this choice
+    """
     once = radial.solve(posed.scene)
     counts = tuple(DOUBLED * n if n > 1 else n for n in once.plan.increments)
     finer = replace(once.plan, increments=counts, fineness=DOUBLED)
@@ -217,7 +252,13 @@ def _truth(step: int, name: str, value: float, apart: float) -> Truth:
 
 
 def beside_the_centre(rng: Rng, posed: Posed) -> KnownScene:
-    """Tilt a paraboloid, or apply a moment: x²/2R - φx = (x - Rφ)²/2R - Rφ²/2 shifts it."""
+    """Tilt a paraboloid or apply a moment to it, and compute the known numbers.
+
+    By x²/2R - φx = (x - Rφ)²/2R - Rφ²/2, tilt φ only shifts a paraboloid of radius R.
+
+    rng    random numbers, for the position of the contact
+    posed  drawn scene with one load step
+    """
     tip, grid = posed.scene.indenter, posed.fineness.asked
     (step,) = posed.scene.loading
     load = step.normal_force
@@ -241,11 +282,16 @@ def beside_the_centre(rng: Rng, posed: Posed) -> KnownScene:
 
 @dataclass(frozen=True)
 class Similar:
-    """Partial slip of uncoated bodies of one material with ν = 0 (Jäger 1998, Ciavarella 1998).
+    """Partial slip of uncoated bodies, for which shear and pressure have similar distributions.
 
-    The shear is µ times the difference of two pressed contacts. After a reversal the curve of first
-    loading is doubled (Masing). With S = ∫ shift dT the work of a first loading is T shift - S, and
-    a quarter of a loop, T shift - 2 S, is dissipated.
+    The bodies have one material with ν = 0 (Jäger 1998, Ciavarella 1998). The shear is µ times the
+    difference of two frictionless contacts. After a reversal the curve of the first loading is
+    doubled (Masing). With S = ∫ shift dT, a first loading dissipates T shift - 2 S, a quarter of
+    the energy of a closed loop.
+
+    scene  scene with the two bodies
+    load   normal force [force]
+    mu     coefficient of friction
     """
 
     scene: Scene
@@ -257,7 +303,11 @@ class Similar:
         return pressed(self.scene, self.load)
 
     def first(self, force: float) -> Array:
-        """Shift, stick radius, energy dissipated, and energy stored since the first loading."""
+        """Compute the state of a first tangential loading to a force [force].
+
+        Returns shift, stick radius, dissipated energy, and elastic energy stored since its
+        beginning.
+        """
         stick = pressed(self.scene, self.load - force / self.mu)
         shift = self.mu * (self.full.approach - stick.approach)
         full, part = (p.load * p.approach - p.elastic for p in (self.full, stick))
@@ -266,7 +316,12 @@ class Similar:
         return np.array([shift, stick.radius, lost, (force * shift - lost) / 2])
 
     def along(self, forces: Sequence[float]) -> Iterator[Array]:
-        """Yield the states at the ends of steps between these forces, from zero."""
+        """Yield the states at the ends of tangential load steps to the given forces, beginning from
+        zero.
+
+        Each state has shift, stick radius, dissipated energy, and elastic energy stored by the
+        shear.
+        """
         last, direction, turn = 0.0, 1.0, 0.0
         reached, base = np.zeros(4), None
         for force in forces:
@@ -282,7 +337,8 @@ class Similar:
             yield reached
 
     def truths(self, forces: Sequence[float]) -> Iterator[Truth]:
-        """Yield the numbers of the whole history."""
+        """Yield the known numbers at the ends of all load steps, for the given tangential
+        forces."""
         states = list(self.along(forces))
         values = [self.full.values]
         for force, (shift, stick, lost, stored) in zip(forces, states, strict=True):
@@ -298,7 +354,10 @@ class Similar:
 
 
 def similar(rng: Rng, posed: Posed) -> KnownScene:
-    """Apply the forces, or the shifts that belong to them, to bodies without coating."""
+    """Compute the known numbers of a tangentially loaded pair of uncoated bodies, in closed form.
+
+    In some scenes the tangential forces are replaced by the corresponding shifts.
+    """
     made, scene = _similar(posed), posed.scene
     if rng.random() < BY_MOTION:
         shifts = (LoadStep(tangential_shift=(s[0], 0.0)) for s in made.along(posed.forces))
@@ -310,7 +369,7 @@ def similar(rng: Rng, posed: Posed) -> KnownScene:
 
 
 def slid(rng: Rng, posed: Posed) -> KnownScene:
-    """Move balls far beyond the onset of gross slip."""
+    """Shift a pressed ball far beyond the onset of gross slip, and compute its known numbers."""
     made, tip = _similar(posed), posed.scene.indenter
     assert isinstance(tip, Paraboloid)
     far = FAR * made.mu * made.full.radius**2 / tip.radius
@@ -332,9 +391,11 @@ def _similar(posed: Posed) -> Similar:
 
 
 def _edge_tension(made: Similar, stick_radius: float) -> float:
-    """Compute the tensile stress at the trailing edge of balls (Hamilton and Goodman 1966).
+    """Compute the tensile stress at the trailing edge of a ball (Hamilton and Goodman 1966).
 
     The shear is that of gross slip less that of the stick disc.
+
+    stick_radius  radius of the stick disc; 0 for gross slip [length]
     """
     material = made.scene.body.elastic_materials[0]
     a, nu, q0 = made.full.radius, material.poisson_ratio, made.mu * made.full.peak
@@ -347,7 +408,11 @@ def _edge_tension(made: Similar, stick_radius: float) -> float:
 
 
 def _of_balls(made: Similar, posed: Posed) -> Iterator[Truth]:
-    """Compute the tensile stress of the first push and the largest fields of a cycle."""
+    """Yield known stresses and fretting parameters of a ball under tangential forces.
+
+    These are the tensile stress at the end of the first tangential step, and the largest slip
+    amplitude and Ruiz parameters of a closed cycle.
+    """
     force, a, full = posed.forces[0], made.full.radius, made.full
     values = {TENSION: _edge_tension(made, float(made.first(force)[1]))}
     if posed.fineness.solver == CELLS:
@@ -363,7 +428,10 @@ def _of_balls(made: Similar, posed: Posed) -> Iterator[Truth]:
 
 
 def refined(rng: Rng, posed: Posed) -> KnownScene:
-    """Numbers on finer cells, with the effect of more increments on the cells that are judged."""
+    """Compute the known numbers of a drawn scene with the judged solver on finer cells.
+
+    The effect of more increments is added. It is computed on the cells that are judged.
+    """
     matters = with_error(posed.scene)
     counts = semi_analytical.plan(posed.scene).increments
     fine, less = (_Level.of(posed, times, counts) for times in FINER)
@@ -381,9 +449,10 @@ def refined(rng: Rng, posed: Posed) -> KnownScene:
 
 
 class _Level(NamedTuple):
-    """Numbers of a solve at the ends of the steps, largest stresses of the last step included.
+    """Numbers of a solve at the ends of all load steps.
 
-    cell  side of a cell over the last contact radius
+    steps  numbers by name for each step; the last step includes the largest stresses if required
+    cell   side of a cell over the contact radius at the end
     """
 
     steps: Sequence[Values]
