@@ -1,7 +1,7 @@
-"""How good the answers are: problems with known answers, judging, cases, studies, report.
+"""Verification of the solvers: problems with known solutions, cases, studies and reports.
 
-It judges and does not serve: nothing but tests and, lazily, the command imports it. Another solver
-is judged by `verification.judge`, from Python or by files (`slipstick challenge`).
+Only tests and, when needed, the command line import this package. Other solvers can be judged by
+`verification.judge`, from Python or by files (`slipstick challenge`).
 """
 
 from importlib import import_module

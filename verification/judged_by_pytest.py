@@ -1,8 +1,8 @@
-"""A plugin of pytest: a solver judged on challenges, one test per case.
+"""Plugin of pytest that judges a solver on challenges, with one test per challenge.
 
-`pytest --slipstick` collects files `challenge_*.py`, which have `solve`, `CASES` and, if they like,
-`LEVELS`, `CLASS` and `SOLVER`, as `verification.judge` takes them, and `PARTIAL = True`
-where required numbers may be omitted.
+`pytest --slipstick` collects files `challenge_*.py`. They define `solve` and `CASES`, optionally
+`LEVELS`, `CLASS` and `SOLVER`, as `verification.judge` expects them, and `PARTIAL = True` if
+required numbers may be omitted.
 """
 
 from __future__ import annotations
@@ -15,7 +15,9 @@ import pytest
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Add --slipstick and --slipstick-strict, each of which collects."""
+    """Add the options --slipstick and --slipstick-strict; each enables the collection of solver
+    files.
+    """
     group = parser.getgroup("slipstick")
     for name, words in (
         ("--slipstick", "collect files challenge_*.py and judge the solvers in them"),
@@ -25,17 +27,19 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
-    """Collect files of solvers, if they are asked for."""
+    """Collect a file `challenge_*.py` with a solver, if an option of this plugin is set."""
     asked = parent.config.getoption("slipstick") or parent.config.getoption("slipstick_strict")
     named = file_path.suffix == ".py" and file_path.name.startswith("challenge_")
     return SolverFile.from_parent(parent, path=file_path) if named and asked else None
 
 
 class SolverFile(pytest.File):
-    """A file with a solver."""
+    """File with a solver that is judged on challenges."""
 
     def collect(self) -> Iterator[pytest.Item]:
-        """Yield a test for every case; raises Refused for a file without a solver."""
+        """Yield one test for every challenge of the file; raises Refused for a file without a
+        solver.
+        """
         from contact_results.directory.atomic_file import Refused
         from verification.challenge.cases import challenges
         from verification.challenge.python_api import module_of
@@ -51,14 +55,18 @@ class SolverFile(pytest.File):
 
 
 class ChallengeItem(pytest.Item):
-    """All verdicts on one case."""
+    """Test of a solver on one challenge, with all verdicts."""
 
     def __init__(self, *, module: Any, **more: Any) -> None:
         super().__init__(**more)
         self.module = module
 
     def runtest(self) -> None:
-        """Fail with the verdicts that fail; skip where the solver cannot solve the case."""
+        """Judge the solver; fail with the failed verdicts, or skip if the solver cannot solve the
+        problem.
+
+        With --slipstick-strict, inconclusive verdicts and unsolvable problems fail as well.
+        """
         from verification.challenge.python_api import (
             LEVELS,
             CannotDo,

@@ -1,8 +1,8 @@
-"""Errors of a field against the exact one; every denominator is named where it is used.
+"""Error norms of a field against the exact one, and exact means over cells.
 
 Fields are compared at cell centres with exact point values. The mean of a smooth field over a cell
-differs from its centre value by O(h^2) only; next to the square-root edge of a contact by O(√h),
-which is part of the error that is measured.
+differs from its centre value by O(h²) only. Next to the square-root edge of a contact it differs by
+O(√h), which is part of the measured error.
 """
 
 from __future__ import annotations
@@ -17,21 +17,25 @@ Field = NDArray[np.float64]
 
 
 def relative_l1(field: Field, exact: Field) -> float:
-    """Σ|field - exact| / Σ|exact| over all cells of the window [1]."""
+    """Compute the relative L1 error Σ|field - exact| / Σ|exact| over all cells of
+    the window [1]."""
     return float(np.sum(np.abs(field - exact)) / np.sum(np.abs(exact)))
 
 
 def relative_l2(field: Field, exact: Field) -> float:
-    """√Σ(field - exact)² / √Σ exact² over all cells of the window [1]."""
+    """Compute the relative L2 error √Σ(field - exact)² / √Σ exact² over all cells of the window
+    [1].
+    """
     return float(np.sqrt(np.sum((field - exact) ** 2) / np.sum(exact**2)))
 
 
 def shear_error(shear: Field, exact: Field, limit: Field) -> float:
-    """Σ|q - q_exact| / Σµp, with |.| the length of the vector difference [1].
+    """Compute the error of the shear tractions Σ|q - q_exact| / Σµp, with |.| the length of a
+    vector [1].
 
-    shear  (2, nx, ny) as computed
-    exact  (nx, ny) along x, or (2, nx, ny)
-    limit  computed friction limit µp (nx, ny): the denominator is the largest force it carries
+    shear  computed shear (2, nx, ny) [stress]
+    exact  exact shear along x (nx, ny), or as vectors (2, nx, ny) [stress]
+    limit  computed friction limit µp (nx, ny) [stress], whose sum is the largest friction force
     """
     along_x, along_y = (exact, np.zeros_like(exact)) if exact.ndim == 2 else exact
     difference = np.hypot(shear[0] - along_x, shear[1] - along_y)
@@ -48,11 +52,14 @@ DIFFERING = 1e-7  # of the largest mean: where two rules differ by more an edge 
 
 
 def cell_means(exact: AtPlaces, x: Field, y: Field, sides: tuple[Field, Field]) -> Field:
-    """Of a function of the place; to 2e-4 of its largest value in a cell that a square root ends
-    in, along the diagonal, to 5e-5 along other lines, and to 1e-7 in other cells.
+    """Compute the means of a function of the position over cells.
 
+    The error is below 2e-4 of the largest value in a cell with a square-root edge along its
+    diagonal, 5e-5 along other lines, and 1e-7 in other cells.
+
+    exact  function of x and y
     x, y   centres of the cells [length]
-    sides  of the cells along x and y, each of the shape of x [length]
+    sides  sides of the cells along x and y, each with the shape of x [length]
     """
     means = _means(exact, x, y, sides, SMOOTH)
     with np.errstate(invalid="ignore"):
@@ -66,7 +73,14 @@ def cell_means(exact: AtPlaces, x: Field, y: Field, sides: tuple[Field, Field]) 
 def round_means(
     exact: Callable[[Field], Field], x: Field, y: Field, sides: tuple[float, float]
 ) -> Field:
-    """The same of a function of the distance from the axis, over cells that are all alike."""
+    """Compute the means over equal cells of a function of the distance from the axis.
+
+    The method and the accuracy are those of `cell_means`.
+
+    exact  function of the distance from the axis
+    x, y   centres of the cells [length]
+    sides  sides of all cells along x and y [length]
+    """
     alike = np.full_like(x, sides[0]), np.full_like(x, sides[1])
     return cell_means(lambda x, y: exact(np.hypot(x, y)), x, y, alike)
 

@@ -1,4 +1,5 @@
-"""Quantities that are read off a result."""
+"""Quantities that cases and studies derive from a result: residuals, forces,
+energies and angles."""
 
 from __future__ import annotations
 
@@ -26,13 +27,17 @@ LEAST_SHEAR = 1e-6
 
 
 def largest_residual(result: Result) -> float:
-    """Largest residual of any kind at the end of any increment [1]; NaN wins over every number."""
+    """Return the largest residual of any kind at the end of any increment [1]; NaN
+    if any is NaN."""
     return float(np.max([increment.residuals.worst for increment in result.increments]))
 
 
 def named_values(increment: State) -> dict[str, float]:
-    """The key scalars that an increment has, then its key vectors, components with _x and _y; in
-    SI."""
+    """Return the key results of an increment by name in SI units: scalars, then components of
+    vectors.
+
+    The names of components end in _x or _y. Results that the increment lacks are left out.
+    """
     values = numbers(increment)
     keys = [name for name, mark in SCALARS.items() if mark.key]
     return {
@@ -44,29 +49,35 @@ def named_values(increment: State) -> dict[str, float]:
 
 
 def unit_of(name: str) -> str:
-    """The unit of a name of `named_values`."""
+    """Return the unit of a result by its name in `named_values`."""
     return next(mark.unit for known, mark in SCALARS.items() if name in components(known))
 
 
 def force_along_x(increment: State) -> float:
-    """Tangential force along x [force]; zero without friction."""
+    """Return the tangential force along x at the end of an increment [force]; 0
+    without friction."""
     return 0.0 if increment.tangential_force is None else float(increment.tangential_force[0])
 
 
 def shift_along_x(increment: State) -> float:
-    """Tangential shift along x [length]; zero without friction."""
+    """Return the tangential shift along x at the end of an increment [length]; 0
+    without friction."""
     return 0.0 if increment.tangential_shift is None else float(increment.tangential_shift[0])
 
 
 def shear_of(increment: Increment) -> Field:
-    """The shear (2, nx, ny); zero without friction [force/length²]."""
+    """Return the shear tractions of the cells (2, nx, ny) [force/length²]; zeros
+    without friction."""
     if increment.shear is None:
         return np.zeros((2, *increment.pressure.shape))
     return increment.shear
 
 
 def energy_between(result: Result, first: int, last: int) -> float:
-    """Energy lost to friction from the end of one loading step to the end of another."""
+    """Compute the energy dissipated by friction between the ends of two load steps [force·length].
+
+    first, last  numbers of the load steps, from 1
+    """
     start, end = (result.steps[number - 1].dissipated_energy for number in (first, last))
     if start is None or end is None:
         raise ValueError("no energy is dissipated without friction")
@@ -74,15 +85,18 @@ def energy_between(result: Result, first: int, last: int) -> float:
 
 
 def transverse_shear(increment: Increment, friction_coefficient: float) -> float:
-    """Largest |q_y| relative to the largest µp [1]; zero where shear is along x everywhere."""
+    """Compute the largest |q_y| over the largest µp [1], which is 0 if all shear tractions are
+    along x.
+    """
     limit = friction_coefficient * np.max(increment.pressure)
     return float(np.max(np.abs(shear_of(increment)[1])) / limit)
 
 
 def slip_traction_angle(increment: Increment, friction_coefficient: float) -> float:
-    """Largest angle between the shear and the x axis in slipping cells [degree].
+    """Compute the largest angle between the shear traction and the x axis in slipping cells
+    [degree].
 
-    The axis, not its direction: after a reversal the slipping cells pull the other way.
+    The sign of the traction does not count, because it changes after a load reversal.
     """
     shear = shear_of(increment)
     size = np.hypot(shear[0], shear[1])

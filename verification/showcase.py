@@ -1,7 +1,7 @@
-"""One contact drawn with its fields, for the front of a report: cases keep numbers, no fields.
+"""Drawings of the fields of one contact for the first page of a report; cases store no fields.
 
-A rigid ball on a coating twice as stiff as the body below, pressed with friction and pushed:
-neither its pressure nor its stick zone is symmetric, and the coating bends.
+The contact is a rigid ball on a body with a coating of twice its stiffness, pressed with friction
+and pushed tangentially. Pressure and stick zone are asymmetric, and the coating bends.
 """
 
 from __future__ import annotations
@@ -34,7 +34,11 @@ NO_METADATA = {"Date": None, "Creator": None, "Format": None, "Type": None}
 
 
 def showcase() -> tuple[Picture, ...]:
-    """Pressure, shear, stick and slip, and the stress below; equal libraries give equal bytes."""
+    """Solve the contact and draw pressure, shear, stick and slip zones, and the stress below the
+    surface.
+
+    Equal versions of the libraries give equal bytes.
+    """
     result = solve(_scene(), square_grid(CELLS, REACH * HERTZ.contact_radius), TOLERANCE)
     cells = surface_of(result)
     assert isinstance(cells, Cells)
@@ -90,7 +94,9 @@ def _scene() -> Scene:
 
 
 def _picture(name: str, title: str, figure: Figure, caption: str) -> Picture:
-    """With its fields as images: thousands of cells are no lines."""
+    """Convert a figure to an SVG drawing whose fields are embedded as raster images to limit its
+    size.
+    """
     matplotlib.rcParams["svg.hashsalt"] = name
     for fields in figure.findobj(Collection):
         fields.set_rasterized(True)

@@ -1,10 +1,10 @@
-"""By what a run is solved, for those who need not import it."""
+"""Names of the solvers and contact methods, for modules that must not import the solvers."""
 
 from enum import StrEnum
 
 
 class Solver(StrEnum):
-    """The three solvers."""
+    """Name of one of the three solvers of this program."""
 
     CELLS = "semi-analytical"
     ELEMENTS = "finite elements"
@@ -12,7 +12,8 @@ class Solver(StrEnum):
 
 
 class Method(StrEnum):
-    """How finite elements enforce contact and friction, by the names of `fem_reference.Method`."""
+    """Method by which finite elements enforce contact and friction, as in
+    `fem_reference.Method`."""
 
     COMPLEMENTARITY = "complementarity"
     PENALTY = "penalty"

@@ -1,1 +1,1 @@
-"""Adapters of codes to the challenges, one module per code, with one interface."""
+"""Adapters that let each code solve the challenges by one interface, one module per code."""

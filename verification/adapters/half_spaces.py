@@ -1,4 +1,7 @@
-"""Adapters of half-space codes on cells: aspher, tamaas, ContactMechanics, by the bench drivers."""
+"""Adapters of half-space codes with cells to the challenges: aspher, tamaas and ContactMechanics.
+
+The codes run in their own environment by the drivers in `verification.peers`.
+"""
 
 from __future__ import annotations
 
@@ -25,10 +28,10 @@ SOURCES = Path(__file__).parents[2]
 
 
 def driven(python: Path, peer: Peer, request: Mapping[str, Any]) -> dict[str, Any]:
-    """Run the driver on one thread and return its results.
+    """Run the driver of another code in a process with one thread, and return its answer.
 
-    Raises CannotDo if the driver refuses the request, RuntimeError with the last line of its
-    errors.
+    Raises CannotDo if the driver refuses the request, and RuntimeError with the last line of its
+    error output if it fails.
     """
     done = subprocess.run(
         [str(python), "-m", peer.driver], input=json.dumps(request), capture_output=True,
@@ -47,7 +50,10 @@ COARSEST, TOLERANCE = 32, 1e-8
 
 
 def answering(python: Path, peer: Peer) -> Callable[[Posed, int], Answer]:
-    """Create a solver that calls a code installed for this Python."""
+    """Return a function that solves a challenge on a refinement level with another code.
+
+    python  interpreter of the environment in which the code is installed
+    """
 
     def solve(posed: Posed, level: int) -> Answer:
         request, length, stress = _request(posed, COARSEST * 2**level, peer)
@@ -58,9 +64,10 @@ def answering(python: Path, peer: Peer) -> Callable[[Posed, int], Answer]:
 
 
 def _request(posed: Posed, cells: int, peer: Peer) -> tuple[dict[str, Any], float, float]:
-    """Return the request for the driver, and the units of length and stress.
+    """Return the request of a challenge for a driver, and the units of length and stress.
 
-    The request is dimensionless, because tamaas is sensitive to the units.
+    The request is dimensionless, because tamaas is sensitive to the units. Raises CannotDo for
+    problems outside the scope of the code.
     """
     scene = posed.scene
     if "indenter" not in scene:

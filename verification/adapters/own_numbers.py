@@ -1,4 +1,4 @@
-"""Common functions of the adapters of this program: scenes of challenges, numbers of increments."""
+"""Common functions of the adapters of this program's solvers to the challenges."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from verification.observed.ring_errors import at_radii
 
 
 def scene_of(posed: Posed) -> Scene:
-    """Convert a challenge to a scene; raise CannotDo for prescribed tractions."""
+    """Convert the scene of a challenge to a `Scene`; raise CannotDo for prescribed tractions."""
     if "indenter" not in posed.scene:
         raise CannotDo("contacts only, no given tractions")
     return Scene.model_validate(posed.scene)
 
 
 def given_up(posed: Posed, fineness: int, error: Exception) -> Answer:
-    """Return the answer of a level whose history was not completed: all its results are rejected.
+    """Return the answer of a refinement level whose load history did not converge, without results.
 
     fineness  cells or elements over a contact radius, which is about a third of the window
     """
@@ -34,9 +34,10 @@ def given_up(posed: Posed, fineness: int, error: Exception) -> Answer:
 
 
 def in_increments(scene: Scene, number: int) -> Scene:
-    """Set the increments of steps without a number, for scenes with friction.
+    """Set the number of increments of all load steps that prescribe none, in a scene with friction.
 
-    The increments then refine with the levels, so that the increment error falls as well.
+    Adapters increase the number with the refinement level, so that the increment error falls as
+    well.
     """
     if scene.friction is None:
         return scene
@@ -45,7 +46,11 @@ def in_increments(scene: Scene, number: int) -> Scene:
 
 
 def number(posed: Posed, key: Key, steps: Sequence[State]) -> float | None:
-    """Return a number of a result by its name; None for an absent number."""
+    """Return a scalar result at the end of a load step; None if the solver does not provide it.
+
+    key    name of the quantity and number of the load step, from 1
+    steps  states at the ends of all load steps
+    """
     quantity, step = key
     end = steps[step - 1]
     if quantity in ("shift_x", "shift_y"):
@@ -69,7 +74,13 @@ TRACTIONS = {
 
 
 def answer_on_rings(posed: Posed, steps: Any, h: float) -> Answer:
-    """Create the answer from the last increments of all load steps, without absent quantities."""
+    """Build the answer to a challenge from results on rings (finite elements or radial solver).
+
+    Quantities that the solver does not provide are left out. Raises CannotDo if none is left.
+
+    steps  states at the ends of all load steps
+    h      size of an element or ring [length]
+    """
     scalars: dict[Key, float] = {}
     for key in posed.asked:
         value = number(posed, key, steps)
@@ -94,15 +105,24 @@ def answer_on_rings(posed: Posed, steps: Any, h: float) -> Answer:
 
 
 def _traction(steps: Any, key: Key) -> Vector | None:
-    """Return a traction that is a function of the radius; None if absent or dependent on the
-    angle."""
+    """Return a traction on the rings as a function of the radius at the end of a load step.
+
+    The result is None if the traction is absent or depends on the angle.
+
+    key  name of the traction and number of the load step, from 1
+    """
     end = steps[key[1] - 1]
     found = getattr(end, TRACTIONS.get(key[0], ""), None)
     return None if found is None or np.ndim(found) != 1 else found
 
 
 def between(end: Any, traction: Vector) -> Field:
-    """Interpolate a traction to Gauss points between the rings, with their areas."""
+    """Interpolate a traction to Gauss points between the rings in the contact, with the area of
+    each.
+
+    end       state at the end of a load step
+    traction  values at the rings [stress]
+    """
     inside = end.radii <= 1.05 * end.contact_radius
     r0 = end.radii[:-1][inside[:-1]]
     r1 = end.radii[1:][inside[:-1]]

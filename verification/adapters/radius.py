@@ -18,7 +18,7 @@ INCREMENTS = 10  # on the coarsest, of steps that name none
 
 
 def answer(posed: Posed, level: int) -> Answer:
-    """Solve a challenge on COARSEST rings over the contact, doubled per level.
+    """Solve a challenge with the radial solver on 32 rings over the contact, doubled at each level.
 
     Raises CannotDo if the solver does not support the scene.
     """

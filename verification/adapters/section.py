@@ -1,4 +1,4 @@
-"""Adapter of the finite elements to the challenges."""
+"""Adapter of the finite-element solver to the challenges."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ HARMONICS = 8
 
 
 def answer(posed: Posed, level: int) -> Answer:
-    """Solve a challenge on COARSEST elements per contact radius, doubled per level.
+    """Solve a challenge with finite elements, 16 per contact radius, doubled at each level.
 
-    Raises CannotDo if the scene is not axisymmetric.
+    Raises CannotDo if the finite elements do not support the scene.
     """
     elements = COARSEST * 2**level
     on = FiniteElementDiscretisation(elements_per_radius=elements, harmonics=HARMONICS)
@@ -40,10 +40,10 @@ def answer(posed: Posed, level: int) -> Answer:
 
 
 def _refined(scene: Scene, level: int) -> Scene:
-    """Double the increments of path-dependent steps per level, so that the increment error falls
+    """Double the increments of path-dependent load steps at each level, so that their error falls
     too.
 
-    Steps with a number of increments keep this number.
+    Load steps with a prescribed number of increments keep the number.
     """
     decided = plan(scene)
     steps = tuple(

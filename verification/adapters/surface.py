@@ -1,4 +1,4 @@
-"""Adapter of the semi-analytical method to the challenges: scene in, numbers and cells out."""
+"""Adapter of the semi-analytical solver to the challenges."""
 
 from __future__ import annotations
 
@@ -28,8 +28,13 @@ MOVED = {
 
 
 def stress_at(result: Result, end: Increment, places: Vector) -> Vector:
-    """Compute the stress (6, places) by cubic interpolation between cell centres
-    [force/length²]."""
+    """Compute the stress components (6, n) at points below the surface [force/length²].
+
+    Values at the cell centres are interpolated by cubic splines.
+
+    end     state at the end of a load step
+    places  coordinates of the points (n, 3) [length]
+    """
     grid = result.grid
     depths, of = np.unique(places[:, 2], return_inverse=True)
     field = subsurface(result.scene, grid, end.pressure, shear_of(end), list(depths)).stress
@@ -45,8 +50,10 @@ def stress_at(result: Result, end: Increment, places: Vector) -> Vector:
 
 
 def under_a_patch(posed: Posed) -> Answer:
-    """Return influence coefficients: the patch is a cell, the positions are centres of other
-    cells."""
+    """Answer a challenge of a uniform traction on a square patch by influence coefficients.
+
+    The patch is a cell, and the requested points are centres of other cells.
+    """
     side, traction = (posed.scene["patch"][name] for name in ("side", "traction"))
     body = Body.model_validate(posed.scene["body"])
     points: dict[Key, Vector] = {}
@@ -69,13 +76,18 @@ TOLERANCE = 1e-8
 
 
 def answer(posed: Posed, level: int) -> Answer:
-    """Solve a challenge on COARSEST cells along a side, doubled per level; raises as `solve`
-    does."""
+    """Solve a challenge with 32 cells per side, doubled at each level, without edge correction.
+
+    Raises the errors of the semi-analytical solver, except that a history that does not converge is
+    reported in the answer.
+    """
     return _answer(posed, level, "off")
 
 
 def answer_with_edges(posed: Posed, level: int) -> Answer:
-    """Solve a challenge as `answer`, with the edge correction where the plan supports it."""
+    """Solve a challenge as `answer` does, with the edge correction of the pressure where it is
+    supported.
+    """
     return _answer(posed, level, "last")
 
 
@@ -117,7 +129,12 @@ def _traction(quantity: str, end: Increment, grid: SurfaceGrid) -> Vector:
 
 
 def _at(places: Vector, key: Key, result: Result) -> Vector:
-    """Evaluate tractions at radii of a round contact, or stress below the surface."""
+    """Evaluate a traction at the radii of points of a round contact, or a stress component at
+    points.
+
+    places  coordinates of the points [length]
+    key     name of the quantity and number of the load step, from 1
+    """
     quantity, end, grid = key[0], result.steps[key[1] - 1], result.grid
     if quantity.startswith("stress"):
         return stress_at(result, end, places)[COMPONENTS.index(quantity.removeprefix("stress_"))]

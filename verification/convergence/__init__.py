@@ -1,1 +1,1 @@
-"""Orders of convergence, and the remaining error estimated from refinement."""
+"""Convergence orders under refinement, and estimates of the remaining error."""

@@ -1,8 +1,8 @@
-"""Results of a refinement: uncertainty of a value, observed order and limit.
+"""Convergence orders, limits and uncertainties of values computed on several refinement levels.
 
-A size h is a cell side, or the part of a load step in one increment. With a reference, errors at
-several h determine the order (`observed_order`). Without one, order and limit follow from the
-values (`refined_value`).
+A size h is a cell side, or the fraction of a load step in one increment. With a reference solution,
+the errors at several h determine the order (`observed_order`). Without a reference, order and limit
+follow from the values (`refined_value`).
 """
 
 from __future__ import annotations
@@ -34,11 +34,11 @@ Triplets = tuple[float | None, float | None]
 
 @dataclass(frozen=True)
 class ObservedOrder:
-    """Slope of log(error) over log(h).
+    """Observed convergence order: slope of log(error) over log(h), with its uncertainty.
 
-    half_width  of its 95 % interval
-    margin      at 95 % it is no lower than `order - margin`; and, said alone, no higher than
-                `order + margin`
+    half_width  half-width of the two-sided 95 % interval of the order
+    margin      half-width for one-sided bounds: with 95 % confidence the order is at least
+                `order - margin`, or, as a separate statement, at most `order + margin`
     """
 
     order: float
@@ -47,33 +47,42 @@ class ObservedOrder:
 
     @property
     def is_legible(self) -> bool:
-        """Return True if the interval is narrow enough for a meaningful order."""
+        """Determine if the 95 % interval of the order is narrow enough (± 0.5) to
+        report the order."""
         return self.half_width < ILLEGIBLE
 
     def may_be_off_by(self, promised: float, allowance: float = 0.0) -> float:
-        """Return the allowed difference from the promised order, on the side of this order.
+        """Return the largest allowed difference between observed and theoretical convergence order.
 
-        allowance  for levels that are not asymptotic
+        For an observed order above the theoretical one, the margin of the observed order is added.
+
+        promised   theoretical convergence order
+        allowance  additional tolerance for levels that are not asymptotic
         """
         off = max(allowance, ORDER_OFF)
         return off if self.order < promised else off + self.margin
 
     def keeps(self, promised: float, allowance: float = 0.0) -> bool | None:
-        """Return True if the errors have the promised order; see `order_is_kept`."""
+        """Determine if the observed order agrees with the theoretical one; None if it is too
+        uncertain.
+
+        promised   theoretical convergence order
+        allowance  additional tolerance for levels that are not asymptotic
+        """
         allowed = self.may_be_off_by(promised, allowance)
         return order_is_kept(self.order - promised, allowed, self.half_width, self.margin)
 
 
 @dataclass(frozen=True)
 class RefinedValue:
-    """Order, limit and uncertainty of a value without a reference, from several levels.
+    """Convergence order, limit and uncertainty of a value that is known on several levels.
 
-    observed     order p of f(h) = f0 + C h^p by least squares; None where no p explains the values
-    triplets     p through two different triplets of levels, the finer first; levels of a triplet
-                 are about a factor of two apart where there are enough
-    limit        f0 with the expected order
-    uncertainty  of the limit, standard: scatter of the fit, and the other limits that the two
-                 finest levels alone and the observed order give
+    observed     order p of f(h) = f0 + C h^p by least squares; None if no p explains the values
+    triplets     orders p through two triplets of levels, the finer triplet first; with enough
+                 levels the sizes in a triplet differ by factors of about 2
+    limit        f0, extrapolated with the theoretical order
+    uncertainty  standard uncertainty of the limit: scatter of the fit, and the differences from the
+                 limits by the two finest levels and by the observed order
     """
 
     observed: ObservedOrder | None
@@ -83,13 +92,16 @@ class RefinedValue:
 
 
 def order_is_kept(above: float, allowed: float, half_width: float, margin: float) -> bool | None:
-    """Return True if an order is the promised one; None if its interval is too wide.
+    """Determine if an observed convergence order agrees with the theoretical one.
 
-    above    observed minus promised order
-    allowed  largest difference on that side (`ObservedOrder.may_be_off_by`)
-
-    An order below the promised one passes if its lower 95 % bound is within the allowance, and
+    An order below the theoretical one passes if its lower 95 % bound is within the allowance, and
     fails if its upper bound is not. An order above fails if its lower bound exceeds the allowance.
+    The result is None if the interval is too wide for a verdict.
+
+    above       observed minus theoretical order
+    allowed     largest difference on that side (`ObservedOrder.may_be_off_by`)
+    half_width  half-width of the two-sided 95 % interval of the order
+    margin      half-width for one-sided 95 % bounds
     """
     if half_width > ORDER_WIDTH:
         return None
@@ -100,16 +112,20 @@ def order_is_kept(above: float, allowed: float, half_width: float, margin: float
 
 
 def triplets_agree(orders: Triplets) -> bool:
-    """Return True if the orders of two triplets of levels exist and agree."""
+    """Determine if the convergence orders of two triplets of refinement levels exist and agree to
+    0.2.
+
+    If they do, the levels are in the asymptotic range.
+    """
     last, before = orders
     return last is not None and before is not None and abs(last - before) <= TRIPLETS_AGREE
 
 
 def observed_order(sizes: Sequence[float], errors: Sequence[float]) -> ObservedOrder:
-    """Least-squares order p of error = C h^p over at least three levels of refinement.
+    """Fit the convergence order p of error = C h^p to at least three refinement levels.
 
-    sizes   h, all different
-    errors  errors > 0 at these
+    sizes   sizes h of the levels, all different
+    errors  errors > 0 on these levels
     """
     if len(sizes) < 3:
         raise ValueError(f"{len(sizes)} levels cannot give an interval; use at least 3")
@@ -123,11 +139,11 @@ def observed_order(sizes: Sequence[float], errors: Sequence[float]) -> ObservedO
 
 
 def refined_value(sizes: Sequence[float], values: Sequence[float], expected: float) -> RefinedValue:
-    """Order and limit of a value from at least four levels, in any order.
+    """Estimate convergence order and limit of a value from at least four refinement levels.
 
-    sizes     h, all different
-    values    f(h)
-    expected  the order that theory expects; the limit rests on it
+    sizes     sizes h of the levels, all different, in any order
+    values    values f(h)
+    expected  theoretical order, with which the limit is extrapolated
     """
     if len(sizes) < 4:
         raise ValueError(f"{len(sizes)} levels cannot give order and limit; use at least 4")
@@ -147,9 +163,13 @@ def refined_value(sizes: Sequence[float], values: Sequence[float], expected: flo
 
 
 def _stride(h: Vector, reach: int) -> int:
-    """Levels from one member of a triplet to the next, so that two triplets fit in.
+    """Return the number of levels between members of a triplet, so that their sizes differ by about
+    2.
 
-    reach  steps of that many levels that a triplet needs
+    The number is reduced so that two triplets fit into the levels.
+
+    h      sizes of the levels, finest first
+    reach  number of strides that a triplet spans
     """
     wanted = max(1, round(float(np.log(2) / np.log(h[1] / h[0]))))
     return min(wanted, (len(h) - 2) // reach)
@@ -158,16 +178,16 @@ def _stride(h: Vector, reach: int) -> int:
 def numerical_uncertainty(sizes: Sequence[float], values: Sequence[float], order: float) -> float:
     """Compute the standard uncertainty of the value on the finest level, from f(h) = f0 + C h^p.
 
-    sizes    h, at least three levels
-    values   f(h) there
-    order    the expected p; fixed, because a fitted p lets three values explain anything
+    sizes    sizes h of at least three levels
+    values   f(h) on these levels
+    order    theoretical order p; fixed, because a fitted p lets three values explain anything
     returns  √((C h^p)² + max(s, d)²) at the finest h, with s the scatter and d the largest change
              of f0 if only the finer or the coarser half of the levels is used; unit of the values
 
     Both s and d measure deviations from one power, so the larger counts and not their sum. If the
-    coarser levels do not have the order yet, C may nearly vanish; then d is large, because the two
-    ranges contradict each other (Eça and Hoekstra 2014 take differences
-    between fits for the same purpose).
+    coarser levels do not have the order yet, C may nearly vanish. Then d is large, because the two
+    ranges contradict each other (Eça and Hoekstra 2014 use differences between fits for the same
+    purpose).
     """
     if len(sizes) < 3:
         raise ValueError(f"{len(sizes)} levels cannot show a scatter; use at least 3")
@@ -185,7 +205,10 @@ def numerical_uncertainty(sizes: Sequence[float], values: Sequence[float], order
 
 @dataclass(frozen=True)
 class _Line:
-    """f = limit + coefficient h^p, and the weighted squares that are left."""
+    """Fit f(h) = limit + coefficient h^p to the values of several levels.
+
+    squares  weighted sum of the squared residuals of the fit
+    """
 
     limit: float
     coefficient: float
@@ -193,10 +216,14 @@ class _Line:
 
 
 def _line(h: Vector, f: Vector, order: float, weight_order: float) -> _Line:
-    """Fit a line by least squares with weights 1/h^p.
+    """Fit f(h) = limit + coefficient h^p by least squares with weights h^-w.
 
-    The scatter is assumed to fall like the error. Without weights the coarsest level would
-    determine the value on the finest."""
+    The scatter is assumed to fall with h like the error. Without weights the coarsest level would
+    determine the value on the finest.
+
+    order         exponent p
+    weight_order  exponent w of the weights
+    """
     weight = h**-weight_order
     matrix = np.column_stack([weight, weight * h**order])
     (limit, coefficient), *_ = np.linalg.lstsq(matrix, weight * f, rcond=None)
@@ -205,12 +232,13 @@ def _line(h: Vector, f: Vector, order: float, weight_order: float) -> _Line:
 
 
 def richardson(h: Vector, f: Vector, order: float) -> tuple[float, float]:
-    """Extrapolate to h = 0 (Richardson); return the value and its standard uncertainty.
+    """Extrapolate values f(h) to h = 0 (Richardson); return the limit and its standard uncertainty.
 
-    The uncertainty combines that of the fit and the difference from the value of the two finest
-    levels.
+    The uncertainty combines the uncertainty of the fit and the difference from the limit by the two
+    finest levels alone.
 
-    h, f  at least three levels, finest first
+    h, f   sizes and values of at least three levels, finest first
+    order  convergence order of the values
     """
     fit = _line(h, f, order, order)
     weight = h**-order
@@ -221,8 +249,13 @@ def richardson(h: Vector, f: Vector, order: float) -> tuple[float, float]:
 
 
 def _fitted_order(h: Vector, f: Vector, expected: float) -> ObservedOrder | None:
-    """The p that leaves least, weights held at those of the expected order; its interval from
-    the tangent of the model. None where the best p lies at the end of what is sensible."""
+    """Fit the order p of f(h) = f0 + C h^p by least squares; return it with its 95 % interval.
+
+    The interval follows from the linearised model. The result is None if the best p lies at an end
+    of the range 0.05 to 6.
+
+    expected  theoretical order, which determines the weights
+    """
     spread = float(np.ptp(f))
     if spread == 0:
         return None
@@ -251,7 +284,10 @@ def _fitted_order(h: Vector, f: Vector, expected: float) -> ObservedOrder | None
 
 
 def _triplet_order(h: Vector, f: Vector) -> float | None:
-    """Return the order p of three values, finest first; None if their differences change sign."""
+    """Compute the convergence order p through the values of three levels, finest first.
+
+    The result is None if the differences change sign, or if no p from 0.05 to 6 fits.
+    """
     fine, coarse = f[1] - f[0], f[2] - f[1]
     if fine == 0 or coarse / fine <= 0:
         return None
@@ -273,11 +309,11 @@ def _known_to(order: float, deviation: float, freedom: int) -> ObservedOrder:
 
 @dataclass(frozen=True)
 class ErrorLine:
-    """error = C h^p by least squares of the logarithms.
+    """Line error = C h^p, fitted by least squares of the logarithms.
 
-    observed   p with its interval
-    log_size   mean of ln h: there the line is known best
-    log_error  ln error of the line there
+    observed   order p with its interval
+    log_size   mean of ln h, where the uncertainty of the line is smallest
+    log_error  ln error of the line at `log_size`
     reach      half-width of the 95 % interval of `log_error`
     """
 
@@ -287,11 +323,11 @@ class ErrorLine:
     reach: float
 
     def at(self, sizes: Vector) -> Vector:
-        """Return the line at sizes h."""
+        """Return the errors of the fitted line at sizes h."""
         return np.asarray(np.exp(self.log_error + self.observed.order * self._beside(sizes)))
 
     def band(self, sizes: Vector) -> tuple[Vector, Vector]:
-        """Return lower and upper end of the 95 % band of the line at sizes h."""
+        """Return the lower and upper limits of the 95 % confidence band of the line at sizes h."""
         by = np.exp(np.hypot(self.reach, self.observed.half_width * self._beside(sizes)))
         line = self.at(sizes)
         return line / by, line * by
@@ -301,7 +337,7 @@ class ErrorLine:
 
 
 def error_line(sizes: Sequence[float], errors: Sequence[float]) -> ErrorLine:
-    """Return the line through errors > 0 at sizes h, at least three."""
+    """Fit a line error = C h^p to errors > 0 at at least three sizes h."""
     observed = observed_order(sizes, errors)
     x, y = np.log(np.asarray(sizes)), np.log(np.asarray(errors))
     left = y - y.mean() - observed.order * (x - x.mean())
@@ -312,10 +348,11 @@ def error_line(sizes: Sequence[float], errors: Sequence[float]) -> ErrorLine:
 
 
 def by_size(sizes: Sequence[float], errors: Sequence[float]) -> tuple[list[float], list[float]]:
-    """Each size once, in the order of first mention, with the root mean square of its errors.
+    """Combine the errors of equal sizes by their root mean square; return the sizes and these
+    errors.
 
-    Errors of one size differ by where grid or mesh fall on the contact; one of them alone may
-    happen to vanish.
+    Errors of one size differ by the position of the grid or mesh relative to the contact, and a
+    single one may vanish by chance. The sizes are in the order of their first occurrence.
     """
     of: dict[float, list[float]] = {}
     for size, error in zip(sizes, errors, strict=True):

@@ -1,1 +1,1 @@
-"""Defects that are planted in the solvers on purpose, to see whether the verification sees them."""
+"""Defects that are planted in the solvers to test if the verification detects them."""

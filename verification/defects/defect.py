@@ -1,4 +1,4 @@
-"""Defects, which replace names of the product temporarily."""
+"""Defects of the program for tests of the verification: temporary replacements of its functions."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ Wrap = Callable[[Any], Any]
 
 
 class Patches:
-    """Replacements of attributes and functions, undone by `restore`."""
+    """Temporary replacements of attributes and functions of the program, undone by `restore`."""
 
     def __init__(self) -> None:
         self._undo: list[Callable[[], None]] = []
@@ -46,11 +46,13 @@ class Patches:
         self._undo.append(lambda: setattr(owner, name, before) if here else delattr(owner, name))
 
     def method(self, owner: type, name: str, wrap: Wrap) -> None:
-        """Replace a method by `wrap(method)`."""
+        """Replace a method of a class by `wrap(method)`."""
         self.attribute(owner, name, wrap(getattr(owner, name)))
 
     def function(self, module: ModuleType, name: str, wrap: Wrap) -> None:
-        """Replace a function in all modules of the product that have imported it."""
+        """Replace a function by `wrap(function)` in all modules of the program that have imported
+        it.
+        """
         before = getattr(module, name)
         after = wrap(before)
         _exchange(before, after)
@@ -65,7 +67,7 @@ class Patches:
 
 @dataclass(frozen=True)
 class Defect:
-    """Seeded error of the product.
+    """Seeded error of the program, for tests of the verification.
 
     name    letters, digits and hyphens
     broken  one sentence that describes the error
@@ -81,7 +83,10 @@ class Defect:
 
 @contextmanager
 def planted(defect: Defect) -> Iterator[None]:
-    """Run the product with a defect, and clear the caches of its functions before and after."""
+    """Run a block of code with a defect planted in the program.
+
+    The caches of its functions are cleared before and after the block.
+    """
     patches = Patches()
     try:
         defect.plant(patches)
@@ -93,7 +98,7 @@ def planted(defect: Defect) -> Iterator[None]:
 
 
 def forget_remembered() -> None:
-    """Clear the caches of all functions that solve, judge or give references."""
+    """Clear the caches of all program functions whose results may depend on a planted defect."""
     for module in product_modules():
         if not module.__name__.startswith(REMEMBERING):
             continue
@@ -104,7 +109,7 @@ def forget_remembered() -> None:
 
 
 def product_modules() -> list[ModuleType]:
-    """Return all loaded modules of the product."""
+    """Return all loaded modules of the program, except those that run studies."""
     return [
         module
         for name, module in list(sys.modules.items())

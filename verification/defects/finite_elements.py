@@ -1,4 +1,4 @@
-"""Defects of the finite elements and of the radial solver."""
+"""Seeded defects of the finite-element solver and of the radial solver."""
 
 from __future__ import annotations
 
@@ -26,7 +26,10 @@ DRAWN_IN = 4e-3
 
 
 def _weight_of_element(patches: Patches) -> None:
-    """Weight the energy by the radius of the middle of the element."""
+    """Plant the defect that weights the strain energy by the radius of the element's centre.
+
+    The correct weight is the radius of each integration point.
+    """
 
     def wrap(whole: Any) -> Any:
         def basis(section: Any, *more: Any) -> Any:
@@ -42,7 +45,7 @@ def _weight_of_element(patches: Patches) -> None:
 
 
 def _resultant_weight(patches: Patches) -> None:
-    """Weight the load of a hat function by the outer radius of its ring."""
+    """Plant the defect that weights a hat function in the load by the outer radius of its ring."""
 
     def wrap(whole: Any) -> Any:
         def on(nodes: Any, reach: float = np.inf) -> Any:
@@ -148,7 +151,9 @@ def _slip_reversed(patches: Patches) -> None:
 
 
 class _Level(CoulombFriction):
-    """Friction limit with a slope of zero."""
+    """Coulomb friction whose limit seems independent of the pressure: the slope of the limit is
+    zero.
+    """
 
     def slope(self, *given: Any, **more: Any) -> Any:
         return 0.0 * super().slope(*given, **more)
@@ -244,7 +249,10 @@ WEAKER = 0.99  # coupling of pressure and shear
 
 
 def _returned(*names: str, factor: float) -> Callable[[Patches], None]:
-    """Multiply fields or numbers of every increment that the solver returns."""
+    """Return the function that plants a wrong factor in results of the radial solver.
+
+    names   attributes of every increment that are multiplied by the factor
+    """
 
     def plant(patches: Patches) -> None:
         def wrap(whole: Any) -> Any:

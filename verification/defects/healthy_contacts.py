@@ -1,7 +1,7 @@
-"""Random correct contacts of several families, with random loads, bodies, windows and grid
-positions.
+"""Random contacts without defects, which the verification must pass.
 
-Each contact is drawn from a seed and has an exact or semi-closed solution.
+Loads, bodies, windows and positions on the grid are random. Each contact is drawn from a seed and
+has an exact or semi-closed solution.
 """
 
 from __future__ import annotations
@@ -61,7 +61,12 @@ NARROWEST, WIDEST = 2.6, 3.6  # window over contact radius
 
 
 def on_grids(name: str, problem: Problem, random: Random, *rows: Row) -> Case:
-    """Build a case on grids with a random window, in random positions relative to the contact."""
+    """Build a case of a problem on several grids with a random window and random offsets of the
+    contact.
+
+    problem  scene with its exact solution
+    rows     quantities that are judged, with their tolerances
+    """
     window = random.uniform(NARROWEST, WIDEST)
     grids = [on_cells(problem, (n,), window, offsets=(_anywhere(random),)) for n in LEVELS]
     rungs = [rung for grid in grids for rung in grid.rungs]
@@ -69,19 +74,23 @@ def on_grids(name: str, problem: Problem, random: Random, *rows: Row) -> Case:
 
 
 def _anywhere(random: Random) -> tuple[float, float]:
-    """Draw a position in a cell."""
+    """Draw a random offset of the contact axis in a cell (x, y), each from -0.5 to
+    0.5 cell sides."""
     return float(random.uniform(-0.5, 0.5)), float(random.uniform(-0.5, 0.5))
 
 
 def pressed(indenter: Paraboloid | Cone | FlatPunch, body: Body, load: float) -> Scene:
-    """Return the scene of one normal load without friction."""
+    """Return the scene of one load step with a normal load and without friction."""
     return Scene(
         title="Pressed", indenter=indenter, body=body, loading=(LoadStep(normal_force=load),)
     )
 
 
 def part_of_cell(part: float) -> Callable[[RefinementLevel], float]:
-    """Return a fraction of a cell over the radius, for a window of three radii."""
+    """Return a function that gives a fraction of a cell side over the contact radius, for a level.
+
+    The window is assumed to be three contact radii wide.
+    """
     return lambda rung: part * 3.0 / rung.count
 
 
@@ -95,19 +104,20 @@ RADIUS_WITHIN = Refined(
 
 
 def any_material(random: Random) -> IsotropicMaterial:
-    """Draw a material of any modulus, with ν from 0 to ½."""
+    """Draw a material with a Young's modulus from 1e9 to 1e12 Pa and a Poisson's
+    ratio from 0 to ½."""
     return IsotropicMaterial(
         young_modulus=between(random, 1e9, 1e12), poisson_ratio=float(random.uniform(0.0, 0.5))
     )
 
 
 def constants(material: IsotropicMaterial) -> tuple[float, float]:
-    """Return E and ν."""
+    """Return Young's modulus E and Poisson's ratio ν of a material."""
     return material.young_modulus, material.poisson_ratio
 
 
 def between(random: Random, low: float, high: float) -> float:
-    """Draw a number with a uniform logarithm."""
+    """Draw a number from `low` to `high` whose logarithm is uniformly distributed."""
     return float(np.exp(random.uniform(np.log(low), np.log(high))))
 
 
@@ -118,7 +128,7 @@ RESOLVED = (
 
 
 def hertz(random: Random) -> Case:
-    """Build the case of two balls of random materials."""
+    """Draw a ball, a flat body and a load; build the case against Hertz's solution."""
     one, other = any_material(random), any_material(random)
     radius, load = between(random, 1e-3, 1.0), between(random, 1e-1, 1e4)
     exact = PointContact.under_load(load, radius, contact_modulus(constants(one), constants(other)))
@@ -128,7 +138,7 @@ def hertz(random: Random) -> Case:
 
 
 def cone(random: Random) -> Case:
-    """Build the case of a random cone on random materials."""
+    """Draw a cone, a flat body and a load; build the case against the closed form of the cone."""
     one, other = any_material(random), any_material(random)
     slope, load = radians(random.uniform(0.3, 3.0)), between(random, 1e-1, 1e4)
     exact = ConeContact.under_load(load, slope, contact_modulus(constants(one), constants(other)))
@@ -138,8 +148,9 @@ def cone(random: Random) -> Case:
 
 
 def partial_slip(random: Random) -> Case:
-    """Build the case of Cattaneo and Mindlin's contact of equal bodies with ν = 0 and random
-    friction."""
+    """Draw a Cattaneo-Mindlin contact of equal bodies with ν = 0; build the case against its closed
+    form.
+    """
     material = IsotropicMaterial(young_modulus=between(random, 1e9, 1e12), poisson_ratio=0.0)
     radius, load = between(random, 1e-3, 1.0), between(random, 1e-1, 1e4)
     friction, part = random.uniform(0.05, 0.8), random.uniform(0.2, 0.9)
@@ -167,14 +178,15 @@ def partial_slip(random: Random) -> Case:
 
 
 def coated(random: Random) -> Case:
-    """Build the case of a ball on one random layer that all grids resolve."""
+    """Draw a ball on a body with one coating that all grids resolve; build the case."""
     return _coated("coated", random, (RESOLVED, 3.0))
 
 
 def coated_thinly(random: Random) -> Case:
-    """Build the case of a ball on a thin layer.
+    """Draw a ball on a body with a thin coating that the coarser grids do not resolve; build the
+    case.
 
-    Coarse grids do not resolve the layer, so that the errors have no constant order.
+    The errors then have no constant convergence order.
     """
     return _coated("coated_thinly", random, (0.3, RESOLVED))
 
@@ -198,7 +210,9 @@ def _coated(name: str, random: Random, thickness: tuple[float, float]) -> Case:
 
 
 def flat_punch(random: Random) -> Case:
-    """Build the case of a random flat punch, with the tolerances of the case flat_punch."""
+    """Draw a flat punch, a body and a load; build the case, which judges the approach to half a
+    cell.
+    """
     one, other = any_material(random), any_material(random)
     radius, load = between(random, 1e-4, 1e-2), between(random, 1e-1, 1e4)
     exact = FlatPunchContact(radius, contact_modulus(constants(one), constants(other)), load)
@@ -213,7 +227,7 @@ def flat_punch(random: Random) -> Case:
 
 
 def fem_hertz(random: Random) -> Case:
-    """Build the case of two balls of random materials by finite elements."""
+    """Draw a Hertz contact of elastic bodies; build its case for the finite-element solver."""
     one, other = any_material(random), any_material(random)
     radius, load = between(random, 1e-3, 1.0), between(random, 1e-1, 1e4)
     exact = PointContact.under_load(load, radius, contact_modulus(constants(one), constants(other)))

@@ -1,5 +1,5 @@
-"""Defects of histories with reversals, unloading or loads off the x axis, and of derived
-results."""
+"""Seeded defects of load reversals, unloading, loads off the x axis, energies and
+derived results."""
 
 from __future__ import annotations
 
@@ -69,7 +69,9 @@ def _reversal_forgotten(patches: Patches) -> None:
 
 
 def _limit_by_direction(patches: Patches) -> None:
-    """Replace the friction limit by an ellipse, and set the friction residuals to zero."""
+    """Plant a friction limit that is an ellipse instead of a circle, and set the friction residuals
+    to zero.
+    """
     patches.function(
         admissible_shear, "magnitude", lambda whole: lambda v: whole(np.stack([v[0], 1.01 * v[1]]))
     )
@@ -90,7 +92,11 @@ def _approach_when_unloading(patches: Patches) -> None:
 
 
 def _grown(patches: Patches, name: str, factor: float) -> None:
-    """Multiply the contribution of slip to a field."""
+    """Plant a wrong factor in the growth of a field by slip during an increment.
+
+    name    field of the tangential state, such as the dissipation
+    factor  factor of the growth; 1 is correct
+    """
 
     def wrap(whole: Any) -> Any:
         def advanced(model: Any, pressure: Any, bound: Any, last: Any, *rest: Any) -> Any:
@@ -355,7 +361,8 @@ def _force_not_met(patches: Patches) -> None:
 
 
 def _blind(patches: Patches) -> None:
-    """Solve pressures to 1 %, and set the contact residuals to zero."""
+    """Plant normal solves with a tolerance of at least 1 %, and set the contact
+    residuals to zero."""
     for name in ("complementarity", "penetration"):
         patches.function(residuals, name, lambda whole: lambda *given: 0.0)
     patches.function(
@@ -366,7 +373,9 @@ def _blind(patches: Patches) -> None:
 
 
 def _blind_to_friction(patches: Patches) -> None:
-    """Solve shears to 3 %, and set the friction residuals to zero."""
+    """Plant tangential solves with a tolerance of at least 3 %, and set the friction residuals to
+    zero.
+    """
     for name in ("friction_cone", "slip_direction"):
         patches.function(residuals, name, lambda whole: lambda *given: 0.0)
     patches.function(
@@ -415,7 +424,7 @@ def _shear_stress_sign(patches: Patches) -> None:
 
 
 def _stress(patches: Patches, change: Callable[[Any], Any]) -> None:
-    """Change the components of stress (nz, 6, nx, ny) below the surface."""
+    """Plant a change of the stress components (nz, 6, nx, ny) below the surface."""
     patches.function(
         field,
         "fields_by_level",
@@ -538,7 +547,10 @@ def _indenter_couples_in_elements(patches: Patches) -> None:
 
 
 def _elements_look_at_bases(patches: Patches) -> None:
-    """Determine the coupling by finite elements from the base of a coated indenter alone."""
+    """Plant a wrong test of elastic coupling in the finite elements: the coating is ignored.
+
+    A coated indenter on a body of its base material is then treated as equal to the body.
+    """
     plan = import_module("fem_reference.plan")  # its function of this name hides it
     whole = plan.coupling
 
@@ -561,7 +573,10 @@ def _no_tilt_about_y(patches: Patches) -> None:
 
 
 def _taken_over(patches: Patches, kind: ControlKind) -> None:
-    """Start a step of another kind of control with an error of 2 %."""
+    """Plant a wrong start of a load step after a change of the controlled quantity: 2 % too large.
+
+    kind  control of the step, by force or by displacement
+    """
 
     def wrap(whole: Any) -> Any:
         def prescribed(self: Control[Any], fraction: float, reached: Any) -> Any:

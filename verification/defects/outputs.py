@@ -1,4 +1,4 @@
-"""Defects of results: errors of three kinds, incomplete results, and wrong reports."""
+"""Seeded defects of results: wrong values, incomplete results, and wrong reports."""
 
 from __future__ import annotations
 
@@ -136,7 +136,10 @@ Change = Callable[[Any], Any]
 
 
 def _returned(patches: Patches, change: Change) -> None:
-    """Change the results of both solvers."""
+    """Plant a change of the results of the semi-analytical and the finite-element solver.
+
+    change  function that returns the changed result
+    """
     for package in (semi_analytical, fem_reference):
         patches.function(
             package,
@@ -146,7 +149,10 @@ def _returned(patches: Patches, change: Change) -> None:
 
 
 def _times(factor: Callable[[Any], float]) -> Change:
-    """Multiply the results of a solver, except the load, by a factor that depends on the result."""
+    """Return a change of a result that multiplies displacements, tractions and twist by a factor.
+
+    factor  function of the result that returns the factor
+    """
 
     def change(result: Any) -> Any:
         by = factor(result)
@@ -168,19 +174,22 @@ def _multiplied(increment: Any, by: float) -> Any:
 
 
 def _cell(result: Any) -> float:
-    """Return the side of a cell or element over the contact radius."""
+    """Return the side of a surface cell or of a finite element over the contact radius."""
     if isinstance(result, semi_analytical.Result):
         return max(result.grid.spacing) / result.increments[-1].contact_radius
     return 1 / float(result.discretisation.elements_per_radius)
 
 
 def _first_order(result: Any) -> float:
-    """Return a factor with an error of first order in the cell."""
+    """Return a factor whose error is proportional to the side h of a cell: 1 + 0.1 h/a."""
     return 1 + FIRST_ORDER * _cell(result)
 
 
 def _floor(result: Any) -> float:
-    """Return a factor with an error that refinement does not reduce, of alternating sign."""
+    """Return a factor with an error of ± 0.05 % that refinement does not reduce.
+
+    The sign depends on the parity of the number of cells per contact radius.
+    """
     return 1 + FLOOR * (-1) ** round(1 / _cell(result))
 
 
@@ -203,7 +212,7 @@ def _last_step_missing(result: Any) -> Any:
 
 
 def _truncated(patches: Patches) -> None:
-    """Write only half of a record to the disk."""
+    """Plant an incomplete write: a record file has only the first half of its text."""
 
     def wrap(whole: Any) -> Any:
         def save(self: Any, case: Any, record: Any) -> None:

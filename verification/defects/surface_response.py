@@ -1,4 +1,6 @@
-"""Defects of the surface response in the semi-analytical method."""
+"""Seeded defects of the elastic surface response (influence coefficients) of the semi-analytical
+method.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +26,10 @@ COUPLING: tuple[str, ...] = ("xz", "yz")
 
 
 def scaled(patches: Patches, pairs: tuple[str, ...], factor: float) -> None:
-    """Multiply the responses of some components by a factor."""
+    """Plant a wrong factor in some components of the surface response.
+
+    pairs   components, named by displacement and traction, such as "zz" or "xz"
+    """
 
     def wrap(whole: Any) -> Any:
         def spectrum(coefficients: Any, pair: str, reach: Any) -> KernelSpectrum:
@@ -92,10 +97,10 @@ def _coupling_added(patches: Patches) -> None:
 
 
 def _kappa_for_chi(patches: Patches) -> None:
-    """Use the reflection coefficient κ = (k-1)/(k+3-4ν) for shear waves, instead of χ =
+    """Plant the reflection coefficient κ = (k-1)/(k+3-4ν) for shear waves instead of χ =
     (k-1)/(k+1).
 
-    k is the stiffness below the layer over that of the layer.
+    k is the stiffness below the layer over that of the layer, ν its Poisson's ratio.
     """
 
     def wrap(whole: Any) -> Any:

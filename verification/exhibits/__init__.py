@@ -1,1 +1,1 @@
-"""Charts, tables and numbers of reports, as plain records."""
+"""Charts, tables and texts of numbers for reports, as plain data records."""

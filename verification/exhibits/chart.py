@@ -1,4 +1,4 @@
-"""The data of a figure, apart from how it is drawn: enough to draw it again from a file."""
+"""Data of charts and tables, independent of their drawing, and texts of numbers."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ DIGITS = 6  # of a plotted number: far finer than a pixel, and equal on every ma
 
 
 class Look(StrEnum):
-    """Meaning of a curve; the drawing chooses the line style."""
+    """Meaning of a curve in a chart; the drawing derives line style and markers from it."""
 
     COMPUTED = "computed"
     POINTS = "points"
@@ -29,7 +29,7 @@ class Look(StrEnum):
 
 
 class Curve(Description):
-    """Points joined by a line. Curves of one `series` belong together and share their colour."""
+    """Points of a curve in a chart. Curves with the same `series` have the same colour."""
 
     label: str
     x: tuple[float, ...]
@@ -39,7 +39,7 @@ class Curve(Description):
 
 
 class Panel(Description):
-    """One pair of axes."""
+    """One pair of axes of a chart, with its curves and labels."""
 
     x_label: str
     y_label: str
@@ -51,19 +51,19 @@ class Panel(Description):
     """Short texts at (x, y)."""
 
     x_places: tuple[str, ...] = ()
-    """Names of the places 0, 1, … along x, where these are no numbers."""
+    """Names of the positions 0, 1, … along x, for an axis without numbers."""
 
     y_places: tuple[str, ...] = ()
-    """The same along y."""
+    """Names of the positions 0, 1, … along y, for an axis without numbers."""
 
 
 class Chart(Description):
-    """Rows of panels; panels above each other share their x axis."""
+    """Rows of panels with title and caption; panels in one column share their x axis."""
 
     name: str
     title: str
     caption: str
-    """What is seen, in words: also read out to those who do not see it."""
+    """Description of the chart in words, also for screen readers."""
 
     rows: tuple[tuple[Panel, ...], ...]
 
@@ -75,7 +75,7 @@ def curve(
     look: Look = Look.COMPUTED,
     series: int = 0,
 ) -> Curve:
-    """Return a curve of rounded numbers."""
+    """Create a curve of a chart from coordinates, rounded to 6 significant digits."""
     return Curve(label=label, x=_rounded(x), y=_rounded(y), look=look, series=series)
 
 
@@ -84,7 +84,7 @@ def _rounded(values: Iterable[float]) -> tuple[float, ...]:
 
 
 def stacked(name: str, title: str, caption: str, *rows: Panel | tuple[Panel, ...]) -> Chart:
-    """Stack panels; panels of one tuple stand side by side."""
+    """Create a chart of panels one above the other; panels in one tuple are placed in one row."""
     beside = tuple(row if isinstance(row, tuple) else (row,) for row in rows)
     return Chart(name=name, title=title, caption=caption, rows=beside)
 
@@ -106,9 +106,9 @@ def log_chart(
     height: float = HEIGHT,
     y_places: tuple[str, ...] = (),
 ) -> Chart:
-    """Return one panel of curves.
+    """Create a chart of one panel with logarithmic axes.
 
-    y_places  names of the places 0, 1, … along y, for a y axis without numbers
+    y_places  names of the positions 0, 1, … along y, for a y axis without numbers
     """
     panel = Panel(
         x_label=x_label, y_label=y_label, curves=tuple(curves), logarithmic=True, height=height,
@@ -118,12 +118,16 @@ def log_chart(
 
 
 def drawable(points: Iterable[tuple[float | None, float | None]]) -> Points:
-    """The magnitudes that logarithmic axes can show: finite, not zero and known."""
+    """Return the points that logarithmic axes can show, as (x, |y|).
+
+    Points with a zero, unknown or non-finite coordinate are removed.
+    """
     return [(x, abs(y)) for x, y in points if x and y and isfinite(x) and isfinite(y)]
 
 
 def point_curves(lines: Iterable[tuple[str, Points]], look: Look = Look.POINTS) -> list[Curve]:
-    """A curve for every label that has points, in the order of their mention."""
+    """Create one curve for each label that has points; the series number is its
+    place in the list."""
     return [
         curve(label, [x for x, _ in points], [y for _, y in points], look, series)
         for series, (label, points) in enumerate(lines)
@@ -132,7 +136,10 @@ def point_curves(lines: Iterable[tuple[str, Points]], look: Look = Look.POINTS) 
 
 
 def slope_line(points: Points, order: float) -> list[Curve]:
-    """Return a line of this slope below the points; empty without points."""
+    """Return a curve proportional to x^order below the points, to show a convergence order.
+
+    The list is empty without points.
+    """
     if not points:
         return []
     (start, there), along = points[0], [x for x, _ in points]
@@ -141,15 +148,15 @@ def slope_line(points: Points, order: float) -> list[Curve]:
 
 
 class Picture(Description):
-    """A drawing, shown as an image, in which nothing can run.
+    """Drawing that a page shows as an image, so that nothing in it can run.
 
-    svg  the whole file; its own colours on white
+    svg  text of the complete SVG file, with its own colours on white
     """
 
     name: str
     title: str
     caption: str
-    """What is seen, in words: also read out to those who do not see it."""
+    """Description of the drawing in words, also for screen readers."""
 
     svg: str
 
@@ -158,7 +165,7 @@ NOT_FINITE = "not finite"
 
 
 def value_text(value: float | None, unit: str, digits: int = 6) -> str:
-    """Return a value with its unit."""
+    """Format a value with its unit and an engineering prefix; "not finite" for None."""
     if value is None:
         return NOT_FINITE
     if value == 0:
@@ -170,7 +177,7 @@ def value_text(value: float | None, unit: str, digits: int = 6) -> str:
 
 
 def plain(value: float | None, digits: int = 3) -> str:
-    """Return a number without unit: 0.0123, 1.2e-5."""
+    """Format a number without unit, such as 0.0123 or 1.2e-5; "not finite" for None."""
     if value is None:
         return NOT_FINITE
     mantissa, e, exponent = f"{value:.{digits}g}".partition("e")
@@ -178,7 +185,7 @@ def plain(value: float | None, digits: int = 3) -> str:
 
 
 def percent(part: float) -> str:
-    """Return a fraction in per cent."""
+    """Format a fraction in per cent with two significant digits."""
     return f"{plain(100 * part, 2)} %"
 
 
@@ -193,18 +200,19 @@ NONE: Mapping[str, str] = {}  # units: every number is a count or a ratio
 
 
 class Table(Description):
-    """Rows of texts; the first column names the row."""
+    """Table of texts; the first column names the row."""
 
     title: str
     columns: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
     note: str = ""
-    """What to see in it."""
+    """Explanation of the table for readers."""
     name: str = ""
-    """By which it is found, where somebody looks for it."""
+    """Name by which other code finds the table."""
     units: Mapping[str, str] | None = None
-    """By column, of numbers that have one; all others have none. None in a record of before units
-    were named, of which nothing is known."""
+    """Units of the numbers by column; other columns have none. None for older records without
+    units.
+    """
 
 
 def table_of(
@@ -214,7 +222,10 @@ def table_of(
     note: str = "",
     units: Mapping[str, str] = NONE,
 ) -> Table:
-    """Build a table with one line per item; the first column names the line."""
+    """Build a table with one line per item; the first column names the line.
+
+    columns  functions that return the text of an item, by heading of the column
+    """
     return Table(
         title=title,
         columns=tuple(columns),

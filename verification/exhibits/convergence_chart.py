@@ -1,4 +1,4 @@
-"""Errors against cell side on logarithmic axes, with fitted lines and lines of expected slopes."""
+"""Chart of errors against cell size on logarithmic axes, with fitted lines and expected slopes."""
 
 from collections.abc import Mapping, Sequence
 
@@ -25,13 +25,15 @@ def convergence_chart(
     x_label: str = "cell side / contact radius",
     judged: Mapping[str, int] | None = None,
 ) -> Chart:
-    """Every error with the line fitted to it and, where an order is expected, a line of that slope.
+    """Create a chart of errors against cell size, with fitted lines and lines of the expected
+    orders.
 
-    spacings  cell sides, dimensionless; errors of equal ones count by their root mean square
-    errors    name to errors at these, of either sign
-    slopes    name of an error to its expected order
-    judged    name of an error to the number of finest levels that its order is judged on: the
-              line is fitted to these, if they are three; to all, if they are four, where absent
+    spacings  cell sides, dimensionless; errors of equal sides count by their root mean square
+    errors    errors at these cell sides, of either sign, by name
+    slopes    expected convergence order by name of the error
+    judged    number of finest levels on which the order of an error is judged, by name; the line is
+              fitted to these if there are at least 3; without an entry, to all levels if there are
+              at least 4
     """
     curves: list[Curve] = []
     for series, (label, values) in enumerate(errors.items()):
@@ -52,7 +54,11 @@ def _series(
     label: str, sizes: list[float], errors: list[float], count: int, expected: float | None,
     series: int,
 ) -> list[Curve]:  # fmt: skip
-    """Draw one error: points, line with its band through the finest levels, expected slope."""
+    """Return the curves of one error: points, fitted line with 95 % band, and expected slope.
+
+    count     number of finest levels to which the line is fitted
+    expected  expected convergence order; None for no line
+    """
     ends = np.array([max(sizes), min(sizes)])
     fitted = slice(len(sizes) - count, None)
     if count < LEAST_JUDGED or min(errors[fitted]) <= 0:
@@ -81,7 +87,10 @@ def _text(observed: ObservedOrder) -> str:
 
 
 def _band(line: ErrorLine, ends: NDArray[np.float64], series: int) -> Curve:
-    """Return the outline of the line's 95 % band."""
+    """Return the outline of the 95 % confidence band of a fitted line.
+
+    ends  largest and smallest cell size
+    """
     along = np.geomspace(ends[0], ends[1], ALONG)
     low, high = line.band(along)
     return curve("", [*along, *along[::-1]], [*low, *high[::-1]], Look.BAND, series)

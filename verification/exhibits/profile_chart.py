@@ -1,4 +1,4 @@
-"""Profiles along y = 0 with the closed form in grey, and a strip of their difference below."""
+"""Charts of computed and exact profiles along y = 0, with their difference in a panel below."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,9 +15,9 @@ SHOWN = 1.15  # contact radii to each side of the axis
 
 @dataclass(frozen=True)
 class Section:
-    """The row of cells next to y = 0, out to a little beyond the contact.
+    """Row of cells of a surface grid nearest to y = 0, up to 1.15 contact radii from the axis.
 
-    x, y  positions of the cell centres [length]; y is half a cell for even counts of cells
+    radius  contact radius [length]
     """
 
     grid: SurfaceGrid
@@ -33,27 +33,27 @@ class Section:
 
     @property
     def x(self) -> Field:
-        """Positions along the row [length]."""
+        """Positions of the cell centres along the row [length]."""
         return np.asarray(self.grid.x[self._shown])
 
     @property
     def y(self) -> float:
-        """Distance of the row from the axis [length]."""
+        """Distance of the row from y = 0 [length]: half a cell for an even number of cells."""
         return float(self.grid.y[self._row])
 
     @property
     def r(self) -> Field:
-        """Distances from the axis [length]."""
+        """Distances of the cell centres from the axis of the contact [length]."""
         return np.asarray(np.hypot(self.x, self.y))
 
     def of(self, field: Field) -> Field:
-        """Return the values of a field (nx, ny) on the row."""
+        """Return the values of a field (nx, ny) on the row of cells."""
         return np.asarray(field[self._shown, self._row])
 
 
 @dataclass(frozen=True)
 class Profile:
-    """A computed profile and the exact one at the same points, both made dimensionless."""
+    """Computed and exact dimensionless values of a quantity at the cells of a section."""
 
     label: str
     computed: Field
@@ -72,16 +72,17 @@ class ProfileLabels:
 
     @property
     def difference_label(self) -> str:
-        """Label of the difference strip: the same quantity over the same scale."""
+        """Label of the difference panel: the quantity of the y axis with a Δ in front."""
         return f"Δ{self.y_label}"
 
 
 def profile_chart(
     labels: ProfileLabels, section: Section, profiles: Sequence[Profile], scale: float | None = None
 ) -> Chart:
-    """Profiles above, computed minus exact below.
+    """Create a chart of computed and exact profiles, with computed minus exact values in a panel
+    below.
 
-    scale  length that x is divided by; None: the section's radius
+    scale  length by which x is divided; None for the contact radius of the section
     """
     x = section.x / (section.radius if scale is None else scale)
     exact = [

@@ -1,1 +1,1 @@
-"""Other codes on the problems they can do, each in an environment of its own."""
+"""Other contact codes on the challenges that they can solve, in a separate Python environment."""

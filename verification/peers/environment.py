@@ -1,6 +1,6 @@
-"""The peers' environment: one virtual environment, made once, with pinned versions.
+"""Virtual environment of the other codes, with pinned versions, which is created once.
 
-A peer whose installation fails is left out, with the reason; the others do not mind.
+A code whose installation fails is left out with the reason.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ EIGEN = Path("/usr/include/eigen3")  # of the package libeigen3-dev: else the bu
 
 @dataclass(frozen=True)
 class Peer:
-    """Another code.
+    """Another contact code.
 
-    distribution  name and version that are installed
-    module        that is imported, and whose driver is MODULE_driver, in small letters
-    friction      whether it is asked for shear
-    settings      for its build, in the environment
+    distribution  name and version of the package that is installed
+    module        module that is imported; its driver is MODULE_driver in lower case
+    friction      True if friction is requested from the code
+    settings      environment variables for the build
     """
 
     distribution: str
@@ -40,7 +40,7 @@ class Peer:
 
     @property
     def driver(self) -> str:
-        """Its program, as a module."""
+        """Module name of the driver program of the code."""
         return f"verification.peers.drivers.{self.module.lower()}_driver"
 
 
@@ -58,14 +58,21 @@ Run = Callable[..., "subprocess.CompletedProcess[str]"]
 
 @dataclass(frozen=True)
 class Installed:
-    """The environment's Python, and why peers are missing from it, by distribution."""
+    """Environment of the other codes.
+
+    python   path of the Python interpreter
+    missing  reasons for codes that could not be installed, by distribution
+    """
 
     python: Path
     missing: dict[str, str]
 
 
 def peers_directory() -> Path:
-    """Return SLIPSTICK_CACHE_DIR, else `slipstick` in the user's cache directory."""
+    """Return the directory of the environment of the other codes.
+
+    It lies in SLIPSTICK_CACHE_DIR, or in `slipstick` in the user's cache directory.
+    """
     place = os.environ.get("SLIPSTICK_CACHE_DIR")
     if place:
         return Path(place) / FOLDER
@@ -74,11 +81,11 @@ def peers_directory() -> Path:
 
 
 def made_environment(directory: Path, run: Run = subprocess.run) -> Installed:
-    """Return the environment in a directory, made or completed.
+    """Create or complete the environment of the other codes in a directory, and return it.
 
-    What could not be installed once is not tried again until `FAILED` there is removed.
+    A failed installation is not repeated until the file `FAILED` in the directory is removed.
 
-    run  as `subprocess.run`
+    run  replacement of `subprocess.run`, for tests
     """
     python = directory / "bin" / "python"
     if not python.exists():
@@ -98,7 +105,11 @@ def made_environment(directory: Path, run: Run = subprocess.run) -> Installed:
 
 
 def _installed(python: Path, peer: Peer, run: Run, failed: str) -> str:
-    """Install one if it is not there and has not failed before; why that failed, or nothing."""
+    """Install a code unless it is present or has failed before; return the reason of a failure, or
+    "".
+
+    failed  reason of an earlier failure; empty if there was none
+    """
     probe = [str(python), "-c", f"import {peer.module}"]
     if run(probe, capture_output=True, text=True, check=False).returncode == 0:
         return ""

@@ -1,6 +1,6 @@
-"""What has changed since a version whose numbers were accepted.
+"""Comparison of results with recorded baselines, to detect changes between program versions.
 
-`baseline` is what is recorded, `baseline_files` keeps it, `acceptance` makes it from a report, and
-`comparison` gives every number of a report its verdict against it. A recorded number is no
-reference: it says that something changed, not that it was right.
+`baseline` defines, reads and accepts the recorded results, `comparison` compares every number of a
+report with its recorded value, and `tolerances` holds tolerances that follow the errors. A recorded
+number is no reference: a difference shows a change, not an error.
 """

@@ -1,4 +1,4 @@
-"""What is recorded of a case: plain values, one file per case, one recording per level."""
+"""Baselines: accepted results of a case, one file per case with one recording per level."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 class BaselineRefused(Refused):
-    """A baseline that cannot be read, or a report that must not become one."""
+    """A baseline file cannot be read, or a report must not be accepted as a baseline."""
 
 
 BASELINE_VERSION = 1
@@ -40,7 +40,7 @@ Key = tuple[str, ...]
 
 
 class RecordedQuantity(Description):
-    """A judged quantity. `allowed` and `reference` are in the unit of the value."""
+    """Recorded value of a judged quantity; `allowed` and `reference` have the unit of the value."""
 
     name: str
     run: str
@@ -51,7 +51,8 @@ class RecordedQuantity(Description):
     allowed: Annotated[float, Field(ge=0)]
     status: Status
     covered: bool | None = None
-    """Whether the stated error covered the difference from the reference."""
+    """True if the stated error covered the difference from the reference; None if
+    none was stated."""
 
     @model_validator(mode="after")
     def _has_an_error(self) -> RecordedQuantity:
@@ -64,17 +65,17 @@ class RecordedQuantity(Description):
 
     @property
     def error(self) -> float | None:
-        """|value - reference|; None for a value that is not finite."""
+        """Absolute difference of value and reference; None for a value that is not finite."""
         return None if self.value is None else abs(self.value - self.reference)
 
     @property
     def key(self) -> Key:
-        """What it is found by within its case."""
+        """Key that identifies the quantity in its case."""
         return key_of(self)
 
 
 class RecordedFinding(Description):
-    """A number that is reported and not judged."""
+    """Recorded value of a number that is reported without a verdict."""
 
     name: str
     run: str
@@ -83,12 +84,14 @@ class RecordedFinding(Description):
 
     @property
     def key(self) -> Key:
-        """What it is found by within its case."""
+        """Key that identifies the number in its case."""
         return key_of(self)
 
 
 class RecordedRun(Description):
-    """Deterministic counts of a solve."""
+    """Recorded work of one solve of a case: increments, iterations, convolutions and
+    factorizations.
+    """
 
     label: str
     increments: Count
@@ -98,7 +101,7 @@ class RecordedRun(Description):
 
 
 class RecordedBy(Description):
-    """Who made the numbers, from what, and why they were accepted."""
+    """Provenance of recorded results, and the reason for which they were accepted."""
 
     reason: str
     command: str
@@ -107,14 +110,14 @@ class RecordedBy(Description):
     changed: bool
     program_version: str
     processor: str | None
-    """Whose instructions computed; see `machine.arithmetic`."""
+    """Processor type that the arithmetic used; see `machine.arithmetic`."""
 
     python: str | None
     libraries: dict[str, str | None]
 
 
 class Recording(Description):
-    """A case as it came out at one level."""
+    """Recorded results of one case at one level."""
 
     by: RecordedBy
     status: Status
@@ -125,12 +128,12 @@ class Recording(Description):
     @model_validator(mode="before")
     @classmethod
     def _without_time(cls, values: dict[str, object]) -> dict[str, object]:
-        """Drop the CPU time of older recordings."""
+        """Remove the obsolete entry `loops` (CPU time) of older recordings."""
         return {name: value for name, value in values.items() if name != "loops"}
 
 
 class Baseline(Description):
-    """The content of a file: a case at each level at which it was recorded."""
+    """Content of a baseline file: the recordings of one case by level."""
 
     schema_version: int = BASELINE_VERSION
     case: str
@@ -138,7 +141,10 @@ class Baseline(Description):
 
 
 def key_of(number: Verdict | FindingRecord | RecordedQuantity | RecordedFinding) -> Key:
-    """What a number is found by within its case."""
+    """Return the key that identifies a number in its case: kind, name, run and kind of tolerance.
+
+    The run is omitted for residuals and similar numbers, which may come from any run.
+    """
     run = "" if number.name in FOUND_IN_A_RUN else number.run
     if isinstance(number, Verdict | RecordedQuantity):
         return ("quantity", number.name, run, number.tolerance_kind)
@@ -146,7 +152,7 @@ def key_of(number: Verdict | FindingRecord | RecordedQuantity | RecordedFinding)
 
 
 def keys_of(recorded: Recording | None) -> set[str]:
-    """Return the keys of the recorded numbers, in words."""
+    """Return the names of all recorded numbers as "name [run]"; empty without a recording."""
     if recorded is None:
         return set()
     keys = (*(one.key for one in recorded.quantities), *(one.key for one in recorded.findings))
@@ -154,7 +160,10 @@ def keys_of(recorded: Recording | None) -> set[str]:
 
 
 def recording(case: CaseOutcome, provenance: Provenance, reason: str) -> Recording:
-    """What came out of a case, as it is recorded."""
+    """Convert the outcome of a case to a recording for a baseline.
+
+    reason  reason for which the results are accepted
+    """
     return Recording(
         by=recorded_by(provenance, reason),
         status=case.status,
@@ -168,7 +177,10 @@ def recording(case: CaseOutcome, provenance: Provenance, reason: str) -> Recordi
 
 
 def recorded_by(provenance: Provenance, reason: str) -> RecordedBy:
-    """The part of a report's provenance that explains its numbers."""
+    """Select the part of a report's provenance that is stored in a baseline.
+
+    reason  reason for which the results are accepted
+    """
     machine = provenance.machine
     processor, python = machine.get("arithmetic", machine.get("processor")), machine.get("python")
     return RecordedBy(
@@ -215,12 +227,12 @@ REMEDY = "restore it from the repository, or delete it and accept it anew"
 
 
 def read_baselines(directory: Path | None = None) -> dict[str, Baseline]:
-    """Return every baseline of a folder by the name of its case; none is a state, not an error.
+    """Read all baselines of a folder, by name of the case; empty if the folder has none.
 
-    directory  None: those of the package
+    directory  folder; None for that of the package
 
-    Raises BaselineRefused for the first file that is not a whole baseline of the case it is named
-    after.
+    Raises BaselineRefused for the first file that is damaged or not a baseline of the case in its
+    name.
     """
     folder = BASELINES if directory is None else directory
     files = sorted(folder.glob(f"*{ENDING}")) if folder.is_dir() else []
@@ -234,13 +246,15 @@ def write_baselines(
     removed: Mapping[str, Sequence[str]] = MappingProxyType({}),
     reason: str = "",
 ) -> tuple[Path, ...]:
-    """Record cases at a level; their recordings at other levels stay.
+    """Store recordings of cases at one level, keep those at other levels, and return the files
+    written.
 
-    recordings  by case; None deletes the recording
-    removed     keys by case that are no longer recorded, for `REMOVED.md`
+    recordings  recordings by case; None deletes the recording
+    removed     keys by case that are no longer recorded, to be listed in `REMOVED.md`
+    reason      reason for the removals
 
-    Everything is read before anything is written. Raises BaselineRefused for a file in the way
-    that is no baseline.
+    All files are read before any is written. Raises BaselineRefused for an existing file that is
+    not a valid baseline.
     """
     texts: dict[Path, str] = {}
     for case, recorded in recordings.items():
@@ -270,7 +284,7 @@ def write_baselines(
 
 
 def dump_baseline(baseline: Baseline) -> str:
-    """Return the text of the baseline's file; numbers are stored to the last bit."""
+    """Convert a baseline to the JSON text of its file, with all digits of its numbers."""
     content = baseline.model_dump(mode="json")
     return json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
@@ -309,18 +323,17 @@ def accept(
     with_failures: bool = False,
     with_changes: bool = False,
 ) -> tuple[Path, ...]:
-    """Record the cases of a report as what later ones are compared with; the files written.
+    """Store the results of a report as baselines for later comparisons; return the files written.
 
-    reason         why these numbers are right
-    names          cases of the report; none means all
-    with_failures  also where a verdict failed
-    with_changes   also if the source differed from its commit, or has none: "was … at 1a2b3c4"
-                   is then not what that commit gives
+    reason         reason for which the results are correct
+    names          cases to accept; empty for all of the report
+    with_failures  if True, accept failed verdicts as well
+    with_changes   if True, accept a report whose source differed from its commit or had none; its
+                   results cannot be reproduced from the commit
 
-    Keys that the earlier recording has and the report has not are listed in `REMOVED.md` with the
-    reason; so is a case that a whole report lacks, whose recording is deleted.
-
-    Raises BaselineRefused for a report that must not be recorded; nothing is written then.
+    Recorded numbers that the report lacks are listed in `REMOVED.md` with the reason. The recording
+    of a case that a complete report lacks is deleted. Raises BaselineRefused, before anything is
+    written, for a report that must not be accepted.
     """
     reason = " ".join(reason.split())
     earlier = {
@@ -356,7 +369,7 @@ def accept(
 
 
 def baselines_of(report: Report, reason: str) -> dict[str, Baseline]:
-    """A report in the place of baselines, to compare another one with it."""
+    """Convert a report to baselines, to compare another report with it."""
     return {
         case.name: Baseline(
             case=case.name, levels={report.level: recording(case, report.provenance, reason)}

@@ -1,4 +1,4 @@
-"""Every number of a report against the recorded one."""
+"""Comparison of every number of a report with its recorded baseline."""
 
 from __future__ import annotations
 
@@ -58,7 +58,11 @@ BETTER_BY_PART = 0.05
 
 
 def quantity_change(verdict: Verdict, was: RecordedQuantity | None, origin: Origin) -> Change:
-    """How a judged quantity compares with the recorded one."""
+    """Classify the change of a judged quantity since its recorded value.
+
+    was     recorded quantity; None if none is recorded
+    origin  commit and date of the recording
+    """
     if was is None:
         failed = verdict.status is Status.FAIL
         kind = ChangeKind.OUTSIDE if failed else ChangeKind.NEW
@@ -76,7 +80,13 @@ def quantity_change(verdict: Verdict, was: RecordedQuantity | None, origin: Orig
 
 
 def finding_change(finding: FindingRecord, was: RecordedFinding | None, origin: Origin) -> Change:
-    """How a finding compares with the recorded one: whole numbers are counts, whatever of."""
+    """Classify the change of a number without verdict since its recorded value.
+
+    Integers are treated as counts and may change by 5 %.
+
+    was     recorded number; None if none is recorded
+    origin  commit and date of the recording
+    """
     if was is None:
         return Change(kind=ChangeKind.NEW, recorded=False, since=origin.name)
     values = [value or 0.0 for value in (finding.value, was.value)]
@@ -112,10 +122,11 @@ def _kind(verdict: Verdict, was: RecordedQuantity, difference: float, allowed: f
 
 
 def _is_farther(verdict: Verdict, was: RecordedQuantity) -> bool:
-    """Return True if the value has moved away from the reference.
+    """Determine if the value of a verdict is farther from its reference than the recorded value.
 
-    An order that was recorded with too wide an interval is not compared. An order whose interval
-    has become too wide since is compared with the recorded allowance."""
+    A convergence order recorded with too wide an interval is not compared. An order whose interval
+    has become too wide since is compared with the recorded allowance.
+    """
     if was.status is Status.INCONCLUSIVE:
         return False
     if verdict.status is Status.INCONCLUSIVE and verdict.value is not None:
@@ -128,12 +139,12 @@ def _is_farther(verdict: Verdict, was: RecordedQuantity) -> bool:
 def grows(
     small: Verdict | RecordedQuantity, large: Verdict | RecordedQuantity, by: float, least: float
 ) -> bool:
-    """Return True if the error of one verdict is much larger than that of the other.
+    """Determine if the error of one verdict is much larger than that of another one.
 
-    Orders are compared by their intervals instead.
+    Convergence orders are not compared, because their intervals are.
 
-    by     times
-    least  at least by as much, in the unit of the value
+    by     smallest ratio of the errors
+    least  smallest difference of the errors, in the unit of the value
     """
     if small.tolerance_kind == "order" or small.value is None or large.value is None:
         return False
@@ -144,7 +155,10 @@ def grows(
 
 
 def _remarks(verdict: Verdict, was: RecordedQuantity) -> Iterator[str]:
-    """What else than the value is not as recorded."""
+    """Yield the differences of a verdict from its record other than the value, in words.
+
+    These are coverage by the stated error, status, tolerance, reference and unit.
+    """
     if was.covered and not verdict.covered:
         stated = verdict.stated_error
         yield f"stated error {'not converged' if stated is None else f'{stated:.2e}'}: not covered"
@@ -163,15 +177,18 @@ def _remarks(verdict: Verdict, was: RecordedQuantity) -> Iterator[str]:
 
 
 def _difference(value: float | None, was: float | None) -> float:
-    """Distance of two numbers, of which None is one that is not finite."""
+    """Return the absolute difference of two numbers; None represents a number that
+    is not finite."""
     if value is None or was is None:
         return 0.0 if value is was else math.inf
     return abs(value - was)
 
 
 def counter_changes(case: CaseOutcome | Recording, recorded: Recording) -> Iterator[CounterChange]:
-    """The counts of all solves together that differ from the recorded ones; solves that are new or
-    gone are left out, they are told apart."""
+    """Yield the changes of total iterations and other counts of a case by more than 5 %.
+
+    Only solves that exist in both are counted; new and removed solves are reported separately.
+    """
     then = {run.label: run for run in recorded.runs}
     both = [(run, then[run.label]) for run in case.runs if run.label in then]
     for name in COUNTERS:
@@ -183,10 +200,11 @@ def counter_changes(case: CaseOutcome | Recording, recorded: Recording) -> Itera
 
 
 def compared(report: Report, baselines: Mapping[str, Baseline]) -> Report:
-    """The report with its verdicts on regression; an earlier comparison in it is replaced.
+    """Compare a report with baselines, and return it with the change of every number.
 
-    A case without a baseline of the report's level has none: `CaseOutcome.baseline` is None. What
-    is recorded of the level and not in the report is gone, unless its cases were chosen.
+    An earlier comparison in the report is replaced. A case without a baseline at the level of the
+    report has `CaseOutcome.baseline` None. Recorded cases that the report lacks are listed as gone,
+    unless the report is of chosen cases.
     """
     made_by = recorded_by(report.provenance, reason="")
     cases = tuple(
@@ -202,7 +220,7 @@ def compared(report: Report, baselines: Mapping[str, Baseline]) -> Report:
 
 
 def refuse_if_not_whole(report: Report, baselines: Mapping[str, Baseline]) -> None:
-    """Raise BaselineRefused, with the names, if chosen cases alone ran and others are recorded."""
+    """Raise BaselineRefused if only chosen cases ran and the report lacks recorded cases."""
     missing = [name for name, _ in _missing(report, baselines)] if report.chosen else []
     if missing:
         raise BaselineRefused(
@@ -218,7 +236,7 @@ def _gone_cases(report: Report, baselines: Mapping[str, Baseline]) -> Iterator[G
 
 
 def _missing(report: Report, baselines: Mapping[str, Baseline]) -> Iterator[tuple[str, Recording]]:
-    """What is recorded at the report's level of cases that it does not have, by name."""
+    """Yield the recorded cases that a report of the level lacks, by name, with their recordings."""
     present = {case.name for case in report.cases}
     for name, baseline in sorted(baselines.items()):
         recorded = _recording(baseline, report.level)
@@ -295,7 +313,9 @@ def _gone(case: CaseOutcome, recorded: Recording) -> Iterator[Gone]:
 
 
 def _differences(then: RecordedBy, now: RecordedBy) -> Iterator[str]:
-    """What explains other last digits: processor, Python and libraries."""
+    """Yield differences of processor, Python and libraries, which explain changes of the last
+    digits.
+    """
     facts = [("processor", then.processor, now.processor), ("Python", then.python, now.python)]
     for name in sorted(then.libraries.keys() | now.libraries.keys()):
         facts.append((name, then.libraries.get(name), now.libraries.get(name)))

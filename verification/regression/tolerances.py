@@ -1,9 +1,9 @@
-"""Tolerances that follow the error: one file per level, beside the baselines.
+"""Tolerances that follow the measured errors, one file per level, in addition to the cases' bounds.
 
-A case states a bound with its theoretical reason. Errors are usually far below their bound, and a
-defect that triples them would pass. Twice the largest error over several BLAS kernels is proposed
-as the tolerance of each number whose error is below a third of what it is held to; a proposal is
-accepted with a reason. A tolerance never exceeds the bound of its case.
+A case states a bound with its theoretical reason. Errors are usually far below the bound, so that a
+defect that triples them would pass. The proposed tolerance of a number is twice its largest error
+over several BLAS kernels. It is proposed if the error is below a third of the present tolerance. A
+proposal is accepted with a reason, and never exceeds the bound of its case.
 """
 
 from __future__ import annotations
@@ -32,7 +32,9 @@ MOVED = 0.5
 
 
 class Tolerance(Description):
-    """A tolerance, and the largest error when it was accepted; both relative to the scale."""
+    """Tolerance of a number, and the largest error at its acceptance, relative to the scale of
+    errors.
+    """
 
     allowed: float
     error: float
@@ -41,6 +43,7 @@ class Tolerance(Description):
 class Acceptance(Description):
     """Tolerances that were accepted together, by case and key.
 
+    because  reason for the acceptance
     kernels  processors or BLAS kernels on which the errors were measured
     """
 
@@ -51,13 +54,14 @@ class Acceptance(Description):
 
 
 class Tolerances(Description):
-    """The content of the file of a level."""
+    """Content of the tolerance file of one level."""
 
     level: str
     accepted: tuple[Acceptance, ...] = ()
 
     def of(self, case: str) -> dict[str, tuple[Tolerance, Acceptance]]:
-        """Return the tolerances of a case by key."""
+        """Return the accepted tolerances of a case, each with its acceptance, by
+        key of the number."""
         return {
             key: (tolerance, acceptance)
             for acceptance in self.accepted
@@ -66,7 +70,10 @@ class Tolerances(Description):
 
 
 def read_tolerances(level: str, directory: Path = TOLERANCES) -> Tolerances:
-    """Read the tolerances of a level, if any. Raises BaselineRefused for a damaged file."""
+    """Read the accepted tolerances of a level; empty without a file.
+
+    Raises BaselineRefused for a damaged file.
+    """
     path = directory / f"{level}.json"
     if not path.exists():
         return Tolerances(level=level)
@@ -78,7 +85,9 @@ def read_tolerances(level: str, directory: Path = TOLERANCES) -> Tolerances:
 
 
 def held_to(cases: Sequence[CaseOutcome], tolerances: Tolerances) -> tuple[CaseOutcome, ...]:
-    """Judge the numbers of cases by the accepted tolerances, where these are below the bound."""
+    """Judge the numbers of cases again by the accepted tolerances that are below the bounds of the
+    cases.
+    """
     return tuple(
         case.model_copy(
             update={"verdicts": tuple(_held(v, known.get(text_of(v))) for v in case.verdicts)}
@@ -107,10 +116,12 @@ def _held(verdict: Verdict, known: tuple[Tolerance, Acceptance] | None) -> Verdi
 def proposed(
     reports: Sequence[Report], known: Tolerances | None = None
 ) -> dict[str, dict[str, Tolerance]]:
-    """Propose tolerances from reports of one level on several kernels: by case and key, for numbers
-    whose tolerance exceeds three times the largest error, or is exceeded by it.
+    """Propose tolerances, by case and key, from reports of one level on several BLAS kernels.
 
-    known  accepted tolerances, which hold from now on
+    A number gets a proposal if its tolerance exceeds three times the largest error, or if the error
+    exceeds its tolerance, and the proposal is below the bound of its case.
+
+    known  accepted tolerances, by which the reports are judged first
     """
     found: dict[str, dict[str, Tolerance]] = {}
     if known is not None:
@@ -128,8 +139,12 @@ def proposed(
 
 
 def _together(reports: Sequence[Report]) -> Iterator[tuple[str, str, list[Verdict], float]]:
-    """Yield the verdicts of all reports on one number that every report has, and the error that
-    depends on the iterates at which its solves end: of an edge correction, its last change."""
+    """Yield each number that all reports have: case, key, its verdicts, and the least error to
+    allow.
+
+    The least error accounts for the iterate at which a solve ends: 1e-7, plus half of the last
+    change of an edge correction.
+    """
     levels = sorted({report.level for report in reports})
     if len(levels) != 1:
         raise BaselineRefused(f"the reports are of the levels {', '.join(levels)}; name one level")
@@ -149,7 +164,7 @@ def _together(reports: Sequence[Report]) -> Iterator[tuple[str, str, list[Verdic
 
 
 def accept_tolerances(reports: Sequence[Report], because: str, directory: Path = TOLERANCES) -> int:
-    """Store the proposals of reports with a reason; return their number.
+    """Store the tolerances proposed from reports, with a reason; return their number.
 
     Raises BaselineRefused without a reason.
     """
@@ -188,6 +203,6 @@ def _without(
 
 
 def text_of(verdict: Verdict) -> str:
-    """Return the key of a verdict in words."""
+    """Return the key of a verdict in words: name, run and kind of tolerance."""
     _, name, run, kind = key_of(verdict)
     return f"{name} [{run}] {kind}"

@@ -1,5 +1,5 @@
-"""The report: one record, and the page, the table for machines and the texts made from it.
+"""Verification report: its pages, its table for machines (JUnit) and its texts.
 
-`record` holds everything that is shown; `page`, `junit` and `summary_text` are functions of it, so
-a report can be rendered again from `report.json` alone.
+All are rendered from the record `report.json`, so that a report can be rendered again from that
+file alone.
 """

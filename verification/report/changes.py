@@ -1,4 +1,5 @@
-"""What is new since the baseline, as rows for every form of the report."""
+"""Changes of results since the recorded baseline, as rows for pages, summary and
+log of a report."""
 
 from __future__ import annotations
 
@@ -40,9 +41,12 @@ RANK = {
 
 @dataclass(frozen=True)
 class ChangeRow:
-    """Something that differs from what is recorded, in words.
+    """A difference between a result of the report and its recorded baseline, in words.
 
-    size  of the move, in tolerances or parts of a count
+    was, now  recorded and present value
+    moved     size of the change in words
+    since     name of the origin of the recorded value
+    size      size of the change, in tolerances or as fraction of a count
     """
 
     case: str
@@ -58,7 +62,7 @@ class ChangeRow:
 
     @property
     def line(self) -> str:
-        """The row as a sentence of a log."""
+        """The change as one line of a log."""
         moved = "" if self.moved == "–" else f" ({self.moved})"
         remark = f"; {self.remark}" if self.remark else ""
         return (
@@ -68,24 +72,27 @@ class ChangeRow:
 
 
 def change_rows(report: Report) -> list[ChangeRow]:
-    """Every change that the baseline does not describe, the worst kind first and in it what moved
-    farthest."""
+    """Return all relevant changes since the baseline, sorted by severity of the
+    kind, then by size."""
     rows = [row for row in _all_rows(report) if row.kind.matters]
     return sorted(rows, key=lambda row: (RANK[row.kind], -row.size))
 
 
 def moved_rows(report: Report) -> list[ChangeRow]:
-    """Those that have something to compare with: what is new is counted, not listed."""
+    """Return the relevant changes except new results, which have no recorded value."""
     return [row for row in change_rows(report) if row.kind is not ChangeKind.NEW]
 
 
 def worse_rows(report: Report) -> list[ChangeRow]:
-    """Those that are worse than recorded, or dearer."""
+    """Return the changes for the worse: larger errors or higher cost than recorded."""
     return [row for row in change_rows(report) if row.kind.regresses]
 
 
 def _all_rows(report: Report) -> Iterator[ChangeRow]:
-    """With the cases that are new or gone; where nothing at all is recorded, that is said apart."""
+    """Yield all changes of a report, including new and removed cases.
+
+    New cases are left out if nothing at all is recorded, because the report states that separately.
+    """
     some = report.gone or len(without_baseline(report)) < len(report.cases)
     for case in report.cases:
         if case.baseline is None and some:
@@ -100,7 +107,9 @@ def _all_rows(report: Report) -> Iterator[ChangeRow]:
 
 
 def case_rows(case: CaseOutcome) -> Iterator[ChangeRow]:
-    """Every number of a case that has a recorded one, or none any more."""
+    """Yield the changes of a case: of its numbers and counts, and recorded numbers that are
+    missing.
+    """
     if case.baseline is None:
         return
     numbers: tuple[Verdict | FindingRecord, ...] = (*case.verdicts, *case.findings)
@@ -123,18 +132,20 @@ def case_rows(case: CaseOutcome) -> Iterator[ChangeRow]:
 
 
 def change_counts(report: Report) -> dict[ChangeKind, int]:
-    """How many recorded or measured numbers changed how; unchanged counts are not listed."""
+    """Count the changes of a report by kind, without counters that did not change."""
     found = Counter(row.kind for row in _all_rows(report))
     return {kind: found[kind] for kind in ChangeKind if found[kind]}
 
 
 def without_baseline(report: Report) -> list[str]:
-    """Names of the cases that nothing is recorded of at this level."""
+    """Return the names of the cases without recorded results at the level of the report."""
     return [case.name for case in report.cases if case.baseline is None]
 
 
 def origins(report: Report) -> list[tuple[Origin, list[str]]]:
-    """Where recorded numbers are from, with the names of their cases; the commonest first."""
+    """Return the origins of the recorded results with the names of their cases, the most frequent
+    first.
+    """
     found: dict[Origin, list[str]] = {}
     for case in report.cases:
         if case.baseline is not None:
@@ -143,7 +154,7 @@ def origins(report: Report) -> list[tuple[Origin, list[str]]]:
 
 
 def changes_text(report: Report) -> str:
-    """Return one line: how the report compares with what is recorded."""
+    """Summarise the changes since the baseline in one line."""
     absent = without_baseline(report)
     parts = [", ".join(f"{number} {kind}" for kind, number in change_counts(report).items())]
     if report.cases and len(absent) == len(report.cases):

@@ -1,4 +1,4 @@
-"""Charts drawn with matplotlib from their data alone."""
+"""Drawing of charts with matplotlib from their data."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ LINES = (
 
 
 def draw(chart: Chart) -> Figure:
-    """Return the figure of a chart; call within `style.figure_style`."""
+    """Draw a chart and return its figure. Call this function within `style.figure_style`."""
     heights = [row[0].height for row in chart.rows]
     columns = max(len(row) for row in chart.rows)
     maps = all(panel.y_places for row in chart.rows for panel in row)
@@ -95,7 +95,10 @@ def _draw_panel(ax: Any, panel: Panel) -> None:
 
 
 def _label_decades(ax: Any, most: int) -> None:
-    """Label powers of ten, and parts of a decade where the axis has few of them."""
+    """Label logarithmic axes at powers of ten, and also at 2 and 5 times these on a short axis.
+
+    most  largest number of labels
+    """
     for axis in (ax.xaxis, ax.yaxis):
         if axis.get_scale() == "log":
             low, high = axis.get_view_interval()
@@ -107,10 +110,12 @@ def _label_decades(ax: Any, most: int) -> None:
 
 
 def thinned(points: NDArray[np.float64], to_axes: Any) -> NDArray[np.float64]:
-    """Drop points on the line between their neighbours (Ramer 1972; Douglas and Peucker 1973).
+    """Remove points of a curve that lie on the line between their neighbours.
+
+    The algorithm is that of Ramer (1972) and Douglas and Peucker (1973).
 
     points   (n, 2) in the units of the data
-    to_axes  transform to parts of the panel's sides
+    to_axes  transform from data to fractions of the sides of the panel
     """
     places = to_axes.transform(points)
     if len(points) < 3 or not np.isfinite(places).all():
@@ -130,8 +135,10 @@ def thinned(points: NDArray[np.float64], to_axes: Any) -> NDArray[np.float64]:
 
 
 def look_of(curve: Curve) -> dict[str, Any]:
-    """Colour and shape; after a round of colours the shapes begin one further on, so that no two of
-    36 series are drawn alike."""
+    """Return the matplotlib arguments of a curve: colour, marker and line style.
+
+    When the colours repeat, the markers are shifted by one, so that 36 series look different.
+    """
     round_, place = divmod(curve.series, len(style.LINE_COLOURS))
     colour, shape = style.LINE_COLOURS[place], (place + round_) % len(MARKERS)
     match curve.look:
@@ -179,7 +186,7 @@ def _legend(ax: Any, panel: Panel) -> None:
 
 
 def _is_long(labelled: Sequence[Curve]) -> bool:
-    """Return True if the texts would leave the plot no room beside them."""
+    """Determine if the legend texts are too long to be placed on the right of the plot."""
     return len(labelled) > 1 and any(len(curve.label) > LONGEST_BESIDE for curve in labelled)
 
 

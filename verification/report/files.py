@@ -1,4 +1,4 @@
-"""The files of a report and of a study, each written whole or not at all; the record comes last."""
+"""Files of a report and of a study, each written atomically. The record is written last."""
 
 from __future__ import annotations
 
@@ -28,7 +28,10 @@ CASES = "cases"  # of the directory: the records of finished cases
 
 
 def refuse_if_unwritable(directory: Path) -> None:
-    """Create the directory and try it, before hours of work; raises OutputRefused."""
+    """Create the directory and test that it is writable, before long computations.
+
+    Raises OutputRefused.
+    """
     try:
         directory.mkdir(parents=True, exist_ok=True)
         probe = directory / f".probe-{secrets.token_hex(4)}"
@@ -39,17 +42,17 @@ def refuse_if_unwritable(directory: Path) -> None:
 
 
 def record_in(directory: Path) -> Path:
-    """Return the path of a report's record: the packed file if the plain one is absent."""
+    """Return the path of a report's record: the compressed file if the plain one is absent."""
     packed = directory / PACKED
     return packed if packed.is_file() and not (directory / RECORD).is_file() else directory / RECORD
 
 
 def set_aside_report(directory: Path) -> None:
-    """Move an earlier report into `earlier`, before the hours of work that make the new one.
+    """Move an earlier report into the folder `earlier`, before a new report is computed.
 
-    Whatever ends that work, no file is left that could be taken for its result, and the earlier
-    numbers are not lost. The record goes first: what else is then found is no whole report, and the
-    next call removes it.
+    If the computation is interrupted, no file can be mistaken for its result, and the earlier
+    results are preserved. The record is moved first. The remaining files are then an incomplete
+    report, which the next call removes.
     """
     with _alone_in(directory):
         record = record_in(directory).name
@@ -57,9 +60,11 @@ def set_aside_report(directory: Path) -> None:
 
 
 def set_aside(directory: Path, names: Sequence[str] = STUDY_FILES) -> None:
-    """Move files that belong together into `earlier`, first the record that says they are whole.
+    """Move the files of a report or study into the folder `earlier`, beginning with the record.
 
-    Without the record the others are removed, and the files in `earlier` stay.
+    Without a record the other files are removed, and those in `earlier` stay.
+
+    names  file names, with the record first
     """
     record, *_ = names
     with stop_signals_held():
@@ -79,25 +84,29 @@ def set_aside(directory: Path, names: Sequence[str] = STUDY_FILES) -> None:
 
 
 def draw_again(report: Report, directory: Path) -> None:
-    """Render everything from the record that is there, and leave a packed one as it is."""
+    """Render all pages of a report again from its existing record, and keep a compressed record
+    unchanged.
+    """
     packed = record_in(directory).name == PACKED
     _write(_rendered(report) | ({} if packed else {RECORD: dump_report(report)}), directory,
            kept=(PACKED,) if packed else ())  # fmt: skip
 
 
 def write_report(report: Report, directory: Path) -> None:
-    """Render everything, then replace the files of an earlier report, also of one set aside.
+    """Render all files of a report and replace those of an earlier report, including those moved
+    aside.
 
-    A record of other numbers goes first and the new one comes last: a directory with a
-    `report.json` has files that belong together.
+    A different record is removed first and the new one is written last. A directory with
+    `report.json` therefore contains files that belong together.
     """
     _write(_rendered(report) | {RECORD: dump_report(report)}, directory)
 
 
 def write_study(record: StudyRecord, rows: Mapping[str, str], directory: Path) -> None:
-    """Write the page, the tables and the record of a study, and remove those set aside.
+    """Write the page, the tables and the record of a study, and remove its files moved aside
+    earlier.
 
-    rows  text by name of the file
+    rows  texts of the CSV tables by file name
     """
     from verification.report.page import render_study
 
@@ -108,7 +117,7 @@ def write_study(record: StudyRecord, rows: Mapping[str, str], directory: Path) -
 
 
 def _rendered(report: Report) -> dict[str, str]:
-    """The files that are drawn, by name."""
+    """Render the pages, the JUnit table and the summary of a report, by file name."""
     # Drawing takes long to import: a command that only prepares a directory does without.
     from verification.report.page import render_page, render_sheets
     from verification.report.summary_text import render_junit, render_summary
@@ -120,8 +129,10 @@ def _rendered(report: Report) -> dict[str, str]:
 
 
 def _write(texts: Mapping[str, str], directory: Path, kept: Sequence[str] = ()) -> None:
-    """Replace the files of an earlier report but those that are kept. The last text states that
-    they are whole."""
+    """Replace the files of an earlier report, except those in `kept`.
+
+    texts  contents by file name; the last one is the record, whose presence marks a complete report
+    """
     with _alone_in(directory), stop_signals_held():
         record = directory / RECORD
         if record.is_file() and record.read_text(encoding="utf-8") != texts.get(RECORD):
@@ -144,14 +155,16 @@ def _remove_set_aside(directory: Path, names: Sequence[str]) -> None:
 
 
 def _remove(directory: Path, names: Sequence[str]) -> None:
-    """Remove the record first: a directory that has one has files that belong together."""
+    """Remove files in the given order, so that the record, which marks a complete report, goes
+    first.
+    """
     for name in names:
         (directory / name).unlink(missing_ok=True)
 
 
 @contextmanager
 def _alone_in(directory: Path) -> Iterator[None]:
-    """Wait for another process that writes a report there: files of two would be mixed."""
+    """Lock a report directory for a block; wait while another process writes a report there."""
     lock = acquire(directory, wait=True)
     try:
         yield

@@ -1,4 +1,6 @@
-"""A judgement as a page: who answered, one line, every verdict, errors by fineness."""
+"""Page of the judgement of a code on a challenge: verdicts, levels, and errors by fineness and
+cost.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,9 @@ MAX_CURVES = 8
 
 
 def row_texts(row: Row) -> tuple[str, ...]:
-    """Return a verdict in words."""
+    """Return the columns of a verdict as texts: quantity, step, level, status, error, bound and so
+    on.
+    """
     return (
         row.quantity,
         WHOLE if row.step is None else str(row.step),
@@ -28,7 +32,7 @@ def row_texts(row: Row) -> tuple[str, ...]:
 
 
 def render_sheet(judgement: Judgement) -> str:
-    """Self-contained HTML, readable without script."""
+    """Render the judgement of a code as a self-contained HTML page without scripts."""
     page = environment().get_template("judgement.html")
     return page.render(
         judgement=judgement, tables=(_verdicts(judgement), _levels(judgement)),
@@ -63,7 +67,7 @@ def _levels(judgement: Judgement) -> Table:
 
 
 def _charts(judgement: Judgement) -> list[Chart]:
-    """Return the largest errors by fineness, and by what they cost."""
+    """Return charts of the largest errors of a code against element size and against CPU time."""
     fallen = [row for row in judgement.rows if len(row.errors) > 1]
     fallen.sort(key=lambda row: -(row.error or 0.0))
     seconds = {one.h: one.seconds for one in judgement.answers}

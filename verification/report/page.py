@@ -1,4 +1,4 @@
-"""The pages of a report and of a study: neither needs network or scripts."""
+"""HTML pages of a report and of a study, which require neither network nor scripts."""
 
 from __future__ import annotations
 
@@ -49,17 +49,17 @@ NUMBER = "number"  # class of the style sheet; "words" for the other columns
 
 
 def render_page(report: Report) -> str:
-    """Return the front as HTML; equal records give equal text."""
+    """Render the first page of a report as HTML. Equal records give equal text."""
     return _rendered("page.html", report=report, brief=report.level == "quick")
 
 
 def render_sheets(report: Report) -> str:
-    """Return one sheet per case, in the order of the record."""
+    """Render the page with one sheet per case, in the order of the record, as HTML."""
     return _rendered("sheets.html", report=report, brief=report.level == "quick")
 
 
 def render_study(record: StudyRecord) -> str:
-    """Return the page of a study, in its own directory."""
+    """Render the page of a study as HTML."""
     return _rendered("study.html", study=record, brief=False)
 
 
@@ -69,7 +69,7 @@ def _rendered(template: str, **shown: object) -> str:
 
 @cache
 def environment() -> jinja2.Environment:
-    """Return the environment of all templates."""
+    """Return the Jinja environment with all templates, filters and functions of the pages."""
     made = jinja2.Environment(
         loader=jinja2.PackageLoader("verification.report"),
         autoescape=True,
@@ -96,8 +96,11 @@ def environment() -> jinja2.Environment:
 
 
 def line_of(case: CaseOutcome) -> str:
-    """State the number of verdicts that passed, and the verdict that uses most of its tolerance:
-    a failed one before all others, a quantity before the residuals of a solve."""
+    """Summarise a case in one line: the number of passed verdicts and the verdict nearest to its
+    limit.
+
+    A failed verdict has priority, and a verdict on a quantity has priority over one on residuals.
+    """
     total, passed = len(case.verdicts), case.count(Status.PASS)
     counted = f"{total} verdicts" if passed == total else f"{passed} of {total} verdicts passed"
 
@@ -113,7 +116,9 @@ def line_of(case: CaseOutcome) -> str:
 
 
 def shared_reasons(cases: Sequence[CaseOutcome]) -> dict[str, list[str]]:
-    """Return references and reasons that several cases share, with their verdicts."""
+    """Return the references and reasons that at least two cases share, with the names of the
+    verdicts.
+    """
     found = [reasons_of(case) for case in cases]
     times = Counter(text for reasons in found for text in reasons)
     return {
@@ -124,7 +129,9 @@ def shared_reasons(cases: Sequence[CaseOutcome]) -> dict[str, list[str]]:
 
 
 def reasons_of(case: CaseOutcome) -> dict[str, list[str]]:
-    """Return each source of a reference and each reason of a tolerance, with its verdicts."""
+    """Return the sources of references and the reasons of tolerances of a case, with their
+    verdicts.
+    """
     found: dict[str, list[str]] = {}
     for v in case.verdicts:
         for text in (
@@ -138,7 +145,10 @@ def reasons_of(case: CaseOutcome) -> dict[str, list[str]]:
 
 
 def alignment(table: Table, column: int) -> str:
-    """Return the class of a column: numbers stand to the right, words to the left."""
+    """Return the style class of a table column: numbers are aligned right, words left.
+
+    column  index of the column
+    """
     cells = [row[column] for row in table.rows if len(row) > column]
     with_digits = all(DIGITS & set(cell) or len(cell) < 2 for cell in cells)  # – is no word
     short = max(map(len, cells), default=0) < WORDS_FROM
@@ -146,7 +156,11 @@ def alignment(table: Table, column: int) -> str:
 
 
 def heading(table: Table, column: int) -> str:
-    """Return the head of a column, with the unit of its numbers where the cells do not name it."""
+    """Return the heading of a table column, with the unit of its numbers if the cells do not name
+    units.
+
+    column  index of the column
+    """
     head = table.columns[column]
     if table.units is None or column == 0 or alignment(table, column) != NUMBER:
         return head

@@ -1,4 +1,4 @@
-"""Studies in a report: their records, the commands that make them, and the promises they judge."""
+"""Sections of studies in a report: their records, their commands, and the program's promises."""
 
 from __future__ import annotations
 
@@ -33,10 +33,10 @@ PLACES = (Path("reports/studies"), Path("out"))  # where records are looked for
 
 @dataclass(frozen=True)
 class StudySection:
-    """A place of the page.
+    """Section of the report page for one study.
 
-    record   what a study found; None if no record of it was at hand
-    command  makes the record
+    record   record of the study; None if none was found
+    command  command that makes the record
     """
 
     name: str
@@ -47,7 +47,12 @@ class StudySection:
 
 @dataclass(frozen=True)
 class Feature:
-    """A promise of the program with its figures; no status where this report has nothing on it."""
+    """A promise of the program with the figures that support it.
+
+    status   outcome of the case or study that judges the promise; None if the report lacks it
+    figures  measured figures in words
+    address  link to the case or study
+    """
 
     promise: str
     status: Status | None
@@ -56,14 +61,14 @@ class Feature:
 
 
 def study_section(report: Report, name: str) -> StudySection:
-    """Return the section of a study; KeyError if the page has no place for it."""
+    """Return the section of a study for the report page; raises KeyError if the page has none."""
     command = f"slipstick maintain study {name} --level {report.level}"
     record = next((record for record in report.studies if record.name == name), None)
     return StudySection(name, TITLES[name], record, command)
 
 
 def features(report: Report, sheets: str) -> tuple[Feature, ...]:
-    """Return the promises: planning, judged by a case, and those that a study judges.
+    """Return the promises of the program with their figures, from a case and from the studies.
 
     sheets  address of the page with the sheets of the cases
     """
@@ -104,7 +109,7 @@ def _studied(section: StudySection, promise: str) -> Feature:
 
 
 def claims_line(record: StudyRecord) -> str:
-    """State the number of claims of a study that hold."""
+    """Return the number of judged claims of a study that hold, as text."""
     judged = [s.outcome for s in record.conclusion.statements if s.outcome is not None]
     good = judged.count(Status.PASS)
     return f"{good} of its {len(judged)} judged claims hold (level {record.level})"
@@ -113,13 +118,13 @@ def claims_line(record: StudyRecord) -> str:
 def stored_records(
     places: Iterable[Path] = PLACES, left_out: Callable[[str], None] | None = None
 ) -> tuple[StudyRecord, ...]:
-    """Return the best record of every study that the page has a place for, by name.
+    """Return the preferred record of every study that has a section on the page, sorted by name.
 
-    A record of the current sources goes before those of others, then the higher level, then the
-    later date. A record on cells of the user's choice is no level of a study.
+    Records of the current sources have priority over others, then the higher level, then the later
+    date. Records with a number of cells chosen by the user are left out.
 
-    left_out  called with the problem of a record that is broken or of another version; without it
-              such a record raises ValueError
+    left_out  function called with a message for each record that is damaged or of another version;
+              None raises ValueError instead
     """
     from verification.running.study import stored_studies
 

@@ -1,4 +1,5 @@
-"""`summary.md`: the report for a pull request; the sentences that it shares with the command."""
+"""Summary of a report in Markdown for a pull request, JUnit table, and lines for
+the command line."""
 
 from __future__ import annotations
 
@@ -32,7 +33,7 @@ OUTSIDE = {
 
 
 def counts_text(report: Report) -> str:
-    """State the number of verdicts, stated errors and studies by outcome."""
+    """Summarise the outcomes of verdicts, stated errors and studies in one line."""
     found = [verdict.covered for _, verdict in judged_errors(report.cases)]
     failed = len(report.failed_studies)
     older = sum(study.status is Status.FAIL for study in report.studies) - failed
@@ -50,7 +51,8 @@ def counts_text(report: Report) -> str:
 
 
 def uncovered_lines(report: Report) -> list[str]:
-    """Return one line for every stated error that does not cover the difference."""
+    """Return one line for each stated error that is smaller than the difference
+    from the reference."""
     return [
         f"UNCOVERED {case.name}/{verdict.name} [{verdict.run}]: "
         f"{value_text(abs((verdict.value or 0.0) - verdict.reference), verdict.unit)} from the "
@@ -61,14 +63,19 @@ def uncovered_lines(report: Report) -> list[str]:
 
 
 def failure_lines(report: Report) -> list[str]:
-    """Return one line for every failed verdict, and for every failed study of the same sources."""
+    """Return one line for each failed verdict, and for each failed study of the current sources."""
     lines = [failure_line(case.name, verdict, report.level) for case, verdict in report.failures]
     lines += uncovered_lines(report) if report.errors_too_small else []
     return lines + [study_failure_line(study) for study in report.failed_studies]
 
 
 def power_text(report: Report) -> str:
-    """State the share of verdicts that a larger error would pass; empty without any."""
+    """Describe the sensitivity of the verdicts: the share that would pass with errors 3 or 10 times
+    larger.
+
+    Only passed verdicts with an independent reference count. The text is empty without such
+    verdicts.
+    """
     judged = [
         (verdict.error, verdict.allowed)
         for case in report.cases
@@ -94,7 +101,8 @@ def power_text(report: Report) -> str:
 
 
 def render_summary(report: Report) -> str:
-    """Return the verdict, the failures and one row per case, in Markdown."""
+    """Render the summary of a report in Markdown: status, failures, changes, and
+    one row per case."""
     return "\n".join(_lines(report)) + "\n"
 
 
@@ -134,7 +142,7 @@ def _sign(status: Status) -> str:
 
 
 def _closest(case: CaseOutcome) -> str:
-    """The verdict that uses most of its tolerance."""
+    """Describe the verdict of a case that uses the largest share of its tolerance."""
 
     def use(verdict: Verdict) -> float:
         return verdict.clearance or 0.0
@@ -145,7 +153,7 @@ def _closest(case: CaseOutcome) -> str:
 
 
 def _changes(report: Report) -> Iterator[str]:
-    """What is new since the baseline."""
+    """Yield the Markdown lines on changes since the recorded baseline."""
     yield f"Since the baseline: {changes_text(report)}."
     for origin, names in origins(report):
         text = f"- {len(names)} of the cases: {origin.name}, {origin.date[:10]}, {origin.reason}"
@@ -169,10 +177,11 @@ Made = tuple[str, Status, str, str]  # name, outcome, message, text
 
 
 def render_junit(report: Report) -> str:
-    """Return one suite per case with a test case per verdict, and one suite of the studies of the
-    same sources; without times, which differ between runs.
+    """Render a report as JUnit XML: one suite per case with one test case per verdict, and one of
+    studies.
 
-    Changes since the baseline are text of their suite: they are no failures.
+    Only studies of the current sources are included. Times are left out, because they differ
+    between runs. Changes since the baseline are text output of a suite and not failures.
     """
     root = ElementTree.Element("testsuites", name=f"slipstick verify, {report.level}")
     for case in report.cases:

@@ -1,4 +1,6 @@
-"""Diagrams as SVG elements in a page: its colours, its text, unique names, few bytes."""
+"""Charts as compact SVG elements of a page, with colours of the page, searchable text and unique
+ids.
+"""
 
 from __future__ import annotations
 
@@ -37,9 +39,9 @@ HEAD = "</style>\n</head>"
 
 
 def inline_svg(chart: Chart, prefix: str = "") -> str:
-    """Return the chart as an SVG element; equal charts give equal text.
+    """Draw a chart and return it as an SVG element; equal charts give equal text.
 
-    prefix  of its ids, where a page shows a chart twice
+    prefix  prefix of the ids, for a chart that a page shows twice
     """
     with style.figure_style():
         # Text stays text: it can be searched, read out, and takes the page's colour.
@@ -58,8 +60,11 @@ def inline_svg(chart: Chart, prefix: str = "") -> str:
 
 
 def image_address(picture: Picture) -> str:
-    """Return an address that contains the whole picture. An image is not part of the page: nothing
-    in it can run, refer to the page or request anything."""
+    """Return a data address that contains a picture as an SVG image.
+
+    A page shows it as an image, so that nothing in the picture can run, refer to the page or load
+    data.
+    """
     svg = compact(picture.svg, picture.name)
     if not svg.startswith("<svg "):  # no drawing: a browser shows the text of the image
         return "data:,"
@@ -67,9 +72,10 @@ def image_address(picture: Picture) -> str:
 
 
 def compact(svg: str, name: str) -> str:
-    """Remove all that a page does not need: two thirds of the bytes of matplotlib.
+    """Remove the parts of an SVG text by matplotlib that a page does not need: two thirds of the
+    bytes.
 
-    name  unique in the page: two diagrams cannot refer to each other's parts
+    name  name that is unique in the page, so that diagrams cannot refer to each other's elements
     """
     svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.DOTALL)
     svg = re.sub(r"<!--.*?-->|<style.*?</style>", "", svg, flags=re.DOTALL)
@@ -85,8 +91,10 @@ def compact(svg: str, name: str) -> str:
 
 
 def with_shared_styles(page: str) -> str:
-    """Replace every style that several parts of the diagrams have by a class, numbered in the order
-    of the first use."""
+    """Replace every style that occurs several times in the diagrams of a page by a class.
+
+    The classes are numbered in the order of their first use.
+    """
     counts = Counter(
         style for figure in FIGURE.findall(page) for _, style in STYLED.findall(figure)
     )
@@ -103,7 +111,7 @@ def with_shared_styles(page: str) -> str:
 
 
 def _with_own_ids(svg: str, name: str) -> str:
-    """Number the ids that something refers to; remove the others."""
+    """Rename the ids in an SVG text that are referred to, and remove the others."""
     wanted = set(REFERENCE.findall(svg))
     kept = [i for i in re.findall(r'\bid="([^"]*)"', svg) if i in wanted]
     short = hashlib.sha256(name.encode()).hexdigest()[:DIGITS]
@@ -113,7 +121,8 @@ def _with_own_ids(svg: str, name: str) -> str:
 
 
 def _short_style(match: re.Match[str]) -> str:
-    """The font's family is the page's."""
+    """Shorten the style attribute of an SVG element, without the font family, which
+    the page sets."""
     parts = [part.strip().replace(": ", ":") for part in match[1].split(";")]
     return f' style="{";".join(p for p in parts if p and not p.startswith("font-family"))}"'
 
@@ -130,7 +139,7 @@ def _short_number(value: float) -> str:
 
 
 def _without_bare_groups(svg: str) -> str:
-    """Remove each group without attributes, and its own end."""
+    """Remove the tags of SVG groups without attributes, and keep their contents."""
     kept: list[bool] = []
 
     def end(match: re.Match[str]) -> str:

@@ -1,4 +1,7 @@
-"""`report.json`: all that a report shows. Only `provenance` differs between two equal runs."""
+"""Record `report.json` of a verification report: all data that the report shows.
+
+Only `provenance` differs between two runs of the same code.
+"""
 
 import lzma
 from pathlib import Path
@@ -21,29 +24,29 @@ LARGEST_RECORD = 100_000_000  # bytes, unpacked; a full report has a few million
 
 
 class Report(Description):
-    """A verification report."""
+    """Verification report: outcomes of all cases, records of the studies, and provenance."""
 
     schema_version: int = REPORT_VERSION
     level: str
     counts: dict[Status, int]
-    """How many verdicts ended how."""
+    """Number of verdicts by status."""
 
     cases: tuple[CaseOutcome, ...]
     omissions: tuple[str, ...]
-    """What is not verified, and known limits."""
+    """Features that are not verified, and known limits."""
 
     provenance: Provenance
     studies: tuple[StudyRecord, ...] = ()
     """Records of studies, each made by its own command."""
 
     chosen: bool = False
-    """Whether only cases that were asked for ran; otherwise all of the level did."""
+    """True if only cases chosen by the user ran; otherwise all cases of the level ran."""
 
     gone: tuple[GoneCase, ...] = ()
-    """Recorded cases that a report of all cases does not have any more."""
+    """Cases with recorded results that a report of all cases lacks."""
 
     pictures: tuple[Picture, ...] = ()
-    """Fields of one contact, for the front."""
+    """Drawings of the fields of one contact, for the first page."""
 
     @model_validator(mode="after")
     def _counts_what_it_lists(self) -> "Report":
@@ -64,20 +67,25 @@ class Report(Description):
 
     @property
     def status(self) -> Status:
-        """Fail if anything failed; inconclusive only if nothing did."""
+        """Overall status: FAIL if any verdict, study or coverage of stated errors failed.
+
+        Otherwise PASS if any verdict passed, and INCONCLUSIVE if none did.
+        """
         if self.counts[Status.FAIL] or self.failed_studies or self.errors_too_small:
             return Status.FAIL
         return Status.INCONCLUSIVE if not self.counts[Status.PASS] else Status.PASS
 
     @property
     def errors_too_small(self) -> bool:
-        """Return True if a report of all cases at the full level has too many uncovered errors."""
+        """Determine if the stated errors of a complete full report cover too few differences to
+        references.
+        """
         whole = self.level == Level.FULL.name.lower() and not self.chosen
         return whole and share_covered(self.cases) < LEAST_SHARE
 
     @property
     def failures(self) -> tuple[tuple[CaseOutcome, Verdict], ...]:
-        """Every failed verdict with its case."""
+        """Failed verdicts, each with its case."""
         return tuple(
             (case, verdict)
             for case in self.cases
@@ -87,7 +95,7 @@ class Report(Description):
 
     @property
     def failed_studies(self) -> tuple[StudyRecord, ...]:
-        """Studies that failed and were made by the sources as they are now."""
+        """Failed studies whose records were computed by the present source code."""
         return tuple(
             study
             for study in self.studies
@@ -96,7 +104,7 @@ class Report(Description):
 
 
 def count(cases: tuple[CaseOutcome, ...]) -> dict[Status, int]:
-    """Return the verdicts of all cases by status, every status present."""
+    """Count the verdicts of all cases by status; every status is a key."""
     return {status: sum(case.count(status) for case in cases) for status in Status}
 
 
@@ -105,13 +113,16 @@ def _counts_text(counts: dict[Status, int]) -> str:
 
 
 def dump_report(report: Report) -> str:
-    """The report as JSON text, every key present."""
+    """Convert a report to JSON text with all keys, including those with default values."""
     return json_text(report.model_dump(mode="json"))
 
 
 def load_report(path: Path) -> Report:
-    """The report back from its file, which may be packed; ValueError, in one line, for what is no
-    report of this version, contradicts itself or is damaged; OSError if unreadable."""
+    """Read a report from its JSON file, which may be compressed by xz.
+
+    Raises ValueError with a message of one line if the file is damaged, inconsistent or of another
+    version, and OSError if it cannot be read.
+    """
     content = _unpacked(path) if path.suffix == PACKED_SUFFIX else path.read_bytes()
     try:
         return Report.model_validate_json(content)
@@ -123,7 +134,7 @@ def load_report(path: Path) -> Report:
 
 
 def _unpacked(path: Path) -> bytes:
-    """What `xz` packed; a bomb ends where no report does."""
+    """Decompress an xz file up to the size limit of a report; raises ValueError above the limit."""
     try:
         with lzma.open(path) as packed:
             content = packed.read(LARGEST_RECORD + 1)
@@ -135,6 +146,6 @@ def _unpacked(path: Path) -> bytes:
 
 
 def report_schema() -> dict[str, Any]:
-    """Return JSON Schema of `report.json`."""
+    """Return the JSON Schema of `report.json`."""
     schema = Report.model_json_schema(mode="serialization")
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}

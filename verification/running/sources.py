@@ -1,4 +1,7 @@
-"""Digest of the sources that a record depends on: the import closure of its modules."""
+"""Digest of the source code that a stored record depends on, to detect records of older code.
+
+The digest includes all modules that the modules of the record import from the project.
+"""
 
 from __future__ import annotations
 
@@ -31,8 +34,10 @@ STATEMENT_ENDS = (tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT)
 
 @cache
 def source_digest(*modules: str) -> str:
-    """Return the digest of the sources of these modules, of all that they import from the project,
-    and of the references, if they read any. A package stands for all its modules."""
+    """Compute the digest of the sources of modules and of all project modules that they import.
+
+    A package stands for all its modules. The stored references are included if they are imported.
+    """
     digest = hashlib.sha256()
     paths = closure(modules)
     if "verification/references/__init__.py" in paths:
@@ -44,17 +49,20 @@ def source_digest(*modules: str) -> str:
 
 
 def is_current(made: Provenance) -> bool:
-    """Return True if a record was made by the present sources; False if they are unknown."""
+    """Determine if a record was made by the present source code; False if its
+    sources are unknown."""
     return bool(made.modules) and made.sources == source_digest(*made.modules)
 
 
 def age_text(made: Provenance) -> str:
-    """Return words for a record that is older than the code; empty for a current one."""
+    """Return a note for a record that is older than the source code; empty for a current record."""
     return "" if is_current(made) else "older than the code"
 
 
 def closure(modules: Iterable[str]) -> set[str]:
-    """Return the files of modules and of all that they import from the project."""
+    """Return the paths of modules and of all project modules that they import, directly or
+    indirectly.
+    """
     found: set[str] = set()
     left = [path for module in modules for path in _files(module, whole=True)]
     while left:
@@ -78,7 +86,10 @@ def _imported(path: str) -> tuple[str, ...]:
 
 
 def _files(module: str, *, whole: bool = False) -> Iterator[str]:
-    """Yield the files of a module and of the packages above it; with `whole` all of a package."""
+    """Yield the files of a module and of the packages that contain it.
+
+    whole  if True, also yield all files of a package
+    """
     parts = module.split(".")
     if parts[0] not in PACKAGES:
         return
@@ -92,10 +103,11 @@ def _files(module: str, *, whole: bool = False) -> Iterator[str]:
 
 @cache
 def _content(path: str) -> str:
-    """Return the digest of a file; of a module, that of its tokens without comments, docstrings and
-    spaces.
+    """Compute the digest of a file.
 
-    Repeated braces count as one, because Python 3.12 and later split an f-string into tokens."""
+    For a Python module, comments, docstrings and spaces are left out. Repeated braces count as one,
+    because Python 3.12 and later split an f-string into tokens.
+    """
     data = (ROOT / path).read_bytes()
     if path.endswith(".py"):
         kept, before = [], tokenize.NEWLINE

@@ -1,4 +1,4 @@
-"""A study: cases that are computed one by one, and what is concluded from all of them."""
+"""Data model of a study: its cases, their records, statements, conclusion and stored files."""
 
 from __future__ import annotations
 
@@ -26,32 +26,35 @@ Value = str | bool | int | float | None
 
 
 class Row(Description):
-    """One observation."""
+    """Values of one observation of a study, by name: parameters, measures, counters and texts."""
 
     parameters: dict[str, Value] = Field(default_factory=dict)
-    """What it is of: what was asked for."""
+    """Inputs of the observation."""
 
     measures: dict[str, float | None] = Field(default_factory=dict)
-    """What was measured; null where it is not finite or not known."""
+    """Measured values; null if not finite or not known."""
 
     units: dict[str, str] = Field(default_factory=dict)
-    """Of the measures that have one."""
+    """Units of the measures that have one."""
 
     counters: dict[str, int] = Field(default_factory=dict)
-    """What was counted: the same at every run."""
+    """Counts, which are equal in every run."""
 
     words: dict[str, str] = Field(default_factory=dict)
-    """What was said: kinds of ends, reasons."""
+    """Texts, such as kinds of outcomes and reasons."""
 
     def number(self, name: str) -> float | None:
-        """A measure, a counter or a parameter that is a number; None without one. What was asked
-        for goes before what was counted under the same name."""
+        """Return the parameter, counter or measure with a name; None for a text or an unknown name.
+
+        If several have the name, a parameter has priority over a counter, and a counter over a
+        measure.
+        """
         known: Any = {**self.measures, **self.counters, **self.parameters}.get(name)
         return None if isinstance(known, str) else known
 
 
 def value_of(row: Row, name: str) -> float:
-    """A measure that is known; KeyError if the row lacks it, ValueError if it is null."""
+    """Return a measure of a row. Raises KeyError if the row lacks it, ValueError if it is null."""
     value = row.measures[name]
     if value is None:
         raise ValueError(f"{name} is not known of {row.parameters}")
@@ -59,33 +62,37 @@ def value_of(row: Row, name: str) -> float:
 
 
 class CaseRecord(Row):
-    """What a case of a study leaves, whatever it computes."""
+    """Stored result of one case of a study, with one row per part of the case."""
 
     parts: tuple[Row, ...] = ()
-    """What it saw on its way."""
+    """Rows of the parts of the case, such as profile points or judged quantities."""
 
     seconds: float = 0.0
-    """CPU time, of the worker's whole work where the case measures none; with `repeats`, all that
-    differs between equal runs."""
+    """CPU time [s]: as measured by the case, or of the worker's whole work on it. Apart from
+    `clock` and `repeats`, only this value differs between equal runs.
+    """
 
     clock: dict[str, float] = Field(default_factory=dict)
-    """CPU seconds of its parts by name, which no run repeats either."""
+    """CPU seconds of parts of the case, by name; they differ between runs."""
 
     repeats: int = 1
-    """Solves of which `seconds` is the median."""
+    """Number of solves whose median time is `seconds`."""
 
 
 class TypedRow(Description):
-    """A row whose names and types are known. Of its fields texts and members of enumerations are
-    kept as words, whole numbers and what is true or not as counters, other numbers as measures."""
+    """Row of a study with declared names and types of its values.
+
+    In the stored `Row`, texts and enumeration members become words, integers and booleans become
+    counters, and other numbers become measures.
+    """
 
     PARAMETERS: ClassVar[tuple[str, ...]] = ()
-    """Fields that say what it is of."""
+    """Names of the fields that are stored as parameters."""
 
     UNITS: ClassVar[Mapping[str, str]] = {}
 
     def row(self) -> Row:
-        """As it is kept."""
+        """Convert the values to a `Row`, in which they are stored."""
         values = self.model_dump(mode="json")
         parameters = {name: values.pop(name) for name in self.PARAMETERS}
         words = {name: value for name, value in values.items() if isinstance(value, str)}
@@ -100,13 +107,13 @@ class TypedRow(Description):
 
     @classmethod
     def of(cls, row: Row) -> Self:
-        """Back from its row."""
+        """Create the typed row from a stored `Row`."""
         known: dict[str, Any] = {**row.parameters, **row.measures, **row.counters, **row.words}
         return cls.model_validate({name: known[name] for name in cls.model_fields if name in known})
 
 
 class Named(Protocol):
-    """A case, by what its record is found."""
+    """Interface of a case whose record is found by its name."""
 
     @property
     def name(self) -> str: ...
@@ -116,17 +123,23 @@ C = TypeVar("C", bound=Named)
 
 
 def found(cases: Iterable[C], records: Mapping[str, CaseRecord]) -> dict[C, CaseRecord]:
-    """The records that there are, by case, in the order of the cases."""
+    """Return the available records by case, in the order of the cases.
+
+    records  records by name of the case
+    """
     return {case: records[case.name] for case in cases if case.name in records}
 
 
 def rows_of(cases: Iterable[C], known: Mapping[C, CaseRecord]) -> list[CaseRecord]:
-    """Of these cases, those that have one."""
+    """Return the records of the given cases, without cases that have no record."""
     return [known[case] for case in cases if case in known]
 
 
 def parameters_of(case: Any) -> dict[str, Value]:
-    """The plain values that a case is made of, by the names of its fields."""
+    """Return the fields of a dataclass as plain values by name, with nested dataclasses flattened.
+
+    Enumeration members become their values; tuples become texts joined by " x ".
+    """
     values: dict[str, Value] = {}
     for field in fields(case):
         value = getattr(case, field.name)
@@ -149,7 +162,7 @@ Cells = Mapping[str, object]
 
 
 def row_files(records: Mapping[str, CaseRecord], findings: Sequence[Row] = ()) -> dict[str, str]:
-    """Return the CSV files of a study by name, without empty ones.
+    """Return the texts of the CSV files of a study by file name, without empty files.
 
     `rows.csv` has one line per case, `parts.csv` one per part of a case, `findings.csv` one per row
     of the conclusion, `seconds.csv` the measured times.
@@ -165,12 +178,16 @@ def row_files(records: Mapping[str, CaseRecord], findings: Sequence[Row] = ()) -
 
 
 def _named(rows: Iterable[tuple[str, Row]]) -> list[Cells]:
-    """By name of the case that they are of."""
+    """Convert rows to lines of a CSV file that begin with the name of their case."""
     return [{CASE: name, **_cells(row)} for name, row in rows]
 
 
 def _cells(row: Row) -> Cells:
-    """Parameters by their name, measures as name [unit], counters as name [count], words."""
+    """Convert a row to a line of a CSV file, by column name.
+
+    The names are those of parameters and words, "name [unit]" for measures and "name [count]" for
+    counters.
+    """
     return {
         **row.parameters,
         **{f"{name} [{row.units.get(name, '1')}]": v for name, v in row.measures.items()},
@@ -180,7 +197,7 @@ def _cells(row: Row) -> Cells:
 
 
 def _text(lines: Iterable[Cells]) -> str:
-    """A column for every name that any line has."""
+    """Write lines as CSV text with a column for every name that occurs in any line."""
     lines = tuple(lines)
     text = io.StringIO()
     head = dict.fromkeys(name for line in lines for name in line)
@@ -194,23 +211,27 @@ STUDY_VERSION = 1
 
 
 class StudyCase(Protocol):
-    """A frozen dataclass of plain values that says what to compute; it is sent to a worker."""
+    """Interface of a case of a study: a frozen dataclass of plain values, which is sent to a
+    worker.
+    """
 
     @property
     def name(self) -> str:
-        """Names the case within its study: letters, digits and hyphens."""
+        """Unique name of the case in its study, of letters, digits and hyphens."""
 
     def compute(self) -> Description:
-        """Do the work; raises what the solvers raise. Cases of a study give a `CaseRecord`."""
+        """Compute the case and return its record, a `CaseRecord` in studies. Raises the errors of
+        solvers.
+        """
 
 
 @dataclass(frozen=True)
 class Settings:
-    """How much is computed.
+    """Extent of a study.
 
-    level   decides what is left open
-    cells   of the finest grid along each side; None leaves it to the level
-    levels  of refinement, for studies that refine; None leaves it to the level
+    level   quick, standard or full; determines all values that are None
+    cells   cells per side of the finest grid; None for the value of the level
+    levels  number of refinement levels; None for the value of the level
     """
 
     level: Level
@@ -219,7 +240,7 @@ class Settings:
 
 
 class Statement(Description):
-    """One line of the verdict: a claim, how it was judged, and the numbers behind it."""
+    """Claim of a study with its outcome and the measured numbers as text."""
 
     claim: str
     outcome: Status | None
@@ -228,34 +249,35 @@ class Statement(Description):
     measured: str
     because: str = ""
     about: Row | None = None
-    """The same as fields: what it is about, and the numbers behind it; null in older records."""
+    """Measured numbers as fields; null in older records."""
 
 
 class LostCase(Description):
-    """A case without a record."""
+    """Case of a study without a record, with the reason."""
 
     name: str
     reason: str
 
 
 class Conclusion(Description):
-    """What a study shows. Texts are for people; the numbers behind them are in the records."""
+    """Statements, tables, charts and remarks that a study derives from its records."""
 
     statements: tuple[Statement, ...]
     answer: str = ""
-    """To the question of the study, in a sentence; empty where only the statements answer it."""
+    """Answer to the question of the study in one sentence; empty if only the
+    statements answer it."""
 
     tables: tuple[Table, ...] = ()
     charts: tuple[Chart, ...] = ()
     rows: tuple[Row, ...] = ()
-    """Numbers that are read on: tables and pages are made of them."""
+    """Numbers from which other tables and pages are made."""
 
     remarks: tuple[str, ...] = ()
-    """What is assumed, and what the study does not show."""
+    """Assumptions, and limits of the study."""
 
     @property
     def failed(self) -> bool:
-        """Return True if a statement failed."""
+        """Determine if any statement has the outcome FAIL."""
         return any(statement.outcome is Status.FAIL for statement in self.statements)
 
 
@@ -266,10 +288,10 @@ Records = Mapping[str, CaseRecord]
 class Study:
     """A study of the catalogue.
 
-    title     a line for lists and the head of the page
-    question  what it is about, for a reader
-    cases     what has to be computed
-    conclude  from the records that there are, by name of the case: some may be missing
+    title     one line for lists and for the head of the page
+    question  question that the study answers, for readers
+    cases     function that returns the cases to compute
+    conclude  function that derives the conclusion from the available records, by name of the case
     """
 
     name: str
@@ -280,7 +302,7 @@ class Study:
 
 
 class StudyRecord(Description):
-    """All that the page of a study shows."""
+    """Stored record of a study: all data that its page shows."""
 
     schema_version: int = STUDY_VERSION
     name: str
@@ -289,11 +311,11 @@ class StudyRecord(Description):
     level: str
     conclusion: Conclusion
     lost: tuple[LostCase, ...]
-    """Cases that have no record: the conclusion does without them."""
+    """Cases without a record, which the conclusion leaves out."""
 
     provenance: Provenance
     own_cells: bool = False
-    """Whether somebody chose the cells: it is then of no level."""
+    """True if the user chose the number of cells; the record then represents no level."""
 
     @model_validator(mode="after")
     def _is_of_this_version(self) -> StudyRecord:
@@ -303,7 +325,10 @@ class StudyRecord(Description):
 
     @property
     def status(self) -> Status:
-        """Fail if a statement failed or a case was lost."""
+        """Overall status: FAIL if a statement failed or a case has no record.
+
+        Otherwise INCONCLUSIVE if any statement is inconclusive, else PASS.
+        """
         outcomes = {statement.outcome for statement in self.conclusion.statements}
         if self.lost or Status.FAIL in outcomes:
             return Status.FAIL
@@ -311,20 +336,20 @@ class StudyRecord(Description):
 
 
 def dump_study(record: StudyRecord) -> str:
-    """The record as JSON text, without what is as it is where nothing is said of it."""
+    """Convert the record of a study to JSON text, without fields that have their default value."""
     said = record.model_dump(mode="json", exclude_defaults=True)
     return json_text({"schema_version": record.schema_version} | said)
 
 
 def json_text(values: dict[str, Any]) -> str:
-    """Return indented JSON, with lists of numbers and texts alone on one line."""
+    """Return indented JSON text, in which lists and objects without nested ones take one line."""
     text = json.dumps(values, indent=1, ensure_ascii=False, allow_nan=False)
     # No text of JSON has a line's end in it: only the space between values is changed.
     return re.sub(r"[\[{]\n[^\[\]{}]*[\]}]", lambda m: re.sub(r"\n *", " ", m[0]), text) + "\n"
 
 
 def study_failure_line(study: StudyRecord) -> str:
-    """What a study of the same sources found wrong first, and how to see it again."""
+    """Describe the first failure of a study in one line, with the command that reproduces it."""
     failed = [s for s in study.conclusion.statements if s.outcome is Status.FAIL]
     found = [f"{s.claim}: {s.measured}" for s in failed]
     found += [f"{case.name} was lost: {case.reason}" for case in study.lost]
@@ -333,7 +358,9 @@ def study_failure_line(study: StudyRecord) -> str:
 
 
 def measured_text(study: StudyRecord) -> str:
-    """Return the origin of a record that is older than the code; empty for a current one."""
+    """Return the commit of a study record that is older than the source code; empty for a current
+    one.
+    """
     made = study.provenance
     age = age_text(made)
     return age and f", {age}: measured at {commit_text(made.commit, changed=made.changed)}"
@@ -345,10 +372,10 @@ RECORD = "study.json"
 def stored_studies(
     directory: Path, left_out: Callable[[str], None] | None = None
 ) -> tuple[StudyRecord, ...]:
-    """The records of all studies that have left theirs in a folder of this directory, by name.
+    """Read the study records in all folders of a directory, sorted by name.
 
-    left_out  is told of a record that is broken or of another version; without it that raises
-              ValueError, naming the file
+    left_out  function called with a message for each record that is damaged or of another version;
+              None raises ValueError with the path instead
     """
     records = []
     for path in sorted(directory.glob(f"*/{RECORD}")):
@@ -366,28 +393,36 @@ RESIDUAL = "largest_residual"  # of any increment of a case, by the name of its 
 
 
 def judged(good: bool, *, complete: bool = True) -> Status:
-    """Return the outcome of a claim; open where cases are missing that it is about."""
+    """Return the outcome of a claim: PASS or FAIL, or INCONCLUSIVE if required cases are missing.
+
+    good      True if the available records fulfil the claim
+    complete  True if all required cases are available
+    """
     if not complete:
         return Status.INCONCLUSIVE
     return Status.PASS if good else Status.FAIL
 
 
 def largest(rows: Iterable[Row], name: str) -> float:
-    """The largest magnitude of a measure over the rows that have it; infinite where one is not
-    finite, 0 without rows."""
+    """Return the largest magnitude of a measure over the rows that have it.
+
+    The result is infinite if a value is null, and 0 without rows.
+    """
     values = [row.measures[name] for row in rows if name in row.measures]
     return max((math.inf if v is None else abs(v) for v in values), default=0.0)
 
 
 def total(rows: Iterable[Row], counter: str) -> int:
-    """Sum of a counter over the rows."""
+    """Return the sum of a counter over all rows; rows without the counter add 0."""
     return sum(row.counters.get(counter, 0) for row in rows)
 
 
 def solved(claim: str, count: int, asked: int, what: str = "") -> Statement:
-    """Whether all that was asked for has a record.
+    """State that all requested cases have a record.
 
-    what  is counted, in a word
+    count  number of cases with a record
+    asked  number of requested cases
+    what   noun for the counted cases
     """
     return Statement(
         claim=claim,
@@ -405,10 +440,11 @@ def converged(
     claim: str = "every increment converged",
     asked: int = 0,
 ) -> Statement:
-    """Whether every increment of all cases ended within the tolerance.
+    """State that the residuals of all increments of all cases are within the tolerance.
 
-    where  in words
-    asked  rows that there should be: open with fewer
+    rows   records with the largest residual of each case
+    where  words appended to the residual
+    asked  number of required rows; with fewer rows the outcome is inconclusive
     """
     worst = largest(rows, RESIDUAL)
     return Statement(
@@ -423,10 +459,13 @@ def converged(
 def within(
     what: str, rows: Sequence[Row], allowed: Mapping[str, float], because: str, *, asked: int = 0
 ) -> Statement:
-    """Whether measures are nowhere larger than allowed, by name; those that a row lacks are not
-    asked of it.
+    """State that no measure exceeds its limit in any row; rows without a measure are not judged on
+    it.
 
-    asked  rows that there should be: open with fewer
+    what     start of the claim
+    allowed  limits by name of the measure
+    because  reason for the limits
+    asked    number of required rows; with fewer rows the outcome is inconclusive
     """
     worst = {name: largest(rows, name) for name in allowed}
     limits = ", ".join(f"{name} ≤ {plain(most)}" for name, most in allowed.items())

@@ -1,7 +1,8 @@
-"""Programs that run under the peers' Python: a request as JSON comes in, an answer goes out.
+"""Programs that run other codes: each reads a JSON request and writes a JSON answer.
 
-They import nothing of ours but `exchange`. A request has `cells`, `window`, `radius`, `modulus`,
-`force`, `friction`, `tangential_force` and `tolerance`, all in the units of the caller; friction 0
-asks for pressure alone. An answer has `pressure`, `shear` (None without), `approach` (None where
-the code does not state it), `converged` and `seconds`; or `cannot`, with the reason.
+They run under the Python of the other codes and import nothing of this program but `exchange`. A
+request has `cells`, `window`, `radius`, `modulus`, `force`, `friction`, `tangential_force` and
+`tolerance`, in consistent units of the caller; with friction 0 only the pressure is computed. An
+answer has `pressure`, `shear` (None without friction), `approach` (None if the code does not
+provide it), `converged` and `seconds`; or `cannot`, with the reason.
 """

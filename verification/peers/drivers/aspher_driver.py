@@ -1,5 +1,4 @@
-"""aspher: nested grids with FFT and its FFT preconditioner, its best by its own options; friction
-by its load-history driver."""
+"""Driver of aspher: nested grids with FFT and FFT preconditioner; friction by its load stepping."""
 
 from __future__ import annotations
 
@@ -11,7 +10,9 @@ COARSEST = 16
 
 
 def solve(request: Request) -> Answer:
-    """Return the pressure and approach, and with friction shear."""
+    """Solve a contact with aspher; return pressure, approach and, with friction, the shear
+    tractions.
+    """
     aspher = import_module("aspher")
     n, side = request["cells"], request["window"]
     load = request["force"] / side**2

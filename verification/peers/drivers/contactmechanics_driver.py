@@ -1,4 +1,6 @@
-"""ContactMechanics: constrained conjugate gradients on its free-space kernel; no friction."""
+"""Driver of ContactMechanics: constrained conjugate gradients with a free-space kernel; no
+friction.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +12,10 @@ from verification.peers.drivers.exchange import Answer, CannotDo, Request, answe
 
 
 def solve(request: Request) -> Answer:
-    """Return the pressure and approach."""
+    """Solve a frictionless contact with ContactMechanics; return pressure and approach.
+
+    Raises CannotDo for friction.
+    """
     if request["friction"]:
         raise CannotDo("no friction")
     contact, surfaces = import_module("ContactMechanics"), import_module("SurfaceTopography")

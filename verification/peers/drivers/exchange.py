@@ -1,4 +1,4 @@
-"""Gap, approach, clock and exchange of data of all drivers."""
+"""Common functions of the drivers of other codes: gap, approach, CPU time and exchange of data."""
 
 from __future__ import annotations
 
@@ -24,12 +24,15 @@ ABOVE = 1.0  # the gap beside a punch: far above any approach of small strains
 
 
 class CannotDo(Exception):
-    """The code has no such problem."""
+    """The code cannot solve problems of this kind."""
 
 
 def gap_of(request: Request) -> Array:
-    """Gap below a paraboloid at the cell centres (n, n), or below a cone where a slope is given, or
-    a flat punch where a rim is; less what a tilt closes, the slopes along y and along x."""
+    """Compute the gap below the indenter at the cell centres (n, n) before loading [length].
+
+    The indenter is a paraboloid, a cone if the request has a slope, or a flat punch if the request
+    has a rim. A tilt of the indenter (slopes along y and x) is subtracted.
+    """
     n, side = request["cells"], request["window"]
     x = (np.arange(n) + 0.5) * side / n - side / 2
     x, y = x[:, None], x[None, :]
@@ -49,13 +52,17 @@ def _level_gap(request: Request, x: Array, y: Array, r: Array) -> Array:
 
 
 def approach_of(gap: Array, displacement: Array, pressure: Array) -> float:
-    """By how far the surfaces would overlap where they touch; a mean, weighted by the pressure."""
+    """Compute the rigid approach as the mean of gap plus displacement, weighted by the pressure
+    [length].
+    """
     return float(np.sum(pressure * (displacement + gap)) / np.sum(pressure))
 
 
 def answer(solve: Callable[[Request], Answer], *modules: str) -> None:
-    """Read a request, solve it several times, write the answer with the median of CPU seconds,
-    which imports of the modules are no part of."""
+    """Read a JSON request, solve it repeatedly, and write the answer with the median CPU seconds.
+
+    modules  modules that are imported before the time is measured
+    """
     request = json.load(sys.stdin)
     with os.fdopen(os.dup(sys.stdout.fileno()), "w") as out:
         os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # the prints of a code go there

@@ -1,5 +1,7 @@
-"""tamaas: Polonsky and Keer's method on its non-periodic kernel. Its friction is periodic, and of
-another law: not asked."""
+"""Driver of tamaas: method of Polonsky and Keer with a non-periodic kernel.
+
+Friction is not requested: that of tamaas is periodic and follows another law.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,10 @@ from verification.peers.drivers.exchange import (
 
 
 def solve(request: Request) -> Answer:
-    """Pressure, and the approach where it is wanted: by its operator once more."""
+    """Solve a frictionless contact with tamaas; return pressure and, if requested, the approach.
+
+    The approach takes one more application of the elastic operator. Raises CannotDo for friction.
+    """
     if request["friction"]:
         raise CannotDo("friction on a periodic surface only, with another law")
     tamaas = import_module("tamaas")
