@@ -183,12 +183,14 @@ def _largest_loads(scene: Scene, tilts: bool) -> list[NormalTarget]:
 
 
 def _control(load: NormalTarget) -> tuple[bool, bool]:
-    """Return two flags: the normal force is prescribed, the moment is prescribed."""
+    """Return the kind of control of a normal load: force prescribed or not, moment prescribed or
+    not."""
     return load.force is not None, load.moment is not None
 
 
 def _size(load: NormalTarget) -> float:
-    """Return the prescribed normal force or approach, to compare loads of one kind."""
+    """Return the prescribed normal force or approach, used to find the largest of several normal
+    loads."""
     return load.force or load.approach or 0.0
 
 

@@ -175,8 +175,12 @@ class _Solver:
         return self.model.domain.extend(self.model.gap - closure)
 
     def report(self, reached: Reached[State], last: Increment | None) -> Increment:
-        """Convert a converged state to a reported increment, with changes and cost since the
-        last one."""
+        """Convert a converged state to an increment of the results, with changes and cost since the
+        last one.
+
+        reached  converged state with its place in the load history
+        last     preceding increment; None for the first
+        """
         before, after = reached.before, reached.state
         held = before is not None and before.target == after.target
         spreads = self.plan.coupling is not Coupling.NONE or not held

@@ -68,8 +68,10 @@ def _share(grid: SurfaceGrid, plan: Plan) -> float:
 
 
 def _arrays(grid: SurfaceGrid, plan: Plan) -> float:
-    """Count the arrays of the size of the window that exist at the peak of the solution on
-    cells."""
+    """Count the arrays of the size of the window that are in memory at the peak of the solution.
+
+    The edge correction is excluded.
+    """
     share = _share(grid, plan)
     arrays = PRESSURE_ARRAYS[0] + PRESSURE_ARRAYS[1] * share
     if plan.shear:

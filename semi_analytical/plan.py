@@ -80,7 +80,7 @@ class Plan:
         return tuple(step.count for step in self.path)
 
     def cut_into(self, increments: Sequence[int]) -> "Plan":
-        """Return the plan with the given number of increments of each load step."""
+        """Return the plan with other numbers of increments, one for each load step."""
         path = zip(self.path, increments, strict=True)
         return replace(self, path=tuple(replace(step, count=count) for step, count in path))
 

@@ -89,7 +89,13 @@ class Natural:
 
     @classmethod
     def at(cls, point: Point, problem: CoupledProblem) -> "Natural":
-        """Evaluate the natural map at an iterate; the load must be below the friction limit."""
+        """Evaluate the natural map of contact and friction at an iterate.
+
+        The tangential load must be below the friction limit.
+
+        point    tractions, displacements and rigid motion of the iterate
+        problem  coupled problem of the increment
+        """
         gamma = problem.gamma
         q, p = point.tractions[:2], point.tractions[2]
         gap = problem.gap + point.displacements[2] - point.closure
@@ -174,7 +180,8 @@ class Zones:
 
     @property
     def size(self) -> int:
-        """Number of free unknowns in all zones."""
+        """Number of free unknowns: shear in the stick zone, shear across the slip, pressure in
+        contact."""
         return 2 * len(self._stuck) + len(self.slip) + len(self._pressed)
 
     def parts(self, vector: Vector) -> tuple[Vector, Vector, Vector]:
@@ -187,7 +194,11 @@ class Zones:
         return vector[:stuck].reshape(2, -1), vector[stuck : stuck + slip], vector[stuck + slip :]
 
     def free(self, v: NDArray[Any]) -> Vector:
-        """Restrict a field (3, nx, ny) with components x, y, z to the free unknowns."""
+        """Restrict a traction or displacement field (3, nx, ny) to the free unknowns of the zones.
+
+        Free are both tangential components in the stick zone, the component across the slip in the
+        slip zone, and the normal component in contact.
+        """
         # NumPy is many times slower with indices after a slice, so components are separate.
         x, y, z = v.reshape(3, -1)
         free = np.empty(self.size)
@@ -197,7 +208,8 @@ class Zones:
         return free
 
     def field(self, vector: Vector) -> Field:
-        """Extend a vector of free unknowns by zeros to a field (3, nx, ny)."""
+        """Extend the free unknowns of the zones by zeros to a field (3, nx, ny) with components
+        x, y, z."""
         v = np.zeros((3, self.contact.size))
         stuck, along, pressed = self.parts(vector)
         for one, at_stick, tangent in zip(v[:2], stuck, self.tangent, strict=True):
@@ -268,8 +280,10 @@ class Zones:
         return rows
 
     def changes(self, other: "Zones | None") -> int:
-        """Return the number of cells whose zone differs from that in `other`; all cells if
-        `other` is None."""
+        """Return the number of cells that have another zone (contact, stick, slip) than in `other`.
+
+        All cells count if `other` is None.
+        """
         if other is None:
             return self.contact.size
         same = (self.contact == other.contact) & (self.stick == other.stick)

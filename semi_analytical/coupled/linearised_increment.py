@@ -56,8 +56,11 @@ class LinearisedIncrement:
     def __init__(
         self, problem: CoupledProblem, zones: Zones, carriers: Matrix | None = None
     ) -> None:
-        """Assemble the linear system; `carriers` of similar zones (see `carriers_in`) save their
-        solve."""
+        """Assemble the linear system of a Newton step.
+
+        carriers  tractions that correct the prescribed forces, from similar zones (see
+                  `carriers_in`), which saves their computation; None to compute them
+        """
         self._problem, self._zones = problem, zones
         self._precondition = BinnedPreconditioner(zones, problem)
         shape = problem.gap.shape
@@ -111,15 +114,22 @@ class LinearisedIncrement:
         return t
 
     def residual(self, base: Point, natural: Natural) -> Vector:
-        """Compute the residual of the linear equations at an iterate, one row per free unknown."""
+        """Compute the residual of the linearised contact and friction equations, one row per free
+        unknown.
+
+        base, natural  iterate, and natural map at the iterate
+        """
         zones = self._zones
         rows = zones.free(np.concatenate([natural.slipped, -natural.gap[None]]))
         rows -= zones.slip_terms(zones.free(base.tractions))
         return rows
 
     def solve(self, residual: Vector, depth: float) -> Step:
-        """Compute the Newton step that reduces the residual of the linear equations by the
-        factor `depth`."""
+        """Solve the linearised contact and friction equations for a Newton step, by GMRES.
+
+        residual  residual of the iterate, one row per free unknown
+        depth     reduction of the residual at which GMRES stops
+        """
         zones, problem = self._zones, self._problem
 
         def apply(v: Vector) -> tuple[Vector, Vector]:
@@ -139,14 +149,19 @@ class LinearisedIncrement:
         )
 
     def _unknowns(self, rows: Vector) -> Vector:
-        """Apply the preconditioner to rows of the residual, without changing a prescribed force."""
+        """Apply the preconditioner to a residual; the resulting change leaves the prescribed forces
+        constant.
+
+        rows  residual, one row per free unknown
+        """
         free = self._precondition(rows)
         for weight, carrier in zip(self._inverse @ self._forces(free), self._carriers, strict=True):
             free -= weight * carrier
         return free
 
     def _forces(self, free: Vector) -> Vector:
-        """Compute the changes of the prescribed forces by changes of the free unknowns."""
+        """Compute the changes of the prescribed forces and moments caused by changes of the free
+        tractions."""
         t = self._zones.tractions(free)
         normal = [np.sum(closure * t[2]) for closure in self._closures]
         return np.array([*self._problem.tangential_load.forces(t[:2]), *normal])
@@ -169,7 +184,10 @@ class BinnedPreconditioner:
         self._shares = shares(zones.slip_compliance / problem.self_compliance)
 
     def __call__(self, rows: Vector) -> Vector:
-        """Return M applied to a residual vector `rows`, with one row per free unknown."""
+        """Apply the preconditioner to a residual; return changes of the free tractions.
+
+        rows  residual, one row per free unknown
+        """
         zones, slip, shares = self._zones, self._zones.slip, self._shares
         shape = zones.contact.shape
         v: NDArray[Any] = np.zeros((2 + len(shares), zones.contact.size), dtype=np.float32)

@@ -51,11 +51,7 @@ def mean_power(f: Field, f_x: Field, f_y: Field, exponent: Exponent) -> Field:
 
 
 def power(base: Field, exponent: Exponent) -> Field:
-    """Compute base^exponent, shape of base.
-
-    Square roots replace the general power if the exponent is a multiple of 1/2, which is ten times
-    faster.
-    """
+    """Compute base^exponent, shape of base; multiples of 1/2 use fast square roots."""
     if isinstance(exponent, np.ndarray) or exponent < 0 or 2 * exponent % 1:
         return np.asarray(base**exponent)
     whole = int(exponent)
@@ -109,7 +105,11 @@ def _series_terms(b: Field, c: Field, a: Exponent) -> tuple[Field, Field, Field]
 
 
 def _series(inverse: Field, second: Field, fourth: Field, sixth: Field) -> Field:
-    """Sum the binomial series 1 + second/f² + fourth/f⁴ + sixth/f⁶; `inverse` is 1/f²."""
+    """Sum the binomial series 1 + second/f² + fourth/f⁴ + sixth/f⁶ of the mean of a power over a
+    cell.
+
+    inverse  1/f², with f the value at the cell centre
+    """
     total = inverse * sixth
     for term in (fourth, second):
         total += term

@@ -86,7 +86,8 @@ class Within:
 
     @classmethod
     def zero(cls, cells: tuple[int, ...]) -> Within:
-        """Return the variation of a zero traction on `cells` (nx, ny)."""
+        """Return the variation within cells of a traction that is zero everywhere on `cells`
+        (nx, ny)."""
         none = np.zeros(0, dtype=int)
         return cls(np.zeros((2, *cells)), none, none, np.zeros((0, PARTS, PARTS)))
 
@@ -179,8 +180,11 @@ class EdgeOperator:
         ]
 
     def __call__(self, *within: Within) -> Field:
-        """Compute displacements (rows, nx, ny) [length] from one variation per traction
-        component."""
+        """Compute displacements (rows, nx, ny) [length] from the variations of tractions within
+        cells.
+
+        within  one variation per traction component
+        """
         slopes = np.concatenate([w.slopes for w in within])
         self._counter.count += 0.5 * (len(self._matrix) + len(slopes))
         u = self._transforms.filtered(slopes, *self._sides, self._multiplied)

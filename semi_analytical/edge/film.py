@@ -73,7 +73,11 @@ class FilmLaw:
 
     @cached_property
     def _ratios(self) -> CubicSpline:
-        """Φ1, Φ2 and Φ3 over their values without layers, as functions of ln s."""
+        """Ratios of Φ1, Φ2 and Φ3 with layers to their values without layers, as functions of ln s.
+
+        Φn are the edge pressures of the module; s is the distance from the edge over the layer
+        thickness.
+        """
         from scipy.interpolate import CubicSpline  # its import takes as long as a small contact
 
         t, u = (np.arange(low, high, STEP) for low, high in (WAVES, DISTANCES))
@@ -95,7 +99,7 @@ class FilmLaw:
         return CubicSpline(u, np.stack(ratios, axis=-1))
 
     def holds_within(self, radius: float) -> bool:
-        """Return True if the contact is wide enough for the law.
+        """Return True if a contact is wide enough for the edge pressure law of layered bodies.
 
         radius  radius of the inscribed circle of the contact, in cells
         """
@@ -137,15 +141,21 @@ class FilmLaw:
         return law / root, law_rate * root / (law * root_rate) - 1
 
     def _at(self, s: Field) -> Field:
-        """Interpolate Φ1, Φ2 and Φ3 over their values without layers at distances s; shape (3,
-        …)."""
+        """Interpolate the ratios of Φ1, Φ2 and Φ3 with layers to their values without layers; shape
+        (3, …).
+
+        s  distances from the edge over the layer thickness
+        """
         u = np.log(np.maximum(s, 1e-300))
         found = self._ratios(np.clip(u, self._ratios.x[0], self._ratios.x[-1]))
         return np.asarray(np.moveaxis(found, -1, 0))
 
     def _values(self, s: Field, c: Field) -> Field:
-        """Compute the pressure law, its derivative, √s and its derivative at distances s > 0;
-        shape (4, n)."""
+        """Compute the edge pressure law, its derivative, √s and the derivative of √s; shape (4, n).
+
+        s  distances s > 0 from the edge over the layer thickness (n,)
+        c  coefficient of the second term of the law (n,)
+        """
         root, step = np.sqrt(s), 0.02
         here, after, before = (self.over_root(s * f, c) for f in (1.0, 1 + step, 1 - step))
         return np.stack([
@@ -153,7 +163,11 @@ class FilmLaw:
         ])  # fmt: skip
 
     def _integrals(self, s: Field, c: Field) -> Field:
-        """Compute the integrals of the four functions of `_values` from 0 to s; shape (4, n)."""
+        """Compute the integrals from 0 to s of the edge pressure law, its derivative, √s and its
+        derivative.
+
+        The shape is (4, n). Arguments as for `_values`.
+        """
         root = np.sqrt(s)
         first, second, third = self._at(s)
         bent = c * s / 1.5

@@ -156,7 +156,10 @@ class _Problem:
         return line.with_medians().with_images(self.domain)
 
     def about(self, line: EdgeLine) -> FilmShape:
-        """Compute the cell means of φ and their sensitivity, with distances from a given edge."""
+        """Compute the cell means of φ and their sensitivity to the edge, for a given contact edge.
+
+        The distances in the pressure law are those from the given edge.
+        """
         phi, weight = self.by_depth, self.region.astype(float)
         sensitivity = np.zeros_like(phi)
         i, j = np.nonzero(self.region & (self.depth < MAX_FIT_DEPTH + 1.5 * self.stencil.reach))

@@ -98,8 +98,10 @@ class Descent:
             self._transverse.append(across * self._transverse[k])
 
     def at(self, level: Level) -> DepthScalars:
-        """Compute displacement and traction at a level per unit surface traction; not inside a
-        rigid base."""
+        """Compute displacement and traction at a level per unit surface traction, in Fourier space.
+
+        The level must not lie inside a rigid base.
+        """
         k = level.layer
         G, nu = material_at(self.stack, level)
         below = self._below[k]

@@ -112,8 +112,12 @@ def remainder_scalars(stack: Stack, alpha: ArrayLike) -> SurfaceScalars:
 
 
 def _echo(stack: Stack, alpha: Array) -> SurfaceScalars:
-    """Compute the remainder of the surface compliance from wave functions without their
-    half-space terms."""
+    """Compute the surface compliance minus that of a half-space of the outermost material.
+
+    The wave functions without their half-space terms avoid cancellation in thick layers.
+
+    alpha  wavenumbers (n,) [1/length]
+    """
     film = stack.layers[0]
     x = np.minimum(alpha * film.thickness, OPAQUE)
     below, shear = _underside(stack, alpha)

@@ -229,16 +229,21 @@ def unresolved_work(before: Configuration, after: Configuration, cell_area: floa
 
 
 def friction_changed(before: Configuration, after: Configuration, cell_area: float) -> float:
-    """Compute the uncertainty Σ |q₁ - q₀| κ|s₁ - s₀| Δ of the dissipation in one increment
-    [force length]."""
+    """Compute the uncertainty of the energy dissipated in one increment [force length].
+
+    The formula is Σ |q₁ - q₀| κ|s₁ - s₀| Δ, with shear q, slip s and contact fraction κ.
+    """
     changed, slipped = after.shear - before.shear, after.slipped - before.slipped
     way = after.contact_fraction * np.hypot(*slipped)
     return float(np.sum(np.hypot(*changed) * way)) * cell_area
 
 
 def _work(before: Configuration, after: Configuration) -> float | None:
-    """Compute the input work Σ ½ (f₀ + f₁)(ω₁ - ω₀) of one increment; None where a motion is
-    undefined."""
+    """Compute the work of forces and moments in one increment, Σ ½ (f₀ + f₁)(ω₁ - ω₀) [force
+    length].
+
+    None is returned where a motion is undefined.
+    """
     if before.motions is None or after.motions is None:
         return None
     return float(np.sum(0.5 * (before.forces + after.forces) * (after.motions - before.motions)))

@@ -159,7 +159,8 @@ def first_motion(last: TangentialState, load: TangentialTarget) -> Vector:
 
 
 def torque_of(model: ContactModel, q: VectorField) -> float:
-    """Compute the torque Σ(q_y x - q_x y) Δ of a shear (2, nx, ny) [force length]."""
+    """Compute the torque Σ(q_y x - q_x y) Δ of a shear q (2, nx, ny) about the z axis [force
+    length]."""
     return float(np.sum(q * model.rotation)) * model.grid.cell_area
 
 

@@ -41,30 +41,50 @@ class RectangleIntegrals:
 
     @cached_property
     def xx_r3(self) -> Field:
-        """Integral of x^2 / r^3 over the loaded cell (nx, ny) [length]."""
+        """Integral of x^2 / r^3 over the loaded cell, for observers at all cell offsets (nx, ny)
+        [length].
+
+        (x, y) is the vector from the loaded point to the observer, r its length.
+        """
         return self._corners(self._Y * np.arcsinh(self._X / np.abs(self._Y)))
 
     @cached_property
     def yy_r3(self) -> Field:
-        """Integral of y^2 / r^3 over the loaded cell (nx, ny) [length]."""
+        """Integral of y^2 / r^3 over the loaded cell, for observers at all cell offsets (nx, ny)
+        [length].
+
+        (x, y) is the vector from the loaded point to the observer, r its length.
+        """
         if self._X.size == self._Y.size and np.array_equal(self._X[:, 0], self._Y[0]):
             return self.xx_r3.T
         return self._corners(self._X * np.arcsinh(self._Y / np.abs(self._X)))
 
     @cached_property
     def xy_r3(self) -> Field:
-        """Integral of x y / r^3 over the loaded cell (nx, ny) [length]."""
+        """Integral of x y / r^3 over the loaded cell, for observers at all cell offsets (nx, ny)
+        [length].
+
+        (x, y) is the vector from the loaded point to the observer, r its length.
+        """
         return self._corners(-self._rho)
 
     @cached_property
     def x_r2(self) -> Field:
-        """Integral of x / r^2 over the loaded cell (nx, ny) [length]."""
+        """Integral of x / r^2 over the loaded cell, for observers at all cell offsets (nx, ny)
+        [length].
+
+        (x, y) is the vector from the loaded point to the observer, r its length.
+        """
         X, Y = self._X, self._Y
         return self._corners(Y * np.log(self._rho) + X * np.arctan(Y / X))
 
     @cached_property
     def y_r2(self) -> Field:
-        """Integral of y / r^2 over the loaded cell (nx, ny) [length]."""
+        """Integral of y / r^2 over the loaded cell, for observers at all cell offsets (nx, ny)
+        [length].
+
+        (x, y) is the vector from the loaded point to the observer, r its length.
+        """
         X, Y = self._X, self._Y
         return self._corners(X * np.log(self._rho) + Y * np.arctan(X / Y))
 
@@ -88,30 +108,51 @@ class HalfSpaceCoefficients:
 
     @property
     def zz(self) -> Field:
-        """Normal displacement u_z by unit pressure (nx, ny) [length^3/force]."""
+        """Normal displacement u_z by a unit pressure on one cell, at all cell offsets (nx, ny).
+
+        The unit is [length^3/force].
+        """
         return self._c * (1 - self.poisson_ratio) * (self.integrals.xx_r3 + self.integrals.yy_r3)
 
     @property
     def xx(self) -> Field:
-        """Tangential displacement u_x by unit shear q_x (nx, ny) [length^3/force]."""
+        """Tangential displacement u_x by a unit shear q_x on one cell, at all cell offsets (nx,
+        ny).
+
+        The unit is [length^3/force].
+        """
         return self._c * (self.integrals.xx_r3 + (1 - self.poisson_ratio) * self.integrals.yy_r3)
 
     @property
     def yy(self) -> Field:
-        """Tangential displacement u_y by unit shear q_y (nx, ny) [length^3/force]."""
+        """Tangential displacement u_y by a unit shear q_y on one cell, at all cell offsets (nx,
+        ny).
+
+        The unit is [length^3/force].
+        """
         return self._c * (self.integrals.yy_r3 + (1 - self.poisson_ratio) * self.integrals.xx_r3)
 
     @property
     def xy(self) -> Field:
-        """Tangential displacement u_x by unit shear q_y (nx, ny) [length^3/force]."""
+        """Tangential displacement u_x by a unit shear q_y on one cell, at all cell offsets (nx,
+        ny).
+
+        The unit is [length^3/force].
+        """
         return self._c * self.poisson_ratio * self.integrals.xy_r3
 
     @property
     def zx(self) -> Field:
-        """Normal displacement u_z by unit shear q_x (nx, ny) [length^3/force]."""
+        """Normal displacement u_z by a unit shear q_x on one cell, at all cell offsets (nx, ny).
+
+        The unit is [length^3/force].
+        """
         return self._c * (0.5 - self.poisson_ratio) * self.integrals.x_r2
 
     @property
     def zy(self) -> Field:
-        """Normal displacement u_z by unit shear q_y (nx, ny) [length^3/force]."""
+        """Normal displacement u_z by a unit shear q_y on one cell, at all cell offsets (nx, ny).
+
+        The unit is [length^3/force].
+        """
         return self._c * (0.5 - self.poisson_ratio) * self.integrals.y_r2

@@ -21,27 +21,48 @@ class InfluenceCoefficients(Protocol):
 
     @property
     def zz(self) -> Field:
-        """Normal displacement u_z by unit pressure (nx, ny) [length^3/force]."""
+        """Normal displacement u_z by a unit pressure on one cell, at all cell offsets (nx, ny).
+
+        The unit is [length^3/force].
+        """
 
     @property
     def xx(self) -> Field:
-        """Tangential displacement u_x by unit shear q_x (nx, ny) [length^3/force]."""
+        """Tangential displacement u_x by a unit shear q_x on one cell, at all cell offsets (nx,
+        ny).
+
+        The unit is [length^3/force].
+        """
 
     @property
     def yy(self) -> Field:
-        """Tangential displacement u_y by unit shear q_y (nx, ny) [length^3/force]."""
+        """Tangential displacement u_y by a unit shear q_y on one cell, at all cell offsets (nx,
+        ny).
+
+        The unit is [length^3/force].
+        """
 
     @property
     def xy(self) -> Field:
-        """Tangential displacement u_x by unit shear q_y (nx, ny) [length^3/force]."""
+        """Tangential displacement u_x by a unit shear q_y on one cell, at all cell offsets (nx,
+        ny).
+
+        The unit is [length^3/force].
+        """
 
     @property
     def zx(self) -> Field:
-        """Normal displacement u_z by unit shear q_x (nx, ny) [length^3/force]."""
+        """Normal displacement u_z by a unit shear q_x on one cell, at all cell offsets (nx, ny).
+
+        The unit is [length^3/force].
+        """
 
     @property
     def zy(self) -> Field:
-        """Normal displacement u_z by unit shear q_y (nx, ny) [length^3/force]."""
+        """Normal displacement u_z by a unit shear q_y on one cell, at all cell offsets (nx, ny).
+
+        The unit is [length^3/force].
+        """
 
 
 @dataclass(frozen=True)
@@ -73,32 +94,53 @@ class Composite:
 
     @cached_property
     def zz(self) -> Field:
-        """Normal displacement u_z by unit pressure (nx, ny) [length^3/force]."""
+        """Normal displacement u_z by a unit pressure on one cell, at all cell offsets (nx, ny).
+
+        The unit is [length^3/force].
+        """
         return self._added("zz") + self.down
 
     @cached_property
     def xx(self) -> Field:
-        """Tangential displacement u_x by unit shear q_x (nx, ny) [length^3/force]."""
+        """Tangential displacement u_x by a unit shear q_x on one cell, at all cell offsets (nx,
+        ny).
+
+        The unit is [length^3/force].
+        """
         return self._added("xx") + self.along
 
     @cached_property
     def yy(self) -> Field:
-        """Tangential displacement u_y by unit shear q_y (nx, ny) [length^3/force]."""
+        """Tangential displacement u_y by a unit shear q_y on one cell, at all cell offsets (nx,
+        ny).
+
+        The unit is [length^3/force].
+        """
         return self._added("yy") + self.along
 
     @cached_property
     def xy(self) -> Field:
-        """Tangential displacement u_x by unit shear q_y (nx, ny) [length^3/force]."""
+        """Tangential displacement u_x by a unit shear q_y on one cell, at all cell offsets (nx,
+        ny).
+
+        The unit is [length^3/force].
+        """
         return self._added("xy")
 
     @cached_property
     def zx(self) -> Field:
-        """Normal displacement u_z by unit shear q_x (nx, ny) [length^3/force]."""
+        """Normal displacement u_z by a unit shear q_x on one cell, at all cell offsets (nx, ny).
+
+        The unit is [length^3/force].
+        """
         return self._mirrored("zx")
 
     @cached_property
     def zy(self) -> Field:
-        """Normal displacement u_z by unit shear q_y (nx, ny) [length^3/force]."""
+        """Normal displacement u_z by a unit shear q_y on one cell, at all cell offsets (nx, ny).
+
+        The unit is [length^3/force].
+        """
         return self._mirrored("zy")
 
 

@@ -46,7 +46,7 @@ def computed_afresh(identity: str, shape: tuple[int, ...], compute: Callable[[],
 
 @dataclass(frozen=True)
 class LayeredCoefficients:
-    """Exact influence coefficients of layers on a half-space or a rigid base.
+    """Influence coefficients of layers on a half-space or a rigid base, exact up to rounding.
 
     Displacement per unit traction [length^3/force], with an error of about 1e-15 of the value at
     the loaded cell (1e-12 if the cell is large compared with the layers on a rigid base). Each
@@ -100,32 +100,53 @@ class LayeredCoefficients:
 
     @property
     def zz(self) -> Field:
-        """Normal displacement u_z by unit pressure (nx, ny) [length^3/force]."""
+        """Normal displacement u_z by a unit pressure on one cell, at all cell offsets (nx, ny).
+
+        The unit is [length^3/force].
+        """
         return self._normal[0]
 
     @property
     def xx(self) -> Field:
-        """Tangential displacement u_x by unit shear q_x (nx, ny) [length^3/force]."""
+        """Tangential displacement u_x by a unit shear q_x on one cell, at all cell offsets (nx,
+        ny).
+
+        The unit is [length^3/force].
+        """
         return self._tangential[0]
 
     @property
     def yy(self) -> Field:
-        """Tangential displacement u_y by unit shear q_y (nx, ny) [length^3/force]."""
+        """Tangential displacement u_y by a unit shear q_y on one cell, at all cell offsets (nx,
+        ny).
+
+        The unit is [length^3/force].
+        """
         return self._tangential[1]
 
     @property
     def xy(self) -> Field:
-        """Tangential displacement u_x by unit shear q_y (nx, ny) [length^3/force]."""
+        """Tangential displacement u_x by a unit shear q_y on one cell, at all cell offsets (nx,
+        ny).
+
+        The unit is [length^3/force].
+        """
         return self._tangential[2]
 
     @property
     def zx(self) -> Field:
-        """Normal displacement u_z by unit shear q_x (nx, ny) [length^3/force]."""
+        """Normal displacement u_z by a unit shear q_x on one cell, at all cell offsets (nx, ny).
+
+        The unit is [length^3/force].
+        """
         return self._coupling[0]
 
     @property
     def zy(self) -> Field:
-        """Normal displacement u_z by unit shear q_y (nx, ny) [length^3/force]."""
+        """Normal displacement u_z by a unit shear q_y on one cell, at all cell offsets (nx, ny).
+
+        The unit is [length^3/force].
+        """
         return self._coupling[1]
 
 

@@ -29,7 +29,8 @@ def panel_edges(core: float, reach: float) -> Array:
 
 
 def nodes_between(low: float, high: float) -> Array:
-    """Return the Chebyshev nodes of the panel from `low` to `high` (NODES,)."""
+    """Return the Chebyshev interpolation nodes of the panel of distances from `low` to `high`
+    (NODES,)."""
     on_unit = np.cos((np.arange(NODES) + 0.5) * pi / NODES)
     return np.asarray((low + high) / 2 + (high - low) / 2 * on_unit)
 

@@ -103,7 +103,11 @@ def radial_table(stack: Stack, reach: float) -> RadialTable:
 
 
 def half_space_response(material: HalfSpace) -> Array:
-    """Return r times (zz, mean, twist, cross) of a homogeneous half-space, four constants (4,)."""
+    """Return r times the radial functions (zz, mean, twist, cross) of a homogeneous half-space
+    (4,).
+
+    The products are constants. r is the distance from a point force on the surface.
+    """
     G, nu = material
     return np.array([2 - 2 * nu, 2 - nu, -nu, 1 - 2 * nu]) / (4 * pi * G)
 

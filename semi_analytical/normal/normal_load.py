@@ -79,8 +79,13 @@ class NormalLoad(Protocol):
         return self
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
-        """Return the closures of the gap (nx, ny) by unit rigid motions whose conjugate forces
-        are prescribed."""
+        """Return the closures of the gap (nx, ny) by unit rigid motions whose conjugate forces are
+        prescribed.
+
+        Without a prescribed force or moment there is none.
+
+        shape  number of cells (nx, ny)
+        """
         return ()
 
 
@@ -104,7 +109,12 @@ class PressureSum(NormalLoad):
         return float(self.total / stiffness[max(bearing - 1, 0)])
 
     def motion(self, p: Field, s: Field) -> Motion:
-        """Return the approach [length]: the mean of the gap s, weighted by the pressure p."""
+        """Return the approach that closes the gap on average [length]: mean of s, weighted by the
+        pressure p.
+
+        p  pressure (nx, ny)
+        s  gap before the rigid motion (nx, ny) [length]
+        """
         return float(np.vdot(p, s) / p.sum())
 
     def admissible(self, p: Field) -> Field:
@@ -125,7 +135,10 @@ class PressureSum(NormalLoad):
         return projected
 
     def less(self, carried: Field) -> NormalLoad:
-        """Return the load less the sum of the pressures that other cells carry."""
+        """Return the load less the sum of the pressures that other cells carry.
+
+        carried  pressures of the other cells (nx, ny)
+        """
         return PressureSum(self.total - float(np.sum(carried)))
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
@@ -159,6 +172,8 @@ class FixedApproach(NormalLoad):
         return np.maximum(p, 0.0)
 
     def projection(self, inside: Field) -> Projection:
-        """Return the restriction to the cells in contact; no force is prescribed that must be
-        preserved."""
+        """Return the projection of pressure changes: the restriction to the cells in contact.
+
+        No force is prescribed that the projection must preserve.
+        """
         return lambda field: field * inside

@@ -61,13 +61,19 @@ class PressureMoments:
 
     @cached_property
     def sums(self) -> Vector:
-        """Prescribed sums over the cells of pressure times `shapes` (k,)."""
+        """Prescribed sums (k,) over the cells of pressure times each field of `shapes`: force
+        and moments."""
         moments = self.moments / self.reach
         return moments if self.total is None else np.array([self.total, *moments])
 
     def touches(self, gap: Field) -> bool:
-        """Return True if the cells of finite gap surround the point of action of the normal
-        force."""
+        """Return True if some pressure on the cells of finite gap has the prescribed force and
+        moments.
+
+        The cells must surround the point of action of the normal force, see `_is_carried_on`.
+
+        gap  undeformed gap (nx, ny) [length]; infinite where contact is impossible
+        """
         return self._is_carried_on(self.cells & np.isfinite(gap))
 
     def bearing_depth(self, gaps: Vector, stiffness: Vector) -> float:

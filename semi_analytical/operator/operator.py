@@ -89,7 +89,8 @@ class Product:
         self._entries = {name: entries[name] for row in self._rows for _, name in row}
 
     def __call__(self, values: Array) -> Array:
-        """Compute output fields (outputs, nx, ny) from input fields (inputs, nx, ny)."""
+        """Apply the matrix of responses to input fields (inputs, nx, ny); return (outputs, nx,
+        ny)."""
         return self._transforms.filtered(values, *self._sides, self._times)
 
     def _times(self, amplitudes: Sequence[Array], columns: slice) -> list[Array]:

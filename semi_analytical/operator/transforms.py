@@ -47,7 +47,7 @@ class Convolutions:
     _memory: Array = field(default_factory=lambda: np.empty(0, dtype=np.complex128))
 
     def work_space(self, size: int, dtype: Dtype) -> Array:
-        """Return memory for `size` numbers of a type, valid until the next call."""
+        """Return scratch memory for `size` numbers of a data type, valid until the next call."""
         if self._memory.nbytes < size * dtype.itemsize:
             self._memory = np.empty(0, dtype=np.complex128)  # release before the new allocation
             self._memory = np.empty(-(-size * dtype.itemsize // 16), dtype=np.complex128)
@@ -143,9 +143,11 @@ _mirrored = lru_cache(maxsize=64)(MirroredWaves)
 
 
 def offsets_for(window: Pair) -> Pair:
-    """Return the number of offsets of influence coefficients for operators on a window of cells.
+    """Return the number of offsets of influence coefficients along x and y for a window of cells.
 
     The offsets are 0 to half the padded period, which is even.
+
+    window  number of cells along x and y
     """
     x, y = (2 * int(next_fast_len((n + 1) // 2)) + 1 for n in window)
     return x, y

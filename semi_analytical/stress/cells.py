@@ -61,7 +61,10 @@ def cell_integrals(
 
 
 def _with_exact_zeros(result: Field) -> Field:
-    """Set each response to exactly zero on its planes of antisymmetry, in place."""
+    """Set odd displacement and stress responses to exactly zero on their symmetry lines, in place.
+
+    result  responses (FIELDS, acting tractions, nx, ny) at offsets >= 0
+    """
     for coefficients, (along_x, along_y) in each_response(result):
         if along_x < 0:
             coefficients[0, :] = 0

@@ -143,8 +143,11 @@ def plane_convolution(tractions: Field, offsets: tuple[int, int]) -> Convolution
 
 
 def _sums(response: Field, parity: int) -> Field:
-    """Sum a response times cosines (even) or sines (odd) over the offsets of a period; (…, half
-    + 1)."""
+    """Sum a response times cosines (even) or sines (odd) over the cell offsets of a period.
+
+    response  (…, half + 1) values at offsets >= 0; also the shape of the result
+    parity    1 for cosines, -1 for sines
+    """
     if parity > 0:
         return np.asarray(dct(response, type=1))
     return np.pad(dst(response[:, 1:-1], type=1), [(0, 0), (1, 1)])

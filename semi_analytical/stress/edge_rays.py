@@ -130,7 +130,10 @@ def _between(f: Field, b: Field, c: Field, low: Field, high: Field) -> Field:
 
 
 def _arc(k: Field, n: Field, d: Field) -> Field:
-    """Compute 2 arctan(√-k n/d)/√-k for k < 0, and 2 artanh(√k n/d)/√k for k > 0."""
+    """Compute 2 arctan(√-k n/d)/√-k for k < 0, and 2 artanh(√k n/d)/√k for k > 0.
+
+    Used in the closed form of the integral along a ray.
+    """
     size = np.sqrt(np.abs(k))
     flat = size * n <= STRAIGHT * d
     size_or_one, d_or_one = np.where(flat, 1.0, size), np.where(d > 0, d, 1.0)

@@ -71,8 +71,10 @@ class EdgedTractions:
 
     @property
     def slopes(self) -> tuple[Field, Field]:
-        """Slopes of `cells` along x and y, each (3, nx, ny) per cell; zero in divided or
-        unloaded cells."""
+        """Slopes of the uniform tractions `cells` along x and y, each (3, nx, ny), per cell.
+
+        The slopes are zero in divided cells and in cells without pressure.
+        """
         whole = self.cells[2] > 0
         whole[self.i, self.j] = False
         by_x, by_y = (np.asarray(np.gradient(self.cells, axis=axis)) for axis in (1, 2))

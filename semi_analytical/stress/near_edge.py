@@ -240,7 +240,10 @@ def _stuck(pressure: Field, shear: Field) -> Mask:
 
 
 def _on_edge(phi: Quadratic) -> Quadratic:
-    """Set the value of φ at the edge points, which is zero up to rounding, to exactly zero."""
+    """Set φ at the fitted edge points, where it is zero up to rounding, to exactly zero.
+
+    phi  quadratics of φ about the edge points
+    """
     return replace(phi, f=np.zeros_like(phi.f))
 
 

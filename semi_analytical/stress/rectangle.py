@@ -38,13 +38,17 @@ class AxisPotentials:
 
     @cached_property
     def log(self) -> Field:
-        """Primitive over the rectangle of the derivative A_s, at the corners."""
+        """Primitive of the derivative A_s of the potential A along axis s, at the corners of the
+        rectangle."""
         return np.arcsinh(self._o / np.sqrt(self._sz))
 
     @cached_property
     def angle(self) -> Field:
-        """Primitive over the rectangle of -B_ss at the corners, with rho - z written without
-        cancellation."""
+        """Primitive of the derivative -B_ss of the potential B along axis s, at the corners of the
+        rectangle.
+
+        The formula contains rho - z without cancellation.
+        """
         s, o, z, rho = self._s, self._o, self._z, self._rho
         return np.arctan(s * o * (s**2 + o**2) / (self._deep * (s**2 * rho + o**2 * z)))
 

@@ -98,8 +98,15 @@ class ShearSum(TangentialLoad):
     def nearest(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
-        """Project y + γ motion on the shears with the prescribed sum; the multiplier of the sum
-        is γ times the shift."""
+        """Project y + γ shift on the shears with the prescribed sum; return the shear and the
+        shift.
+
+        The multiplier of the sum is γ times the shift.
+
+        y       shear (2, nx, ny)
+        bound   friction limit µp (nx, ny)
+        motion  initial guess of the shift (2,)
+        """
         q, multiplier = project(y, bound, self.total, gamma * motion, self.summed)
         return q, multiplier / gamma
 
@@ -125,8 +132,11 @@ class ShearSum(TangentialLoad):
         return float(np.hypot(*self.total)) >= float(np.sum(bound)) * (1 - AT_LIMIT)
 
     def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
-        """Return the shear in gross slip, the friction limit along the force, and an unchanged
-        motion."""
+        """Return the shear in gross slip: the friction limit in the direction of the prescribed
+        force.
+
+        The rigid motion is returned unchanged.
+        """
         if not np.any(bound):
             return np.zeros((2, *bound.shape)), motion
         return bound * everywhere(self.total / np.hypot(*self.total)), motion
@@ -153,11 +163,12 @@ class FixedShift(TangentialLoad):
         return project_on_discs(q, bound)
 
     def exhausts(self, bound: Field) -> bool:
-        """Return True if the friction limit is zero everywhere."""
+        """Return True if the friction limit is zero in all cells."""
         return not np.any(bound)
 
     def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
-        """Return zero shear and the prescribed shift: gross slip occurs only without friction."""
+        """Return zero shear and the prescribed shift; under a prescribed shift only zero
+        friction gives gross slip."""
         return np.zeros((2, *bound.shape)), self.shift
 
 
@@ -264,8 +275,7 @@ def natural_shear(
 
 
 def magnitude(v: VectorField) -> Field:
-    """Compute the Euclidean norm of the vectors of a field (2, ...); the result has the shape
-    (...)."""
+    """Compute the length (...) of the two-component vectors of a field (2, ...)."""
     return np.sqrt(v[0] * v[0] + v[1] * v[1])
 
 
@@ -346,8 +356,10 @@ class ProjectedShear:
 
     @property
     def radial(self) -> Field:
-        """Weight w (...) of the derivative of the projection, scale - w z z; zero where |z| <=
-        bound."""
+        """Weight w of the derivative of the projected shear, which is scale - w z z (...).
+
+        The weight is zero in cells where |z| is within the friction limit.
+        """
         return np.where(self.outside, self.scale / np.where(self.outside, self.length**2, 1.0), 0.0)
 
 

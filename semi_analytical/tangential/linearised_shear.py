@@ -51,8 +51,12 @@ class LinearisedShear:
         load: TangentialLoad,
         carriers: list[VectorField] | None = None,
     ) -> None:
-        """Compute the carrier shears, or reuse the `carriers` of another iterate with the same
-        zones."""
+        """Compute the carriers, shears that correct the prescribed forces in the stick and slip
+        zones.
+
+        carriers  carriers of another iterate with the same zones, which are reused; None to compute
+                  them
+        """
         self._displace, self._inverse, self._zones, self._load = displace, inverse, zones, load
         if carriers is None:
             units = load.free_motions(zones.sliding_shear.shape)

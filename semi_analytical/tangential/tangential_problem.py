@@ -76,8 +76,13 @@ class _Problem:
     self_compliance: float
 
     def natural(self, point: Point, motion: Vector) -> NaturalShear:
-        """Evaluate the natural map q -> P(q + γ (ω + c - u)), whose fixed points are solutions.
+        """Evaluate the natural map q -> P(q + γ (ω + c - u)), whose fixed points solve the
+        tangential problem.
 
+        P is the projection on the admissible shears, ω the rigid motion, c the displacement that
+        stick requires, u the tangential displacement and γ a stiffness.
+
+        point   shear q and displacement u
         motion  initial guess of the rigid motion ω
         """
         apart = self.target - point.displacement
