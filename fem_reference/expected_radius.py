@@ -78,7 +78,8 @@ def expected_radius(scene: Scene) -> float:
 def _extremes(scene: Scene) -> list[LoadRamp]:
     """Return the load ramp with the largest final force and that with the largest final approach.
 
-    The list has one ramp for each kind of normal control that occurs in the history.
+    A load ramp is the linear change of the loads in one load step. The list has one ramp for each
+    kind of normal control that occurs in the history.
     """
     ramps = scene.load_path()
     kinds = [[r for r in ramps if r.normal.kind is kind and r.normal.end] for kind in ControlKind]
@@ -86,9 +87,10 @@ def _extremes(scene: Scene) -> list[LoadRamp]:
 
 
 def _bare_radius(scene: Scene, ramp: LoadRamp) -> float:
-    """Estimate the contact radius at the end of a ramp with each body replaced by a half-space.
+    """Estimate the contact radius of a load step between half-spaces of the outermost materials.
 
-    The half-space consists of the outermost material of the body. The radius has the unit [length].
+    The layers and the substrate below the outermost material are neglected. The radius is that at
+    the end of the load step [length].
     """
     outermost = [
         body.model_copy(update={"material": body.layers[0].material, "layers": ()})
@@ -101,7 +103,7 @@ def _bare_radius(scene: Scene, ramp: LoadRamp) -> float:
 
 
 def _half_space_radius(scene: Scene, ramp: LoadRamp) -> float:
-    """Estimate the contact radius at the end of a ramp by half-space theory [length].
+    """Estimate the contact radius at the end of a load step by half-space theory [length].
 
     Each half-space has the mean of (1-ν²)/E over all layers of the body. Raise UnsupportedScene if
     the shape of the indenter has no closed form.
@@ -133,7 +135,8 @@ def _softness(body: Body) -> float:
 
 
 def _coarse_radius(scene: Scene, ramp: LoadRamp, guess: float) -> float:
-    """Compute the contact radius at the end of a ramp on coarse meshes, without friction [length].
+    """Compute the contact radius at the end of a load step on coarse meshes, without friction
+    [length].
 
     The load is applied in one increment. The mesh is replaced until the contact fits into its fine
     elements and is not much smaller than their zone.
@@ -160,9 +163,12 @@ def _coarse_radius(scene: Scene, ramp: LoadRamp, guess: float) -> float:
 
 
 def _coarse(scene: Scene, radius: float) -> FiniteElementDiscretisation:
-    """Return a coarse discretisation of the bodies for contacts up to a radius [length].
+    """Return the discretisation of the coarse mesh for contacts up to a given radius.
 
-    The outer boundary is limited to LARGEST_COARSE_BOX contact radii if the layers are thin enough.
+    The coarse mesh serves to estimate the contact radius. Its outer boundary is limited to
+    LARGEST_COARSE_BOX contact radii if the layers are thin enough.
+
+    radius  largest contact radius [length]
     """
     to_radius = Scales(radius, outermost_modulus(scene)).dimensionless
     bodies = [to_radius(body) for body in (scene.body, scene.indenter)]

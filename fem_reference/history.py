@@ -84,7 +84,7 @@ class _Solver:
         before: PointState | None,
         fraction: float,
     ) -> PointState:
-        """Solve for the contact state at a given fraction of the ramp of a load step.
+        """Solve for the contact state at a given fraction of the load ramp of a load step.
 
         start     state at the start of the ramp; None at the start of the history
         before    state at the end of the previous increment; None at the start of the history

@@ -19,7 +19,7 @@ NODES_PER_ELEMENT = 4  # biquadratic: about one corner, two midsides and one cen
 
 
 def required_bytes(elements: int, unknowns: int, components: int, with_pressure: bool) -> float:
-    """Estimate the memory to assemble and factorise the stiffness of a section [byte].
+    """Estimate the memory to assemble and factorise the stiffness of a meridional section [byte].
 
     The estimate is correct within a factor of 2.
 
@@ -45,8 +45,8 @@ def run_bytes(factoring: float) -> float:
 def largest_bytes(elements: int, several_motions: bool) -> int:
     """Estimate the memory to assemble and factorise a section from its number of elements [byte].
 
-    several_motions  True if the solve needs motions with a circumferential displacement, which have
-                     3 components; otherwise a motion has 2 components
+    several_motions  True to assume motions with 3 displacement components, False for 2 components
+                     (normal loading)
     """
     unknowns, components = NODES_PER_ELEMENT * elements, 3 if several_motions else 2
     return int(required_bytes(elements, unknowns * components, components, False))

@@ -110,8 +110,9 @@ class ContactModel:
         """Return the compliance of the two surfaces for tractions of one angular harmonic n.
 
         The matrix contains the displacement of the lower surface relative to the upper surface, per
-        unit generalised nodal force [length/force]. For n = 0 the loading is normal and has the
-        components (r, z); torsion is excluded. For n >= 1 the components are (r, theta, z).
+        unit generalised nodal force [length/force]. The springs of a rig are included. For n = 0
+        the loading is normal and has the components (r, z); torsion is excluded. For n >= 1 the
+        components are (r, theta, z).
         """
         return self._condensed(motion(harmonic))
 

@@ -236,8 +236,8 @@ def _refuse_shapes(scene: Scene) -> None:
 def _refuse_loads(scene: Scene, loaded: bool, twisted: bool, coupled: bool) -> None:
     """Raise UnsupportedScene for combinations of loads that this solver does not support.
 
-    Refused are tilts, tangential loads along more than one line, and torsion combined with a
-    tangential load or with coupled bodies.
+    The solver supports no tilts, no tangential loads along more than one line, and no torsion
+    combined with a tangential load or with coupled bodies.
 
     loaded   True if a load step has a tangential force or shift
     twisted  True if a load step has a torque or twist

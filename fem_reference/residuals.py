@@ -39,10 +39,11 @@ def complementarity(p: Field, gap: Field, weights: Field, approach: float) -> fl
 def penetration(gap: Field, weights: Field, approach: float) -> float:
     """Compute the largest overlap of the surfaces, divided by the rigid approach [1].
 
-    The overlap is the negative part of the mean gap over a hat function.
+    The overlap at a ring is the negative part of the mean gap, weighted with the hat function.
 
-    gap      integral of the gap over each hat function (rings,) [length^3]
-    weights  integral of each hat function (rings,) [length^2]
+    gap       integral of the gap over each hat function (rings,) [length^3]
+    weights   integral of each hat function (rings,) [length^2]
+    approach  rigid approach of the indenter [length]
     """
     return float(np.maximum(0.0, -np.min(gap / weights)) / abs(approach))
 

@@ -127,8 +127,8 @@ def _counted(
 ) -> Iterator[tuple[Increment, ResumePoint[PointState]]]:
     """Yield the increments of a history with their numbers of sparse factorisations.
 
-    Each increment comes with its resume point. The number of an increment counts the factorisations
-    since the previous increment.
+    Each increment comes with its resume point. Factorisations are counted since the previous
+    increment.
     """
     counted = 0
     for increment, point in history:

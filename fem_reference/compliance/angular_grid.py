@@ -52,8 +52,8 @@ class AngularGrid:
     def norms(self) -> Vector:
         """Factors c_n (harmonics,) with Σ_j weight_j f_j cos nθ_j = c_n f_n for the amplitudes f_n.
 
-        c_n is 2π for constants and for the harmonic that alternates from point to point, and π for
-        all others.
+        f_j are the values at the points θ_j of a ring. c_n is 2π for constants and for the harmonic
+        that alternates from point to point, and π for all others.
         """
         powers = [np.sum(d**2 / self.weights, axis=1) for d in (self.cosines, self.sines)]
         return np.asarray(1 / np.maximum(*powers))

@@ -35,7 +35,7 @@ def gauss_points(nodes: Field, reach: float = np.inf) -> GaussPoints:
     """Create the Gauss points on all surface edges of elements, from the axis to a given radius.
 
     nodes  radii of corner and midside nodes, alternating; first and last are corners (m,) [length]
-    reach  outer radius of the tractions, rounded to a corner [length]
+    reach  outer radius of the tractions, rounded down to a corner [length]
     """
     places, parts = np.polynomial.legendre.leggauss(POINTS_PER_EDGE)
     quadratic = np.array([places * (places - 1) / 2, 1 - places**2, places * (places + 1) / 2])

@@ -68,9 +68,10 @@ class RingCompliance:
 def ring_compliance(
     model: ContactModel, path: Path, highest: int = 0, at_gauss_points: bool = False
 ) -> RingCompliance:
-    """Compute the compliance of the rings from the nodal compliances of a model.
+    """Compute the compliance of the surface rings from the nodal compliances of a model.
 
-    Nodal compliances that are missing in the model are computed.
+    A ring is a circle around the axis on the surface. Nodal compliances that are missing in the
+    model are computed.
 
     path             tractions of the solve
     highest          highest angular harmonic; zero unless pressure and shear are coupled

@@ -101,7 +101,7 @@ def root(problem: CoupledProblem, start: Start, tolerance: float, springs: float
 
 
 def _step(jacobian: Matrix, right: Vector) -> Vector:
-    """Compute the Newton step by the solution of the linear system.
+    """Compute the Newton step, the solution of the linearised contact equations.
 
     Equations with a diagonal entry alone are eliminated first. These are the equations of points
     without contact, and of components that symmetry excludes.

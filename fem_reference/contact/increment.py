@@ -348,7 +348,8 @@ class _Increment:
     def _status(
         self, problem: CoupledProblem, p: Vector, in_stick: Mask, load: float
     ) -> ContactStatus:
-        """Determine the contact status from the sticking points and the tangential load.
+        """Determine the contact status (stick, partial slip or gross slip) at the end of the
+        increment.
 
         p         pressure (points,)
         in_stick  True for sticking points (points,)

@@ -57,7 +57,8 @@ class NodalCompliance:
 def condense(section: SectionMesh, motion: Motion) -> NodalCompliance:
     """Compute the compliance of the surface of one body in one motion.
 
-    The matrix is computed by one sparse factorisation, or read from the cache. Raise
+    A motion is a displacement field of one angular harmonic, such as that of normal loading or
+    torsion. The matrix is computed by one sparse factorisation, or read from the cache. Raise
     ResourceRefused if the memory is insufficient.
     """
     radii, count = section.radii, len(motion.components)

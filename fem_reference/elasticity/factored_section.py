@@ -23,7 +23,7 @@ BLOCK = 64
 
 
 class FactoredSection:
-    """Factorise the stiffness of a section in one harmonic, and solve for its displacements.
+    """Factorise the stiffness of a meridional section in one harmonic, and compute displacements.
 
     Unknowns are in the order of elimination, those of the contact zone last. The symmetric matrix
     is eliminated in this order without pivoting. The last block of the factors is therefore the

@@ -62,9 +62,10 @@ def displacement_basis(section: SectionMesh, quadrature: Any = None) -> Basis:
 
 
 def pressure_basis(displacement: Basis) -> Basis:
-    """Create the basis of the pressure for a given displacement basis.
+    """Create the finite-element basis of the pressure for a given displacement basis.
 
-    The quadrature points and weights are those of the displacement basis.
+    The pressure is linear in each element and discontinuous between elements. The quadrature points
+    and weights are those of the displacement basis.
     """
     basis = displacement.with_element(ElementQuadLinear())
     basis.dx = displacement.dx

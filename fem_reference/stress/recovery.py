@@ -66,7 +66,7 @@ class Recovery:
     def amplitude(self, of: Motion, u: Field, scales: Scales) -> Amplitude:
         """Compute displacement and stress at all points from the nodal displacement of one motion.
 
-        of      motion, that is harmonic and components
+        of      motion: angular harmonic and components of the displacement
         u       dimensionless nodal displacement (c, nodes) for c components
         scales  units of length and stress of the result
         """

@@ -23,6 +23,7 @@ SAME_DEPTH = 1e-9
 class Amplitude:
     """Amplitudes of the displacement and stress of one motion with the angular harmonic n.
 
+    A motion is a displacement field of one harmonic, such as that of normal loading or torsion.
     u_theta and the stresses tz and rt are ∝ sin n theta, all other components ∝ cos n theta. The
     fields of torsion do not depend on theta.
 
@@ -62,8 +63,7 @@ class SectionField:
     def stress(self, theta: float = 0.0) -> Field:
         """Compute the stress rr, tt, zz, tz, rz, rt (6, n) at the angle theta [force/length^2].
 
-        The angle is counted from the direction of the load. Tension is positive. Tension is
-        positive [force/length^2].
+        The angle is counted from the direction of the load. Tension is positive.
         """
         return self._sum([part.stress for part in self.parts], AS_SINE, theta)
 

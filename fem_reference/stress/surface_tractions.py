@@ -229,8 +229,8 @@ class SurfaceTractions:
 def _smooth_factor(radii: Field, at: Field, pressed: Field, edge: float, per_element: int) -> Field:
     """Compute the smooth factor p / √(1 - r²/a²) of the pressure p on one ray, at given radii.
 
-    a is the radius of the contact edge. Near the edge the factor is a straight line, fitted without
-    the last element.
+    a is the radius of the contact edge. Near the edge the factor is a straight line, which is
+    fitted without the last element.
 
     radii        radii at which the factor is evaluated [length]
     at, pressed  radii and pressures of the rings with pressure
