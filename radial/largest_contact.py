@@ -22,7 +22,8 @@ from radial.output_points import largest_targets
 from radial.response.bodies import Bodies
 from radial.response.wavenumbers import POINTS
 
-# This number of orders gives the radius to about 1 %.
+# FEW_ORDERS: number of polynomials that gives the contact radius to about 1 %. TRIED: largest
+# number of secant steps. NEAR: relative step at which the iteration ends.
 FEW_ORDERS, TRIED, NEAR = 16, 12, 0.02
 
 

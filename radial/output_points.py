@@ -24,9 +24,11 @@ from radial.normal.pressing import (
 )
 from radial.plan import ELSEWHERE
 
-# Ratio of rings inside to rings outside, and outermost radius over that of the largest contact.
+# OUTSIDE: ratio of the numbers of rings inside and outside the largest contact. REACH: outermost
+# radius over that of the largest contact.
 OUTSIDE, REACH = 4, 2.0
-# Limit for round-off in p over the largest pressure, and in the gap over the approach.
+# Negative pressures below this multiple of the largest pressure, and negative gaps below this
+# multiple of the approach, are round-off.
 NO_DISC = 1e-9
 
 

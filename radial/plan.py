@@ -23,16 +23,19 @@ from contact_scene.solver_errors import UnsupportedScene
 from contact_scene.stepping.load_path import along_one_line, first_direction
 from radial.angular_grid import Circle
 
-# Largest ratio of shear moduli within a body. Above it round-off affects the results.
+# Largest ratio of shear moduli within a body. Larger ratios cause round-off in the results.
 MAX_CONTRAST = 1e8
-# Increments of a path-dependent load step. The error of the shear is then about 1e-4 of its limit.
+# Number of increments of a path-dependent load step: the error of the shear is then about 1e-4 of
+# the friction limit.
 PATH_INCREMENTS = 64
-# Increments of a step of a contact with tangential load: number with a changing normal load or
-# twist, and largest change of the tangential force over the friction limit else.
+# Increments of a load step of a contact with tangential load. PUSHED_INCREMENTS: number if the
+# normal load or the twist changes. LARGEST_SHARE: otherwise, largest change of the tangential force
+# in an increment over the friction limit.
 PUSHED_INCREMENTS = 20
 LARGEST_SHARE = 0.05
 ROUND_OFF = 1e-9
-# Rings and angles of a half circle for contacts at points, and rings of axisymmetric ones.
+# RINGS, ANGLES: rings, and angles of a half circle, of a contact at points. ROUND_RINGS: rings of
+# an axisymmetric contact at points (torsion).
 RINGS, ANGLES, ROUND_RINGS = 24, 9, 64
 ELSEWHERE = "solve it with the semi-analytical solver"
 

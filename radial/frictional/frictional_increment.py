@@ -114,7 +114,7 @@ def frictional_state(
         stick_radius = front(
             a, start_radius, mid_stick_radius, before.start_radius, before.mid_stick_radius
         )
-    # The strain displaces the lower body against its shear.
+    # The bulk strain displaces the lower body against its shear, which changes the work.
     more = strain - (before.strain if before else 0.0)
     work = 0.5 * (force + end.load) * (end.approach - depth)
     work -= 0.5 * more * end.over((shear + end.shear) * r)

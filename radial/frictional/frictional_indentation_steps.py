@@ -57,13 +57,13 @@ from radial.output_points import (
 )
 from radial.output_points import target as target_of
 
-COUNT = 64  # rings, apart from those at the front and at the ends
-# Largest ratio of the contact radii of two solves, and first radius over that of the first
-# increment.
+COUNT = 64  # rings, without those of the dense regions at the stick border, axis and edge
+# GROWTH: largest ratio of the contact radii of two successive solves. FIRST: radius of the first
+# solve over that at the end of the first increment.
 GROWTH, FIRST = 1.1, 0.03
-MAX_LAID = 3  # layouts of rings for a front that moves
-REST = 1e-11  # slip over the approach that is round-off
-MIDDLE = 0.5  # first guess of the front over the contact radius
+MAX_LAID = 3  # largest number of layouts of rings that follow the stick radius
+REST = 1e-11  # slip below this multiple of the approach is round-off
+MIDDLE = 0.5  # initial guess of the stick radius over the contact radius
 
 
 @dataclass(frozen=True)

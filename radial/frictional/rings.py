@@ -24,16 +24,17 @@ from radial.response.array_cache import (
 from radial.response.quadrature import unit_gauss
 from radial.response.wavenumbers import Waves
 
-# Fronts within this interval of log(c/(a - c)) share their rings.
+# Stick radii c within this interval of log(c/(a - c)) share their rings; a is the contact radius.
 SHARED = 0.08
-NEAREST = 6.0  # largest |log(c/(a - c))|: distance of a front from axis and edge
-# ratio of rings towards the ends and towards the front, and their number
+NEAREST = 6.0  # largest |log(c/(a - c))|, which limits how near c is to axis and edge
+# Ratio of the widths of adjacent rings towards axis and edge (GRADED) and towards the stick border
+# (TOWARDS), and numbers of these rings: FINEST at the stick border, AT_AXIS, AT_EDGE.
 GRADED, TOWARDS, FINEST = 0.5, 0.6, 9
 AT_AXIS, AT_EDGE = 4, 6
 POINTS, WAVE_POINTS = 14, 6  # Gauss points of an element
 CACHED = 64
-MAX_AT_ONCE = 1 << 18  # numbers: 2 MiB
-# Radii outside of the contact with displacements.
+MAX_AT_ONCE = 1 << 18  # numbers in a block of Bessel functions: 2 MiB
+# Positions outside the contact at which displacements are computed, over the contact radius.
 OUTSIDE = 1 + np.array([0.01, 0.03, 0.08, 0.2, 0.4, 0.7, 1.1, 1.6, 2.5, 4.0])
 
 
@@ -88,7 +89,7 @@ class Rings:
         """
         inner, length = self.x[:-1], np.diff(self.x)
         v, weights = unit_gauss(POINTS)
-        # dense towards the position, where the kernel is logarithmic
+        # Points are dense towards the position x, where the kernel is logarithmic.
         v, weights = v**3, 3 * v**2 * weights
         x = self.places[:, None]
         before = x <= inner

@@ -36,12 +36,16 @@ if TYPE_CHECKING:
 
 Signs = NDArray[np.int64]
 
-MAX_STEPS = 200  # a few per ring: near full stick only one ring changes per step
-TIE = 1e-9  # Distance from the limit over the largest limit.
-EXACT = 1e-12  # Largest error of the limit linearised in Δp, over the largest limit.
-# Fraction of the radius: if rings slip only outside, the slip zone is too narrow for the rings.
+MAX_STEPS = 200  # Newton steps; near full stick only one ring changes per step
+# A node whose trial shear differs from its friction limit by less than this multiple of the largest
+# limit keeps its state (stick or slip).
+TIE = 1e-9
+EXACT = 1e-12  # bound of the error of the linearised friction limit over the largest limit
+# If nodes change only outside this fraction of the contact radius, the slip zone is too narrow for
+# the rings, and the error message mentions it.
 AT_EDGE = 0.95
-# first steps that change all nodes; then only the node with the largest error changes
+# Number of first steps that change all nodes; later steps change only the node with the largest
+# error.
 ALL_AT_ONCE = 8
 
 

@@ -48,13 +48,13 @@ if TYPE_CHECKING:
     from contact_scene.geometry import ShapedBody
 
 
-# Error of the equation over the sum of its terms, below which more orders gain nothing.
+# Error of the contact equation over the sum of its terms. Below it more polynomials gain nothing.
 ROUND_OFF = 1e-12
-SMOOTH = 1e-9  # of the approach: a smaller G at the edge is round-off
+SMOOTH = 1e-9  # G(1) below this multiple of the approach is round-off: the edge is smooth
 ELSEWHERE = "solve it with the semi-analytical solver"
 FEWEST_ORDERS, MAX_ORDERS = 8, 256
-AT_ONCE = 8192  # wavenumbers
-# points between the nodes of the method, at which the error of the equation is evaluated
+AT_ONCE = 8192  # wavenumbers in a block of the Galerkin integrals
+# Number of points at which the error of the contact equation is evaluated.
 PLACES = 40
 
 

@@ -23,8 +23,8 @@ ROUND_OFF = 1e-13
 # Relative error at which the iteration may stop without progress, due to round-off with unlike
 # materials.
 NEAR = 1e-9
-LARGEST_STEP = 0.7  # of the logarithm of the radius
-LEAST_RADIUS = 1e-12  # [m]
+LARGEST_STEP = 0.7  # largest change of the logarithm of the radius in a step
+LEAST_RADIUS = 1e-12  # least initial guess of the radius [m]
 LEAST_POWER = 0.5  # least exponent of the power law of force or approach in the radius
 
 

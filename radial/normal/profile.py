@@ -20,8 +20,9 @@ if TYPE_CHECKING:
     from contact_scene.geometry import ShapedBody
 
 
-FEWEST, MOST = 16, 2048  # numbers of points at which the gap is evaluated
-# Round-off of a coefficient over the largest coefficient, per point.
+FEWEST, MOST = 16, 2048  # least and largest number of points at which the gap is evaluated
+# Round-off of a coefficient of the gap over the largest coefficient, divided by the number of
+# points.
 ROUND_OFF = 1e-15
 ANGLES = 16
 

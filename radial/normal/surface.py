@@ -18,8 +18,8 @@ from radial.response.quadrature import (
 )
 
 POINTS = 48
-AT_ONCE = 8192  # wavenumbers
-PLACE = 1e-9  # error of the position of a maximum over the contact radius
+AT_ONCE = 8192  # wavenumbers in a block of Bessel functions
+PLACE = 1e-9  # error of the position of the largest pressure over the contact radius
 
 
 def pressure(contact: Disc, x: Array) -> Array:
@@ -114,7 +114,7 @@ def displacement(contact: Disc, x: Array) -> Array:
     direct = angle * (contact.transform(x[:, None] * np.sin(angle[:, None] * v)) @ weights)
     if not contact.bodies.layered:
         return np.asarray(2 / pi * direct)
-    reach = 2.0 ** np.ceil(np.log2(np.max(x)))  # few values, shared by contacts
+    reach = 2.0 ** np.ceil(np.log2(np.max(x)))  # powers of 2: few values, which contacts share
     waves = contact.bodies.waves(contact.radius, float(reach))
     places, weights = waves.rule
     spectrum = weights * contact.bodies.excess(waves, contact.radius)

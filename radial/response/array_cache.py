@@ -14,7 +14,7 @@ from typing import Any, ParamSpec, TypeVar
 P = ParamSpec("P")
 R = TypeVar("R")
 
-MAX_CACHED = 24 << 20  # bytes of the results of one function
+MAX_CACHED = 24 << 20  # limit of the cached results of a function [byte]
 
 
 def cached_within(most: int) -> Callable[[Callable[P, R]], Callable[P, R]]:

@@ -21,9 +21,11 @@ from radial.response.wavenumbers import (
 from semi_analytical.frf.stack import Stack, stack_of
 from semi_analytical.frf.surface import SurfaceScalars, remainder_scalars
 
-# exp(-2 k h) (k h)² is below 1e-17 from here on.
+# Largest wavenumber times thickness, k h: exp(-2 k h) (k h)², the relative contribution of a layer,
+# is below 1e-17 for larger values.
 REACH = 24.0
-# Ratio of the smallest wavenumber to the one where the softest layer has an effect.
+# Ratio of the smallest wavenumber to the wavenumber where the softest layer begins to have an
+# effect.
 LONGEST_WAVE = 1e-2
 # Number of cached layer responses: pressure, shear and gap of a contact use the same one.
 CACHED = 4

@@ -21,11 +21,11 @@ from radial.response.array_cache import (
 from radial.response.quadrature import unit_gauss
 
 POINTS = 16
-# Change of phase over a panel: 16 points integrate it to 1e-14.
+# Change of the phase of a wave over a panel: 16 Gauss points integrate the wave to 1e-14.
 PHASE = 6.0
-# Ratio of the ends of a panel near zero, where only the response varies.
+# Ratio of the ends of a panel near κ = 0, where only the response of the layers varies.
 GROWTH = 3.0
-# Contacts with radii within this ratio share their panels.
+# Contacts whose radii differ by less than this ratio share their panels.
 SHARED = 1.25
 # Number of cached quadratures. A solve needs two; more than a few contacts exceed the processor
 # cache.

@@ -20,11 +20,11 @@ from contact_scene.solver_errors import UnsupportedScene
 from radial.plan import ELSEWHERE
 from radial.stress.loaded_circle import LoadedCircle
 
-RADII, ANGLES = 241, 360  # of a circle; the error of linear interpolation is about 1e-5
-FEWEST = 4  # rings that determine the edge
-HARMONICS = 3
+RADII, ANGLES = 241, 360  # grid of a circle; the error of linear interpolation is about 1e-5
+FEWEST = 4  # least number of rings that determine the edge
+HARMONICS = 3  # highest angular harmonic of the fit
 STEPS = 20  # of Newton's method, for the zeros of p²
-PERIOD = 4  # angles beyond a full turn that are repeated
+PERIOD = 4  # angles beyond a full turn that the periodic spline repeats
 
 
 class Fit(NamedTuple):

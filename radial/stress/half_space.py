@@ -23,9 +23,9 @@ from semi_analytical.frf.stack import HalfSpace
 Complex = NDArray[np.complex128]
 
 POINTS = 16
-WIDTH = 1.5  # of a panel of the transformed coordinate
-SURFACE = 1e-16  # depths below are the surface
-# Smallest radius over the contact radius, without effect on any digit.
+WIDTH = 1.5  # largest width of a panel of the coordinate y
+SURFACE = 1e-16  # points at smaller depths over the contact radius are on the surface
+# Smallest radius over the contact radius in integrals. It changes no digit of the results.
 AXIS = 1e-7
 
 
@@ -50,7 +50,8 @@ def below_pressure(contact: Disc, material: HalfSpace, x: Array, depth: float) -
         return np.stack([out / (2 * G), (1 - nu) * down / G, *stress])
     level, once, twice, outward, steep, steeper = _waves(contact, x, depth)
     moved, unit = modulus / (2 * G), modulus / contact.radius
-    # Quantities over r: u_r is r times `spread`, and σ_θθ = 2G u_r/r - 2ν ∫ p~ exp(-kz) J₀ k dk.
+    # Quantities divided by r avoid 0/0: u_r is r times `spread`, and
+    # σ_θθ = 2G u_r/r - 2ν ∫ p~ exp(-kz) J₀ k dk.
     spread = -(1 - 2 * nu) * outward + depth * steep
     hoop = spread - 2 * nu * once
     return np.stack(

@@ -16,7 +16,8 @@ from radial.response.quadrature import unit_gauss
 
 Complex = NDArray[np.complex128]
 
-# Gauss points of a panel and of the load, and the highest harmonic of the load, against aliasing.
+# PANEL: Gauss points of a panel. LOAD_POINTS: points of the integral of the load. HARMONICS:
+# highest harmonic of the load, large enough against aliasing.
 PANEL, LOAD_POINTS, HARMONICS = 16, 128, 15
 
 

@@ -18,11 +18,11 @@ from radial.response.quadrature import unit_gauss
 from radial.stress.loaded_circle import LoadedCircle
 from semi_analytical.frf.stack import HalfSpace
 
-SURFACE = 1e-8  # depths below are the surface
+SURFACE = 1e-8  # points at smaller depths over the radius are on the surface
 ANGLES, POINTS = 8, 6  # Gauss points of a panel of angles and of a ray
 WIDER = 4.0  # largest ratio of adjacent panels
-LEAST = 1e-7  # smallest panel of a ray, and of angles
-MAX_AT_ONCE = 1 << 18  # points
+LEAST = 1e-7  # least width of a panel of a ray, and of a panel of angles
+MAX_AT_ONCE = 1 << 18  # quadrature points in a block
 
 
 def below_circle(
@@ -125,7 +125,8 @@ def _summed(
     else:
         turned, weight = angles
         along, half = r * np.cos(turned), np.sqrt(np.maximum(1 - (r * np.sin(turned)) ** 2, 0.0))
-        # The longer part of a chord is a sum; the shorter one follows from the product of both.
+        # The longer part of a chord is a sum of positive terms. The shorter part follows from the
+        # product of the two parts without cancellation.
         product = (1 - r) * (1 + r)
         longer = np.abs(along) + half
         ahead = np.where(along < 0, longer, product / longer)
@@ -187,7 +188,7 @@ def _kernels(material: HalfSpace, d: Array, depth: float) -> tuple[Array, ...]:
     g, z = 1 - 2 * nu, depth
     R = np.hypot(d, z)
     sum_ = R + z
-    # Points have d > 0 if z = 0.
+    # At the surface (z = 0) all quadrature points have d > 0.
     move, unit = d / (4 * pi * G), d / (2 * pi)
     by_p = (
         -move * (d * z / R**3 - g * d / (R * sum_)),

@@ -30,10 +30,11 @@ from semi_analytical.frf.stack import Stack
 
 Complex = NDArray[np.complex128]
 
-# exp(-κ d) (κ d)² is below 1e-12 for larger κ d, which is the accuracy of the tractions.
+# Largest wavenumber times distance, κ d: exp(-κ d) (κ d)² is below 1e-12, the accuracy of the
+# tractions, for larger values.
 DIED_OUT = 36.0
-LEAST_POINTS = 64  # over the radius
-MAX_AT_ONCE = 1 << 21  # numbers
+LEAST_POINTS = 64  # least number of quadrature points over the radius
+MAX_AT_ONCE = 1 << 21  # numbers in a block of Bessel functions
 
 
 class SubsurfaceCircle:

@@ -19,7 +19,7 @@ from radial.stress.half_space import below_pressure
 from semi_analytical.frf.depth import Descent, Level, in_plane, material_at
 from semi_analytical.frf.stack import Stack
 
-# exp(-κ d) (κ d)² is below 1e-17 for larger κ d.
+# Largest wavenumber times distance, κ d: exp(-κ d) (κ d)² is below 1e-17 for larger values.
 DIED_OUT = 48.0
 BLOCK = 4096  # wavenumbers per block of Bessel functions
 

@@ -21,16 +21,19 @@ from radial.response.quadrature import unit_gauss
 from radial.tangential.harmonic_kernels import equal_order
 
 Numbers = NDArray[np.int64]
-# Element of r, element of s, r, s, s - r and weights of pairs of points.
+# Pairs of quadrature points: element of r, element of s, r, s, s - r and weights.
 Pairs = tuple[Numbers, Numbers, Array, Array, Array, Array]
 
 SAME, TOUCHING = 26, (14, 12)
-APART = ((2, 4, 11), (4, 9, 7))  # range of the distance of two elements, and number of points
+# Range of the distance of two elements (in elements), and number of Gauss points per direction.
+APART = ((2, 4, 11), (4, 9, 7))
 FAR, FAR_POINTS = 9, 5
 WAVE_POINTS = 6
 CACHED = 8
-BEYOND = 32  # orders above the highest, where the downward recurrence starts; J is negligible there
-MAX_AT_ONCE = 1 << 21  # numbers: 16 MiB
+# The downward recurrence of Bessel functions starts at this number of orders above the highest one,
+# where J is negligible.
+BEYOND = 32
+MAX_AT_ONCE = 1 << 21  # numbers in a block of Bessel functions: 16 MiB
 
 
 class Unit(NamedTuple):
@@ -59,7 +62,7 @@ def unit_energies(nodes: tuple[float, ...], highest: int) -> Unit:
     x = np.array(nodes)
     size = (len(x), len(x))
     products = np.zeros((highest + 2, *size))
-    squares = np.zeros((highest + 2, *size))  # of (r/s) G_m
+    squares = np.zeros((highest + 2, *size))  # Galerkin integrals of (r/s) G_m
     steps = np.zeros((highest + 1, *size))
     for inner, outer, r, s, apart, weights in _pairs(x):
         kernel = equal_order(highest + 1, r, s, apart) * weights

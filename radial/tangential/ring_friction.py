@@ -37,14 +37,16 @@ from radial.tangential.ring_state import (
 )
 
 MAX_STEPS = 60
-DIGITS = 1e-9  # of the limit load
-SHORTEST = 2.0**-6  # least fraction of a step of Newton's method
-# largest change of rigid motion in a step, over the largest slip plus µ times the approach
+DIGITS = 1e-9  # tolerance of the limit load
+SHORTEST = 2.0**-6  # least fraction of a Newton step in the line search
+# Largest change of the rigid motion in a Newton step, over the largest slip plus µ times the
+# approach.
 FURTHEST = 4.0
-# Difference to the limit over the largest limit, within which a point counts as slipping: it begins
-# to slip, or slipped before. The tolerance of Newton's method is 100 times smaller.
+# A point whose shear is below its friction limit by less than this multiple of the largest limit
+# counts as slipping: it begins to slip, or slipped before. The tolerance of Newton's method is 100
+# times smaller.
 TIE = 1e-9
-AT_ONCE = 12  # first steps without line search: full steps find the slip zone sooner
+AT_ONCE = 12  # number of first Newton steps without line search, which find the slip zone sooner
 
 
 def solved_state(
@@ -77,7 +79,7 @@ def solved_state(
         for step in range(MAX_STEPS):
             if at.worst <= tolerance:
                 return _end_state(laws, at, before, step)
-            # A singular iteration diverges to infinite numbers.
+            # An iteration with a singular system diverges to infinite numbers.
             with np.errstate(over="ignore", invalid="ignore"):
                 aim = newton_iterate(laws, at)
                 if aim is None:

@@ -22,11 +22,11 @@ from radial.tangential.ring_state import (
     carried,
 )
 
-# Least divisor of the error of shear: with less friction the limit is round-off of the pressure.
+# Least µ in the relative error of the shear. With less friction the limit µp is round-off of p.
 LEAST_FRICTION = 1e-4
-# Predictor from the last increment: relative change that counts as round-off, largest ratio of
-# increments (above 2, so that round-off does not decide at 2), and largest relative deviation from
-# the direction of the last increment.
+# Predictor from the last increment. REST: relative change of the loads that is round-off. FURTHEST:
+# largest ratio of this increment to the last one (above 2, so that round-off does not decide at 2).
+# ASIDE: largest relative deviation from the direction of the last increment.
 REST, FURTHEST, ASIDE = 1e-6, 2.1, 0.5
 
 
@@ -146,7 +146,8 @@ class Laws:
         y = (q - slip_increment / points.softness[: 2 * size]).reshape(2, -1)
         limit = self.friction.limit(np.maximum(z, 0.0))
         residual = np.concatenate([q - (_shortened(y, limit) * y).ravel(), p - np.maximum(z, 0.0)])
-        # The error of shear is relative to the limit, that of pressure relative to the pressure.
+        # The error of the shear is relative to the friction limit, that of the pressure to the
+        # pressure.
         beyond = np.max(np.abs(residual[: 2 * size])) / max(self.friction.largest, LEAST_FRICTION)
         peak = np.max(np.abs(p))
         worst = max(beyond, np.max(np.abs(residual[2 * size :]))) / peak if peak > 0 else np.inf

@@ -15,10 +15,11 @@ from radial.response.quadrature import unit_gauss
 from radial.tangential.ring_compliance import ring_compliance
 from radial.tangential.ring_points import Points
 
-GRADED = 4  # rings towards the edge on either side, each half as wide as the previous one
-LEAST = 0.75  # least distance of an even ring from an edge, in widths of a ring
-GROWTH = 1.4  # ratio of the widths of rings outside
-# Outermost radius over the contact radius, and its increase by friction, which shifts the edge.
+GRADED = 4  # rings on each side of an edge, each with half the width of the previous one
+LEAST = 0.75  # least distance of an evenly spaced ring from an edge, in widths of a ring
+GROWTH = 1.4  # ratio of the widths of adjacent rings outside the largest contact
+# Outermost radius over the contact radius without friction, and its increase per unit of µ, because
+# friction shifts the contact edge.
 REACH, BY_FRICTION = 1.15, 0.5
 POINTS = 6  # Gauss points of an element
 

@@ -93,7 +93,7 @@ def newton_iterate(laws: Laws, at: At) -> Array | None:
     points, size = laws.points, len(at.z)
     if laws.loads.forces[NORMAL] is not None and not np.any(at.z > 0):
         return None
-    # Rings outside the last closed one carry no traction.
+    # Rings outside the outermost ring in contact carry no traction.
     rings = int(np.max(np.flatnonzero(at.z > 0), initial=0)) // points.count + 1
     K, m = points.tractions(rings), rings * points.count
     units = np.sqrt(points.of_rings(points.softness, rings))
@@ -103,8 +103,7 @@ def newton_iterate(laws: Laws, at: At) -> Array | None:
     imposed = _imposed(laws, at, rings, t) / units[:, None]
     residual = imposed[own, 4]
     imposed[own, 4] = 0.0
-    # Forces of the rigid motions, and of the current tractions, at every displacement and in the
-    # directions of the motions.
+    # Tractions by the rigid motions, and at the iterate; their work on the rigid motions.
     carried = K @ imposed
     by_motion = imposed.T @ carried
     carried[:, 4] += t * units
@@ -165,7 +164,7 @@ def _whole(
     every = np.concatenate([own[: 2 * n], 2 * m + free.points])
     across = np.arange(n, 2 * n)
     found = []
-    # K is symmetric: its rows are contiguous.
+    # K is symmetric, so rows are taken instead of columns: they are contiguous in memory.
     for by in (K.take(every, axis=0).take(own, axis=1), carried[every]):
         outward, around, down = by[:n], by[n : 2 * n], by[2 * n :]
         found.append(np.concatenate([
@@ -193,7 +192,7 @@ def _loads(laws: Laws, at: At, carried: Array, by_motion: Array) -> Array:
     rows = np.concatenate([carried, by_motion]).T[:4]
     ends = zip(laws.loads.forces, laws.loads.motions, strict=True)
     for i, (force, motion) in enumerate(ends):
-        # A prescribed force gives an equilibrium row, a prescribed motion its value.
+        # A prescribed force gives an equation of equilibrium, a prescribed motion gives its value.
         if force is None:
             rows[i], rows[i, i - 5], rows[i, -1] = 0.0, -1.0, motion
             rows[i, -1] -= at.x[i - 4]

@@ -13,13 +13,14 @@ from contact_scene.array_types import Array
 from radial.angular_grid import Circle
 from radial.tangential.stick_border import stick_area
 
-FINER = 16  # subdivisions of an element, to find a front
-# Nodes for the fit of an edge: largest distance from the last node with pressure over its radius,
-# and least number.
+FINER = 16  # subdivisions of an element, to find the border of the stick zone
+# Nodes for the fit of p² at the contact edge. BESIDE_EDGE: largest distance from the last node with
+# pressure over the radius of this node. FITTED: least number.
 BESIDE_EDGE, FITTED = 0.15, 4
-FEWEST = 2  # rings within a contact that resolve its edge
-# Cache of inverses for contacts with a changing number of rings: least number and size [byte].
-# Relative norm below which the angles cannot represent a component of a harmonic.
+FEWEST = 2  # least number of rings within a contact that resolve its edge
+# INVERSES, ROOM: least number and total size [byte] of cached inverses of the compliance, for
+# contacts with a changing number of rings. ROUND_OFF: relative norm below which the angles cannot
+# represent a component of a harmonic.
 INVERSES, ROOM, ROUND_OFF = 3, 1 << 23, 1e-12
 
 

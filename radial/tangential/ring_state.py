@@ -9,7 +9,8 @@ import numpy as np
 from contact_scene.array_types import Array
 from radial.tangential.ring_points import Points
 
-# Rigid motions and the loads that work on them: T along and across, M about the axis, W.
+# Indices of rigid motions and of their conjugate loads: tangential force along and across θ = 0,
+# torque about the axis, normal force.
 ALONG, ACROSS, TORSION, NORMAL = range(4)
 Prescribed = tuple[float | None, ...]
 

@@ -15,16 +15,17 @@ from numpy.typing import NDArray
 
 from contact_scene.array_types import Array, Mask
 
-# Distance of the border from the last sticking point over the distance of points, as a polynomial
-# in the ratio of the last two values. Errors: 2e-5 for hats, 1.3e-3 for harmonics.
+# Coefficients of the distance of the border from the last sticking point over the distance of
+# points, as a polynomial in the ratio of d at the last two sticking points. Errors: 2e-5 for hats,
+# 1.3e-3 for harmonics.
 ON_HATS = (0.02807, 1.00215, 0.12215, 0.01960)
 ON_HARMONICS = (-0.1913, 1.0209, 0.3219, 0.3288)
-# The previous two values distinguish the powers: their ratio is at most 0.54 for 3/2 and at least
-# 0.7 for 1/2. For 3/2, the ratio of the last two values is AT_NEXT if the border is at the next
-# point.
+# The ratio of d at the second and third sticking point from the border distinguishes the powers: at
+# most 0.54 for 3/2 and at least 0.7 for 1/2. For 3/2, the ratio of d at the last two sticking
+# points is AT_NEXT if the border is at the next point.
 GAINING, AT_NEXT = 0.66, 0.3
-DEEP = 3  # see `deep` of `_borders`
-UNTOLD = 0.5  # position between points without sufficient data
+DEEP = 3  # number of sticking points required on rings, see `deep` of `_borders`
+UNTOLD = 0.5  # position of the border between two points without sufficient data
 
 
 def stick_area(radii: Array, shear: Array, bound: Array, sticks: Mask) -> float:
@@ -47,7 +48,7 @@ def stick_area(radii: Array, shear: Array, bound: Array, sticks: Mask) -> float:
     along_rings = along_rings[turn : 2 * turn].T
     inner, outer = radii[:-1, None], radii[1:, None]
     across = along_rays * (outer - inner)
-    # Shares are linear in r², so that they are shares of area.
+    # Positions are converted from r to r², so that they are fractions of area.
     along_rays = across * (2 * inner + across) / ((outer - inner) * (outer + inner))
     areas = np.pi / turn * (outer - inner) * (outer + inner)
     return float(np.sum(areas * _shares(sticks, along_rays, along_rings)))
@@ -130,7 +131,7 @@ def _off(
     even                   distance to the next point over the distance to the previous point
     table                  coefficients of the polynomial for the power 1/2
     """
-    # Values at equal distances: squares of roots are linear.
+    # Interpolate d to equal distances of points: d² is linear in the position near a root.
     before = np.sqrt(last**2 + np.maximum(before**2 - last**2, 0.0) * even)
     with np.errstate(invalid="ignore"):
         ratio = np.minimum(last / before, 1.0)

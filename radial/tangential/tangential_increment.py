@@ -27,7 +27,7 @@ from radial.tangential.ring_state import (
     PointState,
 )
 
-REST = 1e-11  # of the approach: less slip is round-off
+REST = 1e-11  # slip below this multiple of the approach is round-off
 
 
 @dataclass(frozen=True)

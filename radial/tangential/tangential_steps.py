@@ -52,12 +52,14 @@ from radial.tangential.tangential_increment import (
 
 Pair = tuple[float, float]
 
-# increments per load step, and layouts of rings, to find the contact radii
+# The contact radii at the ends of the load steps are found with this number of increments per load
+# step, and with this number of layouts of rings.
 SETTLING, SETTLED = 8, 2
-NARROW = 2.0  # rings: smaller contacts get dense rings of their edge
-# of output shear onto its limit; they change its force by 2e-6 of the friction limit
+NARROW = 2.0  # contacts with fewer rings get dense rings at their edge
+# Number of projections of the output shear onto its friction limit. They change the force by 2e-6
+# of the friction limit.
 PROJECTIONS = 30
-EXACT = 0.1  # residual of Newton's method over the tolerance
+EXACT = 0.1  # bound of the residual of Newton's method over the tolerance
 NOTHING = (0.0, 0.0, 0.0, 0.0)
 
 

@@ -28,7 +28,8 @@ from radial.normal.disc import Disc
 from radial.response.quadrature import unit_gauss
 
 POINTS = 48
-# Panels down to 2^-26. The error of the Chebyshev interpolation of a panel is 1e-16.
+# PANELS: number of panels, down to t = 2^-26. NODES: Chebyshev points of a panel, whose
+# interpolation has an error of 1e-16.
 PANELS, NODES = 26, 26
 
 

@@ -40,7 +40,7 @@ from radial.torsion.friction_limit import FrictionLimit
 from semi_analytical.frf.stack import Stack, stack_of
 
 POINTS = 24
-NO_STICK = 1e-6  # least stick radius over the contact radius
+NO_STICK = 1e-6  # least stick radius over the contact radius that is solved
 AXIS = 1e-7  # smallest radius over the contact radius in integrals, without effect on any digit
 
 

@@ -24,7 +24,7 @@ from radial.plan import ELSEWHERE
 from radial.torsion.torsion import Torsion
 from radial.torsion.twist_path import TwistPath
 
-# Largest excess of the friction limit by round-off, over the largest limit.
+# Shear above the friction limit by less than this multiple of the largest limit is round-off.
 NO_ANNULUS = 1e-9
 
 

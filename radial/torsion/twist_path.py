@@ -21,7 +21,7 @@ from radial.torsion.torsion import (
     Torsion,
 )
 
-# Distance from the largest torque, over this torque, in which the twist is undetermined.
+# Relative distance from the torque of gross slip within which the twist is undetermined.
 AT_LIMIT = 1e-12
 
 Named = Literal["twist", "torque"]
