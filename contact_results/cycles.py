@@ -135,7 +135,7 @@ def fretting_cycles(result: Result) -> tuple[FrettingCycle, ...]:
     increments: Sequence[Increment] = result.increments
     steps = [list(within) for _, within in groupby(increments, lambda i: i.step)]
     for cycle in closed:
-        # From the increment at whose end the cycle begins.
+        # The path starts with the increment at whose end the cycle begins.
         path = [steps[cycle.start - 1][-1], *chain(*steps[cycle.start : cycle.end])]
         if all(increment.dissipated_energy is not None for increment in path):
             stress = tension.within(path) if tension else None

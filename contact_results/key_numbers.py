@@ -62,7 +62,7 @@ class _Column(NamedTuple):
     """
 
     heading: str
-    like: str  # columns of equal names share their unit
+    like: str  # columns with equal entries share their unit
     unit: str
     entries: list[tuple[float | None, Uncertainty | None]]
 
@@ -164,7 +164,7 @@ def _cut(value: float | None, negligible: float) -> float | None:
     return 0.0 if value is not None and abs(value) <= negligible else value
 
 
-# Symbols of fretting tests, and units that suit products.
+# Symbols of the numbers of load cycles in tables, and units of Ruiz's parameters.
 SYMBOLS = {
     **{"energy_per_cycle": "E_d", "force_amplitude": "Q*", "actuator_amplitude": "δ*"},
     **{"shift_amplitude": "δ", "loop_opening": "δ_g", "energy_ratio": "A"},

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 # Limits of a cycle without force or slip: tangential force relative to the normal force, and
 # dissipated energy relative to force amplitude times shift amplitude.
 ROUND_OFF, NO_SLIP = 1e-9, 1e-9
-AT_GROSS_SLIP = 0.2  # E_d/4Q*δ
+AT_GROSS_SLIP = 0.2  # E_d/4Q*δ of Mindlin's loop at gross slip
 
 
 def loop_numbers(

@@ -26,7 +26,7 @@ from contact_scene.quantities.stored_fields import (
 from contact_scene.solver_errors import SolverError
 from contact_scene.stepping.checkpoint import Checkpoint
 
-SECONDS_BETWEEN = 5.0  # shortest time between two files
+SECONDS_BETWEEN = 5.0  # shortest time between two files [s]
 SHARE = 0.05  # largest part of the run time spent on writing
 MAX_BETWEEN = 3600.0  # longest time between two files [s]: a suspended machine measures hours
 MAX_IN_PART = 16 << 20  # bytes of fields in a file, which limits the memory of a read

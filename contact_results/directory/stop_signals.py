@@ -84,7 +84,7 @@ def _handled_by(handler: Handler) -> Iterator[None]:
     Ignored signals stay ignored (nohup, `&`). Outside the main thread nothing is changed.
     """
     before: dict[int, Any] = {}
-    if threading.current_thread() is threading.main_thread():  # others must not change handlers
+    if threading.current_thread() is threading.main_thread():  # other threads must not
         before = {number: signal.getsignal(number) for number in STOPS}
     before = {number: old for number, old in before.items() if old is not signal.SIG_IGN}
     for number in before:

@@ -77,7 +77,7 @@ def draw_loop(ax: Any, result: Result) -> None:
     ax.axvline(0.0, color=style.GREY, linewidth=0.5)
     ax.plot(x, y, color=style.LINE_COLOURS[0], marker=".", markersize=3.5, linewidth=1.2)
     if actuator is not None:
-        unit = motions @ x / (motions @ motions)  # of the axis
+        unit = motions @ x / (motions @ motions)  # factor from SI to the unit of the axis
         style_of = {"color": style.LINE_COLOURS[2], "linestyle": "--", "linewidth": 1.0}
         ax.plot(unit * actuator, y, label="actuator", **style_of)
     ends = [n for n, i in enumerate(path) if i.index == i.increments_in_step]

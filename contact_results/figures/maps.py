@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from contact_results.surface import Cells, Increment, Result
 
 
-# Label, unit, and whether it is a vector, of each field with a map.
+# Label, SI unit, and True for vectors, of each field with a map.
 FIELDS = {
     "pressure": ("pressure p", "Pa", False),
     "shear": ("shear |q|", "Pa", True),

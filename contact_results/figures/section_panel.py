@@ -28,7 +28,8 @@ QUADRILATERALS = {
     "quad9": ((0, 4, 8, 7), (4, 1, 5, 8), (8, 5, 2, 6), (7, 8, 6, 3)),
 }
 MAX_LEVELS = 12
-# Layers thinner than THIN times the visible depth are stretched to STRETCHED times the axis.
+# If the layers together are thinner than THIN times the visible depth, they are drawn on the share
+# STRETCHED of the depth axis.
 THIN, STRETCHED = 0.125, 0.3
 HALO = [patheffects.withStroke(linewidth=2.2, foreground="white")]
 

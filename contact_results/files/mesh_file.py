@@ -20,7 +20,7 @@ from contact_results.directory.atomic_file import atomic_file
 
 Values = NDArray[Any]
 
-# Place of each component of (3, 3) in xx, yy, zz, yz, xz, xy.
+# Index of each component of a full tensor, by rows, in the order xx, yy, zz, yz, xz, xy.
 VOIGT = (0, 5, 4, 5, 1, 3, 4, 3, 2)
 HEAD = b"<UnstructuredGrid>"
 

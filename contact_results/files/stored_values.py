@@ -25,10 +25,10 @@ from contact_scene.solver_errors import ResourceRefused
 # Largest ratio of declared bytes to bytes of the file. Deflate compresses at most 1032:1; the
 # factor 4 admits fields that are partly empty.
 LARGEST_RATIO = 4096
-MAX_CHUNKS = 10_000  # of one read; fields have one chunk per increment
-# Exceptions of h5py, and of code that uses its values, for a file of other content.
+MAX_CHUNKS = 10_000  # largest number in one read; fields have one chunk per increment
+# Exceptions that h5py, or code that uses its values, raises for a file of other content.
 MISREAD = (OSError, KeyError, ValueError, TypeError, AttributeError, IndexError, RuntimeError)
-MAX_DEPTH = 4  # of nested groups; a run has one level
+MAX_DEPTH = 4  # largest number of levels of nested groups; a run has one level
 
 MAPS = "maps"  # group of the arrays that the scene reads from files
 # Label of the first index of fields at the ends of load steps.

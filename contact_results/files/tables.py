@@ -118,7 +118,7 @@ def write_increments(result: Result, directory: Path) -> None:
     write_table(directory / INCREMENTS, INCREMENT_COLUMNS, rows)
 
 
-# Numbers of a loop that the other columns do not have.
+# Numbers of a fretting loop that no other column contains.
 OF_LOOPS = [
     name
     for name in OF_CYCLES

@@ -29,7 +29,7 @@ from contact_scene.quantities.field_metadata import (
 from contact_scene.quantities.stated_error import AccuracyReached, StatedError
 
 SECTION, VOLUME = "stress_section.vtu", "stress_volume.vtu"
-SURFACE = "stress_surface.vtu"  # the tractions
+SURFACE = "stress_surface.vtu"  # mesh with the tractions
 
 INVARIANTS = (
     Column("von_mises", "Pa", "Equivalent stress of von Mises."),
@@ -203,7 +203,7 @@ def _rows(points: StressPoints, body: Body) -> Iterator[tuple[object, ...]]:
     """Yield the table rows of stress points: place, material, displacement, stress, invariants."""
     numbers = np.vstack([points.displacement, points.stress, points.von_mises, points.principal])
     materials = [layer_name(material, len(body.layers)) for material in points.material.tolist()]
-    # A zero has no sign.
+    # The addition of 0.0 removes the sign of negative zeros.
     places = (np.stack([points.x, points.y, points.depth], axis=-1) + 0.0).tolist()
     for place, material, row in zip(places, materials, (numbers.T + 0.0).tolist(), strict=True):
         yield (*place, material, *row)

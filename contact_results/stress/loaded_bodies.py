@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 TRACTIONS = ("pressure", "shear_radial", "shear_circumferential", "shear_along_load", "shear")
 
-RADIAL = "radial"  # solver with an analytical pressure between the rings
+RADIAL = "radial"  # name of the solver with an analytical pressure between the rings
 
 OF_HEIGHTS = "the indenter is not a smooth shape"
 OF_MAP = "the coefficient of friction varies"

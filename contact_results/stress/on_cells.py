@@ -32,15 +32,15 @@ if TYPE_CHECKING:
 # Half width of the window in half extents of the contact. It includes the contact edge, where the
 # tensile stress is largest, and the deflection of a coating outside the contact.
 MARGIN = 1.6
-# Half width for levels whose largest stress lies at the edge of the first window. Behind a contact
+# Half width for depths whose largest stress lies at the edge of the first window. Behind a contact
 # with tangential load the largest interface stress is about two radii from the centre.
 WIDE_MARGIN = 2.4
 # Distance of chosen points from the origin in half windows: the window is extended to them.
 MAX_REACH = 10.0
 NEIGHBOURS = 4  # adjacent cells of a point that the interpolation uses
 LEVEL = ("depth", "layer")
-# Numbers per point of the volume: displacement and stress by level and joined, cells; coordinates,
-# tensors and invariants in the file.
+# Numbers in memory per point of the volume. Computed: displacement and stress by depth, the same
+# for all depths, corners of cells. Written: coordinates, displacement, full tensor, invariants.
 COMPUTED, WRITTEN = 9 + 9 + 8, 3 + 3 + 9 + 4
 
 

@@ -45,7 +45,7 @@ class Sampling(NamedTuple):
 
 PRESSED, SHEARED = Sampling(32, 32, 48, 3, 6), Sampling(20, 16, 28, 2, 5)
 # Points outside the plane of the section, where the tensile stress at the bottom of a layer may be
-# largest: distances in contact radii, number of angles, and every n-th level.
+# largest: distances in contact radii, number of angles, and every n-th depth.
 RADII, ANGLES, EVERY = np.array([0.3, 0.6, 0.8, 0.95, 1.0, 1.15, 1.5]), 7, 2
 
 
