@@ -135,11 +135,10 @@ def _softness(body: Body) -> float:
 
 
 def _coarse_radius(scene: Scene, ramp: LoadRamp, guess: float) -> float:
-    """Compute the contact radius at the end of a load step on coarse meshes, without friction
-    [length].
+    """Compute the contact radius at the end of a load step on coarse meshes [length].
 
-    The load is applied in one increment. The mesh is replaced until the contact fits into its fine
-    elements and is not much smaller than their zone.
+    Friction is neglected. The load is applied in one increment. The mesh is replaced until the
+    contact fits into its fine elements and is not much smaller than their zone.
 
     guess  contact radius for the first mesh [length]
     """

@@ -189,11 +189,10 @@ class _Increment:
     def left(self, one: _Pass) -> float:
         """Compute the relative error that the penalty causes in a pass of the increment [1].
 
-        The error follows from the deformation of the penalty springs.
-
-        The error is the larger of two ratios. The first is the overlap over the approach. The
-        second is the tangential strain of the springs over the largest tangential displacement in
-        the history, both as means weighted with the shear.
+        The error follows from the deformation of the penalty springs. The error is the larger of
+        two ratios. The first is the overlap over the approach. The second is the tangential strain
+        of the springs over the largest tangential displacement in the history, both as means
+        weighted with the shear.
 
         At Gauss points the error is multiplied by (WIDEST_ZONE × contact radius / radius of the
         mesh's contact zone)², at most 1. The discretisation error is proportional to the inverse of
@@ -348,8 +347,7 @@ class _Increment:
     def _status(
         self, problem: CoupledProblem, p: Vector, in_stick: Mask, load: float
     ) -> ContactStatus:
-        """Determine the contact status (stick, partial slip or gross slip) at the end of the
-        increment.
+        """Determine the contact status at the end of the increment: stick, partial or gross slip.
 
         p         pressure (points,)
         in_stick  True for sticking points (points,)

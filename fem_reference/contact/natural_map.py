@@ -54,9 +54,8 @@ class Iterate:
 class Equations:
     """Contact equations of an increment: laws at all points, then prescribed loads.
 
-    The contact and friction laws are written as a natural map.
-
-    The unknowns are tractions, rigid motion and the compliance of springs between the surfaces.
+    The contact and friction laws are written as a natural map. The unknowns are tractions, rigid
+    motion and the compliance of springs between the surfaces.
     """
 
     def __init__(self, problem: CoupledProblem) -> None:

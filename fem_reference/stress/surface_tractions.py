@@ -81,21 +81,21 @@ class SurfaceTractions:
 
     @property
     def reach(self) -> float:
-        """Radius of the first ring without pressure, where linear interpolation of pressure ends
-        [length].
+        """Radius of the first ring without pressure [length].
 
-        If all rings carry pressure, the radius is that of the last ring.
+        Linear interpolation of the pressure ends at this ring. If all rings carry pressure, the
+        radius is that of the last ring.
         """
         beyond = self.radii[self.radii > self.loaded_radius]
         return float(beyond[0]) if beyond.size else self.loaded_radius
 
     @property
     def edges(self) -> Field:
-        """Radii of the contact edge at θ = 0 and θ = π, counted from the direction of the load
-        [length].
+        """Radii of the contact edge at θ = 0 and θ = π [length].
 
-        The two radii are equal for an axisymmetric pressure. The array is empty if the tractions
-        are not `rooted` or if too few rings carry pressure. Used to refine the mesh for the stress.
+        The angle is counted from the direction of the load. The two radii are equal for an
+        axisymmetric pressure. The array is empty if the tractions are not `rooted` or if too few
+        rings carry pressure. Used to refine the mesh for the stress.
         """
         if not self.rooted or self._fewest < FEWEST_RINGS:
             return np.empty(0)
