@@ -57,8 +57,11 @@ def discretise(scene: Scene, asked: SurfaceDiscretisation) -> SurfaceGrid:
 
 
 def enlarged(scene: Scene, asked: SurfaceDiscretisation, grid: SurfaceGrid) -> SurfaceGrid:
-    """Return a grid whose window is GROWTH times larger, within the extent of the maps of the
-    scene."""
+    """Return a grid whose window is GROWTH times wider, within the extent of the maps of the scene.
+
+    asked  prescribed number of cells and window
+    grid   grid whose window is too small
+    """
     L_x, L_y = grid.window
     return _grid(scene, asked, _within_maps(scene, (GROWTH * L_x, GROWTH * L_y)))
 

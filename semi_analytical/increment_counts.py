@@ -198,10 +198,11 @@ class _LoadStep:
         return False, "the load has a constant direction and the bodies are uncoupled"
 
     def change_of_direction(self, bodies: Bodies) -> float:
-        """Compute the relative change Δx/x of the tangential load in a step that changes its
-        direction, else 0.
+        """Compute Δx/x of a load step in which the tangential load changes its direction; 0 for
+        other steps.
 
-        x is the largest tangential force over friction limit T/µW of the step.
+        x is the largest ratio T/µW of tangential force to friction limit in the step, Δx its
+        change.
         """
         x, change = self._parts_of_limit(bodies)
         return change / x if self._turning and x else 0.0

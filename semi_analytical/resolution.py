@@ -77,7 +77,7 @@ def refuse_unresolved(result: Result) -> None:
 
 
 def _remedy(result: Result, found: float) -> str:
-    """Return the part of an error message with settings that would resolve the contact.
+    """Return the sentence of an error message with settings that would resolve the contact.
 
     found  radius of the contact in cells
     """

@@ -204,9 +204,12 @@ class _AndersonMixing:
         return self._load.admissible(guess)
 
     def _correction(self, r: Field) -> Field:
-        """Compute Σ c_k (Δx_k + factor Δr_k), with the c_k that minimise |r - Σ c_k Δr_k|.
+        """Compute the correction of Anderson mixing, Σ c_k (Δx_k + factor Δr_k) (nx, ny).
 
-        Δx_k and Δr_k are differences of successive pressures and residuals.
+        The coefficients c_k minimise |r - Σ c_k Δr_k|. Δx_k and Δr_k are differences of successive
+        pressures and residuals.
+
+        r  residual of the present pressure (nx, ny)
         """
         d_x, d_r = (
             np.diff(x, axis=0).reshape(len(x) - 1, -1) for x in (self._points, self._residuals)

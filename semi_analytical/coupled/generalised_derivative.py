@@ -187,8 +187,8 @@ class Zones:
     def parts(self, vector: Vector) -> tuple[Vector, Vector, Vector]:
         """Split a vector of free unknowns into views of its three parts.
 
-        The parts are those of the stick zone (2, cells), the slip zone (cells,) and the contact
-        (cells,).
+        The parts are the shear in the stick zone (2, cells), the shear across the slip in the slip
+        zone (cells,) and the pressure in contact (cells,).
         """
         stuck, slip = 2 * len(self._stuck), len(self.slip)
         return vector[:stuck].reshape(2, -1), vector[stuck : stuck + slip], vector[stuck + slip :]

@@ -66,8 +66,7 @@ class EdgeCells:
 
     @cached_property
     def depth(self) -> Field:
-        """Distance of each cell of the region from the nearest cell outside (nx, ny), see
-        `depth_of`."""
+        """Distance of each cell of the region from the nearest cell outside, in cells (nx, ny)."""
         return depth_of(self.region, self.domain)
 
     @cached_property
@@ -79,7 +78,8 @@ class EdgeCells:
 
     @cached_property
     def adjacent(self) -> AdjacentCells:
-        """Assignment of fits of φ to the `fitted` cells."""
+        """Assignment of quadratic fits of φ to the `fitted` cells, in the region and next to its
+        edge."""
         return AdjacentCells(self.depth, *self.fitted)
 
     @cached_property

@@ -146,9 +146,12 @@ class PressureMoments:
         return bool(left - right < np.pi)
 
     def _carrying(self, p: Field, weight: Field) -> Field | None:
-        """Project p on the non-negative pressures with the prescribed sums; None if this is
-        impossible.
+        """Return the non-negative pressure with the prescribed sum and moments that is nearest to
+        p.
 
+        None is returned if no such pressure exists.
+
+        p       pressure (nx, ny)
         weight  inverse metric of the projection (nx, ny); zero where the pressure is not corrected
         """
         if not self._is_carried_on(weight > 0):

@@ -52,7 +52,8 @@ class ReducedDomain:
 
     @property
     def scalar(self) -> Parity:
-        """Parity of scalar fields about x = 0 and y = 0: 1 about a mirror plane, else 0."""
+        """Parity of scalar fields about x = 0 and y = 0: 1 (even) about a mirror plane, 0
+        without one."""
         x, y = self.mirrors
         return int(x), int(y)
 
@@ -67,8 +68,10 @@ class ReducedDomain:
 
     @property
     def rotating(self) -> Parity:
-        """Parity of a change of direction of a tangential vector: -1 about a mirror plane, else
-        0."""
+        """Parity about x = 0 and y = 0 of the change of direction of a tangential vector.
+
+        The parity is -1 (odd) about a mirror plane and 0 without one.
+        """
         x, y = self.scalar
         return -x, -y
 

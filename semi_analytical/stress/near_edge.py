@@ -111,7 +111,8 @@ class NearEdge:
 
     @property
     def beside(self) -> Mask:
-        """Cells (nx, ny) near the contact edge in which the stress is corrected."""
+        """Cells (nx, ny) near the contact edge in which the stress is corrected for the edge
+        inside cells."""
         shape = self.tractions.shape
         away = distance_transform_edt(shape.depth == 0)
         beside = (shape.depth <= BESIDE + 0.5) & (away <= BESIDE)
@@ -120,7 +121,9 @@ class NearEdge:
         return np.asarray(beside & inner)
 
     def corrected(self, field: SubsurfaceField) -> SubsurfaceField:
-        """Return displacement and stress with corrected stress near the contact edge.
+        """Return displacement and stress whose stress near the contact edge is corrected.
+
+        The stress by tractions uniform in each cell is replaced by that of the fitted tractions.
 
         field  displacement and stress by tractions uniform in each cell, on all or some rows of
                cells
