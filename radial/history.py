@@ -188,7 +188,10 @@ class _Solver(StepsOnRings):
 
     @classmethod
     def of(cls, scene: Scene, discretisation: RadialDiscretisation, fineness: int) -> _Solver:
-        """Create the solver of a scene, with its output rings over the largest contact."""
+        """Create the solver of load steps without friction for a scene.
+
+        The output rings are placed over the largest contact of the load history.
+        """
         bodies = Bodies.of(scene)
         largest = tuple(
             normal_contact(bodies, scene.indenter, prescribed, fineness)

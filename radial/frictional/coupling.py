@@ -63,7 +63,7 @@ class Coupling:
 
     @classmethod
     def of(cls, scene: Scene) -> Coupling:
-        """Create the elastic response of both bodies of a scene."""
+        """Create the elastic response of the lower body and the indenter of a scene."""
         stacks = ((stack_of(scene.body), 1.0), (stack_of(scene.indenter), -1.0))
         outer = [(stack.outer, sign) for stack, sign in stacks if not stack.is_rigid]
         return cls(

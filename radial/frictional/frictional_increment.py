@@ -67,9 +67,9 @@ class FrictionalState:
         return self.target.actuator_approach(self.end) if prescribed is None else prescribed
 
     def at(self, field: Array, r: Array) -> Array:
-        """Interpolate a field from the nodes of the rings to given radii; zero outside the contact.
+        """Interpolate a field linearly to given radii (n,); it is zero outside the contact.
 
-        field  values at the nodes (nodes,)
+        field  values at the nodes of the rings (nodes,)
         r      radii (n,) [length]
         """
         return np.asarray(np.interp(r, self.end.radius * self.end.rings.x, field, right=0.0))

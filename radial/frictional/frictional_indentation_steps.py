@@ -90,7 +90,9 @@ class FrictionalSteps(StepsOnRings):
     def of(
         cls, scene: Scene, discretisation: RadialDiscretisation, fineness: float
     ) -> FrictionalSteps:
-        """Create the solver of a scene, with its output rings over the largest contact.
+        """Create the solver of load steps with friction under normal load, for a scene.
+
+        The output rings are placed over the largest contact of the load history.
 
         fineness  multiple of the number of rings, and of the number of solves within an increment
         """
@@ -149,9 +151,10 @@ class FrictionalSteps(StepsOnRings):
     def _intermediate(
         self, radius: float, before: FrictionalState | None, strain: float
     ) -> FrictionalState:
-        """Solve the contact at an intermediate radius within an increment.
+        """Solve a contact with friction between the start and the end of an increment.
 
-        The stick zone depends on the sequence of contact radii.
+        The stick zone depends on the sequence of contact radii, so large increments pass through
+        intermediate radii.
 
         radius  contact radius [length]
         before  state of the preceding contact; None before first contact
@@ -377,10 +380,10 @@ def _intermediate_radii(start_radius: float, end: float, growth: float) -> Array
 
 
 def _sliding(was: FrictionalContact | None, rings: Rings) -> Signs:
-    """Return the signs of the shear of slipping nodes, taken from another contact (n + 1,).
+    """Return an initial guess of the slip zone of a contact from that of another contact (n + 1,).
 
-    They are the initial guess of the slip zone. Nodes correspond by their fraction of the contact
-    radius. The value 0 means stick.
+    The values are the signs of the shear of slipping nodes, and 0 for sticking nodes. A node takes
+    the value of the other contact at an equal fraction of the contact radius.
 
     was    other contact; None for full stick
     rings  nodes of the new contact

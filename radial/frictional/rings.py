@@ -40,11 +40,13 @@ OUTSIDE = 1 + np.array([0.01, 0.03, 0.08, 0.2, 0.4, 0.7, 1.1, 1.6, 2.5, 4.0])
 
 @dataclass(frozen=True, eq=False)
 class Rings:
-    """Nodes over a contact, and the response of half-spaces to hat functions φ on these nodes.
+    """Nodes over a contact disc, and the response of half-spaces to tractions on these nodes.
 
-    Rows are positions: the nodes, then points outside of the contact. Columns are nodal values: of
-    the pressure 0 to n - 1, because it ends with zero, and of the radial shear 1 to n - 1. In the
-    last element tractions are multiples of √(1-x²). Objects are created by `rings_about`.
+    Tractions are hat functions φ of the nodes times √(1-x²), with x = r/a. The responses are
+    matrices. Their rows are positions of displacements: the nodes, then points outside the contact.
+    Their columns are nodal tractions: pressure at the nodes 0 to n - 1 (it ends with zero at the
+    edge), or radial shear at the nodes 1 to n - 1. In the last element tractions are multiples of
+    √(1-x²). Objects are created by `rings_about`.
 
     x  radii of the n + 1 nodes over the contact radius, from 0 to 1
     """
@@ -198,9 +200,12 @@ Transforms: TypeAlias = tuple[Array, Array, Array, Array]
 
 @cached_within(MAX_CACHED)
 def _transforms(rings: Rings, waves: Waves) -> Transforms:
-    """Compute Hankel transforms of hat functions and Bessel functions, with a cache.
+    """Compute Hankel transforms of hat functions on rings, and Bessel functions at their rows.
 
-    See `Rings.transforms` for the results.
+    `Rings.transforms` defines the four results. They are cached.
+
+    rings  nodes over the contact
+    waves  dimensionless wavenumbers κ
     """
     kappa = waves.rule[0]
     length = np.diff(rings.x)[:, None]
@@ -232,7 +237,7 @@ def place_of(front: float) -> int:
 
 
 def rings_about(front: float, count: int) -> Rings:
-    """Return rings that are dense at the border of the stick zone.
+    """Return the nodes over a contact (rings), dense at the border of the stick zone.
 
     front  stick radius over the contact radius
     count  approximate number of rings, without those of dense regions

@@ -109,10 +109,10 @@ class Disc:
         return value if abs(value) > SMOOTH * self.approach else 0.0
 
     def transform(self, t: Array) -> Array:
-        """Return the function G of the contact equation, at s = a t for 0 ≤ t ≤ 1 [length].
+        """Return the function G(t) that represents the pressure, for 0 ≤ t ≤ 1 [length].
 
-        G represents the pressure: its cosine transform is proportional to the pressure's Hankel
-        transform.
+        The cosine transform of G is proportional to the Hankel transform of the pressure (see the
+        module). t is a coordinate between the axis (0) and the edge (1).
         """
         changed = legendre.legval(t, every_order(self.layers))
         return np.asarray(self.approach - self.profile.at(t) + changed)
@@ -120,7 +120,7 @@ class Disc:
     def rate(self, t: Array) -> Array:
         """Return the derivative dG/dt of the function G that represents the pressure [length].
 
-        t is the coordinate s over the contact radius, 0 ≤ t ≤ 1.
+        t is a coordinate between the axis (0) and the edge (1).
         """
         changed = legendre.legval(t, legendre.legder(every_order(self.layers)))
         return np.asarray(changed - shifted(self.profile.rate, t))
@@ -168,11 +168,13 @@ class _Galerkin:
         return cho_factor(matrix, lower=True, overwrite_a=True, check_finite=False)
 
     def changed(self, transform: Array) -> Array:
-        """Solve the contact equation G = f + C for the contribution C of the layers.
+        """Solve for the contribution C of layers to the function G that represents the pressure.
 
-        Returns the Legendre coefficients c_n of C (count,).
+        The contact equation is G = f + C. The given function f is the part without layers: the
+        approach, or the undeformed gap. The method returns the Legendre coefficients c_n of C
+        (count,).
 
-        transform  cosine transform of the given function f (κ,)
+        transform  cosine transform of f (κ,)
         """
         right = -2 / pi * self.scale * (self.bases @ (self.excess * transform))
         return np.asarray(self.scale * cho_solve(self.factor, right, check_finite=False))
@@ -180,8 +182,10 @@ class _Galerkin:
     def residual(self, layers: Array, transform: Array) -> float:
         """Return the largest error of the contact equation G = f + C at check points [length].
 
-        layers     coefficients c_n of the contribution C of the layers
-        transform  cosine transform of the given function f (κ,)
+        G represents the pressure, C is the contribution of layers, and f the part without layers.
+
+        layers     coefficients c_n of C (count,)
+        transform  cosine transform of f (κ,)
         """
         polynomials, cosines = _judged(self.waves, self.count)
         exact = -2 / pi * (cosines @ (self.excess * (transform + layers @ self.bases)))

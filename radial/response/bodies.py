@@ -77,12 +77,12 @@ class Bodies:
         return waves(REACH * radius / self.thickness, least, reach, fineness)
 
     def excess(self, waves: Waves, radius: float) -> Array:
-        """Return the relative contribution X - 1 of the layers to the normal response (κ,) [1].
+        """Return the relative contribution of layers to the normal response (κ,) [1].
 
-        X = k E* F_zz/2 is the response F_zz of both bodies to pressure, over that of half-spaces of
-        their outermost materials. The wavenumbers are k = κ/radius, with the dimensionless κ of
-        `waves`.
+        The result is X - 1. X = k E* F_zz/2 is the response F_zz of both bodies to pressure, over
+        that of half-spaces of their outermost materials. The wavenumbers are k = κ/radius.
 
+        waves   dimensionless wavenumbers κ
         radius  contact radius [length]
         """
         added = np.sum([added_by(stack, waves, radius).c22 for stack in self.layered], axis=0)

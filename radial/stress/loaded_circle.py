@@ -67,9 +67,11 @@ class LoadedCircle:
         return replace(self, smooth=self.smooth * np.array([-1.0, -1.0, 1.0])[:, None, None])
 
     def at(self, x: Array, y: Array) -> Array:
-        """Interpolate the tractions q_x, q_y and p to positions (3, …); 0 outside the circle.
+        """Interpolate the shear q_x, q_y and the pressure to given positions (3, …).
 
-        x, y  coordinates from the centre over the radius (…)
+        They are 0 outside the circle.
+
+        x, y  coordinates from the centre of the circle over its radius (…)
         """
         eta = np.hypot(x, y)
         root = np.sqrt(np.maximum((1 - eta) * (1 + eta), 0.0))
@@ -93,12 +95,12 @@ class LoadedCircle:
         return np.asarray(root * (inner * (1 - off) + outer * off))
 
     def harmonics(self, eta: Array, highest: int) -> tuple[Complex, Complex, Complex]:
-        """Return the amplitudes of exp(imθ) of q_r + i q_θ, q_r - i q_θ and p, for m = 0 … highest.
+        """Return the angular harmonics of the tractions on rings, for m = 0 … highest.
 
-        The shape of each is (highest + 1, n). Except for m = 0 they are doubled, as sums over m ≥ 0
-        require.
+        They are the complex amplitudes of exp(imθ) of q_r + i q_θ, q_r - i q_θ and the pressure,
+        each (highest + 1, n). Except for m = 0 they are doubled, as sums over m ≥ 0 require.
 
-        eta  distances from the centre over the radius (n,)
+        eta  radii of the rings over that of the circle (n,)
         """
         count = 2 * highest + 2
         theta = 2 * np.pi * np.arange(count) / count

@@ -91,12 +91,12 @@ class SubsurfaceCircle:
         return [slice(k, k + step) for k in range(0, len(self._kappa), step)]
 
     def at(self, levels: Sequence[Level], x: Array, y: Array) -> Array:
-        """Compute displacement and stress at points of given levels (levels, 9, n).
+        """Compute displacement and stress at given depths and horizontal positions (levels, 9, n).
 
         The fields are u_x, u_y, u_z [length] and σ_xx, yy, zz, yz, xz, xy [force/length²]. Raises
-        ValueError for a level in a rigid base.
+        ValueError for a depth in a rigid base.
 
-        levels  depths, each with its layer
+        levels  depths, each with the layer that contains it
         x, y    coordinates of the points in the scene's axes (n,) [length]
         """
         a = self.circle.radius
@@ -111,10 +111,11 @@ class SubsurfaceCircle:
         return found
 
     def _add_layers(self, levels: Sequence[Level], x: Array, y: Array, found: Array) -> None:
-        """Add the contribution of the layers to displacement and stress at all levels.
+        """Add the contribution of the layers to displacement and stress at all depths.
 
-        x, y   coordinates of the points from the centre over the radius (n,)
-        found  fields to which the contribution is added (levels, 9, n)
+        levels  depths, each with the layer that contains it
+        x, y    coordinates of the points from the centre over the radius (n,)
+        found   fields to which the contribution is added (levels, 9, n)
         """
         a, h = self.circle.radius, self.stack.layers[0].thickness
         r, theta = np.hypot(x, y), np.arctan2(y, x)

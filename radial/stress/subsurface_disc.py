@@ -50,12 +50,12 @@ class SubsurfaceDisc:
         self._sources = scale * weights * self._places * contact.wave_transform(chosen)
 
     def at(self, levels: Sequence[Level], r: Array) -> Array:
-        """Compute displacement and stress at points of given levels (levels, 6, n).
+        """Compute displacement and stress at given depths and radii (levels, 6, n).
 
         The fields are u_r, u_z [length], σ_rr, σ_θθ, σ_zz, σ_rz [force/length²]. Raises ValueError
-        for a level in a rigid base.
+        for a depth in a rigid base.
 
-        levels  depths, each with its layer
+        levels  depths, each with the layer that contains it
         r       radii of the points (n,) [length]
         """
         found = np.zeros((len(levels), 6, len(r)))
@@ -69,10 +69,11 @@ class SubsurfaceDisc:
         return found
 
     def _add_layers(self, levels: Sequence[Level], x: Array, found: Array) -> None:
-        """Add the contribution of the layers to displacement and stress at all levels.
+        """Add the contribution of the layers to displacement and stress at all depths.
 
-        x      radii of the points over the contact radius (n,)
-        found  fields to which the contribution is added (levels, 6, n)
+        levels  depths, each with the layer that contains it
+        x       radii of the points over the contact radius (n,)
+        found   fields to which the contribution is added (levels, 6, n)
         """
         a, h = self.contact.radius, self.stack.layers[0].thickness
         for start in range(0, len(self._places), BLOCK):
@@ -95,13 +96,13 @@ class SubsurfaceDisc:
 
 
 def _scalars(descent: Descent, level: Level) -> Array:
-    """Return the responses of a layered body to pressure at one level, per wavenumber (6, κ).
+    """Return the responses of a layered body to pressure at one depth, for all wavenumbers (6, κ).
 
     They are the displacements U, W and tractions s, n of `frf.depth`, and half the sum and half the
     difference of the stresses along and across the wave vector.
 
     descent  propagation of the surface tractions to depths of the body
-    level    depth and layer
+    level    depth and the layer that contains it
     """
     fields = descent.remainder(level)
     plane = in_plane(fields, material_at(descent.stack, level), descent.alpha)

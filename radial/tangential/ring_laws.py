@@ -167,7 +167,9 @@ class Laws:
         return At(x, residual, z, y, limit, u, float(worst))
 
     def slip_increment(self, u: Array, motion: Array) -> Array:
-        """Return the slip Δs of the increment times the area of each point (2 N,) [length³].
+        """Return the slip of the increment at all points, times their areas (2 N,) [length³].
+
+        It is the change of the tangential surface displacement minus that of the rigid motion.
 
         u       displacements times areas at the end (3 N,) [length³]
         motion  rigid motion at the end (4,)
@@ -181,7 +183,7 @@ def _shortened(y: Array, limit: Array) -> Array:
 
     A factor is 1 for a vector below the limit.
 
-    y      trial shear (2, …) [force/length²]
+    y      trial shear vectors (2, …) [force/length²]
     limit  friction limit (…) [force/length²]
     """
     length = np.hypot(*y)

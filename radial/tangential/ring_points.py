@@ -28,10 +28,10 @@ INVERSES, ROOM, ROUND_OFF = 3, 1 << 23, 1e-12
 class Points:
     """Points of a contact (nodes of rings times angles), and their compliance.
 
-    The compliance is that of both bodies and the rig's springs.
-
-    φ are the hat functions of the nodes. Fields have the shape (n count,), with the angle as the
-    fast index. Vectors have the shape (3 n count,), with the components r, θ, z as the slow index.
+    The compliance is that of both bodies and the rig's springs. There are n nodes and `count`
+    angles. Fields have the shape (n count,), with the angle as the fast index. Vectors have the
+    shape (3 n count,), with the components r, θ, z as the slow index. φ are the hat functions of
+    the nodes.
 
     radii     radii of the nodes (n,) [length]
     energies  Galerkin matrices of `ring_compliance` up to harmonic J (J + 1, 3, 3, n, n)
@@ -73,12 +73,12 @@ class Points:
 
     @cached_property
     def gap_areas(self) -> Array:
-        """Return the undeformed gap times the area of every point (n count,) [length³]."""
+        """Return the undeformed gap at every point times its area (n count,) [length³]."""
         return self._at_points(self.gap)
 
     @cached_property
     def levers(self) -> Array:
-        """Return the distance from the axis times the area of every point (n count,) [length³]."""
+        """Return the distance of every point from the axis times its area (n count,) [length³]."""
         return self._at_points(self.arms)
 
     def _at_points(self, of_nodes: Array) -> Array:
@@ -109,27 +109,29 @@ class Points:
 
     @cached_property
     def compliance(self) -> Array:
-        """Return the compliance matrix of all points: displacements times areas by tractions.
+        """Return the compliance matrix of all points [length^5/force].
 
-        The shape is (3 n count, 3 n count), the unit [length^5/force].
+        It maps tractions to displacements times the areas of the points, each with the components
+        r, θ, z. The shape is (3 n count, 3 n count), with n nodes and `count` angles.
         """
         return self._over_harmonics(self._harmonics, self._harmonic_energies)
 
     @cached_property
     def softness(self) -> Array:
-        """Return the diagonal of the compliance (3 n count,) [length^5/force].
+        """Return the diagonal of the compliance matrix of all points (3 n count,) [length^5/force].
 
         An entry is the displacement of a point, times its area, by a unit traction at this point.
-        Both components of shear have their mean, which does not depend on the direction.
+        The two components of shear have their mean, which does not depend on the direction.
         """
         outward, around, down = np.diagonal(self.compliance).reshape(3, -1)
         tangential = (outward + around) / 2
         return np.concatenate([tangential, tangential, down])
 
     def of_rings(self, field: Array, rings: int) -> Array:
-        """Restrict a vector at all points (3 n count,) to the innermost rings (3 rings count,).
+        """Restrict a vector field from all points to the points on the innermost rings.
 
-        rings  number of rings
+        field  components r, θ, z at all points (3 n count,)
+        rings  number of innermost rings
         """
         return np.ascontiguousarray(field.reshape(3, -1)[:, : rings * self.count]).ravel()
 
@@ -172,18 +174,19 @@ class Points:
 
     @cached_property
     def _harmonics(self) -> Array:
-        """Return matrices from values at the angles of a ring to amplitudes of harmonics.
+        """Return the matrices that map values at the angles of a ring to amplitudes of harmonics.
 
-        The shape is (3, families × (J + 1), count), with the components r, θ, z.
+        The shape is (3, families × (J + 1), count): components r, θ, z, harmonics up to J of each
+        family (see `Circle`), and `count` angles.
         """
         return np.concatenate(self.circle.families(self.highest), axis=1)
 
     @cached_property
     def _harmonic_energies(self) -> Array:
-        """Return the Galerkin matrix of every harmonic of `_harmonics`, times the harmonic's norm.
+        """Return the Galerkin matrices of all harmonics, times the norm of each harmonic.
 
-        The shape is (families × (J + 1), 3, 3, n, n). The norm is π, or 2π for the harmonics 0 and
-        J.
+        The shape is (families × (J + 1), 3, 3, n, n), with the harmonics of `_harmonics`. The norm
+        is π, or 2π for the harmonics 0 and J.
         """
         norms = np.full(len(self.energies), np.pi)
         norms[[0, -1]] = 2 * np.pi
@@ -213,10 +216,10 @@ class Points:
     def every_angle(self, field: Array) -> Array:
         """Repeat an axisymmetric field at all angles of these points (…, n count).
 
-        Divide quantities that are multiplied by the area of a point by the number of angles
-        afterwards.
+        If the field contains the area of a point as a factor, divide the result by the number of
+        angles.
 
-        field  values at the points of `round` (…, n)
+        field  values with one angle per ring (…, n)
         """
         return np.repeat(field, self.count, axis=-1)
 
@@ -254,10 +257,11 @@ class Points:
         return area / self.count
 
     def _fitted_edge(self, ray: Array, last: int) -> float:
-        """Return the square of the contact radius on a ray, from a fit of the pressure [length²].
+        """Return the square of the contact radius on one ray, from a fit of the pressure [length²].
 
-        If too few nodes have pressure, or the fit has no zero near the edge, the square of the
-        radius of the last node with pressure is returned.
+        p² is fitted by a parabola in r², and its zero is the edge. If too few nodes have pressure,
+        or the parabola has no zero near the edge, the square of the radius of the last node with
+        pressure is returned.
 
         ray   pressure at the nodes of the ray (n,)
         last  index of the last node with pressure
@@ -326,16 +330,18 @@ class Points:
 
     @cached_property
     def _spline(self) -> Callable[[float, tuple[float, ...]], Array]:
-        """Return a function that gives the interpolation matrix from `angles` to other angles.
+        """Return a function that gives the matrix of angular interpolation of fields.
 
-        The shape of the matrix is (count, others).
+        The matrix interpolates from the angles of the points to other angles, by a periodic spline.
+        Its shape is (angles, other angles).
         """
 
         @lru_cache
         def weights(sense: float, others: tuple[float, ...]) -> Array:
-            """Return the interpolation matrix from `angles` to other angles (count, others).
+            """Return the matrix of angular interpolation of fields, by a periodic spline.
 
-            sense  1 for fields that are even about θ = 0, -1 for odd fields
+            sense   1 for fields that are even about θ = 0, -1 for odd fields
+            others  angles to which the matrix (angles, others) interpolates [radian]
             """
             every, whole = self.angles, np.eye(self.count)
             if self.circle is Circle.HALF:

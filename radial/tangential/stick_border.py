@@ -179,13 +179,13 @@ def _direction(
 
 
 def _shares(sticks: Mask, along_rays: Array, along_rings: Array) -> Array:
-    """Return the fraction of each cell between rings and rays that sticks (n - 1, J).
+    """Return the fraction of the area of each cell that sticks (n - 1, J).
 
-    The stick zone in a cell is a polygon of the sticking corners and the positions of the border on
-    the sides.
+    The cells lie between adjacent rings and rays, with points at their corners. The stick zone in a
+    cell is a polygon of the sticking corners and the positions of the border on the sides.
 
-    sticks                   true for sticking points, the corners of the cells (n, J)
-    along_rays, along_rings  positions of the border on the sides, see `_borders`
+    sticks                   true for sticking points (n, J)
+    along_rays, along_rings  positions of the border between adjacent points, see `_borders`
     """
     low, high = along_rays, np.roll(along_rays, -1, axis=1)
     left, right = along_rings[:-1], along_rings[1:]

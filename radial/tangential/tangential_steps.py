@@ -95,7 +95,7 @@ class TangentialSteps(StepsOnRings):
         plan: Plan,
         angle_factor: float = 1.0,
     ) -> TangentialSteps:
-        """Create the solver of a scene with its grid of rings and angles.
+        """Create the solver of load steps of a contact at points (rings × angles), for a scene.
 
         The radii of the contacts at the ends of the load steps are solved first, because rings are
         dense at the edges.

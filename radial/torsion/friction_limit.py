@@ -92,9 +92,9 @@ def _place(t: Array) -> tuple[NDArray[np.int64], Array]:
 
 
 def _summed(coefficients: Array, panel: NDArray[np.int64], place: Array) -> Array:
-    """Evaluate Chebyshev series, each with the coefficients of its panel (Clenshaw's recurrence).
+    """Evaluate a piecewise Chebyshev series at points (Clenshaw's recurrence).
 
-    coefficients  (panels, nodes)
+    coefficients  Chebyshev coefficients of every panel (panels, nodes)
     panel         index of the panel of every point
     place         position of every point in its panel, from -1 to 1
     """
@@ -105,9 +105,12 @@ def _summed(coefficients: Array, panel: NDArray[np.int64], place: Array) -> Arra
 
 
 def _slope(contact: Disc, t: Array) -> Array:
-    """Compute h/t, the transform of the friction limit for µ = 1, at points t [force/length].
+    """Compute the transform h/t of shear at the friction limit, for µ = 1 [force/length].
 
-    The result is 2E*/π² times the integral m of the module, with the substitution τ = t exp(y).
+    The shear equals the pressure. The result is 2E*/π² times the integral m of the module, with the
+    substitution τ = t exp(y).
+
+    t  coordinates between the axis (0) and the edge (1)
     """
     v, weights = unit_gauss(POINTS + len(contact.profile.abel) + 2 * len(contact.layers))
     furthest = -np.log(t)[..., None]

@@ -64,10 +64,11 @@ class Torsion:
 
     @classmethod
     def of(cls, scene: Scene, contact: Disc, friction: float, fineness: int = 1) -> Torsion:
-        """Create the contact under torsion between the bodies of a scene.
+        """Create the contact under torsion between the two bodies of a scene.
 
-        contact   frictionless contact
+        contact   frictionless contact, which gives the pressure
         friction  coefficient of friction µ
+        fineness  multiple of the numbers of polynomials and quadrature points
         """
         stacks = [stack_of(body) for body in (scene.body, scene.indenter)]
         outer = [stack.outer.shear_modulus for stack in stacks if not stack.is_rigid]
@@ -123,7 +124,7 @@ class Torsion:
 
     @cached_property
     def none(self) -> PartialSlip:
-        """Return the state with the smallest stick radius that is considered, near gross slip."""
+        """Return the state with the smallest stick radius that is solved, close to gross slip."""
         return self.partial_slip(NO_STICK)
 
     @cached_property
