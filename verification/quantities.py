@@ -85,8 +85,10 @@ def energy_between(result: Result, first: int, last: int) -> float:
 
 
 def transverse_shear(increment: Increment, friction_coefficient: float) -> float:
-    """Compute the largest |q_y| over the largest µp [1], which is 0 if all shear tractions are
-    along x.
+    """Compute the largest shear traction |q_y| across the load, over the largest friction limit µp
+    [1].
+
+    The ratio is 0 if all shear tractions are along x.
     """
     limit = friction_coefficient * np.max(increment.pressure)
     return float(np.max(np.abs(shear_of(increment)[1])) / limit)

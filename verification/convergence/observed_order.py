@@ -163,8 +163,8 @@ def refined_value(sizes: Sequence[float], values: Sequence[float], expected: flo
 
 
 def _stride(h: Vector, reach: int) -> int:
-    """Return the number of levels between members of a triplet, so that their sizes differ by about
-    2.
+    """Return the number of levels between members of a triplet, so that sizes differ by a factor
+    near 2.
 
     The number is reduced so that two triplets fit into the levels.
 
@@ -205,7 +205,8 @@ def numerical_uncertainty(sizes: Sequence[float], values: Sequence[float], order
 
 @dataclass(frozen=True)
 class _Line:
-    """Fit f(h) = limit + coefficient h^p to the values of several levels.
+    """Result of the least-squares fit of f(h) = limit + coefficient h^p to values on several
+    levels.
 
     squares  weighted sum of the squared residuals of the fit
     """
@@ -251,9 +252,10 @@ def richardson(h: Vector, f: Vector, order: float) -> tuple[float, float]:
 def _fitted_order(h: Vector, f: Vector, expected: float) -> ObservedOrder | None:
     """Fit the order p of f(h) = f0 + C h^p by least squares; return it with its 95 % interval.
 
-    The interval follows from the linearised model. The result is None if the best p lies at an end
-    of the range 0.05 to 6.
+    The interval follows from the linearised model. The result is None if all values are equal, or
+    if the best p lies at an end of the range 0.05 to 6.
 
+    h, f      sizes and values of the levels, finest first
     expected  theoretical order, which determines the weights
     """
     spread = float(np.ptp(f))
@@ -323,7 +325,7 @@ class ErrorLine:
     reach: float
 
     def at(self, sizes: Vector) -> Vector:
-        """Return the errors of the fitted line at sizes h."""
+        """Return the errors C h^p of the fitted line at sizes h."""
         return np.asarray(np.exp(self.log_error + self.observed.order * self._beside(sizes)))
 
     def band(self, sizes: Vector) -> tuple[Vector, Vector]:

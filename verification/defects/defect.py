@@ -83,9 +83,10 @@ class Defect:
 
 @contextmanager
 def planted(defect: Defect) -> Iterator[None]:
-    """Run a block of code with a defect planted in the program.
+    """Run a block of code with an error planted in the solvers on purpose, to test the
+    verification.
 
-    The caches of its functions are cleared before and after the block.
+    The caches of the solver functions are cleared before and after the block.
     """
     patches = Patches()
     try:

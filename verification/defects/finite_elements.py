@@ -151,8 +151,10 @@ def _slip_reversed(patches: Patches) -> None:
 
 
 class _Level(CoulombFriction):
-    """Coulomb friction whose limit seems independent of the pressure: the slope of the limit is
+    """Coulomb friction law with a wrong derivative: that of the friction limit by the pressure is
     zero.
+
+    Plants the defect of an inconsistent tangent in the penalty method.
     """
 
     def slope(self, *given: Any, **more: Any) -> Any:
@@ -249,9 +251,10 @@ WEAKER = 0.99  # coupling of pressure and shear
 
 
 def _returned(*names: str, factor: float) -> Callable[[Patches], None]:
-    """Return the function that plants a wrong factor in results of the radial solver.
+    """Return a function that plants a wrong factor in the results of the radial solver.
 
-    names   attributes of every increment that are multiplied by the factor
+    names   results of every increment that are multiplied, such as "pressure"
+    factor  wrong factor; 1 is correct
     """
 
     def plant(patches: Patches) -> None:

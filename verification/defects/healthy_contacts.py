@@ -87,9 +87,10 @@ def pressed(indenter: Paraboloid | Cone | FlatPunch, body: Body, load: float) ->
 
 
 def part_of_cell(part: float) -> Callable[[RefinementLevel], float]:
-    """Return a function that gives a fraction of a cell side over the contact radius, for a level.
+    """Return a function of the refinement level that gives a tolerance of a fraction of a cell
+    side.
 
-    The window is assumed to be three contact radii wide.
+    The tolerance is relative to the contact radius; the window is assumed to be three radii wide.
     """
     return lambda rung: part * 3.0 / rung.count
 
@@ -210,9 +211,7 @@ def _coated(name: str, random: Random, thickness: tuple[float, float]) -> Case:
 
 
 def flat_punch(random: Random) -> Case:
-    """Draw a flat punch, a body and a load; build the case, which judges the approach to half a
-    cell.
-    """
+    """Draw a flat punch, a body and a load; build the case with a tolerance of half a cell side."""
     one, other = any_material(random), any_material(random)
     radius, load = between(random, 1e-4, 1e-2), between(random, 1e-1, 1e4)
     exact = FlatPunchContact(radius, contact_modulus(constants(one), constants(other)), load)

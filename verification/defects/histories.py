@@ -361,8 +361,7 @@ def _force_not_met(patches: Patches) -> None:
 
 
 def _blind(patches: Patches) -> None:
-    """Plant normal solves with a tolerance of at least 1 %, and set the contact
-    residuals to zero."""
+    """Plant inaccurate pressures (tolerance of at least 1 %) and contact residuals of zero."""
     for name in ("complementarity", "penetration"):
         patches.function(residuals, name, lambda whole: lambda *given: 0.0)
     patches.function(
@@ -373,9 +372,8 @@ def _blind(patches: Patches) -> None:
 
 
 def _blind_to_friction(patches: Patches) -> None:
-    """Plant tangential solves with a tolerance of at least 3 %, and set the friction residuals to
-    zero.
-    """
+    """Plant inaccurate shear tractions (tolerance of at least 3 %) and friction
+    residuals of zero."""
     for name in ("friction_cone", "slip_direction"):
         patches.function(residuals, name, lambda whole: lambda *given: 0.0)
     patches.function(
@@ -424,7 +422,10 @@ def _shear_stress_sign(patches: Patches) -> None:
 
 
 def _stress(patches: Patches, change: Callable[[Any], Any]) -> None:
-    """Plant a change of the stress components (nz, 6, nx, ny) below the surface."""
+    """Plant an error in the stress components (nz, 6, nx, ny) below the surface.
+
+    change  function that returns the wrong components
+    """
     patches.function(
         field,
         "fields_by_level",

@@ -58,7 +58,10 @@ class Panel(Description):
 
 
 class Chart(Description):
-    """Rows of panels with title and caption; panels in one column share their x axis."""
+    """A figure of a report: rows of panels with title and caption, without the drawing.
+
+    Panels in one column share their x axis.
+    """
 
     name: str
     title: str
@@ -118,7 +121,7 @@ def log_chart(
 
 
 def drawable(points: Iterable[tuple[float | None, float | None]]) -> Points:
-    """Return the points that logarithmic axes can show, as (x, |y|).
+    """Return the points (x, |y|) that logarithmic axes can show.
 
     Points with a zero, unknown or non-finite coordinate are removed.
     """
@@ -126,8 +129,10 @@ def drawable(points: Iterable[tuple[float | None, float | None]]) -> Points:
 
 
 def point_curves(lines: Iterable[tuple[str, Points]], look: Look = Look.POINTS) -> list[Curve]:
-    """Create one curve for each label that has points; the series number is its
-    place in the list."""
+    """Create one curve of a chart for each label that has points.
+
+    lines  pairs of a label and its points (x, y); the position in the list selects the colour
+    """
     return [
         curve(label, [x for x, _ in points], [y for _, y in points], look, series)
         for series, (label, points) in enumerate(lines)

@@ -38,7 +38,9 @@ class Section:
 
     @property
     def y(self) -> float:
-        """Distance of the row from y = 0 [length]: half a cell for an even number of cells."""
+        """Distance of the row of cells from y = 0 [length]: half a cell for an even number of
+        cells.
+        """
         return float(self.grid.y[self._row])
 
     @property

@@ -30,7 +30,10 @@ if TYPE_CHECKING:
 
 
 class BaselineRefused(Refused):
-    """A baseline file cannot be read, or a report must not be accepted as a baseline."""
+    """A baseline file cannot be read, or a report must not be accepted as a baseline.
+
+    A baseline holds accepted results, with which later results are compared.
+    """
 
 
 BASELINE_VERSION = 1
@@ -70,7 +73,9 @@ class RecordedQuantity(Description):
 
     @property
     def key(self) -> Key:
-        """Key that identifies the quantity in its case."""
+        """Key that identifies the quantity among the numbers of its case: name, run and kind of
+        tolerance.
+        """
         return key_of(self)
 
 
@@ -84,7 +89,7 @@ class RecordedFinding(Description):
 
     @property
     def key(self) -> Key:
-        """Key that identifies the number in its case."""
+        """Key that identifies the number among the numbers of its case: name and run."""
         return key_of(self)
 
 
@@ -117,7 +122,8 @@ class RecordedBy(Description):
 
 
 class Recording(Description):
-    """Recorded results of one case at one level."""
+    """Accepted results of one case at one level (quick, standard or full), with
+    their provenance."""
 
     by: RecordedBy
     status: Status
@@ -284,7 +290,7 @@ def write_baselines(
 
 
 def dump_baseline(baseline: Baseline) -> str:
-    """Convert a baseline to the JSON text of its file, with all digits of its numbers."""
+    """Convert the accepted results of a case to the JSON text of their file, with all digits."""
     content = baseline.model_dump(mode="json")
     return json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 

@@ -32,8 +32,8 @@ MOVED = 0.5
 
 
 class Tolerance(Description):
-    """Tolerance of a number, and the largest error at its acceptance, relative to the scale of
-    errors.
+    """Accepted tolerance of a result, and the largest error at acceptance, relative to the error
+    scale.
     """
 
     allowed: float
@@ -54,7 +54,8 @@ class Acceptance(Description):
 
 
 class Tolerances(Description):
-    """Content of the tolerance file of one level."""
+    """Accepted tolerances of all cases at one level (quick, standard or full):
+    content of one file."""
 
     level: str
     accepted: tuple[Acceptance, ...] = ()
@@ -85,8 +86,8 @@ def read_tolerances(level: str, directory: Path = TOLERANCES) -> Tolerances:
 
 
 def held_to(cases: Sequence[CaseOutcome], tolerances: Tolerances) -> tuple[CaseOutcome, ...]:
-    """Judge the numbers of cases again by the accepted tolerances that are below the bounds of the
-    cases.
+    """Judge the results of cases again by accepted tolerances that are stricter than the cases'
+    bounds.
     """
     return tuple(
         case.model_copy(

@@ -62,7 +62,7 @@ class ChangeRow:
 
     @property
     def line(self) -> str:
-        """The change as one line of a log."""
+        """Change of a result since its recorded value, as one line of a log."""
         moved = "" if self.moved == "–" else f" ({self.moved})"
         remark = f"; {self.remark}" if self.remark else ""
         return (
@@ -79,7 +79,10 @@ def change_rows(report: Report) -> list[ChangeRow]:
 
 
 def moved_rows(report: Report) -> list[ChangeRow]:
-    """Return the relevant changes except new results, which have no recorded value."""
+    """Return the relevant changes of results since the baseline, without new results.
+
+    New results have no recorded value to compare with.
+    """
     return [row for row in change_rows(report) if row.kind is not ChangeKind.NEW]
 
 
@@ -138,7 +141,7 @@ def change_counts(report: Report) -> dict[ChangeKind, int]:
 
 
 def without_baseline(report: Report) -> list[str]:
-    """Return the names of the cases without recorded results at the level of the report."""
+    """Return the names of the cases of a report for which no results are recorded at its level."""
     return [case.name for case in report.cases if case.baseline is None]
 
 

@@ -70,8 +70,8 @@ def failure_lines(report: Report) -> list[str]:
 
 
 def power_text(report: Report) -> str:
-    """Describe the sensitivity of the verdicts: the share that would pass with errors 3 or 10 times
-    larger.
+    """Describe the sensitivity of the verdicts: the share that would pass with 3 or 10 times the
+    error.
 
     Only passed verdicts with an independent reference count. The text is empty without such
     verdicts.

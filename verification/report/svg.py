@@ -111,7 +111,10 @@ def with_shared_styles(page: str) -> str:
 
 
 def _with_own_ids(svg: str, name: str) -> str:
-    """Rename the ids in an SVG text that are referred to, and remove the others."""
+    """Rename the ids in an SVG text that are referred to, and remove the others.
+
+    The new ids contain a digest of `name`, so that several diagrams on a page do not share ids.
+    """
     wanted = set(REFERENCE.findall(svg))
     kept = [i for i in re.findall(r'\bid="([^"]*)"', svg) if i in wanted]
     short = hashlib.sha256(name.encode()).hexdigest()[:DIGITS]

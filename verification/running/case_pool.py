@@ -128,11 +128,12 @@ class LocalWorkers:
         return self._threads.submit(self._call, compute, *arguments)
 
     def lost(self) -> list[str]:
-        """Return no addresses: a local worker that dies is reported with its case."""
+        """Return an empty list of dead workers: a local worker that dies is
+        reported with its case."""
         return []
 
     def close(self) -> None:
-        """Cancel the calls that have not started, and end the worker processes."""
+        """Cancel the function calls that have not started, and end the worker processes."""
         self._threads.shutdown(cancel_futures=True)
         for worker in self._all:
             worker.shutdown()
@@ -169,7 +170,7 @@ class ThisProcess:
         return future
 
     def lost(self) -> list[str]:
-        """Return no addresses of dead workers, because there are no workers."""
+        """Return an empty list of dead workers, because this executor has no workers."""
         return []
 
     def close(self) -> None:
@@ -276,7 +277,7 @@ class Workers(Protocol):
         """Call a function with a case in a worker and return the future of its reply."""
 
     def lost(self) -> Sequence[str]:
-        """Return the addresses of workers that have died since the last call."""
+        """Return the network addresses of workers that have died since the last call."""
 
     def close(self) -> None:
         """Cancel the calls that have not started, and release the workers."""
@@ -324,8 +325,10 @@ def run_cases(
 
 
 def _stored(case: StudyCase, store: CaseStore) -> CaseEnd:
-    """Return the outcome of a case with its stored record, or without a record if
-    none can be used."""
+    """Return the outcome of a case from its stored record, or an outcome without record.
+
+    The outcome has a message if a file exists that cannot be used.
+    """
     try:
         record = store.load(case)
     except DamagedRecord as error:

@@ -53,14 +53,13 @@ class ClusterWorkers:
         self._known = set(self._client.nthreads())
 
     def submit(self, compute: Callable[[StudyCase], Answer], case: StudyCase) -> Future[Answer]:
-        """Call a function with a case in a worker of the cluster and return the future of its
-        reply.
-        """
+        """Run a function with a case in a worker of the cluster; return the future of its reply."""
         future: Future[Answer] = self._executor.submit(compute, case)
         return future
 
     def lost(self) -> list[str]:
-        """Return the addresses of workers that have left the cluster since the last call."""
+        """Return the network addresses of workers that have left the cluster since
+        the last call."""
         try:
             now = set(self._client.nthreads())
         except OSError:  # the scheduler has gone: every case that is left tells so

@@ -20,7 +20,7 @@ class Provenance(Description):
     """Commit of the source; null outside a repository."""
 
     changed: bool
-    """Whether the source differed from that commit."""
+    """True if the source differed from that commit."""
 
     modules: tuple[str, ...] = ()
     """Modules that made the numbers; none in older records."""

@@ -40,8 +40,9 @@ class StoredRecord:
         return sum(self.provenance.seconds.values())
 
     def pack(self) -> None:
-        """Compress a newly made report and delete the plain file, if the stored record is
-        compressed.
+        """Compress the record of a newly made report and delete the plain file.
+
+        Nothing is done if the stored record is not a compressed one.
         """
         if self.path.suffix == PACKED_SUFFIX:
             plain = self.path.with_suffix("")
@@ -58,8 +59,10 @@ def stored_records(folder: Path = REPORTS) -> list[StoredRecord]:
 
 
 def _records(folder: Path) -> Iterator[StoredRecord]:
-    """Yield all stored records, including those that an interrupted regeneration
-    has moved aside."""
+    """Yield all stored records of studies and of the full report.
+
+    Records that an interrupted regeneration has moved aside are included.
+    """
     studies = folder / "studies"
     for place in (studies, *sorted(studies.glob("*"))):
         for record in stored_studies(place):

@@ -77,8 +77,10 @@ class Report(Description):
 
     @property
     def errors_too_small(self) -> bool:
-        """Determine if the stated errors of a complete full report cover too few differences to
-        references.
+        """Determine if the stated errors of a verification report are too small.
+
+        This is the case if too few of them cover the difference between result and reference. Only
+        reports of all cases at the full level are judged.
         """
         whole = self.level == Level.FULL.name.lower() and not self.chosen
         return whole and share_covered(self.cases) < LEAST_SHARE
@@ -104,7 +106,7 @@ class Report(Description):
 
 
 def count(cases: tuple[CaseOutcome, ...]) -> dict[Status, int]:
-    """Count the verdicts of all cases by status; every status is a key."""
+    """Count the verdicts of all cases by status; every status is a key, even with count 0."""
     return {status: sum(case.count(status) for case in cases) for status in Status}
 
 

@@ -34,9 +34,10 @@ STATEMENT_ENDS = (tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT)
 
 @cache
 def source_digest(*modules: str) -> str:
-    """Compute the digest of the sources of modules and of all project modules that they import.
+    """Compute a digest of the source files of modules and of all project modules that they import.
 
-    A package stands for all its modules. The stored references are included if they are imported.
+    A stored record is current if this digest equals the one stored with it. A package stands for
+    all its modules. The stored reference solutions are included if they are imported.
     """
     digest = hashlib.sha256()
     paths = closure(modules)

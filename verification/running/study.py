@@ -26,7 +26,10 @@ Value = str | bool | int | float | None
 
 
 class Row(Description):
-    """Values of one observation of a study, by name: parameters, measures, counters and texts."""
+    """Values of one observation in a study, such as one solve or one profile point, by name.
+
+    They are grouped into parameters (inputs), measures, counters and texts.
+    """
 
     parameters: dict[str, Value] = Field(default_factory=dict)
     """Inputs of the observation."""
@@ -131,7 +134,7 @@ def found(cases: Iterable[C], records: Mapping[str, CaseRecord]) -> dict[C, Case
 
 
 def rows_of(cases: Iterable[C], known: Mapping[C, CaseRecord]) -> list[CaseRecord]:
-    """Return the records of the given cases, without cases that have no record."""
+    """Return the records of the given cases; cases without a record are left out."""
     return [known[case] for case in cases if case in known]
 
 
@@ -253,7 +256,7 @@ class Statement(Description):
 
 
 class LostCase(Description):
-    """Case of a study without a record, with the reason."""
+    """Name of a case of a study that has no record, for instance after an error, and the reason."""
 
     name: str
     reason: str
@@ -277,7 +280,7 @@ class Conclusion(Description):
 
     @property
     def failed(self) -> bool:
-        """Determine if any statement has the outcome FAIL."""
+        """True if any statement of the study has failed."""
         return any(statement.outcome is Status.FAIL for statement in self.statements)
 
 
@@ -404,9 +407,12 @@ def judged(good: bool, *, complete: bool = True) -> Status:
 
 
 def largest(rows: Iterable[Row], name: str) -> float:
-    """Return the largest magnitude of a measure over the rows that have it.
+    """Return the largest magnitude of a measured value over the rows that have it.
 
-    The result is infinite if a value is null, and 0 without rows.
+    The result is infinite if a value is null, which represents a number that is not finite. It is 0
+    without rows.
+
+    name  name of the measured value
     """
     values = [row.measures[name] for row in rows if name in row.measures]
     return max((math.inf if v is None else abs(v) for v in values), default=0.0)
@@ -418,8 +424,9 @@ def total(rows: Iterable[Row], counter: str) -> int:
 
 
 def solved(claim: str, count: int, asked: int, what: str = "") -> Statement:
-    """State that all requested cases have a record.
+    """Judge the claim that all requested cases have a record.
 
+    claim  text of the claim
     count  number of cases with a record
     asked  number of requested cases
     what   noun for the counted cases
@@ -440,11 +447,12 @@ def converged(
     claim: str = "every increment converged",
     asked: int = 0,
 ) -> Statement:
-    """State that the residuals of all increments of all cases are within the tolerance.
+    """Judge the claim that the residuals of all increments of all cases are within the tolerance.
 
-    rows   records with the largest residual of each case
-    where  words appended to the residual
-    asked  number of required rows; with fewer rows the outcome is inconclusive
+    rows       records with the largest residual of each case
+    tolerance  largest residual that is allowed [1]
+    where      words appended to the residual
+    asked      number of required rows; with fewer rows the outcome is inconclusive
     """
     worst = largest(rows, RESIDUAL)
     return Statement(
@@ -459,8 +467,7 @@ def converged(
 def within(
     what: str, rows: Sequence[Row], allowed: Mapping[str, float], because: str, *, asked: int = 0
 ) -> Statement:
-    """State that no measure exceeds its limit in any row; rows without a measure are not judged on
-    it.
+    """Judge the claim that no measure exceeds its limit in any row; a row may lack measures.
 
     what     start of the claim
     allowed  limits by name of the measure

@@ -1,10 +1,11 @@
-"""The paper's figures 3 and 4: tractions of four coated contacts by two solvers, with errors.
+"""Study of coated contacts: tractions by two solvers with errors, for figures 3 and 4 of the paper.
 
-A rigid ball is pressed with friction on a coated half-space and pushed to 0.3, 0.6, 0.9 of µW.
-Cells and the radial solver share no numerics. The error of a curve is estimated by coarse solves
-as in a run, with the order 1 of values at edges: $|f - f_k| / (r_k^{0.6} - 1)$ for fewer cells or
-rings and for half of the increments, added, in the norm ∫|Δp| dx / ∫p dx or ∫|Δq| dx / ∫µp dx on
-y = 0.
+A rigid ball is pressed with friction on a coated half-space and pushed tangentially to 0.3, 0.6 and
+0.9 of µW (friction coefficient times normal force). The two solvers, with cells and with rings,
+share no numerics. The error of a curve is estimated by coarse solves with the convergence order 1:
+$|f - f_k| / (r_k^{0.6} - 1)$, where $r_k$ is the refinement factor. The contributions of fewer
+cells or rings and of half of the increments are added. The norm is ∫|Δp| dx / ∫p dx or ∫|Δq| dx /
+∫µp dx on y = 0.
 """
 
 from __future__ import annotations
@@ -193,8 +194,8 @@ def _fields(record: CaseRecord) -> tuple[Field, Field]:
 def _apart(one: tuple[Field, Field], other: tuple[Field, Field]) -> Field:
     """Compute the relative differences of two pairs of pressure and shear curves (field, force).
 
-    Each is the integral of the absolute difference over the integral of the pressure of the first
-    pair.
+    Each is the integral of the absolute difference on y = 0 over the integral of the pressure of
+    the first pair. Both are normalised, the shear by µ times the unit of the pressure.
     """
     total = one[0].sum(axis=1)
     return np.array([np.abs(a - b).sum(axis=1) / total for a, b in zip(one, other, strict=True)])

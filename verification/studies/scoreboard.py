@@ -57,7 +57,7 @@ class ScoredRun:
 
     @property
     def name(self) -> str:
-        """Name of the record of this code and challenge, for files."""
+        """File name of the record: the code and the challenge."""
         words = f"{self.code}-{self.challenge}"
         return "".join(c if c.isalnum() else "-" for c in words)
 
@@ -96,7 +96,7 @@ def cases(settings: Settings) -> tuple[ScoredRun, ...]:
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
-    """Return the accuracy classes, CPU times and largest errors by code and challenge."""
+    """Compare all codes: tables of accuracy classes, CPU times and largest errors by challenge."""
     runs = [(run, records[run.name]) for run in cases(settings) if run.name in records]
     done = Counter(run.code for run, record in runs if CANNOT not in record.words)
     codes = list(dict.fromkeys(run.code for run, _ in runs))
@@ -190,7 +190,7 @@ def _errors(
 ) -> Iterator[tuple[str, ...]]:
     """Yield the rows of the table of largest errors: challenge, quantity, and one error per code.
 
-    Each error is the largest of all load steps and levels that have a bound.
+    Each error is the largest over all load steps.
 
     found  records by challenge and code
     """

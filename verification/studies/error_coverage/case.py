@@ -133,7 +133,7 @@ class Share:
 
     @property
     def part(self) -> float:
-        """Observed fraction `count / of`; 1 if nothing was counted."""
+        """Observed fraction `count / of` [1]; 1 if nothing was counted."""
         return self.count / self.of if self.of else 1.0
 
     @property

@@ -59,7 +59,7 @@ ASKED, REACHED, TRUE = "asked", "reached", "true"
 class LimitedLevels(Levels):
     """Refinement levels of a scene, limited by a largest work per level.
 
-    most  largest work: the product of the numbers of cells or elements, times all increments
+    most  largest product of the number of cells (or elements per radius) and of all increments
     """
 
     most: float = np.inf
@@ -86,8 +86,8 @@ class RequestCase:
         return f"request-{self.seed}-{self.number}"
 
     def compute(self) -> CaseRecord:
-        """Refine the scene until the request is reported as met, and record the true error of the
-        quantity.
+        """Refine the scene until the request is reported as met or refinement stops; record the
+        true error.
         """
         family, known, quantity, share = self._drawn()
         truths = [truth for truth in known.truths if truth.quantity == quantity]
@@ -273,7 +273,11 @@ def _statement(
 
 
 def _requests(requests: Sequence[CaseRecord]) -> Statement:
-    """Judge the requested accuracies: compare those reported as met with the true errors."""
+    """Judge if results whose requested accuracy is reported as met really have errors below the
+    request.
+
+    requests  records with the requested and the true relative error
+    """
     met = [one for one in requests if one.words["outcome"] == "met"]
     ratios = [value_of(one, TRUE) / value_of(one, ASKED) for one in met]
     false, worst = sum(ratio > 1 for ratio in ratios), max(ratios, default=0.0)

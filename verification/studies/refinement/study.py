@@ -132,7 +132,10 @@ def estimates(levels: Sequence[CaseRecord], order: float | None) -> tuple[Estima
 
 
 def _varies(part: Row, levels: Sequence[CaseRecord]) -> bool:
-    """Determine if a result is present on all levels, not zero by symmetry, and not constant."""
+    """Determine if a scalar result is present on all refinement levels and changes between them.
+
+    Results that are zero by symmetry are excluded.
+    """
     name, measures = str(part.parameters["quantity"]), _known(part.measures)
     values = [level.measures.get(name) for level in levels]
     return (
@@ -260,9 +263,13 @@ SceneStudyOf = Callable[[Path, Sequence[str], int | None, str], Study]
 
 
 def mesh_study(path: Path, overrides: Sequence[str], step: int | None, solver: str) -> Study:
-    """Make the study that refines the cells of the surface or the elements of the section.
+    """Create the convergence study of a scene file that refines the surface cells or the finite
+    elements.
 
-    step  number of the load step whose end is compared; None for the last one
+    path       scene file
+    overrides  changes of entries of the file, as on the command line
+    step       number of the load step whose end is compared; None for the last one
+    solver     name of the solver on the command line
 
     Raises SceneError and CannotRefine.
     """
@@ -332,9 +339,14 @@ def _counts(
 
 
 def increments_study(path: Path, overrides: Sequence[str], step: int | None, solver: str) -> Study:
-    """Make the study that refines the increments of the load steps that have an increment error.
+    """Create the convergence study of a scene file that refines the increments of its load steps.
 
-    step  number of the load step whose end is compared; None for the last one
+    Only load steps that have an increment error are refined.
+
+    path       scene file
+    overrides  changes of entries of the file, as on the command line
+    step       number of the load step whose end is compared; None for the last one
+    solver     name of the solver on the command line
 
     Raises SceneError and CannotRefine.
     """
@@ -382,9 +394,15 @@ def _cells(settings: Settings, scene: StudiedScene) -> tuple[tuple[str, object],
 
 
 def domain_study(path: Path, overrides: Sequence[str], step: int | None, solver: str) -> Study:
-    """Make the study that enlarges the finite-element section up to the size that a run uses.
+    """Create the convergence study of a scene file that enlarges the section of the finite
+    elements.
 
-    step  number of the load step whose end is compared; None for the last one
+    The largest section is that of a run.
+
+    path       scene file
+    overrides  changes of entries of the file, as on the command line
+    step       number of the load step whose end is compared; None for the last one
+    solver     name of the solver on the command line
 
     Raises SceneError, and CannotRefine for a section that is too small to refine.
     """

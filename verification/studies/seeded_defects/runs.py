@@ -102,7 +102,7 @@ class DefectRun:
 
     @property
     def name(self) -> str:
-        """Name of the record, for files: the defect and the case."""
+        """File name of the record: the defect ("healthy" without one) and the case."""
         return f"{self.defect or 'healthy'}--{self.case.replace('_', '-')}"
 
     def compute(self) -> CaseRecord:
@@ -129,7 +129,7 @@ class HealthyRun:
 
     @property
     def name(self) -> str:
-        """Name of the record, for files: the family and the number of the draw."""
+        """File name of the record of the random contact: its family and the number of the draw."""
         return f"{self.family.replace('_', '-')}-{self.draw:03d}"
 
     def compute(self) -> CaseRecord:
@@ -148,7 +148,7 @@ class HealthyRun:
 
 @cache
 def _all_imported() -> None:
-    """Import all modules of the quick catalogue before a defect is planted.
+    """Import all modules of the quick verification cases before a defect is planted in the solvers.
 
     Constants that modules compute at import are then free of the defect.
     """

@@ -48,10 +48,11 @@ DRAWS = {
 
 
 def seen_by(settings: Settings, defect: Defect) -> tuple[str, ...]:
-    """Return the cases that are run under a defect.
+    """Return the verification cases that are run under a seeded defect (an error planted in a
+    solver).
 
-    The quick level has only the cases that should detect the defect. Other levels have the whole
-    quick catalogue.
+    At the quick level these are the cases that should detect the defect. At other levels these are
+    all cases of the quick catalogue.
     """
     if settings.level is Level.QUICK:
         return defect.cases
@@ -59,8 +60,10 @@ def seen_by(settings: Settings, defect: Defect) -> tuple[str, ...]:
 
 
 def defect_runs(settings: Settings) -> tuple[DefectRun, ...]:
-    """Return the runs of all cases under all defects, and the runs of the same cases without a
-    defect.
+    """Return the runs of the verification cases under every seeded defect, and of the same cases
+    without.
+
+    A seeded defect is an error that is planted in the solvers to test the verification.
     """
     runs = [
         DefectRun(defect.name, case)
@@ -72,7 +75,7 @@ def defect_runs(settings: Settings) -> tuple[DefectRun, ...]:
 
 
 def healthy_runs() -> tuple[HealthyRun, ...]:
-    """Return the runs of all random contacts of all families without defect."""
+    """Return the runs of all random contacts of all families, without a planted defect."""
     return tuple(HealthyRun(family, draw) for family in FAMILIES for draw in range(DRAWS[family]))
 
 
@@ -138,7 +141,7 @@ def found(records: Records, defect: str, case: str) -> CaseRecord | None:
 
 
 def healthy(records: Records) -> Mapping[str, list[CaseRecord]]:
-    """Return the records of the contacts without defect, grouped by family."""
+    """Return the records of random contacts solved without a planted defect, grouped by family."""
     families: dict[str, list[CaseRecord]] = {family: [] for family in FAMILIES}
     for run in healthy_runs():
         record = records.get(run.name)
@@ -148,12 +151,14 @@ def healthy(records: Records) -> Mapping[str, list[CaseRecord]]:
 
 
 def all_healthy(records: Records) -> list[CaseRecord]:
-    """Return the records of the contacts without defect, of all families in one list."""
+    """Return the records of all random contacts that were solved without a planted defect."""
     return [record for there in healthy(records).values() for record in there]
 
 
 def derived(records: list[CaseRecord]) -> list[Sample]:
-    """Return the samples that have an expanded uncertainty, because their tolerance is derived."""
+    """Select the samples with an expanded uncertainty: those whose tolerance is derived from
+    refinement.
+    """
     return [s for record in records for s in samples(record) if s.uncertainty is not None]
 
 
@@ -173,8 +178,10 @@ def caught_by_reference(record: CaseRecord) -> bool:
 
 
 def passes_gate(record: CaseRecord) -> bool:
-    """Determine if all quantities of a case have an error below a fixed gate of 1 %
-    of their scale."""
+    """Determine if all quantities of a verification case have errors below 1 % of their scale.
+
+    Compares the verification with a simple test by one fixed tolerance.
+    """
     error = record.measures[ERROR]
     return error is not None and error <= GATE
 

@@ -29,7 +29,7 @@ class Surface(StrEnum):
 
 
 class LoadingPath(StrEnum):
-    """Sequence of normal and tangential loads of a contact."""
+    """Sequence of normal and tangential loads of a contact, such as a load cycle or a reversal."""
 
     PRESS = "press"  # no tangential load
     PUSH = "push"  # press, then T in one increment
@@ -147,7 +147,7 @@ class CellRecord(TypedRow):
     verdict: Verdict
     refused_for: Refusal = Refusal.NONE
     reason: str = ""
-    """Name and message of the error; empty where it converged."""
+    """Name and message of the error; empty if the contact converged."""
 
     tolerance: float
     residual: float | None = None
@@ -173,9 +173,8 @@ class CellRecord(TypedRow):
     """Number of convolutions; zero for finite elements."""
 
     def of_cell(self, cell: StabilityCell) -> CaseRecord:
-        """Return the record in the form that is stored, with the coordinates of the contact as
-        parameters.
-        """
+        """Convert the outcome of a contact to a `CaseRecord`, with the coordinates
+        of the contact."""
         return CaseRecord(**dict(self.row()) | {"parameters": parameters_of(cell)})
 
     @property
@@ -186,7 +185,7 @@ class CellRecord(TypedRow):
 
     @property
     def worst(self) -> float | None:
-        """Larger of the residual stated by the solver and the one computed from the fields; None
+        """Larger residual of the contact: stated by the solver or computed from its fields; None
         for neither.
         """
         known = [r for r in (self.residual, self.observed) if r is not None]
@@ -240,7 +239,7 @@ class View:
         return self.cells[0].solver.by_elements
 
     def at(self, x: Any, y: Any) -> tuple[StabilityCell, ...]:
-        """Return the contacts of the map at one point (x, y)."""
+        """Return the contacts of a map at one point (x, y) of its two coordinates."""
         return tuple(c for c in self.cells if getattr(c, self.x) == x and getattr(c, self.y) == y)
 
 

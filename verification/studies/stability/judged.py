@@ -144,8 +144,10 @@ REFUSALS = (GrossSliding, UnsupportedScene, ResourceRefused)
 
 @dataclass(frozen=True)
 class StabilityRun:
-    """Represent the solve of one contact of the map; its record includes any error
-    of the solver."""
+    """Represent the solve of one contact of the stability map.
+
+    An error of the solver is stored in the record of the contact as its outcome.
+    """
 
     cell: StabilityCell
 

@@ -63,10 +63,11 @@ def loading(path: LoadingPath, loads: Loads) -> tuple[LoadStep, ...]:
     full = loads.push * loads.friction * loads.normal_force
 
     def to(increments: int, *, W: float | None = None, T: float | None = None) -> LoadStep:
-        """Return a load step to a fraction of the full normal and tangential force.
+        """Create a load step that ramps the normal or the tangential force to a fraction of its
+        full value.
 
-        W  fraction of the normal force; None keeps the force of the preceding step
-        T  fraction of the tangential force; None keeps the force of the preceding step
+        W  fraction of the full normal force; None keeps the force of the preceding step
+        T  fraction of the full tangential force; None keeps the force of the preceding step
         """
         return LoadStep(
             normal_force=None if W is None else W * loads.normal_force,
@@ -189,7 +190,8 @@ def _coated(cell: StabilityCell) -> Body:
 
 
 def _body(cell: StabilityCell) -> Body:
-    """Return the body of a contact; a coating of the substrate's material is left out."""
+    """Return the lower body of a contact, without its coating if that has the
+    substrate's material."""
     film, base = _materials(cell)
     return Body(material=base) if film == base else _coated(cell)
 
@@ -227,10 +229,11 @@ def _height_map(heights: Field, grid: SurfaceGrid) -> HeightMap:
 
 
 def _force(cell: StabilityCell, answer: LayeredSurface, ball: LayeredIndentation) -> float:
-    """Estimate the normal force for which the contact radius is about the given one.
+    """Estimate the normal force under which the contact has the radius given by its coordinates.
 
+    cell    coordinates of the contact
     answer  elastic response of the surface of the layered body
-    ball    frictionless contact of the ball with that radius
+    ball    frictionless contact of the ball with that contact radius
     """
     match cell.surface:
         case Surface.FLAT_PUNCH:

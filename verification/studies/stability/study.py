@@ -60,7 +60,10 @@ WORK = {True: "linear systems", False: "convolutions"}  # by whether finite elem
 
 
 def statements(found: Found) -> tuple[Statement, ...]:
-    """Return the statements on wrong results, convergence, refusals and cost of each solver."""
+    """Judge wrong results, convergence and refusals, and state the cost, for each solver.
+
+    found  records by contact of the stability map
+    """
     told: list[Statement] = []
     for solver in Solver:
         cells = of_solver(found, solver)
@@ -70,17 +73,21 @@ def statements(found: Found) -> tuple[Statement, ...]:
 
 
 def of_solver(found: Found, solver: Solver) -> Found:
-    """Select the contacts that one solver was to solve, with their records."""
+    """Select the contacts of the stability map that one solver was to solve, with their records."""
     return {cell: record for cell, record in found.items() if cell.solver is solver}
 
 
 def ended(found: Found, *so: Verdict) -> Found:
-    """Select the contacts that ended with one of the given verdicts, with their records."""
+    """Select the contacts of the stability map that ended with one of the given verdicts."""
     return {cell: record for cell, record in found.items() if record.verdict in so}
 
 
 def answer(found: Found) -> str:
-    """Return the answer to the question of the study as text; empty without records."""
+    """Return a sentence with the numbers of converged, refused and failed contacts of the stability
+    map.
+
+    The text is empty without records.
+    """
     if not found:
         return ""
     ends = Counter(record.verdict for record in found.values())
@@ -97,13 +104,16 @@ def answer(found: Found) -> str:
 
 
 def _worst(found: Found) -> str:
-    """Return the largest residual of the converged contacts as text."""
+    """Return the largest residual of all converged contacts of the stability map as text."""
     solved = ended(found, Verdict.CONVERGED).values()
     return plain(max((r.worst or 0.0 for r in solved), default=0.0), 2)
 
 
 def nothing_silent(found: Found) -> Statement:
-    """State that no solution that violates the equations was returned as converged."""
+    """Judge the claim that no solution that violates the equations was returned as converged.
+
+    found  records by contact of the stability map
+    """
     silent = ended(found, Verdict.SILENT)
     return Statement(
         claim="no cell is wrong in silence",
@@ -115,7 +125,10 @@ def nothing_silent(found: Found) -> Statement:
 
 
 def nearly_everything_converges(found: Found) -> Statement:
-    """State that at least 99 % of the contacts that are not refused converge."""
+    """Judge the claim that at least 99 % of the contacts that are not refused converge.
+
+    found  records by contact of the stability map
+    """
     given_up, solved = ended(found, Verdict.NOT_CONVERGED), ended(found, Verdict.CONVERGED)
     asked = len(solved) + len(given_up)
     enough = bool(solved) and len(solved) >= LEAST_SHARE * asked
@@ -129,8 +142,12 @@ def nearly_everything_converges(found: Found) -> Statement:
 
 
 def refusals_are_due(found: Found) -> Statement:
-    """State that a contact is refused if and only if its force exceeds µW or its solver has no
-    model.
+    """Judge the claim that exactly those contacts are refused that have no solution or no model.
+
+    A contact has no solution if its tangential force exceeds µW. Finite elements have no model of
+    contacts that are not axisymmetric or whose tangential load turns.
+
+    found  records by contact of the stability map
     """
     refused = ended(found, Verdict.REFUSED)
     due = {cell: kind for cell in found if (kind := _due(cell))}
@@ -153,6 +170,8 @@ def refusals_are_due(found: Found) -> Statement:
 def cost(found: Found) -> Statement:
     """State the work per increment and the solution methods of the converged contacts, without
     verdict.
+
+    found  records by contact of the stability map
     """
     solved = ended(found, Verdict.CONVERGED).values()
     if not solved:
@@ -172,8 +191,10 @@ def cost(found: Found) -> Statement:
 
 
 def _due(cell: StabilityCell) -> Refusal:
-    """Return the reason for which a contact must be refused; empty if the contact
-    has a solution."""
+    """Return the reason for which a contact of the stability map must be refused; empty for none.
+
+    A tangential force above µW and a scene without model in the solver are such reasons.
+    """
     if not cell.posable:
         return Refusal.POSE
     return Refusal.FORCE if cell.push > LARGEST_FORCE else Refusal.NONE
@@ -223,8 +244,10 @@ THOUSANDS = 10_000  # from here on the cost is rounded to them
 
 
 def class_of(record: CellRecord) -> int:
-    """Return the number of the legend class of a contact, from the smallest residual to silent
-    errors.
+    """Return the legend class of a contact in the stability map: 0 (best) to 5 (worst).
+
+    Classes 0 to 2 are converged contacts by their residuals. Classes 3 to 5 are refused contacts,
+    contacts that did not converge, and wrong results returned as converged.
     """
     if record.verdict in ENDS:
         return ENDS[record.verdict]
@@ -232,9 +255,10 @@ def class_of(record: CellRecord) -> int:
 
 
 def _part_of_allowed(record: CellRecord) -> float:
-    """Return the largest ratio of a residual to its allowed value [1].
+    """Return the largest ratio of a residual of a contact to the allowed value of that residual
+    [1].
 
-    The residual stated by the solver and the one computed from the fields have different limits.
+    The residual that the solver states and the one computed from its fields have different limits.
     """
     stated, seen = record.residual or 0.0, record.observed or 0.0
     return max(stated, seen / OTHER_NORMS) / record.tolerance
@@ -345,9 +369,9 @@ def _of_bad(bad: list[Item]) -> Table:
 
 
 def _of_cells(group: list[Item]) -> Table:
-    """Build the table of the hardest contacts of one kind of solver.
+    """Build the table of the hardest contacts of the stability map for one kind of solver.
 
-    The order is by legend class, then by bisections, then by work, each with the largest first.
+    The contacts are sorted by legend class, then by bisections, then by work, the largest first.
     """
     by_elements = group[0][0].solver.by_elements
     solver = "finite elements" if by_elements else "the semi-analytical solver"
@@ -379,9 +403,8 @@ def _hardness(item: Item) -> tuple[int, int, int]:
 
 
 def _outcome(record: CellRecord) -> str:
-    """Return the verdict of a contact with its reason, without the type of the exception of a
-    refusal.
-    """
+    """Return the verdict on a contact of the stability map as text, with the reason
+    of a failure."""
     reason = record.reason
     if record.verdict is Verdict.REFUSED:
         reason = reason.partition(": ")[2] or reason
@@ -422,12 +445,12 @@ REMARKS = (
 
 
 def cases(settings: Settings) -> tuple[StabilityRun, ...]:
-    """Return the runs of all contacts of the maps of the level."""
+    """Return the solves of all contacts of the stability map at the level of the study."""
     return tuple(map(StabilityRun, study_cells(settings.level, _cells(settings))))
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
-    """Return the statements, tables and maps from the available records."""
+    """Derive the statements, tables and charts of the stability map from the available records."""
     here = _found(settings, records)
     by_name = {cell.name: record for cell, record in here.items()}
     maps = views(settings.level, _cells(settings))

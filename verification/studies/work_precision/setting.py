@@ -66,7 +66,7 @@ class PreciseContact:
     observables  the same errors as functions of the result of a solver
     posed        function that returns the problem for a number of increments
     window       side of the window over the contact radius
-    increments   increments of the last load step unless the study varies them; None for one
+    increments   number passed to `posed` unless the study varies it; None for 1
     """
 
     name: str
@@ -79,7 +79,9 @@ class PreciseContact:
 
     @property
     def problem(self) -> Problem:
-        """Problem and its reference solution, with one increment."""
+        """Scene of the contact with its reference solution, with the path-dependent load steps
+        undivided.
+        """
         return self.posed(1)
 
     @property
@@ -88,11 +90,15 @@ class PreciseContact:
         return next(iter(self.errors))
 
     def meaning(self, quantity: str) -> str:
-        """Return the contact and one of its errors in words."""
+        """Return the title of the contact and one of its measured errors in words.
+
+        quantity  name of the error
+        """
         return f"{self.title}: {self.errors[quantity]}"
 
     def errors_of(self, result: Any) -> Errors:
-        """Compute all errors of the result of a solver against the reference solution, by name."""
+        """Compute all measured errors of a solver's result against the reference
+        solution, by name."""
         named = zip(self.errors, self.observables, strict=True)
         return {name: one.error(self.problem)(result) for name, one in named}
 
@@ -252,7 +258,7 @@ MAX_SPRINGS = 64  # elements: finer penalty solves take longer than all the rest
 
 
 class Method(StrEnum):
-    """Solution method of a contact."""
+    """Solution method of a contact: a solver with or without edge correction or penalty."""
 
     SURFACE = "semi-analytical"
     EDGES = "semi-analytical, edges inside cells"
@@ -270,7 +276,7 @@ class PrecisionCase:
                 of rings and orders that the radial solver chooses
     tolerance   tolerance of the solver
     penalty     factor c of the penalty stiffness; 0 without penalty
-    increments  increments of the last load step; 0 for those of the contact
+    increments  number of increments of the path-dependent load steps; 0 for that of the contact
     """
 
     contact: str
@@ -282,7 +288,7 @@ class PrecisionCase:
 
     @property
     def name(self) -> str:
-        """Name of the record, for files: contact, method, fineness and other settings."""
+        """File name of the record: contact, method, fineness and other settings."""
         parts = [self.contact, self.method.name.lower(), f"n{self.fineness}"]
         parts += [f"t{self.tolerance:.0e}"] if self.tolerance != SOLVER_TOLERANCE else []
         parts += [f"c{self.penalty:g}"] if self.penalty else []
@@ -349,7 +355,7 @@ class PrecisionCase:
 
 
 def all_cases(level: Level) -> tuple[PrecisionCase, ...]:
-    """Return the cases of all contacts, methods and settings of a level of the study."""
+    """Return the solves of all contacts by all methods and settings at a level of the study."""
     return tuple(case for contact in CONTACTS for case in _of_contact(contact, level))
 
 

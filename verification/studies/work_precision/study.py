@@ -87,11 +87,11 @@ def points_of(
 
 
 def dependable(points: Iterable[Point]) -> tuple[Point, ...]:
-    """Replace the error of each point by the largest error of all points of its curve that are as
-    fine.
+    """Replace the error of each point by the largest error of all points of its curve as fine or
+    finer.
 
-    The error of a coarse setting may be small by chance, because the error changes sign. An error
-    that is NaN makes all coarser points NaN.
+    A coarse setting may have a small error by chance, because the error changes sign. An error that
+    is NaN makes all coarser points NaN.
     """
     found: list[Point] = []
     largest: dict[tuple[str, str], float] = {}
