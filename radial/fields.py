@@ -48,5 +48,5 @@ class Result:
 
     @property
     def steps(self) -> tuple[Increment, ...]:
-        """Return the last increment of each load step, in order."""
+        """Return the states at the ends of the load steps: the last increment of each, in order."""
         return tuple(i for i in self.increments if i.index == i.increments_in_step)

@@ -67,7 +67,7 @@ def target(scene: Scene, force: float | None, approach: float | None) -> Target:
 
 
 def output_radii(count: int, largest: Sequence[NormalContact], rim: float | None) -> Array:
-    """Return the radii of the output rings [length].
+    """Return the radii of the rings at which fields are output [length].
 
     They are denser towards the edge of the largest contact and end at twice its radius. Radii with
     infinite pressure (the axis below a tip, a rim) are omitted.

@@ -239,7 +239,10 @@ class FrictionalSteps(StepsOnRings):
         like = before.end if before else None
 
         def solve(a: float) -> FrictionalContact:
-            """Solve the contact of a radius, with the slip zone of the last solve as a guess."""
+            """Solve the contact with friction of a given radius [length].
+
+            The slip zone of the last solve is the initial guess.
+            """
             nonlocal like
             like = self._at(a, rings, radial_displacement, like)
             return like
@@ -360,7 +363,7 @@ def _beyond(r: Array, field: Array, limit: float) -> Callable[[Array], Array]:
     spline, last = CubicSpline(r, field), r[-1]
 
     def at(radii: Array) -> Array:
-        """Evaluate the interpolated field at given radii [length]."""
+        """Evaluate the interpolated and continued surface field at given radii [length]."""
         near = spline(np.minimum(radii, last))
         return np.asarray(limit + (near - limit) * last / np.maximum(radii, last))
 

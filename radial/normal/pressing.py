@@ -60,7 +60,7 @@ class Target:
 
     @property
     def prescribed(self) -> float:
-        """Return the prescribed normal force [force] or approach [length]."""
+        """Return the prescribed value: a normal force [force] or an approach [length]."""
         value = self.approach if self.force is None else self.force
         assert value is not None
         return value
@@ -97,7 +97,7 @@ class Target:
 
 @dataclass(frozen=True)
 class NormalContact:
-    """Frictionless contact under a prescribed force or approach.
+    """Solution of the frictionless contact under a prescribed force or approach.
 
     contact     solved contact
     target      prescribed normal force or approach

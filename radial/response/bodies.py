@@ -33,10 +33,11 @@ CACHED = 4
 
 @dataclass(frozen=True)
 class Bodies:
-    """Normal response of the lower body and the indenter.
+    """Response of both bodies to pressure: that of half-spaces, and of their layers.
 
-    layered  those bodies that have layers
-    modulus  contact modulus E* of the outermost materials [force/length²]
+    layered  the bodies with layers (none, one or two)
+    modulus  contact modulus E* of the outermost materials, which determines the response of
+             half-spaces [force/length²]
     """
 
     layered: Sequence[Stack]

@@ -128,7 +128,9 @@ def pushed_circle(
 def _refuse_few(rings: int) -> None:
     """Raise UnsupportedScene if too few rings resolve the edge of the contact.
 
-    rings  number of rings
+    The stress below the surface requires a fit of the pressure near the edge.
+
+    rings  number of rings near the edge
     """
     if rings < FEWEST:
         raise UnsupportedScene(

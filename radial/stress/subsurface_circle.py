@@ -136,7 +136,10 @@ class SubsurfaceCircle:
 
 
 def _order(orders: Sequence[Array], m: int) -> Array:
-    """Return the Bessel function J_m for any sign of m, from J_0, J_1, …"""
+    """Return the Bessel function J_m of positive or negative order m.
+
+    orders  J_0, J_1, … at the arguments
+    """
     return orders[m] if m >= 0 else (-1) ** m * orders[-m]
 
 

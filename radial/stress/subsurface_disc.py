@@ -112,7 +112,10 @@ def _scalars(descent: Descent, level: Level) -> Array:
 
 
 def _transformed(scalars: Array, zeroth: Array, first: Array, second: Array) -> Array:
-    """Compute u_r, u_z, σ_rr, σ_θθ, σ_zz, σ_rz from their transforms (6, n).
+    """Compute displacement and stress u_r, u_z, σ_rr, σ_θθ, σ_zz, σ_rz from their transforms (6,
+    n).
+
+    The inverse Hankel transforms are sums over the wavenumbers κ.
 
     scalars                responses of `_scalars`, times the transform of the pressure and
                            quadrature weights (6, κ)

@@ -74,9 +74,10 @@ class Laws:
     ) -> Laws:
         """Create the equations of contact and friction of one increment.
 
-        points  points of the contact and their compliance
-        loads   prescribed loads and motions at the end
-        before  state at the start of the increment; None before first contact
+        points    points of the contact and their compliance
+        friction  friction law
+        loads     prescribed loads and motions at the end
+        before    state at the start of the increment; None before first contact
         """
         if before is None:
             return cls(points, friction, loads, np.zeros(2 * len(points.areas)), np.zeros(4))

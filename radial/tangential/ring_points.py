@@ -50,12 +50,12 @@ class Points:
 
     @property
     def count(self) -> int:
-        """Return the number of angles of a ring."""
+        """Return the number of angles, the points on each ring."""
         return len(self.angles)
 
     @property
     def highest(self) -> int:
-        """Return the highest angular harmonic J."""
+        """Return the highest angular harmonic J of the tractions."""
         return len(self.energies) - 1
 
     @cached_property

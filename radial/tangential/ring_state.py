@@ -31,14 +31,19 @@ class Loads:
 
     @property
     def without_shear(self) -> Loads:
-        """Return the loads with prescribed tangential force and torque replaced by zero."""
+        """Return loads with zero instead of the prescribed tangential force and torque.
+
+        Prescribed motions and the normal load are unchanged.
+        """
         tangential = (None if force is None else 0.0 for force in self.forces[:NORMAL])
         return Loads((*tangential, self.forces[NORMAL]), self.motions)
 
     def resting(self, motion: Array) -> Loads:
-        """Return the loads with prescribed tangential force and torque replaced by a rigid motion.
+        """Return loads with a given rigid motion instead of prescribed tangential force and torque.
 
-        motion  shifts along and across, twist (and approach, which is not used)
+        Prescribed shifts and twist and the normal load are unchanged.
+
+        motion  shifts along and across θ = 0, twist (and approach, which is not used)
         """
         prescribed = zip(self.forces[:NORMAL], self.motions[:NORMAL], motion, strict=False)
         tangential = (float(was) if force is not None else now for force, now, was in prescribed)

@@ -109,7 +109,8 @@ class TangentialSteps(StepsOnRings):
         both = Coupling.of(scene)
 
         def smooth(prescribed: Target) -> float:
-            """Return the contact radius without friction under a normal load [length]."""
+            """Return the radius of the frictionless contact under a prescribed normal load
+            [length]."""
             return normal_contact(both.bodies, scene.indenter, prescribed).contact.radius
 
         largest = max(map(smooth, largest_targets(scene)))

@@ -119,7 +119,8 @@ class Torsion:
 
     @cached_property
     def whole(self) -> PartialSlip:
-        """Return the state at incipient slip, where all of the contact area still sticks."""
+        """Return the state of torsion at incipient slip, where all of the contact area still
+        sticks."""
         return self.partial_slip(1.0)
 
     @cached_property
@@ -253,7 +254,9 @@ class PartialSlip:
     panels: Sequence[Panel]
 
     def inside(self, t: Array) -> Array:
-        """Return the function N that represents the shear, at points of the stick disc.
+        """Return the function N that represents the circumferential shear, in the stick disc.
+
+        N is defined in the module.
 
         t  coordinates between the axis (0) and the stick radius (`stick`)
         """

@@ -44,19 +44,22 @@ class Branch:
     state: PartialSlip | None = None
 
     def size(self, of: str) -> float:
-        """Return a quantity of the equivalent first twist; 0 at the start of the branch.
+        """Return the twist, torque, work or dissipated energy of the equivalent first twist.
 
-        of  "twist", "torque", "work" or "dissipated", the name of the quantity
+        It is 0 at the start of the branch. The equivalent first twist is a monotonic twist of the
+        virgin contact.
+
+        of  name of the quantity: "twist", "torque", "work" or "dissipated"
         """
         return 0.0 if self.state is None else float(getattr(self.state, of))
 
 
 @dataclass(frozen=True)
 class TwistPath:
-    """State of torsion after a history of twists.
+    """State of torsion after a history of twists, as a path of branches.
 
     of          contact under torsion
-    branches    branches of the path that are not closed loops, the current branch last; empty
+    branches    branches of the path that are not closed load cycles, the current branch last; empty
                 before the first twist
     dissipated  energy dissipated since the start [force length]
     work        work of the torque since the start [force length]
