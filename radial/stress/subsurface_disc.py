@@ -112,8 +112,7 @@ def _scalars(descent: Descent, level: Level) -> Array:
 
 
 def _transformed(scalars: Array, zeroth: Array, first: Array, second: Array) -> Array:
-    """Compute displacement and stress u_r, u_z, σ_rr, σ_θθ, σ_zz, σ_rz from their transforms (6,
-    n).
+    """Compute u_r, u_z, σ_rr, σ_θθ, σ_zz, σ_rz from their Hankel transforms (6, n).
 
     The inverse Hankel transforms are sums over the wavenumbers κ.
 

@@ -109,8 +109,7 @@ class TangentialSteps(StepsOnRings):
         both = Coupling.of(scene)
 
         def smooth(prescribed: Target) -> float:
-            """Return the radius of the frictionless contact under a prescribed normal load
-            [length]."""
+            """Return the radius of the frictionless contact under a normal load [length]."""
             return normal_contact(both.bodies, scene.indenter, prescribed).contact.radius
 
         largest = max(map(smooth, largest_targets(scene)))

@@ -119,8 +119,7 @@ class Torsion:
 
     @cached_property
     def whole(self) -> PartialSlip:
-        """Return the state of torsion at incipient slip, where all of the contact area still
-        sticks."""
+        """Return the state of torsion at incipient slip: all of the contact area still sticks."""
         return self.partial_slip(1.0)
 
     @cached_property
