@@ -6,7 +6,6 @@ from pathlib import Path
 
 import pytest
 
-from verification.exhibits.chart import Chart
 from verification.judging.case import Level
 from verification.running.study import (
     Conclusion,
@@ -32,10 +31,6 @@ KEPT = {record.name: record for record in stored_studies(STUDY_FILES)}
 
 def kept(name: str) -> StudyRecord:
     return KEPT[name]
-
-
-def kept_chart(study: str, name: str) -> Chart:
-    return next(chart for chart in kept(study).conclusion.charts if chart.name == name)
 
 
 def measured(study: str, claim: str) -> str:

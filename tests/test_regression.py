@@ -65,7 +65,7 @@ from verification.regression.tolerances import (
     read_tolerances,
     text_of,
 )
-from verification.report.files import write_report
+from verification.report.files import RECORD, write_report
 from verification.report.summary_text import counts_text, uncovered_lines
 from verification.running.provenance import Provenance
 from verification.running.report_record import Report, count, load_report
@@ -170,6 +170,7 @@ BETTER, OUTSIDE = ChangeKind.BETTER, ChangeKind.OUTSIDE
 ORDER = "order_of_peak_pressure"
 PASSED = {"value": 2.03, "reference": 2.0, "allowed": 0.2, "interval": 0.2}
 LOST = {"allowed": 1.0, "interval": 1.0, "status": Status.INCONCLUSIVE}
+FAILED = {"value": 1.0, "error": 0.5, "allowed": 0.2, "interval": 0.2, "status": Status.FAIL}
 NAN = {"value": None, "status": Status.INCONCLUSIVE}
 CHANGES: list[tuple[str, Any, Any, ChangeKind, int, str]] = [
     # verdict, part of what is allowed (before, now) or how it is judged, kind, exit code, remark
@@ -184,6 +185,9 @@ CHANGES: list[tuple[str, Any, Any, ChangeKind, int, str]] = [
             (-0.2, 0.4, WORSE, 7), (0.4, 0.8, WORSE, 7), (0.01, 0.014, SAME, 0),
             (0.01, 0.03, WORSE, 7),
             (3.0, 3.0, SAME, 0), (3.0, 0.2, BETTER, 5),
+            # To the other side of the reference, by less than is allowed, and what failed already.
+            (-0.8, 0.95, OUTSIDE, 1), (0.95, -0.8, DRIFT, 5), (0.2, 0.95, WORSE, 7),
+            (2.0, 20.0, OUTSIDE, 1), (2.0, 2.1, DRIFT, 5),
             # An error that falls far is suspicious, unless it was small.
             (0.8, -0.3, BETTER, 5), (0.8, -0.6, DRIFT, 5), (0.03, 0.001, DRIFT, 5),
         )
@@ -199,6 +203,10 @@ CHANGES: list[tuple[str, Any, Any, ChangeKind, int, str]] = [
     (ORDER, PASSED, {**LOST, "value": 1.4}, OUTSIDE, 1, "held to the recorded tolerance"),
     (ORDER, PASSED, {**LOST, "value": 1.9}, DRIFT, 5, "held to the recorded tolerance"),
     (ORDER, LOST, {**LOST, "value": 0.5}, DRIFT, 5, ""),
+    (ORDER, LOST, PASSED, DRIFT, 5, ""),
+    (ORDER, FAILED, {**LOST, "value": 1.0, "error": 0.5}, BETTER, 5, "fail -> inconclusive"),
+    (ORDER, LOST, FAILED, OUTSIDE, 1, ""),
+    (ORDER, PASSED, FAILED, OUTSIDE, 1, ""),
     ("order_of_pressure", {}, NAN, DRIFT, 5, ""),
     ("order_of_pressure", NAN, NAN, SAME, 0, ""),
 ]  # fmt: skip
@@ -480,7 +488,10 @@ def test_comparison_ends_by_what_changed(
     said: str,
 ) -> None:
     report, baselines = places
+    recorded = (report / RECORD).rename(report.parent / "recorded.json")
     write_report(report_of(shifted(healthy, "approach", part)), report)
+    assert slipstick("maintain", "compare", report, "--baseline", recorded) == code
+    capsys.readouterr()
     assert slipstick("maintain", "compare", report, "--baseline", baselines) == code
     output = capsys.readouterr().out
     assert said in output

@@ -12,7 +12,6 @@ from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.report.drawing import draw
 from verification.report.svg import inline_svg
 
-UNIT = ((0.0, 1.0), (0.0, 1.0))
 STYLES = Path(verification.report.__file__).parent / "templates" / "style.css"
 TEXT, GRAPHICS = 4.5, 3.0  # contrasts that WCAG 2.1 asks for, AA
 INKS = ("ink", "soft", "link", "pass", "fail", "inconclusive")

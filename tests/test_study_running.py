@@ -3,6 +3,7 @@
 import csv
 import html
 import os
+import re
 import subprocess
 import sys
 from collections.abc import Callable
@@ -18,6 +19,7 @@ from contact_results.blas_threads import VARIABLES
 from slipstick.cli.commands.study import _studied
 from verification.judging.case import Level
 from verification.report.files import set_aside, write_study
+from verification.report.sections import stored_records
 from verification.running.case_pool import (
     KILLED,
     Answer,
@@ -25,7 +27,6 @@ from verification.running.case_pool import (
     CaseStore,
     DamagedRecord,
     LocalWorkers,
-    content_hash,
     run_cases,
 )
 from verification.running.provenance import provenance
@@ -121,12 +122,6 @@ def test_only_workers_elsewhere_must_have_the_same_sources(elsewhere: bool, tmp_
     assert store.load(case) is None
 
 
-def test_other_values_and_other_kinds_have_other_files() -> None:
-    cases = Square(2.0), Square(3.0), Refusing(2.0)
-    assert len({content_hash(case) for case in cases}) == 3
-    assert content_hash(Square(2.0)) == content_hash(Square(2.0))
-
-
 def test_failing_and_dying_cases_are_named_and_the_others_finish(tmp_path: Path) -> None:
     seen: list[CaseEnd] = []
     cases = (
@@ -159,12 +154,6 @@ def test_a_worker_has_one_thread_whatever_was_asked_for(
         assert workers.submit(os.getenv, name).result() == "1"
     finally:
         workers.close()
-
-
-def test_cases_are_computed_elsewhere(tmp_path: Path) -> None:
-    (end,) = run_cases([Square(5.0)], CaseStore(tmp_path, Number), 1, lambda end: None)
-    assert isinstance(end.record, Number)
-    assert end.record.process != os.getpid()
 
 
 @pytest.fixture(scope="module")
@@ -259,26 +248,13 @@ def test_stored_study_is_found_again_and_its_page_shows_the_answer(
         assert statement.claim in html.unescape(page)
 
 
-def test_earlier_study_waits_aside_until_the_new_one_is_whole(tmp_path: Path) -> None:
-    record = stored(tmp_path)
-    directory = tmp_path / "stability"
-    (directory / "of_mine.txt").touch()
-    for _ in range(2):  # the second call finds what a killed study has left
-        set_aside(directory)
-        assert stored_studies(tmp_path) == ()
-        assert not (directory / "index.html").exists()
-        assert stored_studies(directory) == (record,)  # in `earlier`
-    write_study(record, {}, directory)
-    assert stored_studies(tmp_path) == (record,)
-    assert {path.name for path in directory.iterdir()} >= {"of_mine.txt", "index.html"}
-    assert not (directory / "earlier").exists()
-
-
 def test_a_study_that_is_stopped_leaves_no_record_of_an_earlier_one(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    stored(tmp_path, "coated-tractions")
+    """It waits aside until the new one is whole."""
+    record = stored(tmp_path, "coated-tractions")
     directory = tmp_path / "coated-tractions"
+    (directory / "of_mine.txt").touch()
 
     def stopped(*_: object, **__: object) -> None:
         assert stored_studies(tmp_path) == ()
@@ -288,17 +264,35 @@ def test_a_study_that_is_stopped_leaves_no_record_of_an_earlier_one(
     chosen = STUDIES["coated-tractions"]
     with pytest.raises(KeyboardInterrupt):
         _studied(chosen, Settings(Level.QUICK, 16), "slipstick maintain study", directory, 1)
+    set_aside(directory)  # finds what the stopped study has left
     assert stored_studies(tmp_path) == ()
-    assert len(stored_studies(directory)) == 1
+    assert not (directory / "index.html").exists()
+    assert stored_studies(directory) == (record,)
+    write_study(record, {}, directory)
+    assert stored_studies(tmp_path) == (record,)
+    assert {path.name for path in directory.iterdir()} >= {"of_mine.txt", "index.html"}
+    assert not (directory / "earlier").exists()
 
 
-def test_stored_study_that_cannot_be_read_is_named(tmp_path: Path) -> None:
-    assert stored_studies(tmp_path) == ()
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda text: text[:100],
+        lambda text: re.sub(r'"schema_version": \d+', '"schema_version": 99', text),
+    ],
+    ids=["cut short", "of another version"],
+)
+def test_stored_study_that_cannot_be_read_is_named(
+    damage: Callable[[str], str], tmp_path: Path
+) -> None:
     stored(tmp_path)
     path = tmp_path / "stability" / "study.json"
-    path.write_text(path.read_text(encoding="utf-8")[:100], encoding="utf-8")
+    path.write_text(damage(path.read_text(encoding="utf-8")), encoding="utf-8")
     with pytest.raises(ValueError, match=r"stability.study\.json"):
-        stored_studies(tmp_path)
+        stored_records([tmp_path])
+    told: list[str] = []
+    assert stored_records([tmp_path], told.append) == ()
+    assert [str(path) in problem for problem in told] == [True]
 
 
 @pytest.mark.parametrize("said", [0.0, 9.0])

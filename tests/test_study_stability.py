@@ -16,7 +16,7 @@ from verification.judging.outcome import Status
 from verification.observed.laws import observed
 from verification.report.drawing import look_of
 from verification.running.case_pool import CaseStore
-from verification.running.study import CaseRecord, Settings, row_files
+from verification.running.study import CaseRecord, Settings
 from verification.studies.stability import judged as judging
 from verification.studies.stability import study
 from verification.studies.stability.cell import (
@@ -247,13 +247,6 @@ def outcomes(found: dict[str, CellRecord]) -> list[Status | None]:
 EVERYTHING_GOOD = [Status.PASS] * 3 + [None]
 
 
-def test_refusals_are_shown_in_the_words_of_the_solver_alone() -> None:
-    tables = study.conclude(Settings(Level.QUICK), kept(records())).tables
-    shown = {cell for table in tables for row in table.rows for cell in row}
-    assert "refused: too much" in shown
-    assert not any("SomeError" in cell for cell in shown)
-
-
 @pytest.mark.parametrize("solver", Solver)
 @pytest.mark.parametrize(
     ("verdict", "failing"),
@@ -272,27 +265,11 @@ def test_bad_cells_fail_the_statement_of_their_solver_that_names_them(
     assert judged_as[failing] is Status.FAIL
     assert judged_as.count(Status.FAIL) == 1
     assert all(name in conclusion.statements[failing].measured for name in names)
+    given_up, silent = (2 * (verdict is kind) for kind in (Verdict.NOT_CONVERGED, Verdict.SILENT))
+    assert f" {given_up} gave up and {silent} are wrong in silence." in conclusion.answer
     if verdict is not Verdict.REFUSED:
         listed = next(t for t in conclusion.tables if t.title.startswith("Not solved"))
         assert [row[0] for row in listed.rows] == names
-
-
-@pytest.mark.parametrize("verdict", Verdict)
-def test_answer_is_one_sentence_that_counts_every_cell(verdict: Verdict) -> None:
-    bad = GOOD.model_copy(update={"verdict": verdict, "reason": "because"})
-    found = records()
-    first = next(name for name, r in found.items() if r.verdict is Verdict.CONVERGED)
-    good = sum(r.verdict is Verdict.CONVERGED for r in found.values()) - 1
-    answer = study.conclude(Settings(Level.QUICK), kept(found | {first: bad})).answer
-    refused, given_up, silent = (
-        verdict is kind for kind in (Verdict.REFUSED, Verdict.NOT_CONVERGED, Verdict.SILENT)
-    )
-    due = len(found) - good - 1
-    assert f"{good + (verdict is Verdict.CONVERGED)} converged" in answer
-    assert f"{due + refused} were refused, {due} of these" in answer
-    assert f"{given_up:d} gave up and {silent:d} are wrong in silence." in answer
-    assert answer.startswith(f"Of {len(found)} cells (semi-analytical: ")
-    assert answer.count(". ") == 0
 
 
 @pytest.mark.parametrize(("share", "outcome"), [(1, Status.PASS), (2, Status.FAIL)])
@@ -354,26 +331,3 @@ def test_every_way_to_end_is_worse_than_any_residual_and_looks_of_its_own() -> N
     looks = [look_of(curve("", [0], [0], Look.TILES, series)) for _, series in CLASSES]
     assert len({look["color"] for look in looks}) == len(CLASSES)
     assert len({look["marker"] for look in looks}) == len(CLASSES)
-
-
-def test_halved_increments_are_marked_at_the_cost() -> None:
-    view = views(Level.QUICK, 32)[0]
-    first, *others = view.cells
-    found = {first.name: GOOD.model_copy(update={"halvings": 1})}
-    found |= {cell.name: GOOD for cell in others}
-    notes = [text for *_, text in view_chart(view, found).rows[0][0].notes]
-    assert notes.count("400*") == 1
-    assert set(notes) == {"400", "400*"}
-
-
-def test_every_cell_is_a_line_of_the_table() -> None:
-    lines = row_files(kept(records()))["rows.csv"].splitlines()
-    assert len(lines) == 1 + len(study.cases(Settings(Level.QUICK)))
-    assert lines[0].startswith("case name,friction,push,modulus_ratio")
-
-
-def test_verdicts_name_at_most_a_dozen_cells() -> None:
-    bad = GOOD.model_copy(update={"verdict": Verdict.SILENT})
-    cells = study_cells(Level.QUICK, 32)
-    text = study.nothing_silent(dict.fromkeys(cells, bad)).measured
-    assert f"and {len(cells) - study.MAX_NAMED} more" in text
