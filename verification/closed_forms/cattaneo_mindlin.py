@@ -1,4 +1,5 @@
-"""Cattaneo and Mindlin: Hertz point contact, constant load, tangential force raised from zero.
+"""Hertz contact at constant normal load under a tangential force that grows from zero (Cattaneo and
+Mindlin), and the corresponding superposition for other shapes.
 
 The pair of bodies must be uncoupled (identical bodies, both incompressible, or Dundurs' second
 constant zero).
@@ -25,13 +26,15 @@ ROUNDING = 1e-14
 
 @dataclass(frozen=True)
 class PartialSlip:
-    """State under a tangential force applied once, monotonically (Cattaneo 1938; Mindlin 1949).
+    """State of a Hertz contact under a tangential force that has grown monotonically from zero.
+
+    The formulas are those of Cattaneo (1938) and Mindlin (1949).
 
     load                  normal load W > 0 [force]
     contact_radius        Hertz radius a > 0 [length]
     friction_coefficient  µ > 0
-    tangential_modulus    G* with 1/G* = sum of (2-nu)/4G [force/length²]
-    tangential_force      T, |T| <= µW [force]; all results are odd in it or even in it
+    tangential_modulus    G* with 1/G* = sum of (2-ν)/4G [force/length²]
+    tangential_force      T, |T| <= µW [force]; every result is an odd or an even function of T
 
     Raises ValueError when |T| > µW.
     """
@@ -47,12 +50,12 @@ class PartialSlip:
 
     @property
     def friction_limit(self) -> float:
-        """Largest tangential force µW [force]."""
+        """Largest tangential force µW that friction can carry [force]."""
         return self.friction_coefficient * self.load
 
     @property
     def sliding_shift(self) -> float:
-        """Shift 3µW/4aG* at which the whole contact slides [length]."""
+        """Tangential shift 3µW/4aG* at the onset of gross slip [length]."""
         return 3 * self.friction_limit / (4 * self.contact_radius * self.tangential_modulus)
 
     @property
@@ -69,11 +72,12 @@ class PartialSlip:
 
     @property
     def dissipated_energy(self) -> float:
-        """Energy dissipated by friction since T = 0 [force*length], a quarter of that of a full
-        cycle.
+        """Energy dissipated by friction since T = 0 [force*length], a quarter of the energy of a
+        full cycle.
 
-        (6/5) sliding_shift µW f with f = (1-y)³(1+3y+y²)/6, y = c/a: the bracket of Mindlin and
-        Deresiewicz (1953) for the cycle, factored to avoid cancellation for small T.
+        The formula is (6/5) sliding_shift µW f with f = (1-y)³(1+3y+y²)/6, y = c/a. It is the
+        bracket of Mindlin and Deresiewicz (1953) for the cycle, factored to avoid cancellation for
+        small T.
         """
         ratio = self._force_ratio
         slipped = 1.0 if ratio == 1 else -expm1(log1p(-ratio) / 3)
@@ -81,7 +85,8 @@ class PartialSlip:
         return self.sliding_shift * self.friction_limit * slipped**3 * (1 + 3 * y + y**2) / 5
 
     def shear(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the shear on the lower body, parallel to the force [force/length²]."""
+        """Compute the shear on the lower body at distance r, parallel to the force
+        [force/length²]."""
         a, c = self.contact_radius, self.stick_radius
         rho = np.abs(np.asarray(r, dtype=float))
         full = np.sqrt(np.maximum((a - rho) * (a + rho), 0))
@@ -90,11 +95,12 @@ class PartialSlip:
         return np.asarray(copysign(slope, self.tangential_force) * (full - taken_off))
 
     def slip(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the slip of the lower surface relative to the indenter, for ν = 0 and r <= a
+        """Compute the slip of the lower surface relative to the indenter at distance r <= a
         [length].
 
-        The slip is the gap at r of the Hertz contact of radius c, scaled from normal to tangential
-        displacement by µE*/G*. It opposes the shear (cf. Jäger 1998).
+        The formula holds for ν = 0. The slip is the gap at r of the Hertz contact of radius c,
+        scaled from normal to tangential displacement by µE*/G*. It opposes the shear (cf. Jäger
+        1998).
         """
         a, c = self.contact_radius, self.stick_radius
         rho = np.clip(np.abs(np.asarray(r, dtype=float)), c, a)
@@ -108,7 +114,8 @@ class PartialSlip:
 
 
 class NormalContact(Protocol):
-    """Normal contact as required by the superposition; positions are (r) or (x, y)."""
+    """Interface of a normal contact that the superposition requires; positions are (r) or (x,
+    y)."""
 
     @property
     def load(self) -> float:
@@ -116,7 +123,7 @@ class NormalContact(Protocol):
 
     @property
     def approach(self) -> float:
-        """Approach of distant points [length]."""
+        """Approach of distant points of the two bodies [length]."""
 
     @property
     def pressure(self) -> Callable[..., NDArray[np.float64]]:
@@ -124,12 +131,12 @@ class NormalContact(Protocol):
 
     @property
     def gap(self) -> Callable[..., NDArray[np.float64]]:
-        """Deformed gap at a position [length]."""
+        """Gap of the deformed surfaces at a position [length]."""
 
 
 @dataclass(frozen=True)
 class Superposition:
-    """Difference of two normal contacts, times µ; build with `superpose`.
+    """Partial slip as µ times the difference of two normal contacts; created by `superpose`.
 
     full                  contact under the load W
     stick                 contact under W - |T|/µ; its area is the stick zone
@@ -150,19 +157,20 @@ class Superposition:
         return self._signed * self.modulus_ratio * (self.full.approach - self.stick.approach)
 
     def shear(self, *position: ArrayLike) -> NDArray[np.float64]:
-        """Compute the shear on the lower body at (r) or (x, y) [force/length²].
+        """Compute the shear on the lower body at a position (r) or (x, y) [force/length²].
 
-        Both pressures are infinite at an apex; evaluate at a distance from the apex.
+        Both pressures are infinite at an apex; evaluate the shear at a distance from the apex.
         """
         return np.asarray(
             self._signed * (self.full.pressure(*position) - self.stick.pressure(*position))
         )
 
     def slip(self, *position: ArrayLike) -> NDArray[np.float64]:
-        """Compute the slip of the lower surface relative to the indenter, ν = 0, in the contact
+        """Compute the slip of the lower surface relative to the indenter at a position in contact
         [length].
 
-        The slip opposes the shear and is the gap of the stick contact, scaled by µ E*/G*.
+        The formula holds for ν = 0. The slip opposes the shear and is the gap of the stick contact,
+        scaled by µ E*/G*.
         """
         opened = self.stick.gap(*position) - self.full.gap(*position)
         return np.asarray(-self._signed * self.modulus_ratio * opened)
@@ -179,7 +187,7 @@ def superpose(
     friction_coefficient: float,
     modulus_ratio: float,
 ) -> Superposition:
-    """Return the partial slip of a contact with the given normal solution.
+    """Compute the partial slip of a contact from its normal solution (Jäger, Ciavarella).
 
     contact_under_load    contact as a function of the normal load [force] >= 0
     load                  W > 0 [force]

@@ -39,11 +39,12 @@ PRESSURE_ORDER = 20
 
 @dataclass(frozen=True)
 class LayeredSurface:
-    """Normal response of the surfaces of two layered bodies.
+    """Normal compliance of the surfaces of two layered bodies, in wavenumber space.
 
-    compliance       F(k) of both bodies together [length³/force], vectorised
-    contact_modulus  E* of their outermost materials [force/length²]
-    thickness        of the thinner outermost layer: scale of the change of F to 2/(k E*) [length]
+    compliance       F(k) of both bodies together [length³/force], a vectorised function
+    contact_modulus  E* of the outermost materials [force/length²]
+    thickness        thickness of the thinner outermost layer: the scale on which F approaches 2/(k
+                     E*) [length]
     """
 
     compliance: Compliance
@@ -51,20 +52,25 @@ class LayeredSurface:
     thickness: float
 
     def excess(self, k: Array) -> Array:
-        """Compute X(k) - 1, the effect of the layers on a half-space of the outermost material
-        [1]."""
+        """Compute X(k) - 1, the relative change of the compliance by the layers, at wavenumbers k
+        [1].
+
+        The change is relative to a half-space of the outermost material.
+        """
         return np.asarray(k * self.contact_modulus * self.compliance(k) / 2 - 1)
 
 
 @dataclass(frozen=True)
 class LayeredIndentation:
-    """State of a contact of radius a [length].
+    """State of a frictionless contact of a paraboloid or flat punch with layered bodies.
 
-    radius       R of the paraboloid [length]; infinite for a flat punch
-    approach     since first touch [length]
-    load         normal load [force]
-    transform    (X - 1) p~ at the wavenumbers, times their quadrature weights [force/length]
-    wavenumbers  of Gauss's rule [1/length]
+    surface         normal compliance of the bodies
+    contact_radius  a [length]
+    radius          radius of curvature R of the paraboloid [length]; infinite for a flat punch
+    approach        approach since first touch [length]
+    load            normal load [force]
+    transform       (X - 1) p~ at the wavenumbers, times their quadrature weights [force/length]
+    wavenumbers     nodes of the Gauss rule in k [1/length]
     """
 
     surface: LayeredSurface
@@ -76,7 +82,8 @@ class LayeredIndentation:
     wavenumbers: Array
 
     def pressure(self, r: ArrayLike) -> Array:
-        """Compute the pressure at distance r from the axis [force/length²], zero outside."""
+        """Compute the contact pressure at distance r from the axis [force/length²], zero
+        outside."""
         a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
         chord = np.sqrt(np.maximum((a - rho) * (a + rho), 0))
         smooth = chebyshev.chebval(2 * np.minimum(rho / a, 1) ** 2 - 1, self._smooth)
@@ -86,7 +93,11 @@ class LayeredIndentation:
 
     @cached_property
     def _smooth(self) -> Array:
-        """Chebyshev coefficients in 2r²/a² - 1 of p/√(a²-r²), or p √(a²-r²) of a flat punch."""
+        """Chebyshev coefficients of the pressure without its root at the edge, in the variable
+        2r²/a² - 1.
+
+        The expanded function is p/√(a²-r²) for a paraboloid, and p √(a²-r²) for a flat punch.
+        """
         count = _order(self.contact_radius, self.surface.thickness)
         x = chebyshev.chebpts1(count)
         a = self.contact_radius
@@ -98,7 +109,10 @@ class LayeredIndentation:
         )
 
     def _pressure_at(self, r: Array, chord: Array) -> Array:
-        """Compute g(a)/√(a²-r²) - ∫ᵣᵃ g'(s)/√(s²-r²) ds."""
+        """Compute the pressure g(a)/√(a²-r²) - ∫ᵣᵃ g'(s)/√(s²-r²) ds at radii r [force/length²].
+
+        chord  √(a²-r²) [length]
+        """
         v, weights = unit_gauss(
             PRESSURE_ORDER + _order(self.contact_radius, self.surface.thickness)
         )
@@ -124,17 +138,25 @@ class LayeredIndentation:
 
 
 def flat_punch(surface: LayeredSurface, contact_radius: float) -> LayeredIndentation:
-    """Solve a flat punch at unit approach, whose load is the contact stiffness."""
+    """Solve the contact of a flat punch at unit approach; its load is then the contact
+    stiffness."""
     return _solved(surface, contact_radius, np.inf)
 
 
 def paraboloid(surface: LayeredSurface, radius: float, contact_radius: float) -> LayeredIndentation:
-    """Solve a paraboloid with a given contact radius."""
+    """Solve the contact of a paraboloid with layered bodies for a given contact radius.
+
+    radius          radius of curvature of the paraboloid [length]
+    contact_radius  a [length]
+    """
     return _solved(surface, contact_radius, radius)
 
 
 def paraboloid_under(load: float, surface: LayeredSurface, radius: float) -> LayeredIndentation:
-    """Solve a paraboloid under a load [force]."""
+    """Solve the contact of a paraboloid with layered bodies under a given normal load [force].
+
+    radius  radius of curvature of the paraboloid [length]
+    """
     hertz = float(np.cbrt(3 * load * radius / (4 * surface.contact_modulus)))
 
     def excess(scale: float) -> float:
@@ -175,14 +197,17 @@ def _solved(surface: LayeredSurface, a: float, radius: float) -> LayeredIndentat
 
 
 def _order(a: float, thickness: float) -> int:
-    """Return the number of nodes that resolves the scale of the layer thickness."""
+    """Return the number of Gauss nodes in 0 < r < a that resolves the scale of the layer
+    thickness."""
     return 50 + int(4 * a / thickness)
 
 
 def _wavenumbers(a: float, thickness: float) -> tuple[Array, Array]:
-    """Return Gauss points and weights on 0 < k < REACH/h.
+    """Return nodes and weights of a composite Gauss rule in the wavenumber, 0 < k <
+    REACH/thickness.
 
-    The panels double in width up to the limit by the oscillation of cos ka.
+    The panels double in width from the smallest wavenumber, up to the width that resolves the
+    oscillation of cos ka.
     """
     limit, step = REACH / thickness, PANEL_PHASE / (a + thickness)
     first = LONGEST_WAVE / (a + thickness)

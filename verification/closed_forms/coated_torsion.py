@@ -41,11 +41,11 @@ ORDER = 80
 
 @dataclass(frozen=True)
 class TorsionalSurface:
-    """Torsional response of the surfaces of two coated bodies.
+    """Torsional compliance of the surfaces of two coated bodies, in wavenumber space.
 
-    compliance         F(k) of both bodies together [length³/force], vectorised
-    torsional_modulus  reciprocal of the sum of 1/G of their outermost materials [force/length²]
-    thickness          of the thinner outermost layer [length]
+    compliance         F(k) of both bodies together [length³/force], a vectorised function
+    torsional_modulus  reciprocal of the sum of 1/G of the outermost materials [force/length²]
+    thickness          thickness of the thinner outermost layer [length]
     """
 
     compliance: Callable[[Array], Array]
@@ -53,15 +53,23 @@ class TorsionalSurface:
     thickness: float
 
     def excess(self, k: Array) -> Array:
-        """Compute X(k) - 1, the effect of the layers on a half-space of the outermost material
-        [1]."""
+        """Compute X(k) - 1, the relative change of the torsional compliance by the layers, at
+        wavenumbers k.
+
+        The change is relative to a half-space of the outermost material [1].
+        """
         return np.asarray(k * self.torsional_modulus * self.compliance(k) - 1)
 
 
 def one_layer(k: Array, thickness: float, shear_modulus: float, base_modulus: float) -> Array:
-    """Compute F(k) of one layer bonded to a half-space [length³/force].
+    """Compute the torsional compliance F(k) of one layer bonded to a half-space [length³/force].
 
     F = 1/(Gk) (1 + χ e^(-2kh))/(1 - χ e^(-2kh)) with χ = (G - G_base)/(G + G_base).
+
+    k              wavenumbers [1/length]
+    thickness      h [length]
+    shear_modulus  G of the layer [force/length²]
+    base_modulus   G_base of the half-space [force/length²]
     """
     chi = (shear_modulus - base_modulus) / (shear_modulus + base_modulus)
     reflected = chi * np.exp(-2 * k * thickness)
@@ -70,13 +78,13 @@ def one_layer(k: Array, thickness: float, shear_modulus: float, base_modulus: fl
 
 @dataclass(frozen=True)
 class CoatedTorsion:
-    """Contact under a torque that grows from zero.
+    """State of a contact of coated bodies in partial slip, under a torque that has grown from zero.
 
-    surface         the two bodies
+    surface         torsional compliance of the two bodies
     contact_radius  a > 0 [length]
     limit           µp as a function of the distance from the axis [force/length²], falling like a
                     square root towards r = a
-    stick_radius    c, a tenth of a <= c < a [length]
+    stick_radius    c, 0.1 a <= c < a [length]
     """
 
     surface: TorsionalSurface
@@ -99,9 +107,9 @@ class CoatedTorsion:
         contact_radius: float,
         limit: Callable[[Array], Array],
     ) -> "CoatedTorsion":
-        """Return the state under a torque [force*length].
+        """Compute the state under a torque [force*length].
 
-        Raises ValueError if the stick radius is outside its range.
+        Raises ValueError if the stick radius would be outside its range.
         """
 
         def excess(part: float) -> float:
@@ -113,7 +121,7 @@ class CoatedTorsion:
 
     @property
     def sliding_torque(self) -> float:
-        """Torque of gross slip, 2π ∫ µp r² dr [force*length]."""
+        """Torque 2π ∫ µp r² dr at gross slip [force*length]."""
         a = self.contact_radius
         v, weights = unit_gauss(ORDER)
         r, chord = a * np.sin(pi / 2 * v), a * np.cos(pi / 2 * v)
@@ -121,24 +129,28 @@ class CoatedTorsion:
 
     @property
     def twist(self) -> float:
-        """Relative rotation φ [radian]."""
+        """Relative rotation φ of the two bodies [radian]."""
         return self._solved[0]
 
     @property
     def torque(self) -> float:
-        """4π ∫ h s ds [force*length]."""
+        """Torque 4π ∫ h s ds of the contact, with h the Abel transform of the shear
+        [force*length]."""
         s, weights = self._nodes
         return float(4 * pi * np.sum(weights * self.transform * s))
 
     @property
     def transform(self) -> Array:
-        """h at the nodes, in the stick disc and then in the annulus [force/length]."""
+        """Abel transform h of the shear at the nodes, in the stick disc and then in the annulus
+        [force/length]."""
         return self._solved[1]
 
     def displacement(self, r: Array) -> Array:
-        """Compute the circumferential displacement at 0 < r <= c [length], which must be φr.
+        """Compute the circumferential surface displacement at radii 0 < r <= c of the stick disc
+        [length].
 
-        ∫₀^∞ sin ks J₁(kr) dk = s/(r√(r²-s²)) for s < r, and 0 beyond.
+        The displacement must be φr, which checks the solution. The formula uses ∫₀^∞ sin ks J₁(kr)
+        dk = s/(r√(r²-s²)) for s < r, and 0 beyond.
         """
         k, weight = self._wavenumbers
         v, weights = unit_gauss(self._order)
@@ -148,7 +160,8 @@ class CoatedTorsion:
         return np.asarray((half_space + layers) / self.surface.torsional_modulus)
 
     def _h(self, s: Array) -> Array:
-        """Solve for h in the stick disc."""
+        """Evaluate the Abel transform h of the shear at positions s in the stick disc
+        [force/length]."""
         k, weight = self._wavenumbers
         G = self.surface.torsional_modulus
         by_layers = np.sin(np.multiply.outer(s, k)) @ (weight * self._spectrum)
@@ -156,7 +169,8 @@ class CoatedTorsion:
 
     @cached_property
     def _spectrum(self) -> Array:
-        """(X - 1) q~ at the wavenumbers."""
+        """Effect (X - 1) q~ of the layers on the Hankel transform of the shear, at the
+        wavenumbers."""
         k, _ = self._wavenumbers
         s, weights = self._nodes
         transform = np.sin(np.outer(k, s)) @ (weights * self.transform)
@@ -164,7 +178,11 @@ class CoatedTorsion:
 
     @cached_property
     def _solved(self) -> tuple[float, Array]:
-        """φ and h: the equation is solved for unit φ and for the annulus alone."""
+        """Twist φ and Abel transform h of the shear at the nodes.
+
+        The integral equation is solved once for unit twist and once for the shear of the annulus
+        alone. Continuity of h at the edge of the stick disc determines φ.
+        """
         G, c = self.surface.torsional_modulus, self.stick_radius
         s, weights = self._nodes
         order = self._order
@@ -179,13 +197,16 @@ class CoatedTorsion:
         return twist, np.append(twist * h[:, 0] + h[:, 1], annulus)
 
     def _kernel(self, s: Array, t: Array) -> Array:
-        """Compute K(s, t)."""
+        """Compute the kernel K(s, t) of the integral equation, caused by the layers."""
         k, weight = self._wavenumbers
         weighted = weight * self.surface.excess(k)
         return np.asarray(2 / pi * (np.sin(np.outer(s, k)) * weighted) @ np.sin(np.outer(k, t)))
 
     def _sliding_transform(self, s: Array) -> Array:
-        """Compute h of the friction limit; r² = s² + (a²-s²) sin² θ removes the root."""
+        """Compute the Abel transform h of the friction limit at positions s [force/length].
+
+        The substitution r² = s² + (a²-s²) sin² θ removes the root.
+        """
         v, weights = unit_gauss(ORDER)
         chord = np.sqrt(self.contact_radius**2 - s**2)[:, None]
         r = np.hypot(s[:, None], chord * np.sin(pi / 2 * v))
@@ -194,19 +215,21 @@ class CoatedTorsion:
 
     @property
     def _order(self) -> int:
-        """Number of nodes in each zone that resolves the scale of the layer thickness."""
+        """Number of nodes in the stick disc and in the annulus that resolves the layer
+        thickness."""
         return ORDER + int(4 * self.contact_radius / self.surface.thickness)
 
     @cached_property
     def _nodes(self) -> tuple[Array, Array]:
-        """Gauss points and weights in the stick disc and in the annulus."""
+        """Gauss nodes and weights in the stick disc and then in the slip annulus [length]."""
         a, c = self.contact_radius, self.stick_radius
         v, weights = unit_gauss(self._order)
         return np.append(c * v, c + (a - c) * v), np.append(c * weights, (a - c) * weights)
 
     @cached_property
     def _wavenumbers(self) -> tuple[Array, Array]:
-        """Gauss points and weights on 0 < k < REACH/h."""
+        """Nodes and weights of a composite Gauss rule in the wavenumber, 0 < k < REACH/thickness
+        [1/length]."""
         limit = REACH / self.surface.thickness
         step = PANEL_PHASE / (2 * self.contact_radius + self.surface.thickness)
         fine = step * 2.0 ** -np.arange(HALVINGS, 0, -1)

@@ -1,7 +1,7 @@
-"""Rigid cone on a half-space.
+"""Closed-form contact of a rigid cone with an elastic half-space.
 
 The flank is inclined by `slope_angle` to the surface, which must be small for linear elasticity.
-Valid for frictionless faces or pairs without normal–tangential coupling.
+The solution is valid for frictionless faces or pairs without normal-tangential coupling.
 """
 
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 @dataclass(frozen=True)
 class ConeContact:
-    """State of a cone contact (Love 1939; Sneddon 1965).
+    """State of the contact between a cone and a half-space (Love 1939; Sneddon 1965).
 
     slope_angle      angle of the flank to the surface, 0 < angle < π/2 [radian]
     contact_modulus  E* [force/length²]
@@ -26,7 +26,7 @@ class ConeContact:
 
     @classmethod
     def under_load(cls, load: float, slope_angle: float, contact_modulus: float) -> "ConeContact":
-        """Return the contact under a normal load W >= 0 [force]: a² = 2W/(πE* tan(slope))."""
+        """Compute the cone contact under a normal load W >= 0 [force]: a² = 2W/(πE* tan(slope))."""
         a = sqrt(2 * load / (pi * contact_modulus * tan(slope_angle)))
         return cls(slope_angle, contact_modulus, a)
 
@@ -37,12 +37,15 @@ class ConeContact:
 
     @property
     def approach(self) -> float:
-        """Approach (π/2) a tan(slope) of distant points [length]."""
+        """Approach (π/2) a tan(slope) of distant points of the two bodies [length]."""
         return pi / 2 * self.contact_radius * tan(self.slope_angle)
 
     def pressure(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the pressure (E*/2) tan(slope) arccosh(a/r) [force/length²]; infinite at the
-        apex."""
+        """Compute the pressure (E*/2) tan(slope) arccosh(a/r) at distance r from the axis
+        [force/length²].
+
+        The pressure is infinite at the apex and zero outside the contact.
+        """
         a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
         inside = rho < a
         with np.errstate(divide="ignore"):
@@ -50,7 +53,10 @@ class ConeContact:
         return np.asarray(self.contact_modulus / 2 * tan(self.slope_angle) * np.arccosh(ratio))
 
     def gap(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the deformed gap tan(slope) [√(r²-a²) - a arccos(a/r)] [length], zero inside."""
+        """Compute the gap tan(slope) [√(r²-a²) - a arccos(a/r)] of the deformed surfaces [length].
+
+        The gap is zero inside the contact.
+        """
         a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
         outside = np.maximum(rho, a)
         root = np.sqrt((outside - a) * (outside + a))

@@ -1,8 +1,8 @@
-"""Hertz contact with an elliptical contact area.
+"""Hertz contact with an elliptical contact area, in closed form.
 
-The undeformed gap is x²/2Rx + y²/2Ry. Everything is written with Carlson's symmetric elliptic
-integrals, which have no 0/0 in the circular limit and do not care which axis is the longer.
-Valid for semi-axes much smaller than the radii and uncoupled pairs.
+The undeformed gap is x²/2Rx + y²/2Ry. All formulas use Carlson's symmetric elliptic integrals,
+which have no 0/0 in the circular limit and do not depend on which axis is the longer. The solution
+is valid for semi-axes much smaller than the radii and for uncoupled pairs.
 """
 
 from dataclasses import dataclass
@@ -15,10 +15,13 @@ from scipy.special import elliprd, elliprf
 
 
 def axis_ratio(radius_x: float, radius_y: float) -> float:
-    """Solve for the ratio k = b/a of the semi-axes along y and x (Hertz 1882).
+    """Compute the ratio k = b/a of the semi-axes along y and x of an elliptical Hertz contact.
 
-    Solves Rx/Ry = R_D(1, 0, k²)/R_D(k², 0, 1), which is the classical B/A = [(a/b)²E - K]/[K - E]
-    after cancelling the common factor 1 - k².
+    The equation is Rx/Ry = R_D(1, 0, k²)/R_D(k², 0, 1), which is the classical B/A = [(a/b)²E -
+    K]/[K - E] (Hertz 1882) after cancelling the common factor 1 - k².
+
+    radius_x  radius of curvature Rx of the gap along x [length]
+    radius_y  radius of curvature Ry of the gap along y [length]
     """
     if radius_x == radius_y:
         return 1.0
@@ -51,7 +54,7 @@ class EllipticalContact:
     def under_load(
         cls, load: float, radii: tuple[float, float], contact_modulus: float
     ) -> "EllipticalContact":
-        """Return the contact under a normal load W >= 0 [force]."""
+        """Compute the elliptical contact under a normal load W >= 0 [force]."""
         k = axis_ratio(*radii)
         a = np.cbrt(load * radii[0] * elliprd(k**2, 0, 1) / (pi * contact_modulus))
         return cls(radii, contact_modulus, (float(a), float(k * a)), k)
@@ -64,7 +67,7 @@ class EllipticalContact:
 
     @property
     def peak_pressure(self) -> float:
-        """Pressure at the centre, 3W/2πab [force/length²]."""
+        """Pressure 3W/2πab at the centre of the contact [force/length²]."""
         return self._pressure_slope * self.semi_axes[0]
 
     @property
@@ -75,7 +78,8 @@ class EllipticalContact:
 
     @property
     def approach(self) -> float:
-        """Approach of distant points, 3WK/2πE*a with K the complete integral [length]."""
+        """Approach of distant points of the two bodies, 3WK/2πE*a with K the complete integral
+        [length]."""
         b = self.semi_axes[1]
         return float(self.peak_pressure * b * elliprf(1, self.axis_ratio**2, 0)) / (
             self.contact_modulus
@@ -88,10 +92,11 @@ class EllipticalContact:
         return np.asarray(self._pressure_slope * np.sqrt(np.maximum(room, 0)))
 
     def surface_displacement(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
-        """Compute the normal displacement, sum of both bodies, inside and outside [length].
+        """Compute the normal surface displacement at (x, y), sum of both bodies [length].
 
-        Potential of the ellipsoidal density: the integrals start at the parameter of the confocal
-        ellipse through (x, y), which is zero inside. Needs a load above zero.
+        The points may lie inside or outside the contact. The displacement is the potential of an
+        ellipsoidal density: the integrals start at the parameter of the confocal ellipse through
+        (x, y), which is zero inside. The load must be above zero.
         """
         xs, ys = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
         a2, b2 = self.semi_axes[0] ** 2, self.semi_axes[1] ** 2
@@ -110,7 +115,8 @@ class EllipticalContact:
         return np.asarray(scale * potential)
 
     def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
-        """Compute the deformed gap [length], zero inside to rounding."""
+        """Compute the gap of the deformed surfaces at (x, y) [length]; zero to rounding in the
+        contact."""
         xs, ys = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
         undeformed = xs**2 / (2 * self.radii[0]) + ys**2 / (2 * self.radii[1])
         if self.semi_axes[0] == 0:

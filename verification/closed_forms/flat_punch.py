@@ -1,7 +1,7 @@
-"""Rigid flat-ended circular punch on a half-space.
+"""Closed-form contact of a rigid flat-ended circular punch with a half-space, centred or tilted.
 
-Valid for frictionless faces or pairs without normal–tangential coupling; the pressure is
-singular at the rim.
+The solution is valid for frictionless faces or pairs without normal-tangential coupling. The
+pressure is singular at the rim.
 """
 
 from dataclasses import dataclass
@@ -13,7 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 
 @dataclass(frozen=True)
 class FlatPunchContact:
-    """State of a flat punch contact (Boussinesq 1885; Johnson 1985, ch. 3.4).
+    """State of the contact between a flat punch and a half-space (Boussinesq 1885; Johnson 1985,
+    ch. 3.4).
 
     contact_radius   punch radius a [length]
     contact_modulus  E* [force/length²]
@@ -28,23 +29,29 @@ class FlatPunchContact:
     def under_load(
         cls, load: float, contact_radius: float, contact_modulus: float
     ) -> "FlatPunchContact":
-        """Return the contact under a normal load [force]; the arguments are ordered as for other
-        contacts."""
+        """Create the flat punch contact under a normal load [force].
+
+        The arguments are in the order of the other closed forms.
+        """
         return cls(contact_radius, contact_modulus, load)
 
     @property
     def approach(self) -> float:
-        """Approach W/2E*a of distant points [length]."""
+        """Approach W/2E*a of distant points of the two bodies [length]."""
         return self.load / (2 * self.contact_modulus * self.contact_radius)
 
     def pressure(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the pressure W/(2πa√(a²-r²)) [force/length²]; infinite at the rim, zero
-        outside."""
+        """Compute the pressure W/(2πa√(a²-r²)) at distance r from the axis [force/length²].
+
+        The pressure is infinite at the rim and zero outside.
+        """
         return _rim_singular(self.load, self.contact_radius, r)
 
     def gap(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Return the gap [length]: zero under the punch and infinite outside, where there is no
-        surface."""
+        """Return the gap at distance r from the axis [length].
+
+        The gap is zero under the punch and infinite outside, where the punch has no surface.
+        """
         rho = np.abs(np.asarray(r, dtype=float))
         return np.asarray(np.where(rho <= self.contact_radius, 0.0, np.inf))
 
@@ -58,7 +65,7 @@ def _rim_singular(force: float, a: float, r: ArrayLike) -> NDArray[np.float64]:
 
 @dataclass(frozen=True)
 class TiltedPunch:
-    """State of a flat punch under an eccentric load (Sneddon 1951, § 52).
+    """State of the contact of a flat punch under an eccentric load (Sneddon 1951, § 52).
 
     A pressure ∝ x/√(a²-r²) displaces the disc below as a plane, and a pressure ∝ 1/√(a²-r²) by a
     constant (Galin's theorem for a polynomial of first degree).
@@ -83,18 +90,20 @@ class TiltedPunch:
 
     @property
     def approach(self) -> float:
-        """Approach W/2E*a of the axis [length]: the tilt does not change it."""
+        """Approach W/2E*a of the punch axis [length], which does not depend on the tilt."""
         return self.load / (2 * self.contact_modulus * self.contact_radius)
 
     @property
     def tilt(self) -> tuple[float, float]:
-        """Slopes along x and y, 3We/(4E*a³) each: the tilting stiffness is (4/3) E* a³."""
+        """Slopes of the punch along x and y, We_x/k and We_y/k with the tilting stiffness k = (4/3)
+        E* a³."""
         stiffness = 4 / 3 * self.contact_modulus * self.contact_radius**3
         e_x, e_y = self.eccentricity
         return self.load * e_x / stiffness, self.load * e_y / stiffness
 
     def pressure(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
-        """Compute W/(2πa√(a²-r²)) (1 + 3 (e_x x + e_y y)/a²) [force/length²].
+        """Compute the pressure W/(2πa√(a²-r²)) (1 + 3 (e_x x + e_y y)/a²) at (x, y)
+        [force/length²].
 
         The pressure is infinite at the rim and zero outside.
         """

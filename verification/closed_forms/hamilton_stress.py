@@ -1,4 +1,4 @@
-"""Stress of a sliding Hertz contact: all components at any point below the surface.
+"""Stress below a sliding Hertz contact: all components at any point of the half-space.
 
 Hamilton (1983) has a closed form. Here the stress is one integral of the same potentials, without
 special cases. The pressure √(a²-r²) is the sum over -a < s < a of point sources of strength
@@ -21,10 +21,14 @@ def hamilton_stress(
     peak_shear: float,
     poisson_ratio: float,
 ) -> NDArray[np.float64]:
-    """Compute the stress (6, …), order xx, yy, zz, yz, xz, xy, tension positive [force/length²].
+    """Compute the stress below a Hertz contact in gross slip along x [force/length²].
 
-    x, y, z     position, z > 0 into the body, broadcast together [length]
-    peak_shear  q0 of the shear q0 √(1-r²/a²) along +x on the body [force/length²]
+    Returns an array (6, …) in the order xx, yy, zz, yz, xz, xy, tension positive.
+
+    x, y, z        position, z > 0 into the body, broadcast together [length] contact_radius a
+                   [length]
+    peak_pressure  p0 of the pressure p0 √(1-r²/a²) [force/length²]
+    peak_shear     q0 of the shear q0 √(1-r²/a²) along +x on the body [force/length²]
 
     The integrand varies within a distance z of s = r; with s = r + z sinh u this distance is of
     order one. Raises ValueError for z <= 0, where the integral does not exist.
@@ -54,10 +58,15 @@ def _point_stress(
     deep: NDArray[np.complex128],
     nu: float,
 ) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
-    """Return 2π times the stress of a unit force along z and along x (Boussinesq; Cerruti).
+    """Compute 2π times the stress by a unit point force along z and by one along x, at a complex
+    depth.
 
-    The potentials are 1/ρ, -ln(ρ+z) and z ln(ρ+z)-ρ at a separate, complex depth (Johnson 1985,
-    sections 3.2 and 3.6).
+    The potentials are 1/ρ, -ln(ρ+z) and z ln(ρ+z)-ρ (Boussinesq; Cerruti; Johnson 1985, sections
+    3.2 and 3.6).
+
+    x, y, z  position relative to the force, in contact radii
+    deep     complex depth z + is of the source
+    nu       Poisson's ratio
     """
     rho = np.sqrt(x * x + y * y + deep * deep)
     add = rho + deep

@@ -1,7 +1,7 @@
-"""Hertz point contact: paraboloid on a half-space.
+"""Hertz point contact: closed form for a paraboloid on a half-space.
 
-The undeformed gap is r²/2R; for a ball this is the leading term of the exact arc, see `sphere`.
-Valid for a << R, frictionless surfaces or pairs without normal–tangential coupling.
+The undeformed gap is r²/2R; for a ball this is the leading term of the exact arc, see `sphere`. The
+solution is valid for a << R, frictionless surfaces or pairs without normal-tangential coupling.
 """
 
 import math
@@ -15,17 +15,21 @@ ElasticConstants = tuple[float, float]
 
 
 def contact_modulus(*bodies: ElasticConstants) -> float:
-    """Return the modulus E* of normal contact: 1/E* = sum of (1 - ν²)/E [force/length²].
+    """Compute the modulus E* of normal contact: 1/E* = sum of (1 - ν²)/E [force/length²].
 
     The contact stiffness dW/d(approach) of a circular contact is 2 E* a (Johnson 1985, ch. 4).
+
+    bodies  Young's modulus E and Poisson's ratio ν of each elastic body
     """
     return 1 / sum((1 - nu**2) / E for E, nu in _checked(bodies))
 
 
 def tangential_modulus(*bodies: ElasticConstants) -> float:
-    """Return the modulus G* of tangential contact: 1/G* = sum of (2 - ν)/(4 G) [force/length²].
+    """Compute the modulus G* of tangential contact: 1/G* = sum of (2 - ν)/(4 G) [force/length²].
 
-    The tangential stiffness of a stuck circular contact is 2 G* a (Mindlin 1949).
+    The tangential stiffness of a circular contact in full stick is 2 G* a (Mindlin 1949).
+
+    bodies  Young's modulus E and Poisson's ratio ν of each elastic body
     """
     return 1 / sum((2 - nu) * (1 + nu) / (2 * E) for E, nu in _checked(bodies))
 
@@ -56,12 +60,13 @@ class PointContact:
 
     @classmethod
     def under_load(cls, load: float, radius: float, contact_modulus: float) -> "PointContact":
-        """Return the contact under a normal load W >= 0 [force]: a³ = 3WR/4E*."""
+        """Compute the Hertz contact under a normal load W >= 0 [force]: a³ = 3WR/4E*."""
         return cls(radius, contact_modulus, float(np.cbrt(3 * load * radius / contact_modulus / 4)))
 
     @classmethod
     def at_approach(cls, approach: float, radius: float, contact_modulus: float) -> "PointContact":
-        """Return the contact at an approach >= 0 of distant points [length]: a² = R * approach."""
+        """Compute the Hertz contact at an approach >= 0 of distant points [length]: a² = R *
+        approach."""
         return cls(radius, contact_modulus, sqrt(radius * approach))
 
     @property
@@ -80,7 +85,7 @@ class PointContact:
         return 2 * self.contact_modulus * self.contact_radius / (pi * self.radius)
 
     def pressure(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the pressure at distance r from the axis [force/length²], zero outside the
+        """Compute the Hertz pressure at distance r from the axis [force/length²], zero outside the
         contact."""
         a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
         # p0/a = 2E*/πR does not involve a, so first touch needs no special case.
@@ -88,8 +93,10 @@ class PointContact:
         return np.asarray(slope * np.sqrt(np.maximum((a - rho) * (a + rho), 0)))
 
     def gap(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the deformed gap r²/2R - approach + displacement [length], exactly zero
-        inside."""
+        """Compute the gap r²/2R - approach + displacement of the deformed surfaces [length].
+
+        The gap is exactly zero inside the contact.
+        """
         a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
         outside = np.maximum(rho, a)
         root = np.sqrt((outside - a) * (outside + a))

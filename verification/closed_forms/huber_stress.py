@@ -1,7 +1,7 @@
-"""Stress of a Hertz point contact, tension positive.
+"""Closed-form stress of a Hertz point contact in a homogeneous half-space, tension positive.
 
-Cylindrical components at radius r and depth z >= 0 in a homogeneous half-space under the Hertz
-pressure alone, and stress on the axis and the x axis under the shear of gross slip.
+The functions give cylindrical components at radius r and depth z >= 0 under the Hertz pressure
+alone. Under the shear of gross slip they give the stress on the axis of symmetry and on the x axis.
 """
 
 from dataclasses import dataclass
@@ -13,7 +13,11 @@ from numpy.typing import ArrayLike, NDArray
 
 @dataclass(frozen=True)
 class AxisymmetricStress:
-    """Stress components [force/length²], arrays of one shape."""
+    """Stress components in cylindrical coordinates [force/length²], as arrays of one shape.
+
+    radial, hoop, axial  normal stresses σ_rr, σ_θθ, σ_zz
+    shear                shear stress σ_rz
+    """
 
     radial: NDArray[np.float64]
     hoop: NDArray[np.float64]
@@ -61,8 +65,14 @@ def huber_stress(
 def axis_stress(
     z: ArrayLike, contact_radius: float, peak_pressure: float, poisson_ratio: float
 ) -> AxisymmetricStress:
-    """Compute the stress on the axis under the Hertz pressure (Huber 1904; Johnson 1985, ch.
-    3.4)."""
+    """Compute the stress on the axis of symmetry under the Hertz pressure.
+
+    Closed form by Huber 1904 and Johnson 1985, ch. 3.4.
+
+    z               depth >= 0 [length]
+    contact_radius  a > 0 [length]
+    peak_pressure   p0 > 0 [force/length²]
+    """
     _require_half_space(contact_radius, peak_pressure, poisson_ratio)
     depth, arc = _depth(z, contact_radius)
     axial = -peak_pressure / (1 + depth**2)
@@ -73,16 +83,20 @@ def axis_stress(
 def sliding_axis_shear(
     z: ArrayLike, contact_radius: float, peak_shear: float
 ) -> NDArray[np.float64]:
-    """Compute τ_xz on the axis under the shear q0 √(1-r²/a²) along +x on the body (Hamilton 1983).
+    """Compute the shear stress τ_xz on the axis of symmetry of a Hertz contact in gross slip along
+    x.
 
-    peak_shear  q0 = µ p0 at gross slip [force/length²]; Poisson's ratio has no effect
+    The shear on the body is q0 √(1-r²/a²) along +x (Hamilton 1983). Poisson's ratio has no effect.
+
+    z           depth >= 0 [length]
+    peak_shear  q0 = µ p0 at gross slip [force/length²]
     """
     depth, arc = _depth(z, contact_radius)
     return np.asarray(-peak_shear * (1 - 1.5 * arc + depth**2 / (2 * (1 + depth**2))))
 
 
 def _depth(z: ArrayLike, a: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the depth over a, and its product with the arctan of its reciprocal."""
+    """Return d = z/a and d arctan(1/d) for depths z >= 0; raise ValueError for negative depths."""
     depth = np.asarray(z, dtype=float) / a
     if not np.all(depth >= 0):
         raise ValueError(f"depth down to {np.min(depth) * a!r}: the body occupies z >= 0")
@@ -97,7 +111,10 @@ def _require_half_space(a: float, p0: float, nu: float) -> None:
 def stress_by_hertz_shear(
     x: ArrayLike, contact_radius: float, peak_shear: float, poisson_ratio: float
 ) -> NDArray[np.float64]:
-    """Compute σ_xx at (x, 0, 0) under the shear q0 √(1-r²/a²) along +x on the body [force/length²].
+    """Compute the surface stress σ_xx at (x, 0, 0) under the shear of a Hertz contact in gross
+    slip.
+
+    The shear on the body is q0 √(1-r²/a²) along +x. The result is in [force/length²].
 
     contact_radius  a > 0 [length]
     peak_shear      q0, of any sign [force/length²]
@@ -123,7 +140,10 @@ def stress_by_hertz_shear(
 def stress_by_hertz_pressure(
     x: ArrayLike, contact_radius: float, peak_pressure: float, poisson_ratio: float
 ) -> NDArray[np.float64]:
-    """Compute σ_xx at (x, 0, 0) under the pressure p0 √(1-r²/a²): Huber's radial stress (1904)."""
+    """Compute the surface stress σ_xx at (x, 0, 0) under the Hertz pressure p0 √(1-r²/a²).
+
+    On the x axis it is the radial stress of Huber (1904), in [force/length²].
+    """
     return huber_stress(np.abs(x), 0.0, contact_radius, peak_pressure, poisson_ratio).radial
 
 

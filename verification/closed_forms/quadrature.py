@@ -1,4 +1,4 @@
-"""Gauss rules of the closed forms."""
+"""Gauss quadrature rules for the closed-form contact solutions."""
 
 from functools import cache
 
@@ -8,7 +8,10 @@ from numpy.typing import NDArray
 
 @cache
 def unit_gauss(order: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Nodes and weights with sum(weights * f(nodes)) = integral of f from 0 to 1."""
+    """Return nodes and weights of the Gauss-Legendre rule on the interval from 0 to 1.
+
+    order  number of nodes
+    """
     nodes, weights = np.polynomial.legendre.leggauss(order)
     nodes, weights = (nodes + 1) / 2, weights / 2
     nodes.setflags(write=False)

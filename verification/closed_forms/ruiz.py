@@ -24,9 +24,12 @@ PLACES = 20_001
 
 @dataclass(frozen=True)
 class CycledContact:
-    """Steady cycles between T* and -T* at constant load, materials with ν = 0.
+    """Steady cycles of a Hertz contact between tangential forces T* and -T* at constant normal
+    load.
 
-    end            state of first loading at T* > 0
+    Both materials have ν = 0.
+
+    end            state at the end of the first loading, at T* > 0
     peak_pressure  p0 of the Hertz contact [force/length²]
     """
 
@@ -34,19 +37,27 @@ class CycledContact:
     peak_pressure: float
 
     def slip_amplitude(self, r: ArrayLike) -> Values:
-        """Compute δ at r <= a [length].
+        """Compute the slip amplitude δ of a steady cycle at distance r <= a from the axis [length].
 
-        By Masing's rule the slip of a reversal, which is the whole range, is twice that of the
-        first loading.
+        δ is half the range of slip. By Masing's rule the slip of a reversal, which is the whole
+        range, is twice that of the first loading.
         """
         return np.abs(self.end.slip(r))
 
     def largest_shear(self, r: ArrayLike) -> Values:
-        """Compute τ at r: the shear at ±T*, which is µp in the slip annulus [force/length²]."""
+        """Compute the largest shear τ of a steady cycle at distance r from the axis
+        [force/length²].
+
+        τ is the shear at ±T*, which is µp in the slip annulus.
+        """
         return np.abs(self.end.shear(r))
 
     def surface_tension(self, x: ArrayLike) -> Values:
-        """Compute σ_T at (x, 0), the larger value of the two ends of the cycle [force/length²]."""
+        """Compute the largest tensile stress σ_T of a steady cycle at the surface point (x, 0)
+        [force/length²].
+
+        σ_T is the larger value of σ_xx at the two ends of the cycle.
+        """
         a, c = self.end.contact_radius, self.end.stick_radius
         q0 = self.end.friction_coefficient * self.peak_pressure
         sheared = stress_by_hertz_shear(x, a, q0, 0.0)
@@ -56,12 +67,12 @@ class CycledContact:
 
     @property
     def largest_f1(self) -> float:
-        """Largest τ δ on the surface [force/length]."""
+        """Largest first Ruiz parameter τ δ on the surface [force/length]."""
         return float(np.max(self._f1(self._radii())))
 
     @property
     def largest_f2(self) -> float:
-        """Largest σ_T τ δ on the surface [force²/length³].
+        """Largest second Ruiz parameter σ_T τ δ on the surface [force²/length³].
 
         At a given r the tensile stress is largest on the line through the centre along the force.
         """
@@ -72,6 +83,7 @@ class CycledContact:
         return self.largest_shear(r) * self.slip_amplitude(r)
 
     def _radii(self) -> Values:
-        """Return radii from the stick zone to the edge."""
+        """Return radii between the stick zone and the contact edge, dense near the edge
+        [length]."""
         a, c = self.end.contact_radius, self.end.stick_radius
         return np.asarray(a - (a - c) * np.linspace(1.0, 0.0, PLACES) ** 2)

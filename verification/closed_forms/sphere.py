@@ -1,4 +1,4 @@
-"""Rigid ball with its exact circular arc on a half-space.
+"""Frictionless contact of a rigid ball with its exact circular arc on a half-space.
 
 Hertz replaces the arc R - √(R²-r²) by the paraboloid r²/2R. The arc in the same linear half-space
 changes the results by O(a²/R²). To first order the factors are, at equal contact radius, 1 + (2/5)
@@ -24,7 +24,8 @@ ORDER = 60
 
 @dataclass(frozen=True)
 class SphereContact:
-    """State of the contact of an exact ball (Sneddon 1965; the Galin–Sneddon integrals).
+    """State of the contact of a ball with its exact circular arc (Sneddon 1965; Galin-Sneddon
+    integrals).
 
     radius           ball radius R [length]
     contact_modulus  E* [force/length²]
@@ -43,8 +44,10 @@ class SphereContact:
 
     @classmethod
     def under_load(cls, load: float, radius: float, contact_modulus: float) -> "SphereContact":
-        """Return the contact under a normal load W >= 0 [force]; raise ValueError if a reaches
-        R."""
+        """Compute the ball contact under a normal load W >= 0 [force].
+
+        Raises ValueError if the contact radius would reach the ball radius R.
+        """
         target = load / (contact_modulus * radius**2)
         if target == 0:
             return cls(radius, contact_modulus, 0.0)
@@ -64,18 +67,18 @@ class SphereContact:
 
     @property
     def approach(self) -> float:
-        """Approach (a/2) ln((R+a)/(R-a)) of distant points [length]."""
+        """Approach (a/2) ln((R+a)/(R-a)) of distant points of the two bodies [length]."""
         return self.contact_radius * atanh(self.contact_radius / self.radius)
 
     @property
     def peak_pressure(self) -> float:
-        """Pressure at the centre [force/length²]."""
+        """Pressure at the centre of the contact [force/length²]."""
         return float(self.pressure(0.0))
 
     def pressure(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the pressure (E*/π) ∫ᵣᵃ S'(s)/√(s²-r²) ds, S = s artanh(s/R) [force/length²].
+        """Compute the pressure (E*/π) ∫ᵣᵃ S'(s)/√(s²-r²) ds with S = s artanh(s/R) [force/length²].
 
-        The second term of S' integrates in closed form, the first by Gauss's rule.
+        The second term of S' is integrated in closed form, the first by a Gauss rule.
         """
         R, a = self.radius, self.contact_radius
         rho = np.minimum(np.abs(np.asarray(r, dtype=float)), a)
@@ -89,7 +92,10 @@ class SphereContact:
         )
 
     def gap(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the deformed gap [length]: zero inside, infinite for r > R without a surface."""
+        """Compute the gap of the deformed surfaces at distance r from the axis [length].
+
+        The gap is zero inside the contact, and infinite for r > R, where the ball has no surface.
+        """
         R, a = self.radius, self.contact_radius
         rho = np.abs(np.asarray(r, dtype=float))
         outside = np.clip(rho, a, R)
@@ -102,8 +108,10 @@ class SphereContact:
 
 
 def _reduced_load(x: float) -> float:
-    """Compute W/(E*R²) = (1+x²) artanh x - x, by its power series for small x to avoid
-    cancellation."""
+    """Compute the dimensionless load W/(E*R²) = (1+x²) artanh x - x of a ball contact with x = a/R.
+
+    For small x the power series avoids cancellation.
+    """
     if x >= SERIES_BELOW:
         return (1 + x**2) * atanh(x) - x
     k = np.arange(SERIES_TERMS, 0, -1)

@@ -1,9 +1,9 @@
-"""Any history of the tangential force at constant load, by Masing's rule with return-point memory.
+"""Hertz contact under any history of the tangential force at constant normal load.
 
-A branch after a reversal is the curve of the first loading with force and displacement doubled.
-When the force returns to an earlier reversal, the loop closes and both reversals are removed. For
-Hertz point contact this is exact under the assumptions of `cattaneo_mindlin` (Mindlin and
-Deresiewicz 1953; Jäger 1998).
+The method is Masing's rule with return-point memory. A branch after a reversal is the curve of the
+first loading with force and displacement doubled. When the force returns to an earlier reversal,
+the loop closes and both reversals are removed. For Hertz point contact this is exact under the
+assumptions of `cattaneo_mindlin` (Mindlin and Deresiewicz 1953; Jäger 1998).
 """
 
 from dataclasses import dataclass, replace
@@ -17,7 +17,7 @@ from verification.closed_forms.cattaneo_mindlin import PartialSlip
 
 @dataclass(frozen=True)
 class TangentialHistory:
-    """State after a history of tangential forces.
+    """State of a Hertz contact after a history of tangential forces at constant normal load.
 
     virgin             the contact without tangential force
     turning_points     forces at the reversals of open loops, with decreasing differences [force]
@@ -35,8 +35,10 @@ class TangentialHistory:
             raise ValueError("a history starts from a contact without tangential force")
 
     def loaded_to(self, force: float) -> "TangentialHistory":
-        """Return the state after a monotonic change of T to `force`; raise ValueError for
-        |force| > µW."""
+        """Compute the state after a monotonic change of the tangential force to `force` [force].
+
+        Raises ValueError if |force| exceeds the friction limit µW.
+        """
         replace(self.virgin, tangential_force=force)
         if force == self.tangential_force:
             return self
@@ -56,19 +58,22 @@ class TangentialHistory:
 
     @property
     def shift(self) -> float:
-        """Tangential shift of the indenter [length]."""
+        """Tangential shift of the indenter relative to the body [length]."""
         return sum(scale * state.shift for scale, state in self.branches())
 
     def shear(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the shear on the lower body [force/length²]."""
+        """Compute the shear on the lower body at distance r from the axis [force/length²]."""
         total = np.zeros_like(np.asarray(r, dtype=float))
         for scale, state in self.branches():
             total = total + scale * state.shear(r)
         return total
 
     def slip(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the slip of the lower surface relative to the indenter, ν = 0, r <= a
-        [length]."""
+        """Compute the slip of the lower surface relative to the indenter at distance r <= a
+        [length].
+
+        The formula holds for ν = 0.
+        """
         total = np.zeros_like(np.asarray(r, dtype=float))
         for scale, state in self.branches():
             total = total + scale * state.slip(r)
@@ -76,11 +81,15 @@ class TangentialHistory:
 
     @property
     def stick_radius(self) -> float:
-        """Radius of the zone that does not slip on the current branch [length]."""
+        """Radius of the zone that has not slipped since the last reversal [length]."""
         return self.branches()[-1][1].stick_radius
 
     def branches(self) -> list[tuple[float, PartialSlip]]:
-        """Return the first loading and all later branches, with their factors in the sum."""
+        """Return the first-loading states whose weighted sum is the current state, with their
+        weights.
+
+        The first has weight 1; each later branch has weight 2.
+        """
         forces = (*self.turning_points, self.tangential_force)
         branches = [(1.0, replace(self.virgin, tangential_force=forces[0]))]
         for start, end in pairwise(forces):
@@ -88,7 +97,11 @@ class TangentialHistory:
         return branches
 
     def _lost(self, points: tuple[float, ...], force: float) -> float:
-        """Compute the energy dissipated on the branch from the last reversal to `force`."""
+        """Compute the energy dissipated on the branch from the last reversal to a force
+        [force*length].
+
+        points  forces at the reversals; empty for the first loading [force]
+        """
         if not points:
             return replace(self.virgin, tangential_force=force).dissipated_energy
         half = (force - points[-1]) / 2

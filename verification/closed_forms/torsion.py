@@ -1,7 +1,7 @@
-"""Torsion of a circular contact: full stick, and partial slip of a Hertz contact.
+"""Torsion of a circular contact in closed form: full stick, and partial slip of a Hertz contact.
 
-Torsion is uncoupled from the normal problem for all materials. A central stick disc rotates as a
-rigid body; outside this disc the shear is µ times the Hertz pressure.
+Torsion is uncoupled from the normal problem for all materials. In partial slip a central stick disc
+rotates as a rigid body; outside this disc the shear is µ times the Hertz pressure.
 """
 
 from dataclasses import dataclass
@@ -19,11 +19,11 @@ ORDER = 120
 
 @dataclass(frozen=True)
 class StuckTorsion:
-    """Full stick under a twisting moment (Reissner and Sagoci 1944).
+    """State of a circular contact in full stick under a torque (Reissner and Sagoci 1944).
 
     contact_radius     a > 0 [length]
-    torsional_modulus  reciprocal of the sum of 1/G [force/length²]
-    moment             M, either sign [force*length]
+    torsional_modulus  reciprocal of the sum of 1/G of both bodies [force/length²]
+    moment             torque M, of either sign [force*length]
     """
 
     contact_radius: float
@@ -32,12 +32,15 @@ class StuckTorsion:
 
     @property
     def twist(self) -> float:
-        """Relative rotation 3M/(16 a³ torsional_modulus) [radian]."""
+        """Relative rotation 3M/(16 a³ torsional_modulus) of the two bodies [radian]."""
         return 3 * self.moment / (16 * self.contact_radius**3 * self.torsional_modulus)
 
     def shear(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the circumferential shear 3Mr/(4πa³√(a²-r²)) [force/length²]; infinite at r =
-        a."""
+        """Compute the circumferential shear 3Mr/(4πa³√(a²-r²)) at distance r from the axis
+        [force/length²].
+
+        The shear is infinite at r = a and zero outside.
+        """
         a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
         room = np.where(rho <= a, (a - rho) * (a + rho), np.inf)
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -46,12 +49,14 @@ class StuckTorsion:
 
 @dataclass(frozen=True)
 class TorsionalPartialSlip:
-    """Hertz contact twisted monotonically from zero (Lubkin 1951; Jäger's Abel-integral form).
+    """State of a Hertz contact whose torque has grown monotonically from zero, with partial slip.
+
+    The formulas are those of Lubkin (1951) in Jäger's Abel-integral form.
 
     contact_radius        a > 0 [length]
     peak_pressure         p0 > 0 [force/length²]
     friction_coefficient  µ > 0
-    torsional_modulus     reciprocal of the sum of 1/G [force/length²]
+    torsional_modulus     reciprocal of the sum of 1/G of both bodies [force/length²]
     stick_radius          c, 0 < c <= a [length]; the twist grows without bound as c → 0
     """
 
@@ -77,8 +82,10 @@ class TorsionalPartialSlip:
         friction_coefficient: float,
         torsional_modulus: float,
     ) -> "TorsionalPartialSlip":
-        """Return the state under a moment 0 <= M < (3π/16) µWa [force*length]; raise ValueError
-        outside."""
+        """Compute the state under a torque 0 <= M < (3π/16) µWa [force*length].
+
+        Raises ValueError for a torque outside this range. W is the normal load.
+        """
         stuck = cls(
             contact_radius,
             peak_pressure,
@@ -105,18 +112,22 @@ class TorsionalPartialSlip:
 
     @property
     def sliding_moment(self) -> float:
-        """Moment (3π/16) µWa = (π²/8) µ p0 a³ of gross sliding [force*length]."""
+        """Torque (3π/16) µWa = (π²/8) µ p0 a³ at gross slip [force*length]."""
         return pi**2 / 8 * self.friction_coefficient * self.peak_pressure * self.contact_radius**3
 
     @property
     def moment(self) -> float:
-        """Moment (8/3) µ p0 ∫ from c to a of s² E(√(1-s²/a²)) ds [force*length]."""
+        """Torque (8/3) µ p0 ∫ s² E(√(1-s²/a²)) ds, from s = c to a, of the contact
+        [force*length]."""
         scale = self.friction_coefficient * self.peak_pressure * self.contact_radius**3
         return scale * _reduced_moment(self.stick_radius / self.contact_radius)
 
     @property
     def twist(self) -> float:
-        """Relative rotation µ p0 [K(k') - E(k')]/(2 torsional_modulus), k'² = 1-c²/a² [radian]."""
+        """Relative rotation µ p0 [K(k') - E(k')]/(2 torsional_modulus) of the two bodies [radian].
+
+        K and E are complete elliptic integrals, and k'² = 1-c²/a².
+        """
         square = (self.stick_radius / self.contact_radius) ** 2
         # Carlson's R_D gives K - E without cancellation for a narrow slip annulus
         difference = (1 - square) / 3 * float(elliprd(0, square, 1))
@@ -124,11 +135,11 @@ class TorsionalPartialSlip:
         return traction * difference / (2 * self.torsional_modulus)
 
     def shear(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the circumferential shear [force/length²]: µp in the annulus, less in the stick
-        disc.
+        """Compute the circumferential shear at distance r from the axis [force/length²].
 
-        The reduction in the stick disc is (2/π) µ p0 ∫ E(√(1 - r²/(a cos φ)²)) dφ from 0 to
-        arccos(r/c), by inversion of the Abel integral with the twist of a rigid disc.
+        The shear is µp in the slip annulus and smaller in the stick disc. The reduction in the
+        stick disc is (2/π) µ p0 ∫ E(√(1 - r²/(a cos φ)²)) dφ from 0 to arccos(r/c), by inversion of
+        the Abel integral with the twist of a rigid disc.
         """
         a, c = self.contact_radius, self.stick_radius
         rho = np.abs(np.asarray(r, dtype=float))
@@ -145,7 +156,8 @@ class TorsionalPartialSlip:
 
 
 def _reduced_moment(ratio: float) -> float:
-    """Compute M/(µ p0 a³) as a function of c/a."""
+    """Compute the dimensionless torque M/(µ p0 a³) of a contact in partial slip, as a function of
+    c/a."""
     v, weights = unit_gauss(ORDER)
     s = ratio + (1 - ratio) * v
     return 8 / 3 * (1 - ratio) * float((s**2 * ellipe((1 - s) * (1 + s)) * weights).sum())
