@@ -1,4 +1,4 @@
-"""Catalogue of all cases by name; the module of a case is imported on demand."""
+"""Catalogue of all verification cases by name; the module of a case is imported on demand."""
 
 from __future__ import annotations
 
@@ -121,7 +121,9 @@ MODULE_OF = {name: module for module, names in MODULES.items() for name in names
 
 
 def case_of(name: str, level: Level) -> Case:
-    """Build the case of a name by the function of this name.
+    """Create the verification case with the given name.
+
+    level  amount of computation
 
     Raises KeyError for a name that is not in the catalogue.
     """
@@ -133,7 +135,8 @@ def case_of(name: str, level: Level) -> Case:
 
 
 def choose(level: Level, names: Collection[str] = ()) -> tuple[Case, ...]:
-    """Build the named cases, or all cases without names, in the order of the catalogue.
+    """Create the verification cases with the given names, or all cases, in the order of the
+    catalogue.
 
     Raises KeyError with the first name that is not in the catalogue.
     """
@@ -159,16 +162,20 @@ class JudgedCase(Description):
 
 @dataclass(frozen=True)
 class CaseToJudge:
-    """Name and level of a case; the case itself cannot be sent to another process.
+    """Name and level of a verification case, which can be sent to a worker process.
 
-    level  by name, in capitals
+    The case itself cannot be sent.
+
+    name   name in the catalogue
+    level  name of the amount of computation, in capitals
     """
 
     name: str
     level: str
 
     def compute(self) -> JudgedCase:
-        """Solve and judge the case without the disk cache, so that the present code is judged."""
+        """Solve and judge the verification case without the disk cache, so that the present code is
+        judged."""
         from verification.judging.case import Level
         from verification.judging.judgement import judge
 
@@ -180,7 +187,10 @@ class CaseToJudge:
 
 
 def lost(case: Case, reason: str) -> CaseOutcome:
-    """Return the outcome of a case without a record: one failed verdict."""
+    """Create the outcome of a verification case that could not be judged: one failed verdict.
+
+    reason  cause of the failure
+    """
     return CaseOutcome(
         name=case.name,
         title=case.title,
@@ -196,8 +206,10 @@ def lost(case: Case, reason: str) -> CaseOutcome:
 
 @contextmanager
 def _no_cache_on_disk() -> Iterator[None]:
-    """Disable the disk cache for all threads of the process: a worker may judge several cases at
-    once."""
+    """Disable the disk cache for all threads of the process while the context is open.
+
+    Several contexts may be open at once, because a worker process may judge several cases.
+    """
     global _inside, _before
     with _lock:
         if not _inside:

@@ -1,4 +1,7 @@
-"""Coated bodies without friction: the paper's coatings, identities, thin layers, all solvers."""
+"""Cases of frictionless contact of coated bodies: tabulated coatings, identities and thin layers.
+
+All solvers are compared with semi-closed solutions.
+"""
 
 from __future__ import annotations
 
@@ -89,14 +92,20 @@ from verification.problems.shifted_grid import UNLIKE
 
 
 def modulus_weight(xi: float, poisson_ratio: float) -> float:
-    """Compute I0, the weight of the film's shear modulus in the stiffness [1]."""
+    """Compute the weight I0 of a film's shear modulus in the contact stiffness of a flat punch [1].
+
+    xi  film thickness over punch radius
+    """
     nu = poisson_ratio
     logarithm = (1 - 2 * nu) * xi * log((1 + xi**2) / xi**2)
     return 2 / pi * atan(xi) + (logarithm - xi / (1 + xi**2)) / (2 * pi * (1 - nu))
 
 
 def ratio_weight(xi: float) -> float:
-    """Compute I1, the weight of the film's Poisson ratio in the stiffness [1]."""
+    """Compute the weight I1 of a film's Poisson ratio in the contact stiffness of a flat punch [1].
+
+    xi  film thickness over punch radius
+    """
     return 2 / pi * atan(xi) + xi / pi * log((1 + xi**2) / xi**2)
 
 
@@ -115,17 +124,23 @@ ON_MESHES = (
 
 
 def _error_ratio(what: Observable, result: Any, other: Any) -> float:
-    """Compute the error of a coated contact over that of the uncoated contact, less 1."""
+    """Compute the ratio of the errors of a coated and an uncoated contact, less 1, as a magnitude.
+
+    what    observable whose error is compared
+    result  result of the coated contact
+    other   result of the uncoated contact
+    """
     return abs(abs(what.error(EXACT)(result) / what.error(BARE)(other)) - 1)
 
 
 def coated_paraboloid(
     level: Level = Level.QUICK, cells: Sequence[int] = (), required: Sequence[int] = (128, 256)
 ) -> Case:
-    """Build the case of the paper's coatings under a rigid paraboloid, without friction.
+    """Create the verification case of coated bodies under a rigid ball on cells, without friction.
 
-    cells     per side, of the studied coating, instead of those of the level; without shifted grids
-    required  numbers of cells of the accuracy targets, for all coatings
+    cells     numbers of cells per side for the coating with a convergence study, in place of those
+              of the level; without shifted grids
+    required  numbers of cells with an accuracy target, for all coatings
     """
     most = {Level.QUICK: 256, Level.STANDARD: 512, Level.FULL: 1024}[level]
     # Coarser grids have no accuracy target; they show the errors by refinement.
@@ -209,10 +224,14 @@ def coated_paraboloid(
 
 
 def unlike_ratios(film: float, substrate: float) -> Problem:
-    """Return the problem of a ball on a layer with another Poisson's ratio than the substrate.
+    """Create the problem of a rigid ball on a coating whose Poisson ratio differs from the
+    substrate's.
 
-    Young's modulus is uniform, so that only the ratios differ. The reference takes constants that
-    are written here again: a stack made from the scene would share the errors of the product.
+    Young's modulus is uniform, so that only the Poisson ratios differ. The reference uses constants
+    that are defined here again: those of the scene could contain an error of the program.
+
+    film       Poisson ratio of the coating
+    substrate  Poisson ratio of the substrate
     """
     modulus, thickness = 210e9, 0.5 * HERTZ.contact_radius
     material, film_material = (
@@ -230,7 +249,8 @@ def unlike_ratios(film: float, substrate: float) -> Problem:
 
 
 def _normal(stack: Stack, k: Field) -> Field:
-    """Return the normal surface displacement per unit pressure of a wavenumber."""
+    """Compute the normal surface displacement per unit pressure of a layered body at wavenumbers
+    k."""
     return np.asarray(scalars(stack, k).c22)
 
 
@@ -242,7 +262,8 @@ def _semi_closed(scene: Any, exact: LayeredIndentation) -> Problem:
 
 
 def coated_unlike_ratios(level: Level = Level.QUICK) -> Case:
-    """Build the case of a coating with another Poisson's ratio than its substrate."""
+    """Create the verification case of a coating whose Poisson ratio differs from that of its
+    substrate."""
     n = finest(level)
     on_grid = (
         Within(APPROACH, 2e-4, ON_128),
@@ -269,7 +290,7 @@ def coated_unlike_ratios(level: Level = Level.QUICK) -> Case:
 
 
 def pressure_difference(one: Any, other: Any) -> float:
-    """Compute the largest difference of the pressures over the largest pressure."""
+    """Compute the largest difference of the pressures of two results, over the largest pressure."""
     p, q = one.steps[-1].pressure, other.steps[-1].pressure
     return float(np.max(np.abs(p - q)) / np.max(q))
 
@@ -280,8 +301,10 @@ NEARLY = 1 + 1e-9
 
 
 def layered_identities(level: Level = Level.QUICK, cells: int = 128) -> Case:
-    """Build the case of equivalent descriptions of a coated contact, and of homogeneous coated
-    bodies."""
+    """Create the verification case of equivalent descriptions of one coated contact.
+
+    Homogeneous bodies that are described as coated are included.
+    """
     coating = film(2.0, 1.0)
     hard = IsotropicMaterial(young_modulus=300e9, poisson_ratio=0.25)
 
@@ -359,9 +382,13 @@ def layered_identities(level: Level = Level.QUICK, cells: int = 128) -> Case:
 
 @dataclass(frozen=True)
 class ThinLayer:
-    """Layer under the ball with a/h contact radii per thickness, and the exact load ratio.
+    """Problem of a rigid ball on a thin layer that is bonded to a rigid base.
 
-    load_ratio  load over the leading term for a >> h, computed outside this program
+    poisson_ratio  ν of the layer
+    a_over_h       contact radius over layer thickness
+    load_ratio     exact load over its leading term for a >> h, computed outside this program
+    radius         contact radius a [length]
+    modulus        Young's modulus of the layer [force/length²]
     """
 
     poisson_ratio: float
@@ -372,31 +399,31 @@ class ThinLayer:
 
     @property
     def name(self) -> str:
-        """Label of the runs."""
+        """Label of the runs of this layer."""
         return f"ν = {self.poisson_ratio:g}, a/h = {self.a_over_h:g}"
 
     @property
     def body(self) -> Body:
-        """The layer bonded to a rigid base."""
+        """Layer that is bonded to a rigid base."""
         material = IsotropicMaterial(young_modulus=self.modulus, poisson_ratio=self.poisson_ratio)
         layer = Layer(thickness=self.radius / self.a_over_h, material=material)
         return Body(material=RIGID, layers=(layer,))
 
     @cached_property
     def exact(self) -> LayeredIndentation:
-        """The semi-closed solution at this contact radius."""
+        """Semi-closed solution of the contact at the given contact radius."""
         return paraboloid(surface_of(self.body), paper.RADIUS, self.radius)
 
     @property
     def problem(self) -> Problem:
-        """Problem with the approach of the semi-closed solution prescribed."""
+        """Problem whose prescribed approach is that of the semi-closed solution."""
         step = LoadStep(approach=self.exact.approach)
         title = f"Rigid ball on a thin layer on a rigid base, {self.name}"
         return _semi_closed(pressed(title, rigid_ball(), self.body, step), self.exact)
 
     @property
     def leading_load(self) -> float:
-        """Leading term of the load for a >> h (Johnson 1985, section 5.8)."""
+        """Leading term of the normal load for a >> h (Johnson 1985, section 5.8) [force]."""
         E, nu, a, R = self.modulus, self.poisson_ratio, self.radius, paper.RADIUS
         h = a / self.a_over_h
         if nu == 0.5:
@@ -406,7 +433,7 @@ class ThinLayer:
 
     @property
     def rows(self) -> tuple[Row, ...]:
-        """Rows of judged quantities."""
+        """Rows of the quantities that are judged for this layer."""
         why = (
             "twice the accuracy target of coatings at 128 x 128 cells: layer and contact have "
             "different length scales"
@@ -424,7 +451,8 @@ class ThinLayer:
 
     @property
     def check(self) -> Check:
-        """Check of the semi-closed load against a printed value."""
+        """Comparison of the semi-closed load with a number that was computed outside this
+        program."""
         digits = 1e-6
         return Check(
             "semi_closed_load", "load over the leading term, from the semi-closed solution", "",
@@ -439,10 +467,11 @@ class ThinLayer:
 
 
 def thin_layer(level: Level = Level.QUICK, cells: int = 0) -> Case:
-    """Build the case of thin layers on a rigid base: an elastic foundation and an incompressible
-    film.
+    """Create the verification case of thin layers on a rigid base.
 
-    cells  per side, instead of those of the level
+    A compressible layer behaves as an elastic foundation; an incompressible layer is included.
+
+    cells  number of cells per side, in place of that of the level
     """
     cells = cells or (256 if level is Level.QUICK else 512)
     layers = (
@@ -472,14 +501,21 @@ def thin_layer(level: Level = Level.QUICK, cells: int = 0) -> Case:
 
 
 def stiffness(depth: float, shear_modulus: float, poisson_ratio: float) -> float:
-    """Compute the load per approach of a punch of unit radius on a film on a substrate of G = 1."""
+    """Compute the contact stiffness of a flat punch of unit radius on a film on a substrate with G
+    = 1.
+
+    depth          film thickness over punch radius
+    shear_modulus  shear modulus of the film, over that of the substrate
+    poisson_ratio  Poisson ratio of the film
+    """
     stack = Stack([Film(shear_modulus, poisson_ratio, depth)], HalfSpace(1.0, 0.3))
     contact_modulus = 2 * shear_modulus / (1 - poisson_ratio)
     return flat_punch(LayeredSurface(partial(_normal, stack), contact_modulus, depth), 1.0).load
 
 
 def film_stiffness(level: Level = Level.QUICK) -> Case:
-    """Build the case of the first-order effect of a film on the stiffness of a flat punch."""
+    """Create the verification case of the first-order effect of a film on the stiffness of a flat
+    punch."""
     nu, step = 0.3, 1e-4
     leaves = Required(
         2e-8,
@@ -532,12 +568,13 @@ def fem_coated(
     rows: Sequence[Any] | None = None,
     elements: Sequence[int] = (),
 ) -> Case:
-    """Build the case of the paper's coatings by finite elements.
+    """Create the verification case of coated bodies under a rigid ball by finite elements.
 
-    The quick level has one soft and one stiff coating. Errors on coarser meshes are followed, not
+    The quick level has one soft and one stiff coating. Errors on coarser meshes are reported, not
     judged. The solver fits the meshes to the contact.
 
-    rows      of the reference, and elements per radius, instead of those of the level
+    rows      rows of the reference table, in place of those of the level
+    elements  numbers of elements per radius, in place of those of the level
     """
     if rows is None:
         rows = ROWS
@@ -578,7 +615,10 @@ WITHIN = 0.995  # radii up to which pressures are compared: at the edge they hav
 
 
 def _pressure_error(result: Any, _: int, problem: Problem) -> float:
-    """Compute the largest error of the pressure at the rings, or at the radii of a table."""
+    """Compute the largest pressure error of the radial solver, over p_H or the mean pressure [1].
+
+    The points are the rings inside the contact, or the radii of a tabulated reference.
+    """
     end, exact = result.steps[-1], problem.ends[0]
     scale = problem.scales.get(OVER_PEAK) or mean_pressure(problem)
     r, found = end.radii, end.pressure
@@ -593,9 +633,10 @@ def _pressure_error(result: Any, _: int, problem: Problem) -> float:
 
 
 def radial_pressing(level: Level = Level.QUICK) -> Case:
-    """Build the case of the radial solver against closed forms, and for layers integral equations.
+    """Create the verification case of frictionless contacts by the radial solver.
 
-    Above the quick level the orders and points are doubled as well.
+    The references are closed forms and, for coated bodies, integral equations. Above the quick
+    level the orders and points are doubled in addition.
     """
     why = "both have rounding errors, of which forty times are allowed; 1e-10 was the target"
     of_pressure = error_norm(

@@ -1,7 +1,7 @@
 """Comparison of three solvers on coated contacts with and without friction, and under shear.
 
-The solvers are compared on the line of the load, in the mean up to the edge of the contact: an
-error in a region of width h next to a kink of the shear counts by its part of the area.
+The tractions are compared on the line through the centre along the load, as a mean up to the
+contact edge. An error next to a kink of the shear counts by its fraction of the contact area.
 """
 
 from __future__ import annotations
@@ -58,13 +58,14 @@ HAND = "set by hand: three times the errors of both on the coarsest meshes here"
 
 @dataclass(frozen=True)
 class Contact:
-    """The paper's ball, rigid, pressed on a coated half-space and loaded tangentially.
+    """Contact of a rigid ball on a coated half-space that all three solvers compute.
 
-    modulus_ratio    E1 / E2, coating over substrate
-    thickness        over the Hertz radius without a coating
-    friction         µ
-    cells, elements  along each side of the window, and over the contact radius without friction
-    harmonics        highest harmonic of the angle on elements; 0: no tangential load
+    modulus_ratio  Young's modulus of the coating over that of the substrate
+    thickness      coating thickness over the Hertz radius of the uncoated substrate
+    friction       coefficient of friction µ
+    cells          number of cells per side of the window
+    elements       number of finite elements over the frictionless contact radius
+    harmonics      highest angular harmonic of the finite elements; 0: no tangential load
     """
 
     modulus_ratio: float
@@ -76,7 +77,7 @@ class Contact:
 
     @property
     def name(self) -> str:
-        """Label for reports."""
+        """Label of the contact in reports."""
         numbers = f"E1/E2 = {self.modulus_ratio:g}, h = {self.thickness:g} a_H, µ = "
         return f"{numbers}{self.friction:g}" + (", pushed" if self.harmonics else "")
 
@@ -87,7 +88,7 @@ class Contact:
 
     @property
     def runs(self) -> tuple[AnyRun, AnyRun, AnyRun]:
-        """Runs on cells, on elements, and by the radial solver."""
+        """Runs of the contact on cells, on finite elements, and by the radial solver."""
         scene = self._scene
         mesh = FiniteElementDiscretisation(
             elements_per_radius=self.elements,
@@ -120,8 +121,11 @@ class Contact:
         )
 
     def tractions(self, result: Any, step: int) -> tuple[Field, Field, Field]:
-        """Return places on the line of the load, pressure, and shear along the line, at the end of
-        a step."""
+        """Interpolate the tractions of a result to points on the line through the centre along the
+        load.
+
+        Returns positions [length], pressure, and shear along the line, at the end of a load step.
+        """
         surface, end = surface_of(result), result.steps[step]
         pressure, shear = surface.scalar(end, "pressure"), surface.vector(end, "shear")
         assert pressure is not None
@@ -136,14 +140,20 @@ class Contact:
         return x, np.interp(x, places, p), np.interp(x, places, q)
 
     def apart(self, of: str, step: int, one: Any, other: Any) -> float:
-        """Compute ∫|Δp| dA / ∫p dA or ∫|Δq| dA / ∫µp dA, with areas from the line of the load."""
+        """Compute the difference of a traction of two results on the line along the load, relative.
+
+        The result is ∫|Δp| dA / ∫p dA for the pressure, and ∫|Δq| dA / ∫µp dA for the shear; areas
+        are those of rings through the points of the line.
+
+        of  "pressure" or "shear"
+        """
         (x, p, q), (_, p_other, q_other) = (self.tractions(r, step) for r in (one, other))
         area, limit = np.abs(x), self.friction * p_other
         off, whole = (p - p_other, p_other) if of == "pressure" else (q - q_other, limit)
         return float(np.sum(np.abs(off) * area) / np.sum(whole * area))
 
     def comparisons(self) -> tuple[Comparison, ...]:
-        """List the differences of every two solvers at the end of every step."""
+        """List the comparisons of every two solvers at the end of every load step."""
         measures: dict[str, tuple[str, Callable[[int, Any, Any], float], float, str]] = {
             "pressure": (
                 "∫|Δp| dA / ∫p dA on the line of the load", partial(self.apart, "pressure"), 2e-3,
@@ -180,7 +190,8 @@ class Contact:
         )  # fmt: skip
 
     def stress_apart(self, one: Any, other: Any) -> float:
-        """Compute the largest difference of a stress component of cells and elements, over p₀.
+        """Compute the largest difference of a stress component between cells and finite elements,
+        over p₀.
 
         Points are on the axis from 0.1 to 3 contact radii, and on both sides of the interface up to
         1.5 contact radii. The stress by elements takes the tractions of the result on a separate
@@ -216,7 +227,8 @@ class Contact:
         return float(np.max(apart) / np.max(end.pressure))
 
     def panels(self, results: Results) -> tuple[Panel, Panel]:
-        """Draw the tractions on the line of the load: elements in grey below cells."""
+        """Draw pressure and shear on the line along the load: finite elements in grey below
+        cells."""
         (x, p, q), (_, p_grey, q_grey) = (
             self.tractions(results[run.label], -1) for run in self.runs[:2]
         )
@@ -245,7 +257,8 @@ def _approach_apart(step: int, one: Any, other: Any) -> float:
 
 
 def shift_apart(step: int, one: Any, other: Any) -> float:
-    """Compute the relative difference of the shifts of two results at the end of a step."""
+    """Compute the relative difference of the tangential shifts of two results at the end of a load
+    step."""
     return float(abs(shift_along_x(one.steps[step]) / shift_along_x(other.steps[step]) - 1))
 
 
@@ -268,7 +281,7 @@ EVERY_CONTACT = tuple(
 
 
 def contacts(level: Level) -> tuple[Contact, ...]:
-    """Return the contacts of a level, the last of them with a tangential load.
+    """Return the contacts for an amount of computation; the last contact has a tangential load.
 
     The full level has every combination of modulus ratio, thickness and friction.
     """
@@ -284,10 +297,11 @@ def contacts(level: Level) -> tuple[Contact, ...]:
 
 
 def cross_check(level: Level = Level.QUICK, given: tuple[Contact, ...] = ()) -> Case:
-    """Build the case of three solvers on equal contacts; the stress is compared for the first
-    contact.
+    """Create the verification case that compares three solvers on equal contacts.
 
-    given  contacts, instead of those of the level
+    The stress is compared for the first contact.
+
+    given  contacts, in place of those of the level
     """
     chosen = given or contacts(level)
     first = chosen[0]

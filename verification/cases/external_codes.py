@@ -1,4 +1,4 @@
-"""Comparison with CalculiX on equal scenes: coated bodies with and without friction."""
+"""Comparison with recorded results of CalculiX: coated bodies with and without friction."""
 
 from __future__ import annotations
 
@@ -44,14 +44,17 @@ MOVED_GAP = (1 - 2 * RATIO) * (1 + RATIO) * RECORDED_BALL.peak_pressure / (2 * M
 
 
 class Certain(NamedTuple):
-    """Number and its standard uncertainty."""
+    """Number of the record, with its standard uncertainty."""
 
     value: float
     uncertainty: float
 
 
 class Profile(NamedTuple):
-    """Traction over p_H at radii over a_H, with one standard uncertainty for all radii."""
+    """Recorded traction over p_H at radii over a_H, with one standard uncertainty for all radii.
+
+    p_H and a_H are peak pressure and contact radius of Hertz theory.
+    """
 
     radii: Field
     values: Field
@@ -60,12 +63,16 @@ class Profile(NamedTuple):
 
 @dataclass(frozen=True)
 class Recorded:
-    """Record of one scene: coarse mesh, fine mesh, and the fine mesh with half the stiffness."""
+    """Recorded CalculiX results of one scene.
+
+    The record has three runs: a coarse mesh, a fine mesh, and the fine mesh with half the contact
+    stiffness.
+    """
 
     record: Mapping[str, Any]
 
     def __post_init__(self) -> None:
-        """Raise ValueError if the runs are not those three."""
+        """Check that the record has these three runs; raise ValueError if not."""
         coarse, fine, soft = self.record["runs"]
         if not (
             fine["elements"] == soft["elements"] == 2 * coarse["elements"]
@@ -78,7 +85,8 @@ class Recorded:
 
     @property
     def normal_force(self) -> Certain:
-        """Normal force over the nominal force."""
+        """Normal force over the nominal force, corrected for the contact stiffness, with its
+        uncertainty."""
         coarse, fine, soft = (float(run["normal_force"]) for run in self.record["runs"])
         correction, refinement = fine - soft, fine - coarse
         errors = (LEFT_OF_CORRECTION * correction, refinement, MOVED_GAP * fine)
@@ -86,12 +94,16 @@ class Recorded:
 
     @cached_property
     def edge(self) -> float:
-        """Outermost radius in contact in all three runs, over a_H."""
+        """Smallest of the outermost contact radii of the three runs, over a_H."""
         return float(min(run["radii"][-1] for run in self.record["runs"]))
 
     def profile(self, traction: str, first: float, last: float) -> Profile:
-        """Return the pressure or shear at the common radii of both meshes, from `first` to
-        `last` of a_H."""
+        """Return the recorded pressure or shear at the radii that both meshes have.
+
+        traction  "pressure" or "shear"
+        first     smallest radius, over a_H
+        last      largest radius, over a_H
+        """
         coarse, fine, soft = self.record["runs"]
         radii = np.array(coarse["radii"])
         chosen = np.flatnonzero((radii >= first) & (radii <= last))
@@ -107,7 +119,7 @@ class Recorded:
 
 
 def recorded(name: str) -> Recorded:
-    """Return the record of a scene; raise KeyError for an unknown name."""
+    """Return the CalculiX record of a scene; raise KeyError for an unknown name."""
     scenes = {each["name"]: each for each in load_reference(NAME)["scenes"]}
     return Recorded(scenes[name])
 
@@ -128,15 +140,20 @@ Reader = Callable[[Any, NDArray[np.float64]], NDArray[np.float64]]
 
 @dataclass(frozen=True)
 class Load:
-    """Final state of the recorded step [force]."""
+    """Normal force at the end of the recorded load step [force]."""
 
     load: float
 
 
 def _parts(name: str, of: Recorded, cells: int, elements: int) -> tuple[Judged, ...]:
-    """Judge force and tractions of the paper's ball by elements and by cells.
+    """Create the judged force and tractions of one recorded scene, for finite elements and cells.
 
-    The approach over the Hertz approach, and the increments, are those of the record.
+    The prescribed approach, over that of Hertz theory, and the increments are those of the record.
+
+    name      label of the scene
+    of        record of the scene
+    cells     number of cells per side
+    elements  number of elements per contact radius
     """
     row, friction = of.record, float(of.record["friction"])
     step = {"increments": row["increments"]} if friction else {}
@@ -175,10 +192,13 @@ def _parts(name: str, of: Recorded, cells: int, elements: int) -> tuple[Judged, 
 def _traction(
     problem: Problem, of: Recorded, name: str, part: float, unit: str, read: Reader
 ) -> tuple[Problem, Within]:
-    """Return the problem with the uncertainty of the traction, and the row that judges the
-    traction.
+    """Create the row that judges a recorded traction, and the problem with the uncertainty of the
+    record.
 
-    part  fraction of p_H that scales the errors; unit is its name
+    name  "pressure" or "shear"
+    part  error scale, as a fraction of p_H
+    unit  description of the error scale
+    read  function that interpolates the computed traction to given radii
     """
     last = of.edge - EDGE
     known = of.profile(name, FIRST, last)
@@ -197,7 +217,8 @@ def _traction(
 
 
 def external_codes(level: Level = Level.QUICK) -> Case:
-    """Build the case of CalculiX on equal scenes; higher levels refine the discretisations."""
+    """Create the verification case of the comparison with CalculiX; higher levels have finer
+    meshes."""
     sizes = {Level.QUICK: (128, 32), Level.STANDARD: (256, 64), Level.FULL: (512, 64)}[level]
     return case(
         "external_codes",

@@ -1,4 +1,5 @@
-"""Fretting loops of equal bodies by all solvers, and the paper's figures 1 and 2."""
+"""Cases of fretting loops of equal bodies by all solvers, with figures 1 and 2 of the reference
+paper."""
 
 from __future__ import annotations
 
@@ -105,7 +106,7 @@ BRANCHES = {2: "loading", 3: "unloading", 4: "reloading"}
 
 
 def hysteresis_chart(name: str, result: Result, exact: ExactLoop) -> Chart:
-    """Draw the tangential force against the shift, with the closed form in grey."""
+    """Draw the hysteresis loop of tangential force against shift, with the closed form in grey."""
     forces, shifts = _closed_form_loop(exact)
     moved = [i for i in result.increments if i.step >= PRESSED]
     panel = Panel(
@@ -131,7 +132,10 @@ def hysteresis_chart(name: str, result: Result, exact: ExactLoop) -> Chart:
 
 
 def loading_history_chart(result: Result) -> Chart:
-    """Draw the paper's figure 1: the load history, with the states of figure 2 marked."""
+    """Draw the tangential force over time, with the states of the traction chart marked.
+
+    The chart corresponds to figure 1 of the reference paper.
+    """
     count = len(result.increments) - 1
     time = [number / count for number, _ in enumerate(result.increments)]
     force = [force_along_x(i) * NEWTON_TO_LIMIT for i in result.increments]
@@ -162,7 +166,10 @@ def loading_history_chart(result: Result) -> Chart:
 
 
 def tractions_chart(result: Result, exact: ExactLoop) -> Chart:
-    """Draw the paper's figure 2: shear and friction limit along y = 0 in the marked states."""
+    """Draw shear and friction limit along y = 0 in the marked states of a fretting loop.
+
+    The chart corresponds to figure 2 of the reference paper.
+    """
     section = Section(result.grid, HERTZ.contact_radius)
     scale = FRICTION * HERTZ.peak_pressure
     x = section.x / HERTZ.contact_radius
@@ -203,7 +210,8 @@ def tractions_chart(result: Result, exact: ExactLoop) -> Chart:
 
 
 def _number_of(result: Result, step: int, part: float) -> int:
-    """Return the index of the increment of a step whose force is nearest to a fraction of µW."""
+    """Return the index of the increment of a load step whose tangential force is nearest to part ·
+    µW."""
     distances = [
         abs(force_along_x(i) * NEWTON_TO_LIMIT - part) if i.step == step else np.inf
         for i in result.increments
@@ -230,8 +238,11 @@ REQUIRED_SHEAR = {128: 2e-3, 256: 1e-3}
 
 
 def shear_allowed(rung: RefinementLevel) -> float:
-    """Return the accuracy target of the shear; on other grids, that of 128 cells scaled by order
-    3/2."""
+    """Return the accepted shear error on a refinement level of cells.
+
+    The accuracy targets hold for some grids. For other grids the target of 128 cells is scaled by
+    the order 3/2.
+    """
     return REQUIRED_SHEAR.get(rung.count, REQUIRED_SHEAR[128] * (128 / rung.count) ** 1.5)
 
 
@@ -240,7 +251,7 @@ def _slip_amplitude(result: Any, *_: Any) -> float:
 
 
 def _of_cycle() -> tuple[Row, ...]:
-    """Return the rows of quantities of the cycle that are judged on every grid."""
+    """Return the rows of quantities of a fretting cycle that are judged on every grid."""
     ruiz = "Ruiz, Boddington and Chen 1984, on Mindlin and Deresiewicz 1953"
     imbalance = error_norm(
         "largest_energy_imbalance",
@@ -316,12 +327,13 @@ def _of_cycle() -> tuple[Row, ...]:
 
 
 def fretting_loop(level: Level = Level.QUICK, cells: Sequence[int] = (), quarter: int = 4) -> Case:
-    """Build the case of the fretting loop with ν = 0, for which the closed form is exact.
+    """Create the verification case of the fretting loop with ν = 0, for which the closed form is
+    exact.
 
-    The grids are the two of the accuracy targets; the full level adds a finer grid.
+    The grids are the two with accuracy targets; the full level adds a finer grid.
 
-    cells    per side, instead of those of the level
-    quarter  increments to T*
+    cells    numbers of cells per side, in place of those of the level
+    quarter  number of increments from zero to the largest force T*
     """
     cells = cells or ((128, 256, 512) if level is Level.FULL else (128, 256))
     problem = loop_problem("Fretting loop, ν = 0", NU_ZERO, quarter)
@@ -352,8 +364,10 @@ def fretting_loop(level: Level = Level.QUICK, cells: Sequence[int] = (), quarter
 
 
 def paper_fretting_loop(level: Level = Level.QUICK) -> Case:
-    """Build the case of the paper's figures 1 and 2: exact arc, ν = 0.3, in the paper's
-    increments."""
+    """Create the verification case of the fretting loop in figures 1 and 2 of the reference paper.
+
+    The ball has its exact arc, ν is 0.3, and the increments are those of the paper.
+    """
     cells = 128 if level is Level.QUICK else 256
     band = (
         "the closed form directs the shear along x at all slipping points although they do not "
@@ -450,9 +464,10 @@ ACROSS = (
 
 
 def _shear_error(result: Any, _: int, problem: Problem) -> float:
-    """Compute the largest error of the shear in any increment, over µp_H.
+    """Compute the largest shear error of finite elements in all increments of a fretting loop, over
+    µp_H.
 
-    Radii within a tenth of the contact radius of a stick edge are omitted.
+    Radii within 0.1 contact radii of a stick edge are omitted.
     """
     within = judged_within(result.discretisation.elements_per_radius)
     worst, edges = 0.0, []
@@ -483,7 +498,11 @@ OF_LOOP = (
 
 
 def _loop_profile(of: RefinementLevels, step: int, name: str, when: str, caption: str) -> Drawing:
-    """Draw the shear at the end of a step of the loop."""
+    """Return a function that draws the shear over the radius at the end of a load step of the loop.
+
+    step  number of the load step, from 1
+    when  description of the state
+    """
 
     def draw(results: Mapping[str, Any]) -> Chart:
         result = results[of.judged.run.label]
@@ -504,13 +523,13 @@ def fem_partial_slip(
     elements: int = 0,
     studied: Sequence[tuple[int, float]] | None = None,
 ) -> Case:
-    """Build the case of Cattaneo and Mindlin's contact and its fretting loop by finite elements.
+    """Create the verification case of partial slip and a fretting loop by finite elements, ν = 0.
 
-    Orders are judged above the quick level.
+    Orders of convergence are judged above the quick level.
 
-    elements  per radius, of the mesh of the loop, instead of those of the level
-    studied   meshes for the single loading, and position of the contact edge in its element; their
-              orders are judged
+    elements  numbers of elements per radius for the loop, in place of those of the level
+    studied   meshes for the single loading, with the position of the contact edge in its element;
+              from these the orders are computed
     """
     orders = bool(studied) or level is not Level.QUICK
     if studied is None:
@@ -595,7 +614,10 @@ def fem_partial_slip(
 
 
 def fem_penalty_slip(level: Level = Level.QUICK) -> Case:
-    """Build the case of a fretting loop and a ball in torsion by finite elements with a penalty."""
+    """Create the verification case of a fretting loop and a ball in torsion by a penalty method.
+
+    The solver is that of finite elements.
+    """
     gauss = "Shear at the Gauss points, the closed form, and their difference."
     n = (finest(level),)
     of_loop, ball = (
@@ -635,7 +657,7 @@ def fem_penalty_slip(level: Level = Level.QUICK) -> Case:
 
 
 def _shear_of_circle(result: Any, step: int, problem: Problem) -> float:
-    """Compute the mean error of q_x over the contact, over µp_H."""
+    """Compute the mean error of the shear q_x over the contact area, over µp_H."""
     end, surface = result.steps[step], surface_of(result)
     shear = surface.vector(end, "shear")
     assert shear is not None
@@ -646,15 +668,18 @@ def _shear_of_circle(result: Any, step: int, problem: Problem) -> float:
 
 
 def _shift_at_reversals(result: Any, _: int, problem: Problem) -> float:
-    """Compute the largest error of the shift at the reversals [length]."""
+    """Compute the largest error of the tangential shift at the three force maxima of the loop
+    [length]."""
     largest = problem.ends[-1].end.shift
     found = [shift_along_x(end) for end in result.steps[1:]]
     return float(np.max(np.abs(np.subtract(found, (largest, -largest, largest)))))
 
 
 def radial_tangential(level: Level = Level.QUICK) -> Case:
-    """Build the case of tangential loads by the radial solver: closed forms, a loop, a coated
-    body."""
+    """Create the verification case of tangential loads by the radial solver.
+
+    It contains closed forms, a fretting loop and a coated body.
+    """
     stops = {1: 0.3, 2: 0.6, 3: 0.9}  # of µW, by loading step
     parts = tuple(stops.values())
     of_rings = f"accuracy target of {RINGS} rings at equal increments (4e-4, and a margin)"

@@ -1,4 +1,5 @@
-"""Indentation with friction: stick and slip by all solvers, with refined cells and increments."""
+"""Cases of indentation with friction: stick and slip by all solvers, with refined cells and
+increments."""
 
 from __future__ import annotations
 
@@ -106,7 +107,10 @@ SMALLEST, LARGEST = -340.0, -(2.0**-52)
 
 
 def stick_ratio(friction: float, dundurs_beta: float) -> float:
-    """Compute c/a, between 0 (gross slip) and 1 (full stick).
+    """Compute the stick radius over the contact radius of an indentation with friction.
+
+    The ratio lies between 0 (gross slip) and 1 (full stick). The effect of the shear on the
+    pressure is neglected (Goodman, Spence).
 
     friction      µ > 0
     dundurs_beta  β > 0; (1 - 2ν)/(2(1 - ν)) under a rigid indenter
@@ -115,7 +119,7 @@ def stick_ratio(friction: float, dundurs_beta: float) -> float:
     """
 
     def excess(log_c: float) -> float:
-        """Compute the difference of both sides of the equation, which grows with c."""
+        """Compute the difference of both sides of the equation for c/a, which grows with c/a."""
         c = exp(log_c)
         # K of the modulus √(1 - c²), from its complementary parameter c².
         return float(atanh(c) / c - friction / dundurs_beta * ellipkm1(c * c))
@@ -131,10 +135,13 @@ Field = NDArray[np.float64]
 
 
 def at_centres(cells: tuple[int, int], field: Field) -> Field:
-    """Interpolate a field (…, n, m) bilinearly to the centres of other cells of the same window.
+    """Interpolate a field on cells (…, n, m) bilinearly to the centres of other cells of the same
+    window.
 
     Means over the other cells are no substitute: a mean over half a cell of the field misses half
     of the change of the field across that cell, which is a first-order error on the whole surface.
+
+    cells  numbers of the other cells along x and y
     """
     along_x = _weights(cells[0], field.shape[-2])
     along_y = _weights(cells[1], field.shape[-1])
@@ -142,10 +149,10 @@ def at_centres(cells: tuple[int, int], field: Field) -> Field:
 
 
 def _weights(to: int, of: int) -> Field:
-    """Return the weights (to, of) of linear interpolation between the centres of two divisions.
+    """Compute the weights (to, of) of linear interpolation between cell centres of two divisions.
 
-    `of` equal intervals are interpolated at the centres of `to` others. The extrapolation is
-    constant.
+    A unit length is divided into `of` cells with known values and into `to` cells of the result.
+    Beyond the outermost centres the value is constant.
     """
     position = np.clip((np.arange(to) + 0.5) * of / to - 0.5, 0, of - 1)
     left = np.minimum(position.astype(int), max(of - 2, 0))
@@ -164,9 +171,10 @@ SEED = 7
 
 
 def consistent_tangent() -> Check:
-    """Compare the tangent with central differences, for exact contact and for the penalty law.
+    """Create a check of the tangent matrix of the finite element contact equations.
 
-    A wrong tangent changes no result but costs iterations.
+    The matrix is compared with central differences, for exact contact and for the penalty law. A
+    wrong tangent changes no result but costs iterations.
     """
     return Check(
         "consistent_tangent", "largest difference between the tangent matrix and central "
@@ -212,8 +220,10 @@ def _error(springs: float, seed: int) -> float:
 
 
 def _on_one_side(equations: Equations, above: Iterate, below: Iterate) -> Any:
-    """Select the points that change neither contact nor slip between two iterates: there is no
-    kink."""
+    """Select the points whose contact and slip states are equal in two iterates.
+
+    Between the iterates the equations have no kink at these points.
+    """
     sides = []
     for at in (above, below):
         _, _, in_slip = equations.linearised(at)
@@ -224,7 +234,7 @@ def _on_one_side(equations: Equations, above: Iterate, below: Iterate) -> Any:
 
 
 def _rings(random: np.random.Generator) -> RingCompliance:
-    """Draw a ring compliance with random symmetric positive definite harmonics."""
+    """Draw a random ring compliance, with symmetric positive definite harmonics."""
     harmonics = []
     for _ in range(HIGHEST + 1):
         factor = random.normal(size=(3 * RINGS, 3 * RINGS))
@@ -254,7 +264,13 @@ STICK_PART = Observable(
 def _profiles(
     of: RefinementLevels, one: Indentation, name: str, by: str, *drawn: str
 ) -> list[Drawing]:
-    """Draw pressure or shear over the radius, together with the reference."""
+    """Return functions that draw pressure or shear over the radius, together with the reference.
+
+    of     refinement levels, of which the judged level is drawn
+    one    tabulated contact
+    name   beginning of the chart names
+    drawn  names of the fields
+    """
     fields = {
         "pressure": ("p / p_H", of.problem.scale(OVER_PEAK), DRAWN_PRESSURE),
         "shear": (
@@ -280,10 +296,10 @@ def _profiles(
 
 
 def frictional_indentation(level: Level = Level.QUICK) -> Case:
-    """Build the case of a rigid ball pressed with friction on coupled bodies.
+    """Create the verification case of a rigid ball that is pressed with friction on coupled bodies.
 
-    The quick level takes a coarse grid. Other levels take the grid of the accuracy targets, and
-    judge the stick radius as well.
+    The quick level has a coarse grid. Other levels have the grid of the accuracy targets, and judge
+    the stick radius in addition.
     """
     why = "accuracy target of the coupled solver on 256 x 256 cells"
     cells, contacts = 256, [WEAK, STRONG, NU_ZERO, COATED]
@@ -336,10 +352,13 @@ def frictional_indentation(level: Level = Level.QUICK) -> Case:
 
 @dataclass(frozen=True)
 class Change:
-    """Change between refinement levels, and the expected order of the change.
+    """Difference between successive refinement levels, and its expected order of convergence.
 
-    coarsest  levels that are left out of the order
-    name      of the verdict, after `order_of_`; empty: `of`
+    of        quantity whose order is determined
+    change    function from the results of a coarse and a fine level to the difference
+    expected  expected order
+    coarsest  number of coarse levels that are left out of the order
+    name      name of the verdict after `order_of_`; default: the name of the quantity
     """
 
     of: Followed
@@ -354,10 +373,14 @@ class Change:
 
 @dataclass(frozen=True)
 class Refined:
-    """Runs from coarse to fine in one discretisation parameter, and the changes between the runs.
+    """Runs with one refined discretisation parameter, coarse to fine, and differences between the
+    runs.
 
-    size   refined parameter h of a run; x_label is the axis label of h
-    apart  number of levels between the two runs of a change
+    refined  kind of the discretisation parameter
+    size     function from a result to the parameter h
+    x_label  label of h in charts
+    changes  differences whose order is judged
+    apart    number of levels between the two runs of a difference
     """
 
     runs: tuple[AnyRun, ...]
@@ -369,7 +392,7 @@ class Refined:
 
     @property
     def orders(self) -> tuple[OrderOfChange, ...]:
-        """Orders of convergence of the changes."""
+        """Orders of convergence of all differences between successive runs."""
         labels = tuple(run.label for run in self.runs)
         return tuple(
             OrderOfChange(
@@ -381,7 +404,7 @@ class Refined:
         )  # fmt: skip
 
     def chart(self, name: str, title: str, caption: str) -> Drawing:
-        """Draw the changes against the refined parameter."""
+        """Return a function that draws the differences against the refined parameter."""
 
         def draw(results: Mapping[str, Any]) -> Chart:
             levels = [results[run.label] for run in self.runs]
@@ -401,7 +424,7 @@ class Refined:
 
 
 def _approach_change(coarse: Any, fine: Any) -> float:
-    """Compute the change of the approach, relative to the finer run."""
+    """Compute the relative difference of the approach between a coarse and a fine run."""
     return abs(approach(coarse) / approach(fine) - 1)
 
 
@@ -410,19 +433,23 @@ def _radius_change(coarse: Any, fine: Any) -> float:
 
 
 def _shift_change(coarse: Any, fine: Any) -> float:
-    """Compute the change of the tangential shift, relative to the finer run."""
+    """Compute the relative difference of the tangential shift between a coarse and a fine run."""
     return abs(shift_along_x(coarse.steps[-1]) / shift_along_x(fine.steps[-1]) - 1)
 
 
 def _shear_change(coarse: Any, fine: Any) -> float:
-    """Compute Σ|q_coarse - q_fine| / Σµp at the centres of the coarse cells."""
+    """Compute the difference of the shear between two grids, Σ|q_coarse - q_fine| / Σµp.
+
+    The fine shear is interpolated to the centres of the coarse cells.
+    """
     found, other = shear_of(coarse.steps[-1]), shear_of(fine.steps[-1])
     size = np.hypot(*(found - at_centres(coarse.grid.cells, other)))
     return float(size.mean() / (HALF.friction * fine.steps[-1].pressure.mean()))
 
 
 def _shear_change_on_rings(coarse: Any, fine: Any) -> float:
-    """Compute ∫|q_coarse - q_fine| r dr / ∫µp r dr."""
+    """Compute the difference of the shear between two meshes, ∫|q_coarse - q_fine| r dr / ∫µp r
+    dr."""
     one, other = coarse.steps[-1], fine.steps[-1]
     r = one.radii
     difference = np.abs(one.shear_radial - at_radii(other, other.shear_radial, r))
@@ -431,7 +458,8 @@ def _shear_change_on_rings(coarse: Any, fine: Any) -> float:
 
 
 def _increment_size(result: Any) -> float:
-    """Compute the number of load steps over the number of increments."""
+    """Return the size of an increment as the fraction of a load step: number of steps over
+    increments."""
     return len(result.steps) / len(result.increments)
 
 
@@ -462,7 +490,8 @@ FIXED_SHEAR = (
 
 
 def _half_on_cells(cells: int, increments: int) -> Run:
-    """Return the run with c = a/2 on a grid, with another number of increments than the scene."""
+    """Create the run on cells of the indentation with stick radius c = a/2, with a number of
+    increments."""
     return Run(
         f"{cells}x{cells}, {increments} increments",
         HALF.problem(20).scene,
@@ -477,13 +506,17 @@ def _approach_error(few: Any, many: Any) -> float:
 
 
 def _stick_error(few: Any, many: Any) -> float:
-    """Compute the relative error of the stick radius, extrapolated in the increments."""
+    """Compute the relative error of the stick radius, extrapolated linearly to infinite increments.
+
+    few   result with few increments
+    many  result with twice the increments
+    """
     radius = 2 * stick_radius(many) - stick_radius(few)
     return abs(radius / (HALF.stick_part * HALF.contact_radius) - 1)
 
 
 def indentation_refinement(level: Level = Level.QUICK) -> Case:
-    """Build the case of indentation with refined cells and refined increments.
+    """Create the verification case of indentation with friction, with refined cells and increments.
 
     The quick level has two runs; other levels have series of runs and judge the orders.
     """
@@ -573,10 +606,11 @@ def indentation_refinement(level: Level = Level.QUICK) -> Case:
 def sheared_increments(
     level: Level = Level.QUICK, increments: Sequence[int] = (), cells: int = 48
 ) -> Case:
-    """Build the case of a coupled contact that is pressed and then sheared in ever more increments.
+    """Create the verification case of a coupled contact that is pressed and sheared in more and
+    more increments.
 
-    increments  numbers per load step, instead of those of the level; orders need five or more
-    cells       per side
+    increments  numbers per load step, in place of those of the level; orders need five or more
+    cells       number of cells per side
     """
     counts = (
         increments
@@ -667,8 +701,15 @@ def sheared_increments(
 
 @dataclass(frozen=True)
 class Goodman:
-    """State after indentation without effect of the shear on the pressure: Hertz, with a stick
-    disc."""
+    """Exact state after indentation with friction if the shear has no effect on the pressure
+    (Goodman).
+
+    The pressure is that of Hertz.
+
+    stick_part     radius of the stick disc over the contact radius
+    approach       approach of Hertz theory [length]
+    peak_pressure  peak pressure of Hertz theory [force/length²]
+    """
 
     stick_part: float
     approach: float = HERTZ.approach
@@ -678,9 +719,12 @@ class Goodman:
 def _goodman(
     title: str, nu: float, friction: float, increments: int, uncertainty: Callable[[float], float]
 ) -> Problem:
-    """Return the problem of a rigid ball pressed with friction, coupled one way.
+    """Create the problem of a rigid ball pressed with friction, with one-way coupling.
 
-    uncertainty  relative, of the closed form, as a function of Dundurs' constant β
+    The pressure causes shear, but the shear has no effect on the pressure.
+
+    nu           Poisson ratio of the half-space
+    uncertainty  relative uncertainty of the closed form, as a function of Dundurs' constant β
     """
     beta = (1 - 2 * nu) / (2 * (1 - nu))
     return Problem(
@@ -706,9 +750,10 @@ def _excess(result: Any, *_: Any) -> float:
 def goodman_indentation(
     level: Level = Level.QUICK, cells: int = 0, frictions: Sequence[float] = ()
 ) -> Case:
-    """Build the case of indentation without effect of the shear on the pressure.
+    """Create the verification case of indentation with friction and one-way coupling (Goodman).
 
-    cells, frictions  per side, and coefficients, instead of those of the level
+    cells      numbers of cells per side, in place of those of the level
+    frictions  coefficients of friction, in place of those of the level
     """
     # On 64 cells the disc of µ = 0.1 is six cells wide, and so is the slip ring of µ = 0.3.
     resolved = (64, (0.2,)) if level is Level.QUICK else (256, (0.1, 0.2, 0.3))
@@ -778,7 +823,7 @@ def _bonded_ball_error(nu: float, few: Any, many: Any) -> float:
 
 
 def no_slip_indentation(level: Level = Level.QUICK) -> Case:
-    """Build the case of indentation with full stick: the stiffening factor of bonded contact.
+    """Create the verification case of indentation in full stick, with its factor on the stiffness.
 
     All levels have a flat punch; a ball is added above the quick level.
     """
@@ -861,7 +906,10 @@ def no_slip_indentation(level: Level = Level.QUICK) -> Case:
 
 
 def spence_example(level: Level = Level.QUICK) -> Case:
-    """Build the case of the published CONTACT example of Spence's problem (Kalker), on its grid."""
+    """Create the verification case of Kalker's published CONTACT example of Spence's problem.
+
+    The example is solved on the published grid.
+    """
     # The program's units are N and mm: gap 0.004116 r², G = 0.5, ν = 0, cells of 0.2.
     mm, megapascal = 1e-3, 1e6
     cells, side, increments = 45, 0.2 * mm, 35
@@ -921,13 +969,18 @@ def spence_example(level: Level = Level.QUICK) -> Case:
 
 
 def _on_mesh(one: Indentation, elements: int, increments: int) -> RefinementLevels:
-    """Return the scene of frictional_indentation on one mesh, with another number of increments."""
+    """Create the finite element level of a tabulated indentation, with a given number of
+    increments.
+
+    elements  number of elements per radius
+    """
     meshes = on_elements(one.problem(increments), (elements,), over=0.97, of=one.name)
     return named(f"{one.name}, {increments} increments", meshes)
 
 
 def fem_indentation(level: Level = Level.QUICK) -> Case:
-    """Build the case of indentation with friction on coupled bodies by finite elements."""
+    """Create the verification case of indentation with friction on coupled bodies by finite
+    elements."""
     n, many, why = finest(level), 60, "accuracy target of the finite elements"
     meshes = {
         one: _on_mesh(one, n, increments)
@@ -967,8 +1020,10 @@ def fem_indentation(level: Level = Level.QUICK) -> Case:
 
 
 def fem_increments(level: Level = Level.QUICK) -> Case:
-    """Build the case of indentation by finite elements in ever more increments; equal at all
-    levels."""
+    """Create the verification case of indentation by finite elements in more and more increments.
+
+    The case is equal at all levels.
+    """
     # The stick edge moves from node to node: that shows beyond 12 increments on 256 elements per
     # radius and beyond 24 on 512, and an order read off more is too low.
     elements = 256
@@ -1018,7 +1073,10 @@ def fem_increments(level: Level = Level.QUICK) -> Case:
 
 
 def fem_penalty_indentation(level: Level = Level.QUICK) -> Case:
-    """Build the case of indentation by finite elements with a penalty and return mapping."""
+    """Create the verification case of indentation with friction by finite elements with a penalty.
+
+    The penalty law of friction is integrated by return mapping.
+    """
     rows = (
         Within(APPROACH, 1e-3, PENALTY),
         Within(
@@ -1074,9 +1132,10 @@ INNERMOST, BESIDE = 0.05, 0.05  # radii where shear is not compared: at the axis
 
 
 def _mean_shear(result: Any, _: int, problem: Problem) -> float:
-    """Compute the mean error of the shear at the radii of the reference, over µp_H.
+    """Compute the mean error of the radial shear at the radii of the reference table, over µp_H.
 
-    The shear over √(1-x²) has no root at the edge; that ratio is interpolated between rings.
+    The interpolated quantity is the shear over √(1-x²), which has no root at the edge (x: radius
+    over contact radius).
     """
     end, one = result.steps[-1], problem.ends[-1]
     r = end.radii[end.pressure > 0] / end.contact_radius
@@ -1088,10 +1147,9 @@ def _mean_shear(result: Any, _: int, problem: Problem) -> float:
 
 
 def radial_indentation(level: Level = Level.QUICK) -> Case:
-    """Build the case of indentation by the radial solver against integral equations and Goodman's
-    limit.
+    """Create the verification case of indentation with friction by the radial solver.
 
-    The case is equal at all levels.
+    The references are integral equations and Goodman's limit. The case is equal at all levels.
     """
     increments, rings = 64, 512  # twice as many increments where the cells take twice as many
     why = "accuracy target of the radial solver at these increments"

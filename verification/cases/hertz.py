@@ -1,4 +1,5 @@
-"""Hertz contact: point and ellipse, exact arc, prescribed approach, unloading, different bodies."""
+"""Cases of Hertz contact: point and ellipse, exact arc, prescribed approach, unloading, unequal
+bodies."""
 
 from __future__ import annotations
 
@@ -99,9 +100,12 @@ MEAN = (
 
 
 def hertz_point(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> Case:
-    """Build the case of Hertz's point contact on square grids, with targets at 128 and 256 cells.
+    """Create the verification case of the Hertz point contact on square grids.
 
-    cells  per side, instead of those of the level; without the grids in two other positions
+    Accuracy targets hold for 128 and 256 cells per side.
+
+    cells  numbers of cells per side, in place of those of the level; without the grids in two other
+           positions
     """
     most = {Level.QUICK: 256, Level.STANDARD: 512, Level.FULL: 1024}[level]
     grids = on_cells(BALL, cells or refinement(32, most))
@@ -136,7 +140,15 @@ ARC = SphereContact.under_load(paper.NORMAL_FORCE, paper.RADIUS, paper.CONTACT_M
 
 
 def _beyond(what: Observable, words: str, hertz: float, exact: float, more: str = "") -> Reported:
-    """Report the relative difference of a quantity from Hertz's value."""
+    """Create a row that reports the relative difference of an observable from its value by Hertz
+    theory.
+
+    what   observable
+    words  description of the observable
+    hertz  value by Hertz theory
+    exact  value of the closed form that the contact has
+    more   addition to the remark
+    """
     over = replace(
         what,
         name=f"{what.name}_beyond_hertz",
@@ -148,8 +160,10 @@ def _beyond(what: Observable, words: str, hertz: float, exact: float, more: str 
 
 
 def hertz_exact_sphere(level: Level = Level.QUICK) -> Case:
-    """Build the case of the paper's ball with its exact arc, with the difference from the
-    paraboloid."""
+    """Create the verification case of a ball with its exact circular arc.
+
+    The difference from the paraboloid is reported.
+    """
     ball, load = Sphere(radius=paper.RADIUS, material=STEEL), paper.pressing()
     problem = Problem(
         paper.frictionless("Ball with its exact arc on a half-space", ball, STEEL, load),
@@ -194,7 +208,10 @@ def hertz_exact_sphere(level: Level = Level.QUICK) -> Case:
 
 
 def hertz_approach_control(level: Level = Level.QUICK) -> Case:
-    """Build the case of Hertz's point contact with prescribed approach; equal at all levels."""
+    """Create the verification case of the Hertz point contact with prescribed approach.
+
+    The case is equal at all levels.
+    """
     rows = (
         Refined(
             NORMAL_FORCE, 2.0, 7.5e-5,
@@ -219,9 +236,12 @@ SMALLER = UNLOADED.contact_radius / HERTZ.contact_radius
 
 
 def on_smaller(figure: float, order: float) -> Callable[[RefinementLevel], float]:
-    """Scale a tolerance to the number of cells or elements in the smaller contact.
+    """Scale a tolerance to the number of cells or elements in the smaller contact after unloading.
 
-    The tolerance holds for 128 x 128 cells, or for 64 elements per radius.
+    Returns a function from a refinement level to its tolerance.
+
+    figure  tolerance at 128 × 128 cells, or 64 elements per radius
+    order   order of convergence
     """
 
     def allowed(rung: RefinementLevel) -> float:
@@ -233,15 +253,15 @@ def on_smaller(figure: float, order: float) -> Callable[[RefinementLevel], float
 
 
 def _pressure_and_approach(one: Any, other: Any) -> float:
-    """Compute the larger of Σ|Δp|/Σp and the relative difference of the approach, at the last
-    steps."""
+    """Compute the larger of Σ|Δp|/Σp and the relative difference of the approach of two final
+    states."""
     a, b = one.steps[-1], other.steps[-1]
     pressure = abs(a.pressure - b.pressure).sum() / b.pressure.sum()
     return worst(float(pressure), abs(a.approach / b.approach - 1))
 
 
 def hertz_unloading(level: Level = Level.QUICK) -> Case:
-    """Build the case of unloading without friction, where the history has no effect."""
+    """Create the verification case of frictionless unloading, where the history has no effect."""
     cells, elements = {
         Level.QUICK: (128, 32), Level.STANDARD: (256, 64), Level.FULL: (512, 128),
     }[level]  # fmt: skip
@@ -326,7 +346,10 @@ def hertz_unloading(level: Level = Level.QUICK) -> Case:
 
 
 def dissimilar_bodies(level: Level = Level.QUICK) -> Case:
-    """Build the case of different bodies without friction, with equal E*; equal at all levels."""
+    """Create the verification case of different bodies with equal E*, without friction.
+
+    The case is equal at all levels.
+    """
     cells = 128
     hard = IsotropicMaterial(young_modulus=300e9, poisson_ratio=0.25)
     # 1/E* = (1 - 0.25²)/300 GPa + the rest, so that E* is the paper's
@@ -360,7 +383,7 @@ def dissimilar_bodies(level: Level = Level.QUICK) -> Case:
 
 
 def hertz_elliptical(level: Level = Level.QUICK) -> Case:
-    """Build the case of Hertz's contact with an elliptical contact area."""
+    """Create the verification case of the Hertz contact with an elliptical contact area."""
     mean_radius = replace(
         CONTACT_RADIUS,
         name="mean_contact_radius",
@@ -424,11 +447,12 @@ def fem_hertz(
     elements: Sequence[int] = (),
     studied: Sequence[tuple[int, float]] = (),
 ) -> Case:
-    """Build the case of Hertz's contact by finite elements, on many meshes.
+    """Create the verification case of the Hertz point contact by finite elements on many meshes.
 
-    elements  per contact radius, instead of those of the level
-    studied   meshes for the orders, and position of the edge in its element; default: the same
-              meshes, up to 64 elements per radius, where the error is that of the contact zone
+    elements  numbers of elements per contact radius, in place of those of the level
+    studied   meshes for the orders, with the position of the contact edge in its element; default:
+              the same meshes, up to 64 elements per radius, where the error is that of the contact
+              zone
     """
     studied = studied or (() if elements else order_levels(level))
     elements = elements or levels(level)
@@ -466,8 +490,10 @@ def fem_hertz(
 
 
 def fem_penalty_hertz(level: Level = Level.QUICK) -> Case:
-    """Build the case of Hertz's contact by finite elements with a penalty; higher levels refine
-    the mesh."""
+    """Create the verification case of the Hertz point contact by finite elements with a penalty.
+
+    Higher levels have finer meshes.
+    """
     elements, factor = finest(level), 10.0
     mesh = with_edge_at(BALL, (elements,))
     springs, improved = (

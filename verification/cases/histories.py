@@ -1,4 +1,7 @@
-"""Load histories and identities: equivalent descriptions of one contact must give equal results."""
+"""Cases of load histories without a closed form, and of equivalent descriptions of one contact.
+
+Rotated, mirrored or exchanged scenes must give equal results.
+"""
 
 from __future__ import annotations
 
@@ -69,7 +72,7 @@ FILMED = coated(film(2.0, 1.0))
 
 
 def turned(loading: tuple[LoadStep, ...], degrees: float) -> tuple[LoadStep, ...]:
-    """Return the load steps with the tangential forces rotated from x to y."""
+    """Rotate the tangential forces of load steps by an angle [degrees] from x towards y."""
     c, s = cos(radians(degrees)), sin(radians(degrees))
 
     def one(step: LoadStep) -> LoadStep:
@@ -82,7 +85,7 @@ def turned(loading: tuple[LoadStep, ...], degrees: float) -> tuple[LoadStep, ...
 
 
 def _shift(end: Any) -> Field:
-    """Return the tangential shift; zero before friction acts."""
+    """Return the tangential shift of an increment (2,); zero if the increment has none."""
     shift = end.tangential_shift
     return np.zeros(2) if shift is None else np.asarray(shift)
 
@@ -94,13 +97,14 @@ def same_fields(
     one: Any,
     other: Any,
 ) -> float:
-    """Compute the largest difference of two results in any increment, after a change of frame.
+    """Compute the largest difference of two results over all increments, after a change of frame.
 
     The measures are Σ|Δp|/Σp, Σ|Δq|/Σp, the relative difference of the approach, and the difference
     of the shift over the approach.
 
-    field   maps a scalar field of the second result into the frame of the first; vector maps the
-            shear, turn the shift
+    field   function that maps a scalar field of the second result into the frame of the first
+    vector  function that maps the shear
+    turn    function that maps the shift
     """
 
     def apart(a: Any, b: Any) -> float:
@@ -116,7 +120,7 @@ def same_fields(
 
 
 def _by_quarter(field: Field) -> Field:
-    """Rotate a field by a right angle from x to y."""
+    """Rotate a scalar field on square cells by a right angle from x towards y."""
     return np.asarray(field.T[::-1])
 
 
@@ -133,10 +137,12 @@ after_quarter = partial(same_fields, _by_quarter, _quarter_of_shear, _quarter_of
 
 
 def motion_apart(degrees: float, one: Any, other: Any) -> float:
-    """Compute the largest difference of shift and dissipated energy after a rotation of the second
+    """Compute the largest difference of shift and dissipated energy from a rotated result.
+
+    The differences are taken over all increments, relative to the largest value of the second
     result.
 
-    Differences are taken in each increment, relative to the largest value of the second result.
+    degrees  rotation from the second to the first result
     """
     c, s = cos(radians(degrees)), sin(radians(degrees))
     turn = np.array([[c, -s], [s, c]])
@@ -150,9 +156,11 @@ def motion_apart(degrees: float, one: Any, other: Any) -> float:
 
 
 def _isotropic(one: Run, other: Run, degrees: float, allowed: float, cells: int) -> Comparison:
-    """Compare a history with itself rotated by an angle that the grid does not share.
+    """Create the comparison of a history with its rotation by an angle that is no symmetry of the
+    grid.
 
-    allowed  on `cells` cells per side: about four times the error of square cells
+    allowed  accepted difference on `cells` cells per side: about four times the error of square
+             cells
     """
     return Comparison(
         f"turned_by_{degrees:g}", "difference of shift and dissipated energy after a rotation of "
@@ -165,9 +173,11 @@ def _isotropic(one: Run, other: Run, degrees: float, allowed: float, cells: int)
 
 
 def load_paths(level: Level = Level.QUICK, cells: int = 0) -> Case:
-    """Build the case of histories without a closed form, which only the equations can judge.
+    """Create the verification case of load histories without a closed form.
 
-    cells  per side, instead of those of the level
+    They are judged by the laws of contact and friction, and by the isotropy of the results.
+
+    cells  number of cells per side, in place of that of the level
     """
     grid = paper.hertz_grid(cells or (64 if level is Level.QUICK else 128))
     half = 0.5 * paper.FRICTION_LIMIT
@@ -226,10 +236,10 @@ PRESSED, PUSHED, BACK = 1, 2, 3  # loading steps
 
 @dataclass(frozen=True)
 class CoupledContact:
-    """Rigid ball on a body that couples pressure and shear, under a tangential loop.
+    """Rigid ball on a body whose normal and tangential problems are coupled, under a tangential
+    loop.
 
-    The force of two thirds of µW is applied along x, reversed, and turned; then the contact is
-    unloaded under that force.
+    A force of 2/3 µW is applied along x, reversed, and turned. Then the normal force is reduced.
     """
 
     name: str
@@ -238,7 +248,7 @@ class CoupledContact:
 
     @property
     def history(self) -> tuple[LoadStep, ...]:
-        """Load steps; the first three are a loop along x."""
+        """Load steps of the contact; the first three are a loop along x."""
         push = 2 / 3 * self.friction * NORMAL_FORCE
         return (
             pressing(6),
@@ -249,12 +259,13 @@ class CoupledContact:
         )
 
     def scene(self, loading: tuple[LoadStep, ...], way: str) -> Scene:
-        """Return the scene with a load history."""
+        """Create the scene of the contact with the given load steps; `way` is added to its
+        title."""
         title = f"Rigid ball on a body: {self.name}{way}"
         return pressed(title, rigid_ball(), self.body, *loading, friction=self.friction)
 
     def run(self, cells: int, degrees: float = 0.0) -> Run:
-        """Return the run of the rotated history on cells."""
+        """Create the run on cells with the load history rotated by an angle [degrees]."""
         way = "" if degrees == 0 else f", turned by {degrees:g}°"
         grid = paper.square_grid(cells, 1.2 * HERTZ.contact_radius)
         scene = self.scene(turned(self.history, degrees), way)
@@ -262,7 +273,7 @@ class CoupledContact:
         return Run(f"{self.name}{way}", scene, grid, edge="off")
 
     def section(self, elements: int, harmonics: int) -> SectionRun:
-        """Return the run of the loop by finite elements, with loads along one line."""
+        """Create the finite element run of the loop along x."""
         mesh = FiniteElementDiscretisation(
             elements_per_radius=elements,
             contact_radius=HERTZ.contact_radius,
@@ -274,18 +285,19 @@ class CoupledContact:
 
 
 class MotionControlled:
-    """Repeated solve of a history with the resulting approach and shift prescribed in each
-    increment.
+    """Repeated solve of a history with the computed approach and shift of each increment
+    prescribed.
 
-    The motions are known only after the first solve, so this solve is not a run of the case. One
-    solve serves all measures. A history that the solver does not complete has an infinite error.
+    These motions are known only after the first solve, so that the repeated solve is no run of the
+    case. One repeated solve serves all measures. A history that the solver does not complete has an
+    infinite error.
     """
 
     def __init__(self) -> None:
         self._solved: tuple[semi_analytical.Result, semi_analytical.Result | None] | None = None
 
     def difference(self, result: semi_analytical.Result) -> float:
-        """Compute the larger of Σ|Δp|/Σp and Σ|Δq|/Σp in any increment."""
+        """Compute the larger of Σ|Δp|/Σp and Σ|Δq|/Σp between both solves, over all increments."""
         repeated = self._repeated(result)
         if repeated is None:
             return math.inf
@@ -298,7 +310,8 @@ class MotionControlled:
         )
 
     def violation(self, result: semi_analytical.Result) -> float:
-        """Compute the largest violation of a law in the repeated solve [1]."""
+        """Compute the largest violation of a law of contact or friction in the repeated solve
+        [1]."""
         repeated = self._repeated(result)
         if repeated is None:
             return math.inf
@@ -306,7 +319,7 @@ class MotionControlled:
         return worst(violation, imbalance or 0.0)
 
     def iterations(self, result: semi_analytical.Result) -> float:
-        """Return the iterations of all increments of the repeated solve."""
+        """Return the number of iterations of the repeated solve, over all increments."""
         repeated = self._repeated(result)
         return (
             math.inf if repeated is None else float(sum(i.iterations for i in repeated.increments))
@@ -323,7 +336,8 @@ def _pair(vector: Field) -> tuple[float, float]:
 
 
 def solved_by_motion(result: semi_analytical.Result) -> semi_analytical.Result | None:
-    """Solve the history of a result with its motions prescribed; None if the solver fails."""
+    """Solve the history of a result again, with its computed motions prescribed; None if that
+    fails."""
     steps = tuple(
         LoadStep(
             approach=i.approach,
@@ -340,9 +354,13 @@ def solved_by_motion(result: semi_analytical.Result) -> semi_analytical.Result |
 
 
 def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | None = None) -> Case:
-    """Build the case of loops, turns and unloading of coupled bodies, solved in several ways.
+    """Create the verification case of loops, turns and unloading of coupled bodies.
 
-    sizes  cells per side, elements per radius and harmonics, instead of those of the level
+    The histories are solved under force control, under displacement control, rotated, and by other
+    solvers.
+
+    sizes  numbers of cells per side, elements per radius, and harmonics, in place of those of the
+           level
     """
     cells, elements, harmonics = sizes or {
         Level.QUICK: (32, 16, 4), Level.STANDARD: (64, 32, 8), Level.FULL: (128, 64, 12),
@@ -445,19 +463,20 @@ PUSH = LoadStep(tangential_force=(PART * MU * NORMAL_FORCE, 0.0), increments=2)
 
 
 def _patchy(grid: SurfaceGrid) -> Field:
-    """Return a friction field that varies in all directions and vanishes in patches."""
+    """Return a friction coefficient field on a grid that varies in x and y and vanishes in
+    patches."""
     x, y = (c / HERTZ.contact_radius for c in grid.coordinates())
     waves = np.sin(3 * x + 0.4) + 0.6 * np.sin(5 * y - 1.1 * x)
     return np.asarray(np.maximum(MU * (1.2 + 0.9 * waves), 0.0))
 
 
 def _in_mirror(q: Field) -> Field:
-    """Mirror a shear field at x = 0."""
+    """Mirror a shear field (2, nx, ny) at the plane x = 0."""
     return np.stack([-q[0][::-1], q[1][::-1]])
 
 
 def in_mirror(one: Any, other: Any) -> float:
-    """Compare pressure and shear with those of the second result mirrored at x = 0."""
+    """Compute the largest difference of pressure and shear from a mirrored result (plane x = 0)."""
 
     def apart(a: Any, b: Any) -> float:
         total = np.sum(b.pressure)
@@ -470,7 +489,8 @@ def in_mirror(one: Any, other: Any) -> float:
 
 
 def scalars_apart(one: Any, other: Any) -> float:
-    """Compute the largest relative difference of approach, shift and dissipated energy."""
+    """Compute the largest relative difference of approach, shift and dissipated energy of final
+    states."""
     (a, b) = (
         (end.approach, float(end.tangential_shift[0]), end.dissipated_energy)
         for end in (one.steps[-1], other.steps[-1])
@@ -479,7 +499,10 @@ def scalars_apart(one: Any, other: Any) -> float:
 
 
 def same_surface(level: Level = Level.QUICK) -> Case:
-    """Build the case of equivalent inputs: maps, rectangular cells, layers of the base material."""
+    """Create the verification case of equivalent inputs of one contact.
+
+    The inputs are height maps, rectangular cells, and layers of the base material.
+    """
     # An odd count of cells has one in the middle, where the lowest height of the ball is zero.
     cells = {Level.QUICK: 33, Level.STANDARD: 65, Level.FULL: 129}[level]
     width, longer = 2 * 1.2 * HERTZ.contact_radius, 4 / 3
@@ -489,7 +512,12 @@ def same_surface(level: Level = Level.QUICK) -> Case:
     heights: Any = np.asarray(rigid_ball().initial_gap(*square.coordinates()))
 
     def run(label: str, what: str, grid: SurfaceGrid = square, **other: Any) -> Run:
-        """Return the run of the ball on the coated body with the given changes."""
+        """Create a run of the rigid ball on the coated body, with changes of the input.
+
+        label  name of the run
+        what   description of the change
+        other  changed indenter, body, friction, or rotation in degrees
+        """
         chosen: dict[str, Any] = {
             "indenter": rigid_ball(), "body": FILMED, "friction": MU, "degrees": 0.0,
         } | other  # fmt: skip
@@ -576,8 +604,11 @@ def same_surface(level: Level = Level.QUICK) -> Case:
 
 
 def forced_effects(level: Level = Level.QUICK) -> Case:
-    """Build the case of effects that a scene does not need, forced on: equal results at a higher
-    cost."""
+    """Create the verification case of effects that are switched on although a scene does not need
+    them.
+
+    The results must be equal, at a higher cost.
+    """
     cells = 48 if level is Level.QUICK else 96
     grid = paper.square_grid(cells, 1.3 * HERTZ.contact_radius)
     one_film = film(2.0, 1.0)
@@ -632,7 +663,7 @@ def forced_effects(level: Level = Level.QUICK) -> Case:
 
 @dataclass(frozen=True)
 class BodyPair:
-    """Materials and layers of two bodies; the upper body is a ball."""
+    """Materials and layers of two bodies in contact; the upper body is a ball."""
 
     name: str
     lower: Body
@@ -640,11 +671,11 @@ class BodyPair:
 
     @property
     def exchanged(self) -> BodyPair:
-        """The pair with exchanged bodies."""
+        """Pair in which upper and lower body are exchanged."""
         return replace(self, name=f"{self.name}, exchanged", lower=self.upper, upper=self.lower)
 
     def scene(self, *loading: LoadStep) -> Scene:
-        """Return the scene of the ball on the lower body."""
+        """Create the scene of the ball with the upper materials on the lower body."""
         ball = Paraboloid(
             radius=paper.RADIUS, material=self.upper.material, layers=self.upper.layers
         )
@@ -659,9 +690,11 @@ after_half = partial(same_fields, lambda p: p[::-1, ::-1], _turned_half, np.asar
 
 
 def on_rings_apart(one: Any, other: Any) -> float:
-    """Compute the largest difference of pressure, approach and radial shear of exchanged bodies.
+    """Compute the largest difference of pressure, approach and radial shear after an exchange of
+    bodies.
 
-    The radial shear has opposite signs in the two results.
+    The results are those of the radial solver or of finite elements. The radial shear has opposite
+    signs in the two results.
     """
 
     def outward(increment: Any) -> Any:
@@ -681,7 +714,7 @@ def on_rings_apart(one: Any, other: Any) -> float:
 
 
 def exchanged_bodies(level: Level = Level.QUICK) -> Case:
-    """Build the case of exchanged bodies: the lower body becomes the indenter and conversely."""
+    """Create the verification case of exchanged bodies: the lower body becomes the indenter."""
     source = (
         "a reflection in the contact plane exchanges the bodies and reverses the tangential "
         "force, and half a turn about z reverses it back; the gap does not depend on which body "
@@ -752,10 +785,11 @@ def _vector(increment: Any, name: str) -> Field:
 
 
 def off_the_way(scene: Scene, result: Any) -> float:
-    """Compute the largest distance of the prescribed load or motion from its linear ramp.
+    """Compute the largest deviation of the prescribed loads or motions of all increments from the
+    ramp.
 
     The first step starts at zero and is uniform in the contact radius: the force on a ball grows
-    with the third power of the fraction.
+    with the third power of the fraction of the step.
     """
     off = 0.0
     for number, step in enumerate(scene.loading, start=1):
@@ -783,7 +817,8 @@ def _off_hertz(result: Any) -> float:
 
 
 def led_histories(level: Level = Level.QUICK) -> Case:
-    """Build the case of steps that alternate between force and displacement control.
+    """Create the verification case of load steps that alternate between force and displacement
+    control.
 
     The end of every increment and the number of increments are judged.
     """
@@ -888,7 +923,10 @@ def led_histories(level: Level = Level.QUICK) -> Case:
 
 
 def fem_far_field(level: Level = Level.QUICK) -> Case:
-    """Build the case of the far field of finite elements: force, tangential force and torque."""
+    """Create the verification case of the far field of finite elements.
+
+    The loads are a normal force, a tangential force and a torque.
+    """
     near, far = 5.0, 100.0  # box over radius
     push = LoadStep(tangential_force=(100.0, 0.0), increments=1)  # with µ = 1 nothing slips
     pushed = STUCK.scene.model_copy(

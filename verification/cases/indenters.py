@@ -1,4 +1,5 @@
-"""Cone, flat punch and tilted indenters: infinite pressures at apex and rim, moments."""
+"""Cases of cone, flat punch and tilted indenters: infinite pressures at apex and rim, and
+moments."""
 
 from __future__ import annotations
 
@@ -48,7 +49,7 @@ if TYPE_CHECKING:
 
 
 def cone_contact(level: Level = Level.QUICK) -> Case:
-    """Build the case of a cone on a half-space: pressure with a logarithmic peak below the apex."""
+    """Create the verification case of a cone on a half-space, with a logarithmic pressure peak."""
     cells = refinement(32, 128 if level is Level.QUICK else 256)
     grids = on_cells(CONE, cells)
     rows = (
@@ -84,7 +85,8 @@ def cone_contact(level: Level = Level.QUICK) -> Case:
 
 
 def flat_punch(level: Level = Level.QUICK) -> Case:
-    """Build the case of a flat punch on a half-space: infinite pressure at the rim."""
+    """Create the verification case of a flat punch on a half-space, with infinite pressure at the
+    rim."""
     cells = refinement(32, 128 if level is Level.QUICK else 256)
     grids = on_cells(PUNCH, cells, PUNCH_WINDOW)
     rows = (
@@ -119,7 +121,11 @@ TILTED = TiltedPunch(PUNCH_RADIUS, paper.CONTACT_MODULUS, NORMAL_FORCE, ECCENTRI
 
 
 def _component(name: str, axis: int, result: Any, *_: Any) -> float:
-    """Return a component of a vector at the end of the last step; NaN without the vector."""
+    """Return a component of a vector quantity at the end of the last step; NaN if it is missing.
+
+    name  name of the quantity
+    axis  index of the component
+    """
     vector = getattr(result.steps[-1], name)
     return float("nan") if vector is None else float(vector[axis])
 
@@ -129,8 +135,10 @@ def _slope(axis: int, exact: Any) -> float:
 
 
 def _inner_error(result: Any, step: int, problem: Problem) -> float:
-    """Compute the largest relative error of the pressure within half the radius, away from the
-    rim."""
+    """Compute the largest relative pressure error of a flat punch within half its radius.
+
+    The rim, where the pressure is infinite, is excluded.
+    """
     x, y = result.grid.coordinates()
     inside = np.hypot(x, y) < 0.5 * PUNCH_RADIUS
     exact = problem.ends[step].pressure(x[inside], y[inside])
@@ -138,7 +146,8 @@ def _inner_error(result: Any, step: int, problem: Problem) -> float:
 
 
 def _stiffnesses(one: Any, other: Any) -> float:
-    """Compute the largest relative difference of the stiffnesses of two states."""
+    """Compute the largest relative difference of normal and tilting stiffnesses of two final
+    states."""
 
     def of(result: Any) -> np.ndarray:
         end = result.steps[-1]
@@ -148,7 +157,7 @@ def _stiffnesses(one: Any, other: Any) -> float:
 
 
 def tilted_punch(level: Level = Level.QUICK) -> Case:
-    """Build the case of a flat punch with an eccentric force, which tilts."""
+    """Create the verification case of a flat punch that is tilted by an eccentric force."""
     punch = FlatPunch(radius=PUNCH_RADIUS, material=STEEL)
     forced, tilted = (
         paper.frictionless(title, punch, STEEL, step)
@@ -225,8 +234,13 @@ ROLLED = "an identity of the discrete equations: the error is the tolerance of t
 
 
 def _moved_apart(beside: Result, centred: Result) -> float:
-    """Compute the largest difference of the tractions, with the centred ball shifted by whole
-    cells."""
+    """Compute the largest difference of tractions between an eccentric and a centred ball.
+
+    The tractions of the centred ball are shifted by whole cells.
+
+    beside   result of the eccentric ball
+    centred  result of the centred ball
+    """
     one, other = beside.steps[-1], centred.steps[-1]
     pressure = np.roll(other.pressure, MOVED, axis=(0, 1))
     worst = np.max(np.abs(one.pressure - pressure)) / other.peak_pressure
@@ -238,8 +252,10 @@ def _moved_apart(beside: Result, centred: Result) -> float:
 
 
 def eccentric_ball(level: Level = Level.QUICK) -> Case:
-    """Build the case of a ball with an eccentric force: it rolls until the contact is below the
-    force."""
+    """Create the verification case of a ball with an eccentric force.
+
+    The ball rolls until the contact is below the force.
+    """
     cells, increments = 64 if level is Level.QUICK else 128, 5
     source = "x²/2R - φx = (x - Rφ)²/2R - Rφ²/2: a tilted paraboloid is a shifted paraboloid"
     grid = paper.square_grid(cells, 2 * HERTZ.contact_radius)
@@ -321,7 +337,10 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
 
 
 def _between(result: Any, step: int, problem: Problem) -> float:
-    """Compute the largest relative error of the pressure of rings away from apex and edge."""
+    """Compute the largest relative pressure error of finite elements away from apex and edge.
+
+    The rings lie between 0.2 and 0.8 of the contact radius.
+    """
     end = result.steps[step]
     part = end.radii / problem.radius
     away = (part > 0.2) & (part < 0.8)
@@ -330,9 +349,9 @@ def _between(result: Any, step: int, problem: Problem) -> float:
 
 
 def fem_classical(level: Level = Level.QUICK) -> Case:
-    """Build the case of cone and flat punch by finite elements.
+    """Create the verification case of cone and flat punch by finite elements.
 
-    Above the quick level the order of the central pressure is judged as well.
+    Above the quick level the order of the central pressure is judged in addition.
     """
     why = "set by hand at 64 elements per radius, on other meshes scaled by the order"
     rim = "the error of hat functions at the infinite pressure of the rim has an energy of O(h)"

@@ -1,4 +1,5 @@
-"""Refinement levels of the cases, and reasons of tolerances that several cases share."""
+"""Numbers of finite elements on the refinement levels, and reasons of tolerances of several
+cases."""
 
 from verification.judging.case import Level
 from verification.judging.refinement_levels import (
@@ -34,12 +35,19 @@ PLACES = (0.1, 0.3, MIDDLE, 0.7, 0.9)
 
 
 def levels(level: Level) -> tuple[int, ...]:
-    """Return the elements per radius, coarse to fine."""
+    """Return the numbers of elements per contact radius for an amount of computation, coarse to
+    fine."""
     return _LEVELS[level]
 
 
 def order_levels(level: Level, per_octave: int = PER_OCTAVE) -> tuple[tuple[int, float], ...]:
-    """Return the elements per radius and the positions of the edge in its element."""
+    """Return the meshes from which orders of convergence are computed.
+
+    Each mesh has a number of elements per contact radius, and a position of the contact edge in its
+    element.
+
+    per_octave  number of meshes per doubling of the number of elements
+    """
     steps = range(round(OCTAVES * per_octave), -1, -1)
     many = tuple(dict.fromkeys(round(ASKED_AT / 2 ** (n / per_octave)) for n in steps))
     meshes = _LEVELS[level] if level is Level.QUICK else many
@@ -47,12 +55,16 @@ def order_levels(level: Level, per_octave: int = PER_OCTAVE) -> tuple[tuple[int,
 
 
 def finest(level: Level) -> int:
-    """Return the elements per radius of the finest mesh of a level."""
+    """Return the number of elements per contact radius of the finest mesh for an amount of
+    computation."""
     return _LEVELS[level][-1]
 
 
 def because(order: float) -> str:
-    """Return the reason of a tolerance by `asked`."""
+    """Return the reason for a tolerance that is scaled from 64 elements per radius to other meshes.
+
+    order  order of convergence by which the tolerance is scaled
+    """
     return (
         f"accuracy target of the finite elements at {ASKED_AT} per radius; on other meshes "
         f"scaled by the order {order:g}"

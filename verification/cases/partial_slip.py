@@ -1,4 +1,5 @@
-"""Tangential loading into partial slip and gross slip: ball and cone, by cells and by harmonics."""
+"""Cases of tangential loading into partial slip and gross slip: ball and cone, by cells and
+harmonics."""
 
 from __future__ import annotations
 
@@ -81,11 +82,12 @@ ACROSS = "slip across the load"
 
 @dataclass(frozen=True)
 class PointsRun(SectionRun):
-    """Run on two sets of points: points with the line of the load, and points halfway between.
+    """Finite element run with Coulomb's law at two sets of points on the rings.
 
-    The result is that of the first set, with the mean stick area of both sets, because the errors
-    of the stick area by sectors have opposite signs. Coulomb's law is a vector law even if the plan
-    neglects slip across the load.
+    One set contains points on the line of the load, the other lies halfway between. The result is
+    that of the first set, with the mean stick area of both sets, because the errors of the stick
+    area by sectors have opposite signs. Coulomb's law is a vector law even if the plan neglects
+    slip across the load.
     """
 
     def solve(self) -> Result:
@@ -117,9 +119,9 @@ def _with_vector_law(decided: Plan) -> Plan:
 
 
 def _counted(model: ContactModel, increments: Iterator[Increment]) -> Iterator[Increment]:
-    """Yield the increments with the number of sparse factorisations on both sets of points.
+    """Yield the increments with their numbers of sparse factorisations on both sets of points.
 
-    The count is that of `solve`: it does not depend on the cache of matrices.
+    The number is counted as in `fem_reference.solve` and does not depend on the cache of matrices.
     """
     counted = 0
     for increment in increments:
@@ -154,7 +156,12 @@ SLIP = error_norm(
 
 
 def _of_stop(step: int, part: float) -> tuple[Row, ...]:
-    """Return the rows of quantities of the ball that are judged at a stop."""
+    """Return the rows of quantities of the ball that are judged at the end of a tangential load
+    step.
+
+    step  index of the load step
+    part  tangential force over µW
+    """
     return (
         Within(
             SHEARS[part], 2e-3,
@@ -174,12 +181,13 @@ def _of_stop(step: int, part: float) -> tuple[Row, ...]:
 
 
 def cattaneo_mindlin(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> Case:
-    """Build the case of a constant normal force and a tangential force raised in steps, ν = 0.
+    """Create the verification case of a ball under constant normal and growing tangential force, ν
+    = 0.
 
-    Orders of means are judged above the quick level. At the quick level the order of the shear is
-    determined from coarse grids in several positions.
+    Orders of mean errors are judged above the quick level. At the quick level the order of the
+    shear is determined from coarse grids in several positions.
 
-    cells  per side, instead of those of the level; without shifted grids
+    cells  numbers of cells per side, in place of those of the level; without shifted grids
     """
     most = {Level.QUICK: 128, Level.STANDARD: 256, Level.FULL: 512}[level]
     grids = on_cells(CATTANEO, cells or refinement(32, most))
@@ -245,7 +253,10 @@ def cattaneo_mindlin(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> C
 
 
 def shears_along_x(stops: dict[int, float]) -> list[Drawn]:
-    """Return the computed and the exact shear at the end of every step."""
+    """Return the curves of computed and exact shear at the ends of several load steps.
+
+    stops  tangential force over µW, by index of the load step
+    """
     return [
         Drawn(
             lambda end: shear_of(end)[0], lambda exact: exact.shear, f"{part:g} µW", step
@@ -255,8 +266,10 @@ def shears_along_x(stops: dict[int, float]) -> list[Drawn]:
 
 
 def _under_cone(*parts: float) -> Problem:
-    """Return the problem of the cone of cone_contact, ν = 0, with tangential forces in fractions
-    of µW."""
+    """Create the problem of a cone with ν = 0 under tangential forces.
+
+    parts  tangential forces at the ends of the load steps, over µW
+    """
 
     def pressed(load: float) -> ConeContact:
         return ConeContact.under_load(load, SLOPE, paper.CONTACT_MODULUS)
@@ -286,7 +299,7 @@ def _under_cone(*parts: float) -> Problem:
 
 
 def sheared_cone(level: Level = Level.QUICK) -> Case:
-    """Build the case of partial slip under a cone.
+    """Create the verification case of partial slip below a cone.
 
     At the quick level the order is determined from coarse grids in several positions.
     """
@@ -333,12 +346,12 @@ def sheared_cone(level: Level = Level.QUICK) -> Case:
 
 
 def near_sliding(level: Level = Level.QUICK, cells: int = 0) -> Case:
-    """Build the case of one step to just below gross slip, and of gross slip under a prescribed
-    shift.
+    """Create the verification case of a tangential force just below the limit, and of gross slip.
 
-    For ν > 0 the closed form of the shift is not exact and not judged.
+    Gross slip is caused by a prescribed shift. For ν > 0 the closed form of the shift is not exact
+    and not judged.
 
-    cells  per side, instead of those of the level
+    cells  numbers of cells per side, in place of those of the level
     """
     cells = cells or (64 if level is Level.QUICK else 128)
     materials = {"ν = 0": NU_ZERO, "ν = 0.3": STEEL}
@@ -390,7 +403,7 @@ def near_sliding(level: Level = Level.QUICK, cells: int = 0) -> Case:
 
 
 def _sliding(material: IsotropicMaterial) -> Problem:
-    """Return the problem of gross slip under a prescribed shift."""
+    """Create the problem of a ball that is shifted beyond the onset of gross slip."""
     beyond, at_sliding = 5.0, paper.partial_slip(material, 0.0).sliding_shift
     scene = paper.frictional(
         f"Dragged to {beyond:g} sliding shifts, ν = {material.poisson_ratio:g}",
@@ -417,20 +430,26 @@ PUNCH, PUNCH_FORCE = 5e-3, 10.0
 
 @dataclass(frozen=True)
 class StuckDisc:
-    """Final state of a bonded disc under a tangential force [length]."""
+    """Exact final state of a bonded disc under a tangential force: its shift [length]."""
 
     shift: float = (2 - 0.5) * PUNCH_FORCE / (8 * RUBBER.shear_modulus * PUNCH)
 
 
 def shear_at_points(end: Any) -> tuple[Any, Any]:
-    """Return q_x and q_y (rings, angles) of an increment under a tangential force along x."""
+    """Evaluate the shear components q_x and q_y (rings, angles) of a finite element increment.
+
+    The tangential force acts along x.
+    """
     r, theta = np.meshgrid(end.radii, end.angles, indexing="ij")
     q, _ = tractions_at(end, r * np.cos(theta), r * np.sin(theta))
     return q[0], q[1]
 
 
 def _shear_error(result: Any, step: int, problem: Problem) -> float:
-    """Compute ∫|q - q_exact| dA / µW by the trapezium rule in r and θ, for mirror symmetry."""
+    """Compute the shear error ∫|q - q_exact| dA / µW of finite elements with mirror symmetry.
+
+    The integral is computed by the trapezium rule in r and θ.
+    """
     end = result.steps[step]
     q_x, q_y = shear_at_points(end)
     off = np.hypot(q_x - problem.ends[step].shear(end.radii)[:, None], q_y)
@@ -450,7 +469,10 @@ def _at_points(of: str, problem: Problem, elements: int, over: float) -> Refinem
 
 
 def fem_harmonics(level: Level = Level.QUICK) -> Case:
-    """Build the case of tangential loading with many harmonics and Coulomb's law at points."""
+    """Create the verification case of tangential loading by finite elements with many harmonics.
+
+    Coulomb's law holds at points on the rings.
+    """
     cusp, rim = 1.5, 1.0  # orders with which errors fall
     shear = error_norm("shear", "∫|q - q_exact| dA / µW{when}", _shear_error, "µW")
     across = error_norm("shear_across", "largest |q_y| / µp_H{when}", _shear_across, OVER_LIMIT)
@@ -529,7 +551,7 @@ def fem_harmonics(level: Level = Level.QUICK) -> Case:
 
 
 def _chart(exact: Any, steel: Any) -> Chart:
-    """Draw q_x on the line of the load for both Poisson's ratios, and q_y on rays for ν = 0.3."""
+    """Draw q_x on the line of the load for both Poisson ratios, and q_y on rays for ν = 0.3."""
     step, a, limit = PARTS.index(0.6) + 1, HERTZ.contact_radius, FRICTION * HERTZ.peak_pressure
 
     def on_ray(result: Any, r: Any, degrees: float) -> Any:

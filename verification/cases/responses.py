@@ -1,4 +1,5 @@
-"""Surface response of layered bodies: reference numbers and laws."""
+"""Cases for the surface response of layered bodies: reference numbers, and laws for random
+bodies."""
 
 from __future__ import annotations
 
@@ -41,7 +42,10 @@ def _stack(row: Mapping[str, Any]) -> Stack:
 
 @cache
 def _frf_errors(number: int) -> tuple[float, float]:
-    """Compute the errors of the scalars and of the matrix of one row."""
+    """Compute the relative errors of the FRF scalars and of the FRF matrix for one reference row.
+
+    number  index of the row
+    """
     row = FRF_ROWS[number]
     c11, c12, c22, csh = (float(row[key]) for key in ("C11", "C12", "C22", "Csh"))
     got = np.array(scalars(_stack(row), np.hypot(row["m"], row["n"])))
@@ -66,7 +70,7 @@ def _coefficients(G1: float, nu1: float, base: tuple[float, float], d: float) ->
 
 
 def _coefficient_error(row: Mapping[str, Any]) -> float:
-    """Compute the largest error of the components of one row."""
+    """Compute the largest relative error of the influence coefficients of one reference row."""
     K = _coefficients(row["G1"], row["nu1"], (row["G2"], row["nu2"]), row["d"])
     i, j = round(row["x"] / row["d"]), round(row["y"] / row["d"])
     errors = [
@@ -77,10 +81,9 @@ def _coefficient_error(row: Mapping[str, Any]) -> float:
 
 
 def layered_reference(level: Level = Level.QUICK) -> Case:
-    """Build the case of FRFs and influence coefficients of layered bodies against reference
-    numbers.
+    """Create the verification case of FRFs and influence coefficients against reference numbers.
 
-    The case is equal at all levels.
+    The bodies are layered. The case is equal at all levels.
     """
     frf = "references/frf.json: boundary-value problem in the layer amplitudes, 50 digits"
     required = Required(5e-15, "required of layered FRFs by the project's accuracy targets")
@@ -122,8 +125,10 @@ def layered_reference(level: Level = Level.QUICK) -> Case:
 
 
 def frf_laws(level: Level = Level.QUICK) -> Case:
-    """Build the case of the laws of any surface FRF, for random layered bodies; equal at all
-    levels."""
+    """Create the verification case of the laws of surface FRFs, for random layered bodies.
+
+    The case is equal at all levels.
+    """
     laws = sorted(SYMMETRY_LAWS + LIMIT_LAWS, key=lambda law: int(law.number[1:]))
     return case(
         "frf_laws",

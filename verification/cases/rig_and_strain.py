@@ -1,4 +1,5 @@
-"""Loops with a rig of finite stiffness, and contacts on a strained lower body."""
+"""Cases of fretting loops with a test rig of finite stiffness, and of contacts on a strained
+body."""
 
 from __future__ import annotations
 
@@ -57,12 +58,14 @@ from verification.references import load_reference
 
 @dataclass(frozen=True)
 class EccentricContact:
-    """State under T and ε that have grown in proportion; fields are functions of x and y.
+    """Exact state of a contact whose tangential force T and bulk strain ε have grown in proportion.
 
-    contact  normal contact, for the modulus E* that is also the tangential one
-    friction µ
+    The stick zone is then eccentric. Fields are functions of x and y.
+
+    contact           normal contact, for the modulus E*, which is also the tangential modulus
+    friction          coefficient of friction µ
     tangential_force  T along x [force]
-    strain   ε of the lower body along x
+    strain            ε of the lower body along x
     """
 
     contact: EllipticalContact
@@ -76,25 +79,25 @@ class EccentricContact:
 
     @property
     def stick(self) -> EllipticalContact:
-        """The smaller contact, whose ellipse is the stick zone."""
+        """Normal contact under the reduced load W - T/µ, whose ellipse is the stick zone."""
         load = self.contact.load - self.tangential_force / self.friction
         modulus = self.contact.contact_modulus
         return EllipticalContact.under_load(load, self.contact.radii, modulus)
 
     @property
     def eccentricity(self) -> float:
-        """e of the centre of the stick zone [length]."""
+        """Distance of the centre of the stick zone from the contact centre along x [length]."""
         return self.strain * self.contact.radii[0] / self.friction
 
     @property
     def shift(self) -> float:
-        """δ [length]."""
+        """Tangential shift of the indenter [length]."""
         drawn = 0.5 * self.strain * self.eccentricity
         return self.friction * (self.contact.approach - self.stick.approach) + drawn
 
     @property
     def stick_radius(self) -> float:
-        """√(area/π) of the stick zone [length]."""
+        """Radius √(area/π) of the stick zone [length]."""
         a, b = self.stick.semi_axes
         return float(np.sqrt(a * b))
 
@@ -106,9 +109,10 @@ class EccentricContact:
 
     @property
     def dissipated_energy(self) -> float:
-        """∫ µp s dA with the slip s, µ times the gap of the smaller contact [force length].
+        """Energy ∫ µp s dA dissipated by the slip s, which is µ times the gap of the stick contact.
 
-        By reciprocity of the two contacts; ∫ p x² dA = W a²/5.
+        The integral follows from the reciprocity of the two contacts and ∫ p x² dA = W a²/5 [force
+        length].
         """
         whole, stick, e = self.contact, self.stick, self.eccentricity
         (R_x, R_y), lost = whole.radii, 0.0
@@ -129,37 +133,40 @@ ON_ALL = 1e-3
 
 @dataclass(frozen=True)
 class Sprung:
-    """Mindlin and Deresiewicz's contact in series with a spring."""
+    """Exact state of a Hertz contact in series with a spring (Mindlin and Deresiewicz).
+
+    state  state of the contact under its tangential force
+    """
 
     state: TangentialHistory
 
     @property
     def tangential_force(self) -> float:
-        """T [force]."""
+        """Tangential force T [force]."""
         return self.state.tangential_force
 
     @property
     def shift(self) -> float:
-        """δ [length]."""
+        """Tangential shift of the indenter, without the spring [length]."""
         return self.state.shift
 
     @property
     def dissipated_energy(self) -> float:
-        """Dissipated energy since the start [force length]."""
+        """Energy dissipated by friction since the start [force length]."""
         return self.state.dissipated_energy
 
     @property
     def loaded_force(self) -> float:
-        """Q* of the last branch [force]."""
+        """Magnitude of the current tangential force, the maximum of the loop [force]."""
         return abs(self.tangential_force)
 
     @property
     def loaded(self) -> PartialSlip:
-        """State of the first loading to Q*."""
+        """State of a first loading to this force."""
         return replace(self.state.virgin, tangential_force=self.loaded_force)
 
     def moved_to(self, actuator: float) -> Sprung:
-        """Return the state at another shift of the actuator [length]."""
+        """Compute the state after the actuator has moved to another shift [length]."""
 
         def missed(force: float) -> float:
             return self.state.loaded_to(force).shift + force / STIFFNESS - actuator
@@ -193,14 +200,18 @@ FORCE = number(
 
 
 def _worked(result: Any, step: int, _: Problem) -> float:
-    """Compute the elastic energy and dissipation since indentation, over the work of µW [1]."""
+    """Compute the stored and dissipated energy since indentation, over µW times the sliding shift
+    [1]."""
     start, end = result.steps[0], result.steps[step]
     spent = [x.elastic_energy + (x.dissipated_energy or 0.0) for x in (start, end)]
     return float((spent[1] - spent[0]) / (FRICTION_LIMIT * SLIDING_SHIFT))
 
 
 def _stored() -> Observable:
-    """Return the quantity of the work at the contact, without the spring."""
+    """Create the observable of the work that the tangential force does on the contact.
+
+    The work on the spring is excluded.
+    """
     return Observable(
         "work_at_contact", "work of T on the contact until the end, over µW and its shift", "",
         _worked, _exact_work,
@@ -208,8 +219,10 @@ def _stored() -> Observable:
 
 
 def _exact_work(end: Sprung) -> float:
-    """Compute the exact work at the contact: energy stored in the first loading, and all
-    dissipation."""
+    """Compute the exact work on the contact, over µW times the sliding shift [1].
+
+    It is the energy stored in the first loading, plus all dissipation.
+    """
     loaded = end.loaded
     # ∫ T dδ of first loading: with y = c/a, T = µW (1 - y³), δ = s (1 - y²).
     y = loaded.stick_radius / loaded.contact_radius
@@ -219,12 +232,15 @@ def _exact_work(end: Sprung) -> float:
 
 
 def once_lost(loaded: PartialSlip) -> float:
-    """Compute the dissipation of the first loading over µW and its shift [1]."""
+    """Compute the dissipation of a first loading, over µW times the sliding shift [1]."""
     return float(loaded.dissipated_energy / (FRICTION_LIMIT * SLIDING_SHIFT))
 
 
 def _of_loop(name: str) -> Observable:
-    """Return a quantity of the loop that fretting tests report."""
+    """Create the observable of a number of the fretting loop that fretting tests report.
+
+    name  name of the number, such as "loop_opening"
+    """
 
     def measure(result: Any, *_: Any) -> float:
         (cycle,) = fretting_cycles(result)
@@ -246,7 +262,8 @@ def _of_loop(name: str) -> Observable:
 
 
 def series_spring(level: Level = Level.QUICK) -> Case:
-    """Build the case of a fretting loop with a rig of finite stiffness, by all solvers."""
+    """Create the verification case of a fretting loop with a rig of finite stiffness, by all
+    solvers."""
     problem = _sprung()
     why = "set by hand: the error of 64 x 64 cells, 16 elements or 24 rings for a loop of 0.87 "
     "µW"
@@ -287,7 +304,12 @@ ECCENTRICITY, SHEARED = 0.14, 0.5
 
 
 def eccentric(name: str) -> Problem:
-    """Return the problem of a strain of the lower body in proportion to T, both along x."""
+    """Create the problem of a bulk strain that grows in proportion to the tangential force.
+
+    Both act along x.
+
+    name  name of the indenter shape
+    """
     radii = SHAPES[name]
     contact = EllipticalContact.under_load(paper.NORMAL_FORCE, radii, paper.CONTACT_MODULUS)
     a, b = contact.semi_axes
@@ -311,7 +333,8 @@ def eccentric(name: str) -> Problem:
 
 
 def _centre_of_stick(result: Any, step: int, problem: Problem) -> float:
-    """Compute the error of the centre of the stick zone, over the semi-axis [1]."""
+    """Compute the position error of the centre of the stick zone along x, over the semi-axis
+    [1]."""
     end, (x, _) = result.steps[step], result.grid.coordinates()
     centre = float(x[end.in_stick].mean())
     return (centre - problem.ends[step].eccentricity) / problem.radius
@@ -323,7 +346,11 @@ CENTRE = error_norm(
 
 
 def eccentric_contact(level: Level = Level.QUICK) -> Case:
-    """Build the case of the eccentric stick zone under force and strain in phase, with orders."""
+    """Create the verification case of the eccentric stick zone under force and strain in
+    proportion.
+
+    Orders of convergence are judged.
+    """
     most = {Level.QUICK: 128, Level.STANDARD: 192, Level.FULL: 256}[level]
     edges = f"{SQUARE_ROOTS}: an error of O(√h) on rings one cell wide leaves O(h^3/2) in L1"
     order = Falls(SHEAR, 1.5, edges)
@@ -367,15 +394,21 @@ HARD = IsotropicMaterial(young_modulus=2 * paper.STEEL.young_modulus, poisson_ra
 
 @dataclass(frozen=True)
 class Strained:
-    """Pressed ball on a body with an equibiaxial strain."""
+    """Exact state of a pressed ball on a body with an equibiaxial bulk strain.
+
+    stick_radius       [length]
+    dissipated_energy  [force length]
+    """
 
     stick_radius: float
     dissipated_energy: float
 
 
 def _coated() -> Problem:
-    """Return the problem of a frictionless contact that is pressed, then strained: constant
-    pressure."""
+    """Create the problem of a frictionless coated contact that is pressed and then strained.
+
+    The strain does not change the pressure.
+    """
     layer = Layer(thickness=0.2e-3, material=HARD)
     scene = paper.frictionless(
         "Coated body, strained", paper.paraboloid(NU_ZERO), paper.STEEL, paper.pressing(1)
@@ -396,7 +429,10 @@ def _coated() -> Problem:
 
 
 def _added(layer: int) -> Observable:
-    """Return the change of σ_xx on the axis by the strain, in a layer or the base."""
+    """Create the observable of the change of σ_xx on the axis that a bulk strain causes.
+
+    layer  0 for the layer, 1 for the base
+    """
 
     def measure(result: Any, step: int, _: Problem) -> float:
         deep = (0.1e-3, 0.4e-3)
@@ -413,8 +449,10 @@ def _added(layer: int) -> Observable:
 
 
 def strained_ball(level: Level = Level.QUICK) -> Case:
-    """Build the case of an equibiaxial strain below a pressed ball, by all solvers and contact
-    laws."""
+    """Create the verification case of an equibiaxial strain of the body below a pressed ball.
+
+    All solvers and contact laws are included.
+    """
     known = load_reference("strained_ball")
     exact = Strained(known["stick_radius"] * HERTZ.contact_radius, known["dissipated_energy"])
     step = LoadStep(bulk_strain=(STRAIN, STRAIN, 0.0), increments=1)

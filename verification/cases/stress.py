@@ -1,4 +1,4 @@
-"""Stress below sliding, twisted and tangentially loaded contacts, at their edge, and at
+"""Cases of subsurface stress: sliding, twisted and sheared contacts, contact edges and
 interfaces."""
 
 from __future__ import annotations
@@ -66,13 +66,14 @@ FILMED = Body(material=STEEL, layers=(Layer(thickness=0.5 * A, material=STIFFER)
 
 
 def _largest(error: Any) -> float:
-    """Return the largest absolute value, over p₀."""
+    """Compute the largest magnitude of stress errors, over the peak pressure p₀."""
     return float(np.max(np.abs(error)) / P0)
 
 
 @cache
 def _tractions(cells: int) -> tuple[Field, Field]:
-    """Return Hertz's pressure at the cell centres, and the shear of gross slip along x."""
+    """Return the Hertz pressure at the cell centres of a grid, and the shear of gross slip along
+    x."""
     x, y = hertz_grid(cells).coordinates()
     p = np.asarray(HERTZ.pressure(np.hypot(x, y)))
     return p, np.stack([SLIDING * p, np.zeros_like(p)])
@@ -88,8 +89,10 @@ def _section(cells: int, sliding: bool) -> SubsurfaceField:
 
 @cache
 def _axis_errors(cells: int) -> Field:
-    """Compute the errors of zz and xx (pressure alone) and of xz (with shear) at the depths
-    AXIS."""
+    """Compute the errors of σ_zz and σ_xx under pressure alone and of σ_xz with shear, on the axis.
+
+    The depths are those of AXIS.
+    """
     exact = axis_stress(AXIS * A, A, P0, NU)
     still, sliding = (_section(cells, slides).below()[1][: len(AXIS)] for slides in (False, True))
     shear = sliding_axis_shear(AXIS * A, A, SLIDING * P0)
@@ -106,7 +109,8 @@ def _off_axis_error() -> float:
 
 
 def _error_below() -> float:
-    """Compute the largest error of all components at every 16th cell of the window."""
+    """Compute the largest error of all stress components at every 16th cell, at two depths, over
+    p₀."""
     depths = np.array((0.5, 1.0)) * A
     found = subsurface(Body(material=STEEL), hertz_grid(256), *_tractions(256), depths.tolist())
     some = slice(8, None, 16)
@@ -124,7 +128,7 @@ def _error_below() -> float:
 
 @cache
 def _filmed() -> SubsurfaceField:
-    """Compute the stress on both sides of the interface and at the surface."""
+    """Compute the stress of a coated body on both sides of its interface and at the surface."""
     ((above, below),) = interfaces(FILMED)
     return subsurface(FILMED, hertz_grid(64), *_tractions(64), [above, below, 0.0])
 
@@ -137,7 +141,11 @@ def _continuity() -> float:
 
 
 def _in_plane_jump() -> float:
-    """Compare σ_xx above the interface with the value that the in-plane strains below require."""
+    """Compute the error of σ_xx above an interface, over p₀.
+
+    The reference follows from the in-plane strains and σ_zz below the interface, which are
+    continuous.
+    """
     above, below = _filmed().stress[:2]
     xx, yy, zz = below[XX], below[YY], below[ZZ]
     E, nu = STEEL.young_modulus, NU
@@ -152,7 +160,8 @@ def _surface() -> float:
 
 
 def subsurface_stress(level: Level = Level.QUICK) -> Case:
-    """Build the case of stress below a sliding ball, and at the interface of a coated body."""
+    """Create the verification case of the stress below a sliding ball and at the interface of a
+    coating."""
     closed: tuple[tuple[str, str, str, Callable[[], float]], ...] = (
         ("hertz_axis", "largest error of σ_zz and σ_xx on the axis, over p₀",
          "Huber 1904; Johnson 1985, ch. 3.4", lambda: _largest(_axis_errors(256)[:, :2])),
@@ -210,19 +219,23 @@ MOST = FRICTION * P0
 
 
 def _grid(cells: int) -> ShiftedGrid:
-    """Return a grid whose cells the contact edge divides in different ways."""
+    """Create a grid that is shifted by a fraction of a cell, so that the contact edge cuts cells
+    differently."""
     of = hertz_grid(cells)
     return ShiftedGrid(of.cells, of.window, (0.31, 0.17))
 
 
 def _sliding(body: Body, grid: SurfaceGrid, pressure: Field) -> NearEdge:
-    """Compute the stress near the edge with the shear of gross slip along x."""
+    """Compute the stress near the contact edge of a ball in gross slip along x.
+
+    pressure  pressure on the cells of the grid [force/length²]
+    """
     shear = np.stack([FRICTION * pressure, np.zeros_like(pressure)])
     return near_edge(stack_of(body), grid, pressure, shear)
 
 
 def _tension(body: Body, indenter: Paraboloid, cells: int) -> float:
-    """Compute the largest tensile stress at the edge under the paper's force, over p₀."""
+    """Compute the largest tensile stress at the edge of a sliding contact under 1 kN, over p₀."""
     grid = _grid(cells)
     result = semi_analytical.solve(pressed("Sliding", indenter, body), grid, 1e-8)
     found = _sliding(body, grid, result.steps[-1].pressure)
@@ -231,8 +244,10 @@ def _tension(body: Body, indenter: Paraboloid, cells: int) -> float:
 
 @cache
 def _exact_edge() -> NearEdge:
-    """Compute the stress near the edge from cell means of Hertz's pressure (16 Gauss points per
-    side)."""
+    """Compute the stress near the contact edge from exact cell means of the Hertz pressure.
+
+    The means are computed with 16 Gauss points per side of a cell.
+    """
     grid = _grid(128)
     x, y = grid.coordinates()
     nodes, weights = (half / 2 for half in np.polynomial.legendre.leggauss(16))
@@ -246,9 +261,10 @@ def _exact_edge() -> NearEdge:
 
 
 def _line_error() -> float:
-    """Compute the largest error at 32 positions within four cells of either edge.
+    """Compute the largest stress error at 32 positions within four cells of either contact edge,
+    over p₀.
 
-    No position is nearer to the edge than 1/8 of a cell.
+    The positions lie on the x axis. None is nearer to the edge than 1/8 of a cell.
     """
     found = _exact_edge()
     beside = (np.arange(32) / 32 - 0.5 + 1 / 64) * 8 * found.grid.spacing[0]
@@ -258,7 +274,8 @@ def _line_error() -> float:
 
 
 def _near_edge() -> tuple[NearEdge, Field, Field, NDArray[np.bool_]]:
-    """Return the contact, and positions and mask of the cells within three cells of the edge."""
+    """Return the stress near the contact edge, and positions and mask of the cells within three
+    cells of it."""
     found = _exact_edge()
     x, y = found.grid.coordinates()
     near = np.abs(np.hypot(x, y) - A) < 3 * found.grid.spacing[0]
@@ -266,7 +283,8 @@ def _near_edge() -> tuple[NearEdge, Field, Field, NDArray[np.bool_]]:
 
 
 def _surface_error() -> float:
-    """Compute the largest error of the stress at cell centres under the pressure alone."""
+    """Compute the largest stress error at cell centres near the edge under pressure alone, over
+    p₀."""
     of, x, y, near = _near_edge()
     found = near_edge(of.stack, of.grid, of.tractions.cells[2], None)
     stress = found.corrected(subsurface(of.stack, of.grid, of.tractions.cells[2], None, (0.0,)))
@@ -280,7 +298,8 @@ def _surface_error() -> float:
 
 
 def _error_a_cell_below() -> float:
-    """Compute the largest error of the stress one cell below cell centres at gross slip."""
+    """Compute the largest stress error near the edge at a depth of one cell in gross slip, over
+    p₀."""
     found, x, y, near = _near_edge()
     depth, cells = found.grid.spacing[0], found.tractions.cells
     field = found.corrected(subsurface(found.stack, found.grid, cells[2], cells[:2], (depth,)))
@@ -289,10 +308,9 @@ def _error_a_cell_below() -> float:
 
 
 def edge_stress(level: Level = Level.QUICK) -> Case:
-    """Build the case of stress at the edge of a sliding contact, where tractions on cells are
-    inaccurate.
+    """Create the verification case of the stress at the edge of a sliding contact on cells.
 
-    The quick level omits two coatings and the surface.
+    Tractions on cells are inaccurate there. The quick level omits two coatings and the surface.
     """
     required = "required of stress at the edge by the project's accuracy targets"
     own = "a tenth of the tolerance of the tensile stress at the edge: the fitted tractions are "
@@ -362,12 +380,22 @@ def _below(result: Any) -> RadialBody:
 
 
 def _points(body: RadialBody, depth: float, x: Field, y: Field) -> StressPoints:
-    """Compute the stress at a depth and at positions given in contact radii."""
+    """Compute the stress of a result of the radial solver at given points.
+
+    depth  depth in contact radii
+    x, y   positions in contact radii
+    """
     return body.points((Depth(depth * A, 0),), A * x, A * y)
 
 
 def _pushed_error(depth: float, result: Any, *_: Any) -> float:
-    """Compute the largest error on lines along the load, at 0, 0.4 a and 0.8 a from the axis."""
+    """Compute the largest stress error of a contact in partial slip on lines along the load, over
+    p₀.
+
+    The lines are 0, 0.4 and 0.8 contact radii from the axis.
+
+    depth  depth in contact radii
+    """
     x, y = (part.ravel() for part in np.meshgrid(np.linspace(-1.5, 1.5, 31), (0.0, 0.4, 0.8)))
     exact = hamilton_stress(x, y, depth, 1.0, P0, MOST, NU)
     exact -= hamilton_stress(x, y, depth, STUCK, 0.0, STUCK * MOST, NU)
@@ -385,7 +413,10 @@ def _error_of_tension(result: Any, *_: Any) -> float:
 
 
 def _error_of_torque(result: Any, *_: Any) -> float:
-    """Compute the relative error of ∫ σ_θz 2πr² dr over a plane, with r/(1 + r) from 0 to 1."""
+    """Compute the relative error of the torque ∫ σ_θz 2πr² dr that the stress carries in a plane.
+
+    The integration variable is r/(1 + r) between 0 and 1, with r in contact radii.
+    """
     nodes, weights = np.polynomial.legendre.leggauss(120)
     t = (1 + nodes) / 2
     r, area = t / (1 - t), weights / 2 / (1 - t) ** 2
@@ -394,7 +425,8 @@ def _error_of_torque(result: Any, *_: Any) -> float:
 
 
 def _tension_by_rays(result: Any, _: int, problem: Problem) -> float:
-    """Compute the tensile stress at the trailing edge at gross slip, over p₀."""
+    """Compute the tensile stress at the trailing edge of a ball in gross slip, over p₀, by ray
+    integrals."""
     end = result.steps[-1]
     nothing = np.zeros_like(end.radii)
     still = round_circle(end.radii, end.contact_radius, nothing, nothing, end.pressure)
@@ -406,8 +438,10 @@ def _tension_by_rays(result: Any, _: int, problem: Problem) -> float:
 
 
 def radial_stress(level: Level = Level.QUICK) -> Case:
-    """Build the case of stress by the radial solver: tangential force, torque, sliding on
-    coatings."""
+    """Create the verification case of the subsurface stress by the radial solver.
+
+    The loads are a tangential force, a torque, and gross slip on coatings.
+    """
     pushed = replace(
         sheared("Ball pushed", (0.6,), STEEL, 6),
         source="Cattaneo 1938, Mindlin 1949; Hamilton 1983",

@@ -1,4 +1,4 @@
-"""Torsion by all solvers: partial slip and reversal of a ball, punch, coated balls, turning
+"""Cases of torsion by all solvers: ball in partial slip and reversal, punch, coated balls, turning
 loads."""
 
 from __future__ import annotations
@@ -87,7 +87,7 @@ TORQUE = number("torque", "torque at the twist of 0.9 of the limit", exact="mome
 
 
 def _shear_on_cells(result: Any, step: int, problem: Problem) -> float:
-    """Compute Σ|q - q_exact| / Σµp."""
+    """Compute the shear error Σ|q - q_exact| / Σµp of a ball in torsion on cells [1]."""
     end, a = result.steps[step], problem.radius
     x, y = result.grid.coordinates()
     r = np.hypot(x, y)
@@ -97,9 +97,9 @@ def _shear_on_cells(result: Any, step: int, problem: Problem) -> float:
 
 
 def _largest_shear_error(result: Any, step: int, problem: Problem) -> float:
-    """Compute the largest error of the shear.
+    """Compute the largest relative error of the circumferential shear of the radial solver [1].
 
-    The scale is the friction limit, or for the punch the shear at half its radius.
+    The scale is the friction limit, or for the punch the exact shear at half its radius.
     """
     end, known = result.steps[step], problem.ends[step]
     scale = problem.scales.get(OVER_LIMIT) or float(known.shear(problem.radius / 2))
@@ -117,7 +117,8 @@ def _mean_shear_error(result: Any, step: int, problem: Problem) -> float:
 
 
 def torsion(level: Level = Level.QUICK) -> Case:
-    """Build the case of a ball twisted into partial slip and back, and of a stuck flat punch."""
+    """Create the verification case of torsion on cells: a ball in partial slip and back, a stuck
+    punch."""
     cells = refinement(32, 128 if level is Level.QUICK else 256)
     balls, finest = on_cells(TWISTED, cells), cells[-1:]
     punches = on_cells(STUCK, cells[::-2][::-1], 2.2, of="stuck punch")
@@ -206,18 +207,20 @@ BALL = Paraboloid(radius=paper.RADIUS, material=BASE, layers=LAYERS)
 
 
 def _compliance(k: Field) -> Field:
-    """Return the torsional compliance of both bodies together."""
+    """Compute the torsional compliance of two coated balls at wavenumbers k."""
     return 2 * one_layer(k, LAYERS[0].thickness, COATING.shear_modulus, BASE.shear_modulus)
 
 
 def _limit(r: Field) -> Field:
-    """Return the friction limit µp of the semi-closed contact."""
+    """Compute the friction limit µp of two coated balls at distance r from the axis
+    [force/length²]."""
     return FRICTION * exact_contact(BODY, BALL).pressure(r)
 
 
 @cache
 def twisted_coated() -> Problem:
-    """Return the problem of coated balls under a normal force and a torque raised in steps."""
+    """Create the problem of two coated balls under a normal force and a torque that grows in
+    steps."""
     normal = exact_contact(BODY, BALL)
     surface = TorsionalSurface(_compliance, COATING.shear_modulus / 2, LAYERS[0].thickness)
     a = normal.contact_radius
@@ -242,7 +245,10 @@ def twisted_coated() -> Problem:
 
 
 def torsion_coated(level: Level = Level.QUICK) -> Case:
-    """Build the case of two coated balls in torsion: partial slip on layers, without coupling."""
+    """Create the verification case of two coated balls in torsion with partial slip.
+
+    Torsion is not coupled with the pressure.
+    """
     rows = tuple(
         row
         for stop in COATED_PARTS.items()
@@ -272,13 +278,18 @@ def torsion_coated(level: Level = Level.QUICK) -> Case:
 
 
 def shear_around(step: int) -> Drawn:
-    """Return the curves of the circumferential shear at the end of a step."""
+    """Return the curves of computed and exact circumferential shear at the end of a load step.
+
+    step  index of the load step
+    """
     return Drawn(lambda end: end.shear_circumferential, lambda exact: exact.shear, step=step)
 
 
 def fem_torsion(level: Level = Level.QUICK) -> Case:
-    """Build the case of torsion by finite elements, with several positions of the edge in its
-    element."""
+    """Create the verification case of torsion by finite elements.
+
+    The contact edge has several positions in its element.
+    """
     cusp = (
         "set by hand: at 64 elements per radius 2e-3 of the twist and 5e-3 of µp_H, on other "
         "meshes scaled by the order 3/2 of the cusps at both edges"
@@ -333,8 +344,10 @@ def _at_parts(parts: dict[int, float], *observables: Observable) -> tuple[Observ
 
 
 def radial_torsion(level: Level = Level.QUICK) -> Case:
-    """Build the case of torsion by the radial solver: closed forms, Masing's rule, a Fredholm
-    equation."""
+    """Create the verification case of torsion by the radial solver.
+
+    The references are closed forms, Masing's rule, and a Fredholm equation.
+    """
     shear = error_norm(
         "shear", f"largest error of the shear up to {WITHIN:g} a{{when}}", _largest_shear_error,
         "µp_H, or the shear at half the radius of the punch",
@@ -381,19 +394,30 @@ def _push(x: float, y: float, increments: int) -> LoadStep:
 
 
 def _scene(title: str, *steps: LoadStep) -> Scene:
-    """Return the scene of a rigid ball on a coating twice as stiff as its base, h = a_H."""
+    """Create the scene of a rigid ball that is pressed on a coating with friction, then loaded
+    further.
+
+    The coating is twice as stiff as its base and as thick as the Hertz contact radius.
+
+    steps  load steps after the normal loading
+    """
     body = coated(film(2.0, 1.0))
     return pressed(title, rigid_ball(), body, paper.pressing(8), *steps, friction=FRICTION)
 
 
 @cache
 def _on_cells(scene: Scene, cells: int) -> Any:
-    """Solve a scene on cells with the edge correction."""
+    """Solve a scene on cells × cells cells by the semi-analytical solver with its default edge
+    correction."""
     return solve_discretised(scene, SurfaceDiscretisation(cells=(cells, cells)))
 
 
 def _motion_apart(ours: Any, _: int, problem: Problem) -> float:
-    """Compute the largest difference of shift and twist, over the largest value of the history."""
+    """Compute the largest difference of shift and twist between the radial solver and cells,
+    relative.
+
+    Each difference is relative to the largest value in the history.
+    """
     theirs, errors = problem.ends[-1](), []
     for of in MOTIONS:
         both = [
@@ -408,7 +432,10 @@ def _motion_apart(ours: Any, _: int, problem: Problem) -> float:
 
 
 def _apart_of_stated(ours: Any, _: int, problem: Problem) -> float:
-    """Compute the largest difference over the sum of the stated errors of both solvers."""
+    """Compute the largest difference between the radial solver and cells, over their stated errors.
+
+    The scale is the sum of the stated errors of both solvers.
+    """
 
     def size(value: Any) -> float:
         return 0.0 if value is None else float(np.linalg.norm(value))
@@ -432,13 +459,13 @@ def _apart_of_stated(ours: Any, _: int, problem: Problem) -> float:
 
 
 def _quarter(vector: Any) -> tuple[float, float]:
-    """Rotate a vector by a quarter turn."""
+    """Rotate a plane vector by a right angle from x towards y."""
     x, y = vector
     return -y, x
 
 
 def _turned() -> float:
-    """Compute the difference of the shift after a rotation of the scene by a quarter turn.
+    """Compute the relative difference of the shift after a rotation of the scene by a right angle.
 
     The solves take half the rings and eight angles, so that the rotation shifts the points by two
     angles.
@@ -454,8 +481,9 @@ def _turned() -> float:
 
 
 def radial_turning(level: Level = Level.QUICK) -> Case:
-    """Build the case of coupled torsion, torsion with a tangential force, and a turning force.
+    """Create the verification case of torsion on coupled bodies by the radial solver.
 
+    A tangential force that acts with the torque, and a force of changing direction, are included.
     The radial solver is compared with cells, which are finer at higher levels.
     """
     cells = {Level.QUICK: 64, Level.STANDARD: 96, Level.FULL: 192}[level]

@@ -1,4 +1,4 @@
-"""Examples of the harness worked by hand: uncertainty by refinement, and the printed numbers.
+"""Examples that test the verification itself: uncertainties and printed numbers computed by hand.
 
 All examples have levels h = 1, 2, 4 and an error a + c h, plus a deviation (1, -6, 8) ε. The
 deviation is orthogonal to the line that is fitted with weights 1/h, as 1 - 6/4 + 8/16 = 1 - 6/2 +
@@ -38,7 +38,7 @@ PRINTED = Required(0.05, "two digits are printed")
 
 @dataclass(frozen=True)
 class _Rung:
-    """Refinement level with its result."""
+    """Refinement level of an example, with its size and value."""
 
     label: str
     spacing: float
@@ -46,7 +46,7 @@ class _Rung:
 
 
 def worked_examples(level: Level = Level.QUICK) -> Case:
-    """Build the case; equal at all levels."""
+    """Create the verification case of examples that are computed by hand; equal at all levels."""
     return Case(
         name="worked_examples",
         title="Worked examples of the harness",
@@ -71,7 +71,8 @@ def worked_examples(level: Level = Level.QUICK) -> Case:
 
 
 def _verdict() -> Verdict:
-    """Judge a value with an error of 2 U on a scale of 2."""
+    """Judge the value of an example, whose error is 2 U on a scale of 2 (U: expanded
+    uncertainty)."""
     rungs = [
         _Rung(f"h = {h:g}", h, LIMIT + SLOPE * h + EPSILON * r)
         for h, r in zip(LEVELS, BESIDE, strict=True)
@@ -106,14 +107,18 @@ def _number_in(text: str) -> float:
 
 
 def _limit(part: int) -> float:
-    """Return the value or the uncertainty with a fourth level, h = 8, on the line."""
+    """Return the extrapolated value (part 0) or its uncertainty (part 1) with a fourth level h = 8.
+
+    The fourth value lies on the line a + c h.
+    """
     h = np.array([*LEVELS, 8.0])
     f = LIMIT + SLOPE * h + EPSILON * np.array([*BESIDE, 0.0])
     return richardson(h, f, 1.0)[part]
 
 
 def _errors() -> list[float]:
-    """Return h² e^(x ε), with x = (1, -2, 1) orthogonal to any line over log h."""
+    """Return the errors h² e^(x ε) of an example, with x = (1, -2, 1) orthogonal to any line over
+    log h."""
     return [h**2 * np.exp(EPSILON * x) for h, x in zip(LEVELS, (1, -2, 1), strict=True)]
 
 

@@ -1,4 +1,4 @@
-"""Result files of an eccentric contact under tangential forces and a torque."""
+"""Case for the result files of an eccentric contact under tangential forces and a torque."""
 
 from __future__ import annotations
 
@@ -72,7 +72,10 @@ COATED = pressed("Ball on a stiff coating", paper.paraboloid(STEEL), coated(film
 
 @dataclass(frozen=True, eq=False)
 class _Written:
-    """Rows of tables by column, and arrays, read without the reader and writer of the product."""
+    """Content of the result files: rows of the tables by column, and arrays.
+
+    The files are read without the reader and writer of the program.
+    """
 
     increments: list[dict[str, str]]
     cycle: dict[str, str]
@@ -89,7 +92,7 @@ class _Written:
 
 
 def written_files(level: Level = Level.QUICK) -> Case:
-    """Build the case; equal at all levels."""
+    """Create the verification case of the content of result files; equal at all levels."""
     return Case(
         name="written_files",
         title="Contents of result files",
@@ -169,8 +172,8 @@ def _rows(path: Path) -> list[dict[str, str]]:
 
 
 def loads() -> float:
-    """Compute the largest difference of the loads from the sums of the tractions in any
-    increment."""
+    """Compute the largest relative difference of the written loads from the sums of the
+    tractions."""
     found = _written()
     x, y = found.arrays["x"], found.arrays["y"]
     area = (x[1] - x[0]) * (y[1] - y[0])
@@ -191,8 +194,10 @@ def loads() -> float:
 
 
 def columns() -> float:
-    """Compute the largest difference of a column from its data set, for all scalars of the
-    fields."""
+    """Compute the largest relative difference of a table column from the corresponding array.
+
+    All scalars are compared that are stored in both the table and the arrays.
+    """
     found = _written()
     there = [name for name in SCALARS if f"increments/{name}" in found.arrays]
     apart = []
@@ -210,7 +215,7 @@ def _apart(tabulated: Field, stored: Field) -> float:
 
 
 def place_of_f1() -> float:
-    """Compute the relative difference of the value at the tabulated position from the maximum."""
+    """Compute the relative difference of Ruiz's F1 at the tabulated position from its maximum."""
     found = _written()
     field = found.arrays["last_cycle/ruiz_f1"]
     cell = tuple(
@@ -230,9 +235,10 @@ def _extremes() -> dict[tuple[str, str], Extreme]:
 
 
 def sides_of_an_interface() -> float:
-    """Compute the largest excess of a maximum at an interface over that of its layer or base.
+    """Compute the largest excess of a stress maximum at an interface over that of its layer or
+    base.
 
-    The depth of the interface is compared with the thickness of the layer as well.
+    The depth of the interface is compared with the thickness of the layer, too.
     """
     found, excess = _extremes(), [0.0]
     depth = COATED.body.layers[0].thickness

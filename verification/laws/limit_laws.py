@@ -1,4 +1,8 @@
-"""Laws of the surface FRF: limits, bounds, monotonicity and symmetries."""
+"""List of the laws of the surface FRF: limits, bounds, monotonicity, symmetries and positive
+energy.
+
+Each function draws a random layered body and returns the violation of one law.
+"""
 
 import numpy as np
 from numpy.random import Generator
@@ -27,7 +31,10 @@ ECHO = 50.0
 
 
 def _thin(rng: Generator) -> float:
-    """Compute the difference of the observed order from 1, for contrasts up to 100."""
+    """Compute the deviation from 1 of the order at which the effect of a thin layer vanishes.
+
+    The body is a half-space with a layer of thickness h → 0 and a modulus ratio up to 100.
+    """
     base = half_space(rng)
     coating = base.shear_modulus * decades(rng, -2, 2), half_space(rng).poisson_ratio
     limit = np.array(scalars(Stack((), base), 1.0))
@@ -40,7 +47,8 @@ def _thin(rng: Generator) -> float:
 
 
 def _thick(rng: Generator) -> float:
-    """Compute the difference from the half-space of the outer layer, over its bound."""
+    """Compute the difference of the FRF from that of a half-space of the outer layer, over its
+    bound."""
     body, x = stack(rng), rng.uniform(1, 300)
     alpha = x / body.layers[0].thickness
     outer = half_space_scalars(body.outer, alpha)
@@ -88,7 +96,7 @@ def _between(rng: Generator) -> float:
 
 
 def _rigid_limit(rng: Generator) -> float:
-    """Compute the difference of the observed order from 1."""
+    """Compute the deviation from 1 of the order at which a stiff base approaches a rigid base."""
     films = [film(rng) for _ in range(rng.integers(1, 4))]
     x = decades(rng, -2, 1)
     alpha = x / films[-1].thickness
@@ -125,7 +133,7 @@ def _incompressible(rng: Generator) -> float:
 
 
 def _echo(rng: Generator) -> float:
-    """Compute the remainder of a body with one layer, over its bound."""
+    """Compute the difference of the FRF with one layer from its half-space part, over its bound."""
     body, x = stack(rng, most_layers=1), rng.uniform(1, 300)
     G, _, h = body.layers[0]
     echo = np.array(remainder_scalars(body, x / h)) * (x / h) * G
@@ -140,8 +148,11 @@ def _overflow(rng: Generator) -> float:
 
 
 def _depth(rng: Generator) -> float:
-    """Compare traction and FRF at z = 0 with those of the surface, and both sides of each
-    interface."""
+    """Compute the error of tractions and displacements at the surface and their jump at interfaces.
+
+    At z = 0 the fields must be the applied tractions and the surface FRF. At an interface the
+    values on both sides must agree.
+    """
     body = stack(rng, most_layers=3)
     alpha = np.array([rng.uniform(0.1, 3) / sum(f.thickness for f in body.layers)])
     descent = Descent(body, alpha)
@@ -275,10 +286,12 @@ def _work(rng: Generator) -> float:
 
 
 def _symmetric_operator(rng: Generator) -> float:
-    """Compute the asymmetry or negative eigenvalue of the influence coefficients.
+    """Compute the asymmetry or the most negative eigenvalue of the matrix of influence
+    coefficients.
 
-    The displacement is that of the cell centre. It has the wrong sign for waves with one to two
-    waves per cell, and on wide cells a stiff film on a soft one responds most to these waves.
+    The matrix must be symmetric and positive. The displacement is that of the cell centre. It has
+    the wrong sign for one to two waves per cell, and on wide cells a stiff film on a soft one
+    responds most to these waves.
     """
     body = stack(rng, 3)
     side = decades(rng, -2, 0) * sum(film.thickness for film in body.layers)
@@ -290,7 +303,11 @@ def _symmetric_operator(rng: Generator) -> float:
 
 
 def dense_operator(K: LayeredCoefficients, shape: tuple[int, int]) -> np.ndarray:
-    """Assemble the matrix of all displacements of all cells by all tractions on all cells."""
+    """Assemble the dense matrix from the tractions of all cells to the displacements of all cells.
+
+    K      influence coefficients
+    shape  number of cells along x and y
+    """
     i, j = (index.ravel() for index in np.indices(shape))
     di, dj = i[:, None] - i, j[:, None] - j
     at = abs(di), abs(dj)
