@@ -34,7 +34,7 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
 
 
 class SolverFile(pytest.File):
-    """File with a solver that is judged on challenges."""
+    """File `challenge_*.py` with a solver that pytest judges on challenges."""
 
     def collect(self) -> Iterator[pytest.Item]:
         """Yield one test for every challenge of the file; raises Refused for a file without a
@@ -55,7 +55,7 @@ class SolverFile(pytest.File):
 
 
 class ChallengeItem(pytest.Item):
-    """Test of a solver on one challenge, with all verdicts."""
+    """Test of pytest that judges a solver on one challenge (a problem with a known solution)."""
 
     def __init__(self, *, module: Any, **more: Any) -> None:
         super().__init__(**more)

@@ -49,7 +49,10 @@ def named_values(increment: State) -> dict[str, float]:
 
 
 def unit_of(name: str) -> str:
-    """Return the unit of a result by its name in `named_values`."""
+    """Return the unit of a result of an increment.
+
+    name  name of the result as in `named_values`, with _x or _y for a component
+    """
     return next(mark.unit for known, mark in SCALARS.items() if name in components(known))
 
 

@@ -26,8 +26,10 @@ def scene_of(posed: Posed) -> Scene:
 
 
 def given_up(posed: Posed, fineness: int, error: Exception) -> Answer:
-    """Return the answer of a refinement level whose load history did not converge, without results.
+    """Return the answer to a challenge on a level whose load history did not converge, without
+    results.
 
+    posed     challenge: a problem with a known solution
     fineness  cells or elements over a contact radius, which is about a third of the window
     """
     return Answer(posed.window / 3 / fineness, gave_up={0: str(error)})
@@ -117,8 +119,9 @@ def _traction(steps: Any, key: Key) -> Vector | None:
 
 
 def between(end: Any, traction: Vector) -> Field:
-    """Interpolate a traction to Gauss points between the rings in the contact, with the area of
-    each.
+    """Interpolate a traction from rings to Gauss points between the rings in the contact.
+
+    Returns the points with the traction and the area of each.
 
     end       state at the end of a load step
     traction  values at the rings [stress]

@@ -50,9 +50,10 @@ def stress_at(result: Result, end: Increment, places: Vector) -> Vector:
 
 
 def under_a_patch(posed: Posed) -> Answer:
-    """Answer a challenge of a uniform traction on a square patch by influence coefficients.
+    """Compute displacements by a uniform traction on a square patch, for a challenge.
 
-    The patch is a cell, and the requested points are centres of other cells.
+    The patch is a cell and the points are centres of other cells, so that the displacements are
+    influence coefficients.
     """
     side, traction = (posed.scene["patch"][name] for name in ("side", "traction"))
     body = Body.model_validate(posed.scene["body"])
@@ -85,8 +86,9 @@ def answer(posed: Posed, level: int) -> Answer:
 
 
 def answer_with_edges(posed: Posed, level: int) -> Answer:
-    """Solve a challenge as `answer` does, with the edge correction of the pressure where it is
-    supported.
+    """Solve a challenge on cells, with the edge correction of the pressure where it is supported.
+
+    The grids are those of `answer`.
     """
     return _answer(posed, level, "last")
 

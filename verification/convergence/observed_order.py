@@ -339,7 +339,12 @@ class ErrorLine:
 
 
 def error_line(sizes: Sequence[float], errors: Sequence[float]) -> ErrorLine:
-    """Fit a line error = C h^p to errors > 0 at at least three sizes h."""
+    """Fit a line error = C h^p (straight in logarithms) to errors on at least three refinement
+    levels.
+
+    sizes   sizes h of the levels
+    errors  errors > 0 on these levels
+    """
     observed = observed_order(sizes, errors)
     x, y = np.log(np.asarray(sizes)), np.log(np.asarray(errors))
     left = y - y.mean() - observed.order * (x - x.mean())

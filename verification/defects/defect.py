@@ -60,7 +60,7 @@ class Patches:
         self._undo.append(lambda: _exchange(after, before))
 
     def restore(self) -> None:
-        """Undo all replacements in reverse order."""
+        """Undo all replacements of functions and attributes in reverse order."""
         while self._undo:
             self._undo.pop()()
 
@@ -110,7 +110,10 @@ def forget_remembered() -> None:
 
 
 def product_modules() -> list[ModuleType]:
-    """Return all loaded modules of the program, except those that run studies."""
+    """Return all loaded modules of the program, except those that run studies.
+
+    A planted defect replaces functions in these modules.
+    """
     return [
         module
         for name, module in list(sys.modules.items())

@@ -26,7 +26,8 @@ DRAWN_IN = 4e-3
 
 
 def _weight_of_element(patches: Patches) -> None:
-    """Plant the defect that weights the strain energy by the radius of the element's centre.
+    """Plant an error in the finite-element weak form: energies have the weight of the element's
+    centre.
 
     The correct weight is the radius of each integration point.
     """
@@ -45,7 +46,9 @@ def _weight_of_element(patches: Patches) -> None:
 
 
 def _resultant_weight(patches: Patches) -> None:
-    """Plant the defect that weights a hat function in the load by the outer radius of its ring."""
+    """Plant an error in the resultant force: each ring of finite elements is weighted by its outer
+    radius.
+    """
 
     def wrap(whole: Any) -> Any:
         def on(nodes: Any, reach: float = np.inf) -> Any:

@@ -80,7 +80,7 @@ def _anywhere(random: Random) -> tuple[float, float]:
 
 
 def pressed(indenter: Paraboloid | Cone | FlatPunch, body: Body, load: float) -> Scene:
-    """Return the scene of one load step with a normal load and without friction."""
+    """Return a scene with one load step: a normal force without friction."""
     return Scene(
         title="Pressed", indenter=indenter, body=body, loading=(LoadStep(normal_force=load),)
     )
@@ -129,7 +129,9 @@ RESOLVED = (
 
 
 def hertz(random: Random) -> Case:
-    """Draw a ball, a flat body and a load; build the case against Hertz's solution."""
+    """Draw a ball, a flat body and a load at random; build the verification case with Hertz's
+    solution.
+    """
     one, other = any_material(random), any_material(random)
     radius, load = between(random, 1e-3, 1.0), between(random, 1e-1, 1e4)
     exact = PointContact.under_load(load, radius, contact_modulus(constants(one), constants(other)))
@@ -139,7 +141,9 @@ def hertz(random: Random) -> Case:
 
 
 def cone(random: Random) -> Case:
-    """Draw a cone, a flat body and a load; build the case against the closed form of the cone."""
+    """Draw a cone, a flat body and a load at random; build the verification case with its closed
+    form.
+    """
     one, other = any_material(random), any_material(random)
     slope, load = radians(random.uniform(0.3, 3.0)), between(random, 1e-1, 1e4)
     exact = ConeContact.under_load(load, slope, contact_modulus(constants(one), constants(other)))
@@ -149,8 +153,9 @@ def cone(random: Random) -> Case:
 
 
 def partial_slip(random: Random) -> Case:
-    """Draw a Cattaneo-Mindlin contact of equal bodies with ν = 0; build the case against its closed
-    form.
+    """Draw a Cattaneo-Mindlin contact at random; build the verification case with its closed form.
+
+    The bodies are equal, with ν = 0. The normal force is followed by a tangential force.
     """
     material = IsotropicMaterial(young_modulus=between(random, 1e9, 1e12), poisson_ratio=0.0)
     radius, load = between(random, 1e-3, 1.0), between(random, 1e-1, 1e4)
@@ -179,15 +184,19 @@ def partial_slip(random: Random) -> Case:
 
 
 def coated(random: Random) -> Case:
-    """Draw a ball on a body with one coating that all grids resolve; build the case."""
+    """Draw a ball on a coated body at random; build the verification case with its semi-closed
+    solution.
+
+    The coating is thick enough that all grids resolve it.
+    """
     return _coated("coated", random, (RESOLVED, 3.0))
 
 
 def coated_thinly(random: Random) -> Case:
-    """Draw a ball on a body with a thin coating that the coarser grids do not resolve; build the
-    case.
+    """Draw a ball on a body with a thin coating at random; build the verification case.
 
-    The errors then have no constant convergence order.
+    The coarser grids do not resolve the coating, so that the errors have no constant convergence
+    order.
     """
     return _coated("coated_thinly", random, (0.3, RESOLVED))
 
@@ -211,7 +220,11 @@ def _coated(name: str, random: Random, thickness: tuple[float, float]) -> Case:
 
 
 def flat_punch(random: Random) -> Case:
-    """Draw a flat punch, a body and a load; build the case with a tolerance of half a cell side."""
+    """Draw a flat punch, a body and a load at random; build the verification case with its closed
+    form.
+
+    The tolerance of the approach is half a cell side over the radius.
+    """
     one, other = any_material(random), any_material(random)
     radius, load = between(random, 1e-4, 1e-2), between(random, 1e-1, 1e4)
     exact = FlatPunchContact(radius, contact_modulus(constants(one), constants(other)), load)
@@ -226,7 +239,9 @@ def flat_punch(random: Random) -> Case:
 
 
 def fem_hertz(random: Random) -> Case:
-    """Draw a Hertz contact of elastic bodies; build its case for the finite-element solver."""
+    """Draw a Hertz contact of elastic bodies at random; build its case for the finite-element
+    solver.
+    """
     one, other = any_material(random), any_material(random)
     radius, load = between(random, 1e-3, 1.0), between(random, 1e-1, 1e4)
     exact = PointContact.under_load(load, radius, contact_modulus(constants(one), constants(other)))

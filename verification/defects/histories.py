@@ -69,8 +69,9 @@ def _reversal_forgotten(patches: Patches) -> None:
 
 
 def _limit_by_direction(patches: Patches) -> None:
-    """Plant a friction limit that is an ellipse instead of a circle, and set the friction residuals
-    to zero.
+    """Plant an elliptic friction limit instead of a circular one, with friction residuals of zero.
+
+    The limit of the shear along y is 1 % smaller than that along x.
     """
     patches.function(
         admissible_shear, "magnitude", lambda whole: lambda v: whole(np.stack([v[0], 1.01 * v[1]]))
@@ -92,10 +93,11 @@ def _approach_when_unloading(patches: Patches) -> None:
 
 
 def _grown(patches: Patches, name: str, factor: float) -> None:
-    """Plant a wrong factor in the growth of a field by slip during an increment.
+    """Plant a wrong factor in the increase of a field of slip (such as dissipation) in an
+    increment.
 
-    name    field of the tangential state, such as the dissipation
-    factor  factor of the growth; 1 is correct
+    name    field of the tangential state
+    factor  factor of the increase; 1 is correct
     """
 
     def wrap(whole: Any) -> Any:
@@ -574,9 +576,10 @@ def _no_tilt_about_y(patches: Patches) -> None:
 
 
 def _taken_over(patches: Patches, kind: ControlKind) -> None:
-    """Plant a wrong start of a load step after a change of the controlled quantity: 2 % too large.
+    """Plant a wrong initial value of a controlled force or displacement in a load step: 2 % too
+    large.
 
-    kind  control of the step, by force or by displacement
+    kind  control of the load step, by force or by displacement
     """
 
     def wrap(whole: Any) -> Any:

@@ -136,9 +136,9 @@ Change = Callable[[Any], Any]
 
 
 def _returned(patches: Patches, change: Change) -> None:
-    """Plant a change of the results of the semi-analytical and the finite-element solver.
+    """Plant an error in the results that the semi-analytical and the finite-element solver return.
 
-    change  function that returns the changed result
+    change  function that returns the wrong result
     """
     for package in (semi_analytical, fem_reference):
         patches.function(
@@ -149,7 +149,7 @@ def _returned(patches: Patches, change: Change) -> None:
 
 
 def _times(factor: Callable[[Any], float]) -> Change:
-    """Return a change of a result that multiplies displacements, tractions and twist by a factor.
+    """Return a function that multiplies displacements, tractions and twist of a result by a factor.
 
     factor  function of the result that returns the factor
     """
@@ -174,19 +174,21 @@ def _multiplied(increment: Any, by: float) -> Any:
 
 
 def _cell(result: Any) -> float:
-    """Return the side of a surface cell or of a finite element over the contact radius."""
+    """Return the side of a surface cell or of a finite element over the contact radius, h/a [1]."""
     if isinstance(result, semi_analytical.Result):
         return max(result.grid.spacing) / result.increments[-1].contact_radius
     return 1 / float(result.discretisation.elements_per_radius)
 
 
 def _first_order(result: Any) -> float:
-    """Return a factor whose error is proportional to the side h of a cell: 1 + 0.1 h/a."""
+    """Return the factor 1 + 0.1 h/a: an error proportional to the cell side h over the contact
+    radius a.
+    """
     return 1 + FIRST_ORDER * _cell(result)
 
 
 def _floor(result: Any) -> float:
-    """Return a factor with an error of ± 0.05 % that refinement does not reduce.
+    """Return the factor 1 ± 0.0005: an error that refinement does not reduce.
 
     The sign depends on the parity of the number of cells per contact radius.
     """
@@ -212,7 +214,8 @@ def _last_step_missing(result: Any) -> Any:
 
 
 def _truncated(patches: Patches) -> None:
-    """Plant an incomplete write: a record file has only the first half of its text."""
+    """Plant an incomplete write: each stored record of a case has only the first
+    half of its text."""
 
     def wrap(whole: Any) -> Any:
         def save(self: Any, case: Any, record: Any) -> None:

@@ -26,9 +26,10 @@ COUPLING: tuple[str, ...] = ("xz", "yz")
 
 
 def scaled(patches: Patches, pairs: tuple[str, ...], factor: float) -> None:
-    """Plant a wrong factor in some components of the surface response.
+    """Plant a wrong factor in components of the influence coefficients (traction to displacement).
 
     pairs   components, named by displacement and traction, such as "zz" or "xz"
+    factor  wrong factor; 1 is correct
     """
 
     def wrap(whole: Any) -> Any:

@@ -40,7 +40,7 @@ class Peer:
 
     @property
     def driver(self) -> str:
-        """Module name of the driver program of the code."""
+        """Module name of the program that runs the code."""
         return f"verification.peers.drivers.{self.module.lower()}_driver"
 
 

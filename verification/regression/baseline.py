@@ -43,7 +43,10 @@ Key = tuple[str, ...]
 
 
 class RecordedQuantity(Description):
-    """Recorded value of a judged quantity; `allowed` and `reference` have the unit of the value."""
+    """Recorded value of a quantity with a verdict, its reference and its tolerance.
+
+    `allowed` (the tolerance) and `reference` have the unit of the value.
+    """
 
     name: str
     run: str
@@ -68,7 +71,9 @@ class RecordedQuantity(Description):
 
     @property
     def error(self) -> float | None:
-        """Absolute difference of value and reference; None for a value that is not finite."""
+        """Absolute difference of value and reference, in their unit; None for a value that is not
+        finite.
+        """
         return None if self.value is None else abs(self.value - self.reference)
 
     @property
@@ -106,7 +111,8 @@ class RecordedRun(Description):
 
 
 class RecordedBy(Description):
-    """Provenance of recorded results, and the reason for which they were accepted."""
+    """Origin of recorded results (commit, machine, libraries), and the reason for
+    their acceptance."""
 
     reason: str
     command: str
@@ -139,7 +145,8 @@ class Recording(Description):
 
 
 class Baseline(Description):
-    """Content of a baseline file: the recordings of one case by level."""
+    """Accepted results of one case at all levels at which they were recorded:
+    content of one file."""
 
     schema_version: int = BASELINE_VERSION
     case: str
@@ -166,7 +173,7 @@ def keys_of(recorded: Recording | None) -> set[str]:
 
 
 def recording(case: CaseOutcome, provenance: Provenance, reason: str) -> Recording:
-    """Convert the outcome of a case to a recording for a baseline.
+    """Convert the outcome of a verification case to the form in which accepted results are stored.
 
     reason  reason for which the results are accepted
     """
@@ -183,7 +190,7 @@ def recording(case: CaseOutcome, provenance: Provenance, reason: str) -> Recordi
 
 
 def recorded_by(provenance: Provenance, reason: str) -> RecordedBy:
-    """Select the part of a report's provenance that is stored in a baseline.
+    """Select the part of a report's provenance that is stored with accepted results.
 
     reason  reason for which the results are accepted
     """
@@ -375,7 +382,8 @@ def accept(
 
 
 def baselines_of(report: Report, reason: str) -> dict[str, Baseline]:
-    """Convert a report to baselines, to compare another report with it."""
+    """Convert the results of a report to baselines, so that another report can be
+    compared with it."""
     return {
         case.name: Baseline(
             case=case.name, levels={report.level: recording(case, report.provenance, reason)}

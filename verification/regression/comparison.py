@@ -220,7 +220,7 @@ def compared(report: Report, baselines: Mapping[str, Baseline]) -> Report:
 
 
 def refuse_if_not_whole(report: Report, baselines: Mapping[str, Baseline]) -> None:
-    """Raise BaselineRefused if only chosen cases ran and the report lacks recorded cases."""
+    """Raise BaselineRefused if a report of chosen cases lacks cases with recorded results."""
     missing = [name for name, _ in _missing(report, baselines)] if report.chosen else []
     if missing:
         raise BaselineRefused(
@@ -236,7 +236,7 @@ def _gone_cases(report: Report, baselines: Mapping[str, Baseline]) -> Iterator[G
 
 
 def _missing(report: Report, baselines: Mapping[str, Baseline]) -> Iterator[tuple[str, Recording]]:
-    """Yield the recorded cases that a report of the level lacks, by name, with their recordings."""
+    """Yield the recorded cases that a report lacks at its level: name and recorded results."""
     present = {case.name for case in report.cases}
     for name, baseline in sorted(baselines.items()):
         recorded = _recording(baseline, report.level)

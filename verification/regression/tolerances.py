@@ -61,8 +61,9 @@ class Tolerances(Description):
     accepted: tuple[Acceptance, ...] = ()
 
     def of(self, case: str) -> dict[str, tuple[Tolerance, Acceptance]]:
-        """Return the accepted tolerances of a case, each with its acceptance, by
-        key of the number."""
+        """Return the accepted tolerances of a case, each with the reason of acceptance, by key of
+        the number.
+        """
         return {
             key: (tolerance, acceptance)
             for acceptance in self.accepted
@@ -204,6 +205,6 @@ def _without(
 
 
 def text_of(verdict: Verdict) -> str:
-    """Return the key of a verdict in words: name, run and kind of tolerance."""
+    """Return the key of a judged quantity in words: name, run and kind of tolerance."""
     _, name, run, kind = key_of(verdict)
     return f"{name} [{run}] {kind}"

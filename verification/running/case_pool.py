@@ -33,7 +33,7 @@ LARGEST_RECORD = 100_000_000  # bytes; those of full verifications have a few hu
 
 
 class DamagedRecord(Exception):
-    """The file at the path of a record is unreadable, damaged, or the record of another case."""
+    """The stored record of a case is unreadable, damaged, or belongs to another case."""
 
 
 @dataclass(frozen=True)
@@ -87,7 +87,9 @@ class CaseStore:
 
 
 def content_hash(case: StudyCase, code: bytes | None = None) -> str:
-    """Return a digest of the type and values of a case, and of the source code that computes it.
+    """Return a digest of a case and its source code, which identifies the stored record.
+
+    The digest includes the type and values of the case.
 
     code  digest of the source code; None for that of this process
     """

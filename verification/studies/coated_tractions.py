@@ -202,9 +202,10 @@ def _apart(one: tuple[Field, Field], other: tuple[Field, Field]) -> Field:
 
 
 def runs(settings: Settings) -> dict[tuple[float, str, str], TractionRun]:
-    """Return all solves of the study by modulus ratio E1/E2, solver and kind of solve.
+    """Return all solves of coated contacts in the study.
 
-    The kind is "fine", "coarse" (2/3 of the cells or rings) or "half the increments".
+    The keys are the modulus ratio E1/E2 (coating over substrate), the solver and the kind of solve:
+    "fine", "coarse" (2/3 of the cells or rings) or "half the increments".
     """
     cells, rings = FINEST[settings.level]
     finest = {CELLS: float(settings.cells or cells), RINGS: rings}

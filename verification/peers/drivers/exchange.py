@@ -24,7 +24,7 @@ ABOVE = 1.0  # the gap beside a punch: far above any approach of small strains
 
 
 class CannotDo(Exception):
-    """The code cannot solve problems of this kind."""
+    """The contact code cannot solve a problem of this kind, with the reason."""
 
 
 def gap_of(request: Request) -> Array:
@@ -52,8 +52,10 @@ def _level_gap(request: Request, x: Array, y: Array, r: Array) -> Array:
 
 
 def approach_of(gap: Array, displacement: Array, pressure: Array) -> float:
-    """Compute the rigid approach as the mean of gap plus displacement, weighted by the pressure
-    [length].
+    """Compute the rigid approach: mean of gap plus displacement, weighted by the pressure [length].
+
+    gap           gap of the undeformed surfaces at the cells [length]
+    displacement  normal surface displacement at the cells [length]
     """
     return float(np.sum(pressure * (displacement + gap)) / np.sum(pressure))
 

@@ -102,8 +102,8 @@ def judged(truth: Truth, found: float, stated: StatedError | None) -> Row:
 
 
 def _run(known: KnownScene) -> tuple[Any, StatedErrors]:
-    """Solve a scene of known answer on cells or finite elements and estimate the errors of its
-    results.
+    """Solve a scene with a known solution on cells or finite elements, and estimate the errors of
+    its results.
     """
     asked: Any = known.fineness.asked
     if known.fineness.solver == CELLS:
@@ -174,10 +174,11 @@ class Coverage:
 
     @classmethod
     def of(cls, group: str, rows: Sequence[Row]) -> Coverage:
-        """Count the results of a group: covered, tight, not converged, undecided, without stated
-        error.
+        """Count the stated errors of a group of results that cover the true error, and those that
+        do not.
 
-        rows  one row per result, with true error, stated error and uncertainty of the reference
+        group  name of the group
+        rows   one row per result, with true error, stated error and uncertainty of the reference
         """
         having = [row for row in rows if row.measures[STATED] is not None]
         certain = [row for row in having if is_decided(row)]
@@ -201,7 +202,9 @@ def covers(row: Row) -> bool:
 
 
 def is_tight(row: Row) -> bool:
-    """Determine if the stated error of a result is less than 10 times its true error."""
+    """Determine if the stated error of a result is less than 10 times its true error, hence not
+    excessive.
+    """
     return value_of(row, STATED) < TIMES * value_of(row, WRONG)
 
 
@@ -217,7 +220,7 @@ def is_decided(row: Row) -> bool:
 
 
 def grouped(rows: Iterable[tuple[str, Row]]) -> dict[str, Coverage]:
-    """Count the coverage of stated errors in each group of results.
+    """Count, in each group of results, how often stated errors cover true errors.
 
     rows  pairs of the name of a group and the row of one result
     """

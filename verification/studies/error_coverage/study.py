@@ -174,8 +174,9 @@ REMARKS = (
 
 
 def cases(settings: Settings) -> tuple[CoverageCase | RequestCase, ...]:
-    """Return the random scenes and requests: all, a third, or one of each kind, by the level of the
-    study.
+    """Return the random scenes and the requests of accuracy that the study solves.
+
+    The standard level has a third of those of the full level, and the quick level one of each kind.
     """
     parts = {Level.QUICK: 0, Level.STANDARD: 3, Level.FULL: 1}
     part = parts[settings.level]

@@ -101,7 +101,11 @@ class StudiedScene:
         return contents.model_copy(update={"loading": contents.loading[: self.step]})
 
     def asked(self, contents: SceneFile) -> Any:
-        """Return the discretisation table of the scene file that the solver of the study uses."""
+        """Return the discretisation table of the scene file, of the semi-analytical or
+        finite-element solver.
+
+        contents  contents of the scene file
+        """
         return contents.semi_analytical if self.on_cells else contents.fem_reference
 
 
@@ -131,8 +135,9 @@ class SceneLevel:
 
     @property
     def name(self) -> str:
-        """File name of the record, with a digest of the level, the contents of the scene and the
-        solver.
+        """File name of the record of this refinement level.
+
+        It includes a digest of the level, the contents of the scene and the solver.
         """
         digest = hashlib.sha256(repr(self).encode()).hexdigest()[:8]
         return f"{self.scene.solver}-{sum(self.increments)}-{digest}"

@@ -97,9 +97,8 @@ class Estimate:
 
     @property
     def points(self) -> list[tuple[float, float]]:
-        """Pairs of the size of a level and its distance from the limit, relative to the largest
-        value.
-        """
+        """Pairs (size h of a level, distance of its result from the limit over the
+        largest result)."""
         errors = (abs(value - self.limit) / self.largest for value in self.values)
         return list(zip(self.sizes, errors, strict=True))
 
@@ -212,8 +211,10 @@ Text = Callable[[Row], str]
 
 
 def number(name: str, digits: int = 2) -> Text:
-    """Return the text function of a table column: the number of a row with `name`, rounded to
-    `digits`.
+    """Return a function that formats one number of a row, for a column of a table.
+
+    name    name of the number in the row
+    digits  significant digits
     """
     return lambda row: plain(row.number(name), digits)
 
@@ -588,8 +589,11 @@ def _estimate_table(of: Sequence[Estimate]) -> Table:
 
 
 def _level_table(levels: Sequence[CaseRecord]) -> Table:
-    """Build the table of the levels: results, work and residual, or the error of a
-    refused level."""
+    """Build the table of the refinement levels of a scene: results, work and residual of each
+    level.
+
+    A level that the solver refused has the message instead.
+    """
     solved = [level for level in levels if "refused" not in level.words]
     names = [name for name in (solved[-1].measures if solved else ()) if name != RESIDUAL]
     counters: Mapping[str, int] = solved[-1].counters if solved else {}

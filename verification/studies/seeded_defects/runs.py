@@ -56,8 +56,9 @@ class Caught(TypedRow):
 
     @property
     def by_law(self) -> bool:
-        """Determine if a law that every result obeys failed, such as the energy balance, and no
-        reference.
+        """Determine if the failed verdict checks a law of every result, such as the energy balance.
+
+        Such a verdict needs no reference solution.
         """
         return self.how in LAWS.values()
 
@@ -79,13 +80,14 @@ class Sample(TypedRow):
 
 
 def caught(record: CaseRecord) -> tuple[Caught, ...]:
-    """Return the failed verdicts of a record."""
+    """Return the failed verdicts in the record of a verification case."""
     return tuple(Caught.of(row) for row in record.parts if "how" in row.words)
 
 
 def samples(record: CaseRecord) -> tuple[Sample, ...]:
-    """Return the errors of all quantities with a reference, from the record of a
-    healthy contact."""
+    """Return the errors of all quantities with a reference from the record of a random healthy
+    contact.
+    """
     return tuple(Sample.of(row) for row in record.parts if "uncertainty" in row.measures)
 
 
@@ -106,7 +108,9 @@ class DefectRun:
         return f"{self.defect or 'healthy'}--{self.case.replace('_', '-')}"
 
     def compute(self) -> CaseRecord:
-        """Plant the defect, solve and judge the case, and remove the defect again."""
+        """Plant the defect in the solvers, solve and judge the verification case, and remove the
+        defect.
+        """
         _all_imported()
         if self.defect == HEALTHY:
             outcome = judged(self.case)
@@ -180,10 +184,11 @@ def record_of(
 
 
 def judged(name: str) -> CaseOutcome:
-    """Solve and judge a case of the quick catalogue, with its record written to a file and read
-    back.
+    """Solve and judge a verification case, with its record written to a file and read back.
 
     An exception becomes an outcome without results that names the exception.
+
+    name  name of the case in the quick catalogue
     """
     case = CaseToJudge(name, Level.QUICK.name)
     try:

@@ -103,13 +103,16 @@ class Seen:
 
     @property
     def best(self) -> Sighting | None:
-        """Verdict with the largest error over allowed error; verdicts without a
-        number come last."""
+        """Verdict that detects the defect most clearly: with the largest ratio of error to allowed
+        error.
+
+        Verdicts without a number come last; None if no verdict detects the defect.
+        """
         return max(self.sightings, key=lambda s: s.verdict.clearance or -1.0, default=None)
 
     @property
     def by(self) -> tuple[str, ...]:
-        """Names of the cases that detected the defect."""
+        """Names of the verification cases that detected the defect."""
         return tuple(dict.fromkeys(sighting.case for sighting in self.sightings))
 
 
@@ -135,7 +138,10 @@ def seen(settings: Settings, records: Records, defect: Defect) -> Seen:
 
 
 def found(records: Records, defect: str, case: str) -> CaseRecord | None:
-    """Return the record of a case under a defect; None if it is not computed."""
+    """Return the record of a verification case under a planted defect; None if it is not computed.
+
+    defect  name of the defect; empty for the case without a defect
+    """
     record = records.get(DefectRun(defect, case).name)
     return record if isinstance(record, CaseRecord) else None
 
@@ -163,16 +169,16 @@ def derived(records: list[CaseRecord]) -> list[Sample]:
 
 
 def covered(sample: Sample) -> bool:
-    """Determine if the error of a sample is at most its expanded uncertainty U = 2u."""
+    """Determine if the error of a quantity is at most its estimated expanded uncertainty U = 2u."""
     if sample.error is None or sample.uncertainty is None:
         return False
     return sample.error <= sample.uncertainty
 
 
 def caught_by_reference(record: CaseRecord) -> bool:
-    """Determine if a reference or an observed convergence order detects the defect.
+    """Determine if a planted defect is detected by a reference solution or a convergence order.
 
-    Verdicts that only check a law of the fields do not count.
+    Verdicts that only check a law of the fields, such as the energy balance, do not count.
     """
     return any(not one.by_law for one in caught(record))
 
@@ -390,7 +396,7 @@ def _families(records: Records) -> Table:
 
 
 def _parts(samples: Iterable[Sample]) -> list[float]:
-    """Return the ratios of error to expanded uncertainty U of the samples that have both."""
+    """Return the ratios of error to expanded uncertainty U = 2u of the samples that have both."""
     return [s.error / s.uncertainty for s in samples if s.error is not None and s.uncertainty]
 
 

@@ -16,7 +16,7 @@ from verification.running.study import CaseRecord, TypedRow, parameters_of
 
 
 class Surface(StrEnum):
-    """Kind of indenter that is pressed on the body, and variation of the friction coefficient."""
+    """Kind of indenter that is pressed on the body, in a few cases with nonuniform friction."""
 
     BALL = "ball"
     ALIKE_BALL = "alike-ball"  # as elastic and coated as the body: nothing couples
@@ -44,7 +44,7 @@ class LoadingPath(StrEnum):
 
 
 class Solver(StrEnum):
-    """Solver of a contact, by its name on the command line."""
+    """Solver of a contact in the stability map, by its name on the command line."""
 
     SEMI_ANALYTICAL = "semi-analytical"
     COMPLEMENTARITY = "fem-complementarity"  # finite elements without a penalty
@@ -89,7 +89,7 @@ class StabilityCell:
 
     @property
     def posable(self) -> bool:
-        """Determine if the solver of the contact has a model of such scenes.
+        """Determine if the solver of the contact has a model of the scene.
 
         Finite elements require bodies of revolution, a uniform friction coefficient and a
         tangential load along one line.
@@ -99,13 +99,14 @@ class StabilityCell:
 
     @property
     def coordinates(self) -> dict[str, Any]:
-        """Coordinates of the contact (all fields of the class) by name."""
+        """Coordinates of the contact in the stability map (friction, load, coating, …) by name."""
         return {f.name: getattr(self, f.name) for f in fields(self)}
 
     @property
     def name(self) -> str:
-        """File name of the record: the coordinates that differ from those of the
-        default contact."""
+        """File name of the record of the contact: its coordinates that differ from the default
+        values.
+        """
         ordinary = StabilityCell()
         parts = [
             f"{SHORT[key]}{value:g}" if isinstance(value, float | int) else str(value)
@@ -124,7 +125,9 @@ SHORT = {
 
 
 class Verdict(StrEnum):
-    """Outcome of the solve of a contact."""
+    """Outcome of the solve of a contact: converged, refused, not converged, or wrong without a
+    message.
+    """
 
     CONVERGED = "converged"
     REFUSED = "refused"  # with a reason that the scene itself gives
@@ -133,7 +136,9 @@ class Verdict(StrEnum):
 
 
 class Refusal(StrEnum):
-    """Reason for which a contact is refused."""
+    """Reason for which a solver refuses a contact: its force exceeds µW, it has no model, or
+    another one.
+    """
 
     NONE = ""
     FORCE = "force"  # above µW
@@ -221,8 +226,11 @@ class View:
     cells: tuple[StabilityCell, ...]
 
     def values(self, axis: str) -> tuple[Any, ...]:
-        """Return the values of a coordinate of the map in ascending order, or in order of an
-        enumeration.
+        """Return the values of one coordinate that occur in the map, in ascending order.
+
+        Enumeration members are in the order of their definition.
+
+        axis  name of the coordinate
         """
         found = {getattr(cell, axis) for cell in self.cells}
         members = [*LoadingPath, *Surface, *Solver]
@@ -230,7 +238,7 @@ class View:
 
     @property
     def wide(self) -> bool:
-        """Determine if the map has more than one point (x, y)."""
+        """Determine if the map has more than one point (x, y), so that a chart makes sense."""
         return len(self.values(self.x)) * len(self.values(self.y)) > 1
 
     @property
@@ -266,7 +274,7 @@ class Asked:
     least: Level = Level.QUICK
 
     def view(self, level: Level, cells: int, solvers: Sequence[Solver]) -> View:
-        """Build the map of one level of the study.
+        """Build a stability map (contacts over two coordinates) for one level of the study.
 
         cells    cells per side of the surface grid
         solvers  solvers of each contact
@@ -298,7 +306,7 @@ def views(level: Level, cells: int) -> tuple[View, ...]:
 
 
 def study_cells(level: Level, cells: int) -> tuple[StabilityCell, ...]:
-    """Return all contacts of the maps of a level, without duplicates."""
+    """Return the contacts of all stability maps at a level of the study, without duplicates."""
     found = {cell.name: cell for view in views(level, cells) for cell in view.cells}
     return tuple(found.values())
 

@@ -77,6 +77,8 @@ class Solved:
 def by_superposition(posed: Posed) -> Solved:
     """Solve a contact with the semi-analytical solver, in a wider window if the contact requires
     one.
+
+    Returns increments, violations of the laws of contact and friction, and iterations.
     """
     result = _solved(posed)
     increments = result.increments
@@ -90,7 +92,12 @@ def by_superposition(posed: Posed) -> Solved:
 
 
 def by_elements(posed: Posed, method: Method) -> Solved:
-    """Solve a contact with finite elements and collect increments, violations and iterations."""
+    """Solve a contact with finite elements; return increments, violations of the laws and
+    iterations.
+
+    posed   scene and discretisation of the contact
+    method  enforcement of contact and friction: complementarity or penalty
+    """
     on_harmonics = fem_reference.plan(posed.scene).path is fem_reference.Path.HARMONICS
     discretisation = FiniteElementDiscretisation(
         elements_per_radius=posed.elements,
@@ -160,7 +167,7 @@ class StabilityRun:
 
 
 def judged(cell: StabilityCell) -> CellRecord:
-    """Solve a contact and return its verdict, residuals and cost.
+    """Solve a contact of the stability map and return its verdict, residuals and cost.
 
     Errors of the scene or the solver become verdicts and are not raised.
     """

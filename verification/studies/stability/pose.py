@@ -56,9 +56,12 @@ class Loads:
 
 
 def loading(path: LoadingPath, loads: Loads) -> tuple[LoadStep, ...]:
-    """Return the load steps of a loading path with prescribed numbers of increments.
+    """Return the load steps of a loading path, with few and therefore large increments.
 
-    The numbers are prescribed because the map studies the convergence of large increments.
+    The stability map studies the convergence of large increments.
+
+    path   kind of loading path
+    loads  normal force, approach, coefficient of friction, and tangential force over µW
     """
     full = loads.push * loads.friction * loads.normal_force
 
@@ -147,8 +150,11 @@ class Posed:
 
 
 def pose(cell: StabilityCell) -> Posed:
-    """Build the scene and the discretisation of a contact; raises SceneError for an
-    invalid scene."""
+    """Build the scene and the discretisation of a contact of the stability map from its
+    coordinates.
+
+    Raises SceneError for an invalid scene.
+    """
     a = cell.length
     both = (_coated(cell),) * (2 if cell.surface is Surface.ALIKE_BALL else 1)
     answer = surface_of(*both)
@@ -174,7 +180,7 @@ def pose(cell: StabilityCell) -> Posed:
 
 
 def _materials(cell: StabilityCell) -> tuple[IsotropicMaterial, IsotropicMaterial]:
-    """Return the materials of coating and substrate of a contact."""
+    """Return the elastic materials of coating and substrate of a contact."""
     E, ratio = cell.modulus, cell.modulus_ratio
     return (
         IsotropicMaterial(young_modulus=ratio * E, poisson_ratio=cell.poisson_ratio),

@@ -201,7 +201,8 @@ def _due(cell: StabilityCell) -> Refusal:
 
 
 def _duly(refused: Found) -> set[StabilityCell]:
-    """Select the refused contacts whose reason of refusal is the expected one."""
+    """Select the refused contacts of the stability map whose reason of refusal is
+    the expected one."""
     return {cell for cell, r in refused.items() if r.refused_for and r.refused_for is _due(cell)}
 
 
@@ -210,7 +211,9 @@ def _of(solver: Solver, statement: Statement) -> Statement:
 
 
 def _list(cells: Iterable[StabilityCell]) -> str:
-    """Return the names of the first 12 contacts as text, with the number of further ones."""
+    """Return the names of the first 12 contacts as text, followed by the number of further
+    contacts.
+    """
     names = [cell.name for cell in cells]
     if not names:
         return ""

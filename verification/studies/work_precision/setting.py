@@ -86,7 +86,7 @@ class PreciseContact:
 
     @property
     def leading(self) -> str:
-        """Name of the first error in the list of errors."""
+        """Name of the first of the measured errors."""
         return next(iter(self.errors))
 
     def meaning(self, quantity: str) -> str:
@@ -297,12 +297,12 @@ class PrecisionCase:
 
     @property
     def solved(self) -> PreciseContact:
-        """Contact with its reference solution."""
+        """Contact that the case solves, with its reference solution."""
         return CONTACTS[self.contact]
 
     @property
     def text(self) -> str:
-        """Setting of the method in words, for tables."""
+        """Setting of the solution method in words, such as "64 x 64, tolerance 0.01"."""
         n = self.fineness
         words = [f"{n} x {n}"]
         if self.method in (Method.ELEMENTS, Method.PENALTY):
@@ -315,7 +315,7 @@ class PrecisionCase:
         return ", ".join(words)
 
     def compute(self) -> CaseRecord:
-        """Solve the contact with a cold cache and record its relative errors, work and CPU seconds.
+        """Solve the contact with empty caches; record its relative errors, work and CPU seconds.
 
         Raises the errors of the solvers.
         """

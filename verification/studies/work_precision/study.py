@@ -103,10 +103,10 @@ def dependable(points: Iterable[Point]) -> tuple[Point, ...]:
 
 
 def pareto(points: Iterable[Point]) -> tuple[Point, ...]:
-    """Return the Pareto front: the points for which no other point is at least as good in error and
+    """Return the points (error, CPU time) for which no other point has both a smaller error and
     cost.
 
-    The points are in ascending order of cost.
+    They are the Pareto front, in ascending order of cost.
     """
     line: list[Point] = []
     for point in sorted(points, key=lambda p: (p.seconds, p.error)):
@@ -116,7 +116,7 @@ def pareto(points: Iterable[Point]) -> tuple[Point, ...]:
 
 
 def cheapest(points: Iterable[Point], target: float) -> Point | None:
-    """Return the point with the least CPU time whose error is at most `target`; None if there is
+    """Return the setting with the least CPU time whose error is at most `target`; None if there is
     none.
     """
     return next((point for point in pareto(points) if point.error <= target), None)
