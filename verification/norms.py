@@ -48,7 +48,7 @@ Rule = tuple[Field, Field]  # places from -1 to 1, and weights that sum to 2
 SMOOTH, ROUGH = leggauss(4), leggauss(64)
 # Lobatto's with a point in every corner, which an edge may cut off between those of Gauss.
 WITH_CORNERS = np.array([-1, -np.sqrt(0.2), np.sqrt(0.2), 1]), np.array([1, 5, 5, 1]) / 6
-DIFFERING = 1e-7  # of the largest mean: where two rules differ by more an edge ends in the cell
+DIFFERING = 1e-7  # relative to the largest mean; a larger difference of two rules shows an edge
 
 
 def cell_means(exact: AtPlaces, x: Field, y: Field, sides: tuple[Field, Field]) -> Field:

@@ -29,7 +29,7 @@ MODULUS_RATIO, THICKNESS = 2.0, 0.5  # of Hertz's radius
 PRESSED_IN, PUSHED_IN = 8, 6  # increments
 CELLS, REACH = 64, 1.15  # of Hertz's radius
 TOLERANCE = 1e-6
-DOTS_PER_INCH = 80  # of the fields; axes and text are drawn as such
+DOTS_PER_INCH = 80  # resolution of the fields; axes and text are vector graphics
 NO_METADATA = {"Date": None, "Creator": None, "Format": None, "Type": None}
 
 

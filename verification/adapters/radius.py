@@ -13,8 +13,8 @@ from verification.challenge.python_api import (
 )
 
 ON_RADII = Solver("slipstick, radial", meshless=True)
-COARSEST = 32  # rings: the fields are linear between them, the numbers need none
-INCREMENTS = 10  # on the coarsest, of steps that name none
+COARSEST = 32  # rings; fields are linear between rings, scalars do not depend on them
+INCREMENTS = 10  # on the coarsest level, of load steps that prescribe none
 
 
 def answer(posed: Posed, level: int) -> Answer:

@@ -20,7 +20,7 @@ from verification.observed.ring_errors import along_radii, outward
 from verification.quantities import shear_of
 
 COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
-# What the reference of influence coefficients calls what moves and under which traction.
+# Names of displacement by traction in the challenge, and of the influence coefficients.
 MOVED = {
     "u_z_by_pressure": "zz", "u_x_by_shear_x": "xx", "u_y_by_shear_y": "yy",
     "u_x_by_shear_y": "xy", "u_z_by_shear_x": "zx",
@@ -72,7 +72,7 @@ def under_a_patch(posed: Posed) -> Answer:
 ON_CELLS = Solver("slipstick, semi-analytical")
 WITH_EDGES = Solver("slipstick, edges inside the cells", sampling="cell")
 COARSEST = 32
-INCREMENTS = 10  # on the coarsest, of steps that name none
+INCREMENTS = 10  # on the coarsest level, of load steps that prescribe none
 TOLERANCE = 1e-8
 
 

@@ -18,11 +18,11 @@ from scipy.special import stdtrit
 CONFIDENCE = 0.95
 # An order is known well enough to be judged if its interval is no wider than this.
 ORDER_WIDTH = 0.25
-# By so much a promised order may be missed: a fit over an octave or two still feels the next term.
+# Allowed difference from a theoretical order: a fit over few levels includes the next error term.
 ORDER_OFF = 0.1
 # Orders of the two finest triplets differ by no more than this where the values are asymptotic.
 TRIPLETS_AGREE = 0.2
-# Half-width of an interval that holds two neighbouring whole orders: within it none can be read.
+# Half-width of an interval that contains two consecutive integer orders: none can be determined.
 ILLEGIBLE = 0.5
 ORDERS = (0.05, 6.0)
 COARSE_STEPS = 60
@@ -274,7 +274,7 @@ def _fitted_order(h: Vector, f: Vector, expected: float) -> ObservedOrder | None
     order, fit = float(found.x), _line(h, f, float(found.x), expected)
     weight = h**-expected
     powers = weight * h**order
-    # What limit and coefficient cannot imitate of a change of p tells how well p is known.
+    # The part of a change of p that limit and coefficient cannot fit determines the interval of p.
     plane, _ = np.linalg.qr(np.column_stack([weight, powers]))
     along = fit.coefficient * powers * np.log(h)
     across = along - plane @ (plane.T @ along)

@@ -20,7 +20,7 @@ from fem_reference.model import ContactModel
 from radial.frictional.coupling import Coupling
 from verification.defects.defect import Defect, Patches
 
-# How far particles below a Hertzian contact of the paper's data move inwards, over their radius:
+# Inward displacement of surface points in a Hertz contact of the paper's data, over their radius:
 # (1-2ν)(1+ν) p₀/2E.
 DRAWN_IN = 4e-3
 

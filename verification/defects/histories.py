@@ -463,7 +463,7 @@ CONTACT_AND_FRICTION = (
     Defect(
         "residual-zero-of-contact", "The residuals of contact are zero, and pressures are "
         "inaccurate.",
-        # Where edges are corrected, the repeated solves leave no rough pressure.
+        # The repeated solves of an edge correction would make the pressure accurate again.
         ("hertz_approach_control",), _blind,
     ),
     Defect(
@@ -554,7 +554,7 @@ def _elements_look_at_bases(patches: Patches) -> None:
 
     A coated indenter on a body of its base material is then treated as equal to the body.
     """
-    plan = import_module("fem_reference.plan")  # its function of this name hides it
+    plan = import_module("fem_reference.plan")  # the package exports a function of this name
     whole = plan.coupling
 
     def coupling(scene: Scene) -> tuple[bool, str]:

@@ -78,7 +78,11 @@ def curve(
     look: Look = Look.COMPUTED,
     series: int = 0,
 ) -> Curve:
-    """Create a curve of a chart from coordinates, rounded to 6 significant digits."""
+    """Create a curve of a chart from its coordinates, which are rounded to 6 significant digits.
+
+    look    meaning of the curve, which determines its line style
+    series  number that determines its colour
+    """
     return Curve(label=label, x=_rounded(x), y=_rounded(y), look=look, series=series)
 
 
@@ -87,7 +91,7 @@ def _rounded(values: Iterable[float]) -> tuple[float, ...]:
 
 
 def stacked(name: str, title: str, caption: str, *rows: Panel | tuple[Panel, ...]) -> Chart:
-    """Create a chart of panels one above the other; panels in one tuple are placed in one row."""
+    """Create a chart of panels one above the other; a tuple of panels makes one row."""
     beside = tuple(row if isinstance(row, tuple) else (row,) for row in rows)
     return Chart(name=name, title=title, caption=caption, rows=beside)
 
@@ -197,7 +201,7 @@ def percent(part: float) -> str:
 NOT_REACHED = "–"
 
 
-EXTRAPOLATED = "≈"  # before a cost that no setting was tried for
+EXTRAPOLATED = "≈"  # marks an extrapolated cost
 
 
 T = TypeVar("T")
@@ -205,7 +209,9 @@ NONE: Mapping[str, str] = {}  # units: every number is a count or a ratio
 
 
 class Table(Description):
-    """Table of texts; the first column names the row."""
+    """Table of a report with title and headings; all cells are texts, and the first column names
+    the row.
+    """
 
     title: str
     columns: tuple[str, ...]
@@ -227,9 +233,10 @@ def table_of(
     note: str = "",
     units: Mapping[str, str] = NONE,
 ) -> Table:
-    """Build a table with one line per item; the first column names the line.
+    """Build a table of a report with one row per item; the first column names the row.
 
     columns  functions that return the text of an item, by heading of the column
+    items    objects of the rows
     """
     return Table(
         title=title,

@@ -87,9 +87,11 @@ def _text(observed: ObservedOrder) -> str:
 
 
 def _band(line: ErrorLine, ends: NDArray[np.float64], series: int) -> Curve:
-    """Return the outline of the 95 % confidence band of a fitted line.
+    """Return the outline of the 95 % confidence band of a line fitted to errors, as a curve of a
+    chart.
 
-    ends  largest and smallest cell size
+    ends    largest and smallest cell size
+    series  number that determines the colour
     """
     along = np.geomspace(ends[0], ends[1], ALONG)
     low, high = line.band(along)

@@ -49,7 +49,7 @@ class Section:
         return np.asarray(np.hypot(self.x, self.y))
 
     def of(self, field: Field) -> Field:
-        """Return the values of a field (nx, ny) on the row of cells."""
+        """Return the values of a field (nx, ny) at the cells of the row."""
         return np.asarray(field[self._shown, self._row])
 
 

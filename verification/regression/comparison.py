@@ -37,18 +37,18 @@ if TYPE_CHECKING:
     from verification.running.report_record import Report
 
 
-SAME_DIGITS = 1e-8  # relative, of what a reference is
+SAME_DIGITS = 1e-8  # relative difference of equal references
 # Processors and versions end solves at other iterates within their tolerance (1e-8), and what is
 # measured on them may differ by somewhat more. Less than that is no change on any machine.
-NOISE = 1e-6  # of what errors are divided by; of a finding, of itself
+NOISE = 1e-6  # relative to the error scale, or to the value of a finding
 NOISE_OF_TOLERANCE = 0.01
-SAME_COUNT = 0.05  # an iteration sooner or later
+SAME_COUNT = 0.05  # relative; solves may end an iteration earlier or later
 TOLERANCE_KEPT = 0.01  # relative; derived tolerances follow the last digits of small differences
 
 # Worse: an error that has become this many times larger, by more than the noise of machines: what
 # is far inside a wide tolerance has no other guard.
 WORSE_BY = 1.5
-# How far below its tolerance a solve ends says nothing of its answer.
+# The residual below the tolerance does not measure the accuracy of a result.
 ENDS_OF_SOLVES = FOUND_IN_A_RUN
 
 # Suspiciously better: an error that has become this many times smaller, by at least that part of
@@ -104,7 +104,7 @@ def _kind(verdict: Verdict, was: RecordedQuantity, difference: float, allowed: f
         return ChangeKind.BETTER
     if difference > allowed and _is_farther(verdict, was):
         return ChangeKind.OUTSIDE
-    # Before what is judged otherwise: derived tolerances grow with the error.
+    # This test comes before those of tolerances, because derived tolerances grow with the error.
     ends = verdict.name in ENDS_OF_SOLVES
     now = verdict.model_copy(update={"reference": was.reference})
     if was.covered and not verdict.covered:

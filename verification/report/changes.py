@@ -72,8 +72,10 @@ class ChangeRow:
 
 
 def change_rows(report: Report) -> list[ChangeRow]:
-    """Return all relevant changes since the baseline, sorted by severity of the
-    kind, then by size."""
+    """Return all relevant changes of results since the recorded baseline.
+
+    They are sorted by severity of their kind, then by size.
+    """
     rows = [row for row in _all_rows(report) if row.kind.matters]
     return sorted(rows, key=lambda row: (RANK[row.kind], -row.size))
 
@@ -87,7 +89,9 @@ def moved_rows(report: Report) -> list[ChangeRow]:
 
 
 def worse_rows(report: Report) -> list[ChangeRow]:
-    """Return the changes for the worse: larger errors or higher cost than recorded."""
+    """Return the results that are worse than recorded in the baseline: larger errors or higher
+    cost.
+    """
     return [row for row in change_rows(report) if row.kind.regresses]
 
 
@@ -110,8 +114,9 @@ def _all_rows(report: Report) -> Iterator[ChangeRow]:
 
 
 def case_rows(case: CaseOutcome) -> Iterator[ChangeRow]:
-    """Yield the changes of a case: of its numbers and counts, and recorded numbers that are
-    missing.
+    """Yield the changes of a case since its recorded baseline.
+
+    They include recorded numbers that the case lacks.
     """
     if case.baseline is None:
         return
@@ -135,7 +140,7 @@ def case_rows(case: CaseOutcome) -> Iterator[ChangeRow]:
 
 
 def change_counts(report: Report) -> dict[ChangeKind, int]:
-    """Count the changes of a report by kind, without counters that did not change."""
+    """Count the changes of a report since the recorded baseline by kind (worse, better, new, …)."""
     found = Counter(row.kind for row in _all_rows(report))
     return {kind: found[kind] for kind in ChangeKind if found[kind]}
 
@@ -146,8 +151,10 @@ def without_baseline(report: Report) -> list[str]:
 
 
 def origins(report: Report) -> list[tuple[Origin, list[str]]]:
-    """Return the origins of the recorded results with the names of their cases, the most frequent
-    first.
+    """Return the origins (commit and date) of the recorded baselines, each with the names of its
+    cases.
+
+    The origin with the most cases comes first.
     """
     found: dict[Origin, list[str]] = {}
     for case in report.cases:
@@ -157,7 +164,7 @@ def origins(report: Report) -> list[tuple[Origin, list[str]]]:
 
 
 def changes_text(report: Report) -> str:
-    """Summarise the changes since the baseline in one line."""
+    """Summarise the changes of results since the recorded baseline in one line."""
     absent = without_baseline(report)
     parts = [", ".join(f"{number} {kind}" for kind, number in change_counts(report).items())]
     if report.cases and len(absent) == len(report.cases):

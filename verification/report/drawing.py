@@ -40,7 +40,9 @@ LINES = (
 
 
 def draw(chart: Chart) -> Figure:
-    """Draw a chart and return its figure. Call this function within `style.figure_style`."""
+    """Draw a chart with matplotlib and return its figure. Call this function within
+    `style.figure_style`.
+    """
     heights = [row[0].height for row in chart.rows]
     columns = max(len(row) for row in chart.rows)
     maps = all(panel.y_places for row in chart.rows for panel in row)
@@ -68,7 +70,7 @@ def _draw_panel(ax: Any, panel: Panel) -> None:
             ax.fill(curve.x, curve.y, **look_of(curve))
         else:
             ax.plot(curve.x, curve.y, label=curve.label or None, **look_of(curve))
-    if not panel.curves:  # numbers would measure nothing
+    if not panel.curves:  # an empty panel has no scale
         ax.set_yticks([])
     for x, y, text in panel.notes:
         ax.annotate(text, (x, y), xytext=(0, 6 if y >= 0 else -14), textcoords="offset points",

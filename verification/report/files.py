@@ -28,7 +28,7 @@ CASES = "cases"  # of the directory: the records of finished cases
 
 
 def refuse_if_unwritable(directory: Path) -> None:
-    """Create the directory and test that it is writable, before long computations.
+    """Create the output directory and test that files can be written, before long computations.
 
     Raises OutputRefused.
     """
@@ -84,8 +84,9 @@ def set_aside(directory: Path, names: Sequence[str] = STUDY_FILES) -> None:
 
 
 def draw_again(report: Report, directory: Path) -> None:
-    """Render all pages of a report again from its existing record, and keep a compressed record
-    unchanged.
+    """Render the pages of a report again from its stored record.
+
+    A compressed record stays as it is; a plain record is written again.
     """
     packed = record_in(directory).name == PACKED
     _write(_rendered(report) | ({} if packed else {RECORD: dump_report(report)}), directory,
@@ -117,7 +118,8 @@ def write_study(record: StudyRecord, rows: Mapping[str, str], directory: Path) -
 
 
 def _rendered(report: Report) -> dict[str, str]:
-    """Render the pages, the JUnit table and the summary of a report, by file name."""
+    """Render the files of a report except its record: pages, JUnit table and
+    summary, by file name."""
     # Drawing takes long to import: a command that only prepares a directory does without.
     from verification.report.page import render_page, render_sheets
     from verification.report.summary_text import render_junit, render_summary
@@ -149,7 +151,7 @@ def _put(texts: Mapping[str, str], directory: Path) -> None:
 
 
 def _remove_set_aside(directory: Path, names: Sequence[str]) -> None:
-    with suppress(OSError):  # there is none, or it has files of others
+    with suppress(OSError):  # the folder is absent or has other files
         _remove(directory / EARLIER, names)
         (directory / EARLIER).rmdir()
 
@@ -164,7 +166,7 @@ def _remove(directory: Path, names: Sequence[str]) -> None:
 
 @contextmanager
 def _alone_in(directory: Path) -> Iterator[None]:
-    """Lock a report directory for a block; wait while another process writes a report there."""
+    """Lock an output directory for a block; wait while another process writes a report there."""
     lock = acquire(directory, wait=True)
     try:
         yield

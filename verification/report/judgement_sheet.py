@@ -15,8 +15,8 @@ MAX_CURVES = 8
 
 
 def row_texts(row: Row) -> tuple[str, ...]:
-    """Return the columns of a verdict as texts: quantity, step, level, status, error, bound and so
-    on.
+    """Return the table row of a verdict on a code: quantity, load step, level, error, bound and
+    others.
     """
     return (
         row.quantity,

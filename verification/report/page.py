@@ -116,8 +116,9 @@ def line_of(case: CaseOutcome) -> str:
 
 
 def shared_reasons(cases: Sequence[CaseOutcome]) -> dict[str, list[str]]:
-    """Return the references and reasons that at least two cases share, with the names of the
-    verdicts.
+    """Return the texts on references and tolerances that at least two cases share.
+
+    The values are the names of the verdicts with the text.
     """
     found = [reasons_of(case) for case in cases]
     times = Counter(text for reasons in found for text in reasons)
@@ -129,8 +130,8 @@ def shared_reasons(cases: Sequence[CaseOutcome]) -> dict[str, list[str]]:
 
 
 def reasons_of(case: CaseOutcome) -> dict[str, list[str]]:
-    """Return the sources of references and the reasons of tolerances of a case, with their
-    verdicts.
+    """Return the texts on references and tolerances of a case, with the names of the verdicts of
+    each.
     """
     found: dict[str, list[str]] = {}
     for v in case.verdicts:

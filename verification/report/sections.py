@@ -47,9 +47,10 @@ class StudySection:
 
 @dataclass(frozen=True)
 class Feature:
-    """A promise of the program with the figures that support it.
+    """A main claim about the program (a promise to users), with measured figures that support it.
 
-    status   outcome of the case or study that judges the promise; None if the report lacks it
+    promise  text of the claim
+    status   outcome of the case or study that judges the claim; None if the report lacks it
     figures  measured figures in words
     address  link to the case or study
     """
@@ -68,7 +69,7 @@ def study_section(report: Report, name: str) -> StudySection:
 
 
 def features(report: Report, sheets: str) -> tuple[Feature, ...]:
-    """Return the promises of the program with their figures, from a case and from the studies.
+    """Return the main claims about the program, each with measured figures that support it.
 
     sheets  address of the page with the sheets of the cases
     """
@@ -109,7 +110,7 @@ def _studied(section: StudySection, promise: str) -> Feature:
 
 
 def claims_line(record: StudyRecord) -> str:
-    """Return the number of judged claims of a study that hold, as text."""
+    """Return a text with the number of judged claims of a study that hold."""
     judged = [s.outcome for s in record.conclusion.statements if s.outcome is not None]
     good = judged.count(Status.PASS)
     return f"{good} of its {len(judged)} judged claims hold (level {record.level})"

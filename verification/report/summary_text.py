@@ -25,7 +25,7 @@ from verification.running.sources import age_text, is_current
 from verification.running.study import measured_text, study_failure_line
 
 MAX_LINES = 40  # of failures, and of changes: a pull request's comment holds 65 kB
-TIMES = (3.0, 10.0)  # the errors that a verdict is to notice
+TIMES = (3.0, 10.0)  # factors of an error that a verdict should detect
 OUTSIDE = {
     ReferenceKind.CLOSED_FORM, ReferenceKind.SEMI_CLOSED, ReferenceKind.THEORY,
     ReferenceKind.EXTERNAL_CODE,
@@ -33,7 +33,8 @@ OUTSIDE = {
 
 
 def counts_text(report: Report) -> str:
-    """Summarise the outcomes of verdicts, stated errors and studies in one line."""
+    """Summarise the numbers of passed and failed verdicts, stated errors and
+    studies in one line."""
     found = [verdict.covered for _, verdict in judged_errors(report.cases)]
     failed = len(report.failed_studies)
     older = sum(study.status is Status.FAIL for study in report.studies) - failed
@@ -51,8 +52,8 @@ def counts_text(report: Report) -> str:
 
 
 def uncovered_lines(report: Report) -> list[str]:
-    """Return one line for each stated error that is smaller than the difference
-    from the reference."""
+    """Return one line for each stated error that does not cover the difference from
+    the reference."""
     return [
         f"UNCOVERED {case.name}/{verdict.name} [{verdict.run}]: "
         f"{value_text(abs((verdict.value or 0.0) - verdict.reference), verdict.unit)} from the "
@@ -142,7 +143,7 @@ def _sign(status: Status) -> str:
 
 
 def _closest(case: CaseOutcome) -> str:
-    """Describe the verdict of a case that uses the largest share of its tolerance."""
+    """Describe the verdict of a case that is nearest to its tolerance."""
 
     def use(verdict: Verdict) -> float:
         return verdict.clearance or 0.0

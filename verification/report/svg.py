@@ -91,7 +91,8 @@ def compact(svg: str, name: str) -> str:
 
 
 def with_shared_styles(page: str) -> str:
-    """Replace every style that occurs several times in the diagrams of a page by a class.
+    """Replace style attributes that occur several times in the SVG diagrams of a page by style
+    classes.
 
     The classes are numbered in the order of their first use.
     """

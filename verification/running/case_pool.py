@@ -38,20 +38,22 @@ class DamagedRecord(Exception):
 
 @dataclass(frozen=True)
 class CaseStore:
-    """Directory that stores one record file per case; all records are of type `record_type`."""
+    """Directory with one record file per case of a study; all records have the type
+    `record_type`."""
 
     directory: Path
     record_type: type[Description] = CaseRecord
 
     def path(self, case: StudyCase, code: bytes | None = None) -> Path:
-        """Return the path of the record of a case.
+        """Return the path of the stored record of a case, which includes a digest of case and
+        source code.
 
         code  digest of the source code that computes the case; None for that of this process
         """
         return self.directory / f"{case.name}-{content_hash(case, code)}.json"
 
     def load(self, case: StudyCase) -> Description | None:
-        """Read the record of a case; None if there is none.
+        """Read the stored record of a case; None if there is none.
 
         Raises DamagedRecord, which names the file.
         """
@@ -103,7 +105,7 @@ def _digest(values: Any) -> str:
     return hashlib.sha256(json.dumps(values, sort_keys=True).encode()).hexdigest()
 
 
-# A fresh interpreter: no lock or thread of the parent's libraries is copied half-way.
+# A new interpreter inherits no locks or threads of the parent's libraries.
 START = "spawn"
 
 T = TypeVar("T")
@@ -246,7 +248,9 @@ class CaseEnd:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Messages on problems that only cost time: a damaged record file, and dead workers."""
+        """Messages on problems of the case that only cost time: a damaged record file, and dead
+        workers.
+        """
         dead = (f"worker {one} has died: its cases go to other workers" for one in self.workers)
         return (*((f"{self.damaged}; computed again",) if self.damaged else ()), *dead)
 
@@ -267,7 +271,7 @@ class Answer:
 
 
 class Workers(Protocol):
-    """Interface of a pool of workers that compute cases.
+    """Interface of a pool of worker processes that compute the cases of a study.
 
     elsewhere  True if the workers may permanently have other source code than this process
     """
@@ -339,12 +343,12 @@ def _stored(case: StudyCase, store: CaseStore) -> CaseEnd:
 
 
 def _received(future: Future[Answer], pool: Workers) -> Answer:
-    """Return the reply of a worker, or a reply with the reason why none was received."""
+    """Return the reply of a worker for a case, or the reason why no reply was received."""
     try:
         answer = future.result()
     except BrokenProcessPool:
         return Answer(KILLED, code_digest())
-    except Exception as error:  # of the way to the worker and back
+    except Exception as error:  # raised by the communication with the worker
         return Answer(_reason(error), code_digest())
     if pool.elsewhere and answer.code != code_digest():
         return replace(answer, record=OTHER_CODE)

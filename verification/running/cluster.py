@@ -17,8 +17,9 @@ SECONDS_TO_CONNECT = 10
 
 
 class ClusterUnavailable(Exception):
-    """No scheduler answers at the address, the address is invalid, or
-    dask.distributed is missing."""
+    """No dask scheduler answers at the address, the address is invalid, or dask.distributed is
+    missing.
+    """
 
 
 class ClusterWorkers:
@@ -68,6 +69,8 @@ class ClusterWorkers:
         return sorted(gone)
 
     def close(self) -> None:
-        """Cancel the calls that have not ended and disconnect. The cluster keeps running."""
+        """Cancel the cases that have not ended and disconnect from the cluster, which keeps
+        running.
+        """
         self._executor.shutdown(wait=False)
         self._client.close()

@@ -13,7 +13,7 @@ from typing import TypeVar
 
 CACHE = "SLIPSTICK_CACHE_DIR"
 SOLVERS = ("semi_analytical", "fem_reference", "radial")
-ENOUGH_SECONDS = 1.0  # of CPU, from where one repetition more would say nothing
+ENOUGH_SECONDS = 1.0  # CPU time after which repetitions add no accuracy
 MAX_REPEATS = 5
 
 T = TypeVar("T")

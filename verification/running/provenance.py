@@ -53,12 +53,12 @@ def provenance(
     seconds  wall seconds by case
     modules  modules that compute the numbers; the digest includes all modules that these import
     """
-    # Of what computes: a kept report or record that this very command replaces is no change.
+    # Changes of the source only: a stored report that this command replaces does not count.
     commit, changes = _git("rev-parse", "HEAD"), _git("status", "--porcelain", ".", ":!reports")
     return Provenance(
         program_version=program_version(),
         commit=commit,
-        changed=commit is not None and changes != "",  # where git does not say: they may differ
+        changed=commit is not None and changes != "",  # without an answer of git, they may differ
         modules=tuple(modules),
         sources=source_digest(*modules) if modules else None,
         command=command,

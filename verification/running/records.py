@@ -13,7 +13,7 @@ from verification.running.study import RECORD, stored_studies
 
 REPORTS = Path("reports")
 FULL, REPORT = "full", "report.json"
-EARLIER = "earlier"  # of a directory: the files before, until the new ones are whole
+EARLIER = "earlier"  # folder with the previous files until the new ones are complete
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class StoredRecord:
 
     @property
     def name(self) -> str:
-        """Name of the folder that contains the record."""
+        """Name of the folder of the record, which is the name of the study."""
         return self.path.parent.name
 
     @property
@@ -51,7 +51,8 @@ class StoredRecord:
 
 
 def stored_records(folder: Path = REPORTS) -> list[StoredRecord]:
-    """Return the stored records of a folder in ascending order of cost.
+    """Return the stored records of studies and of the full report, in ascending order of computing
+    time.
 
     Raises ValueError for a damaged record.
     """

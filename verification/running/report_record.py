@@ -87,7 +87,7 @@ class Report(Description):
 
     @property
     def failures(self) -> tuple[tuple[CaseOutcome, Verdict], ...]:
-        """Failed verdicts, each with its case."""
+        """Failed verdicts of the report, each with its verification case."""
         return tuple(
             (case, verdict)
             for case in self.cases

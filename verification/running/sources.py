@@ -50,8 +50,10 @@ def source_digest(*modules: str) -> str:
 
 
 def is_current(made: Provenance) -> bool:
-    """Determine if a record was made by the present source code; False if its
-    sources are unknown."""
+    """Determine if a stored record was computed by the present source code.
+
+    The result is False if the record does not name its source code.
+    """
     return bool(made.modules) and made.sources == source_digest(*made.modules)
 
 
@@ -61,8 +63,9 @@ def age_text(made: Provenance) -> str:
 
 
 def closure(modules: Iterable[str]) -> set[str]:
-    """Return the paths of modules and of all project modules that they import, directly or
-    indirectly.
+    """Return the source files of modules and of all project modules that they import.
+
+    Indirect imports are included.
     """
     found: set[str] = set()
     left = [path for module in modules for path in _files(module, whole=True)]

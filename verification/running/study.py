@@ -57,7 +57,10 @@ class Row(Description):
 
 
 def value_of(row: Row, name: str) -> float:
-    """Return a measure of a row. Raises KeyError if the row lacks it, ValueError if it is null."""
+    """Return a measured value of a row by name.
+
+    Raises KeyError if the row lacks it, ValueError if it is null.
+    """
     value = row.measures[name]
     if value is None:
         raise ValueError(f"{name} is not known of {row.parameters}")
@@ -65,7 +68,7 @@ def value_of(row: Row, name: str) -> float:
 
 
 class CaseRecord(Row):
-    """Stored result of one case of a study, with one row per part of the case."""
+    """Stored result of one case of a study: values of the case, rows of its parts, and times."""
 
     parts: tuple[Row, ...] = ()
     """Rows of the parts of the case, such as profile points or judged quantities."""
@@ -95,7 +98,7 @@ class TypedRow(Description):
     UNITS: ClassVar[Mapping[str, str]] = {}
 
     def row(self) -> Row:
-        """Convert the values to a `Row`, in which they are stored."""
+        """Convert the typed values to a `Row`, the form in which they are stored."""
         values = self.model_dump(mode="json")
         parameters = {name: values.pop(name) for name in self.PARAMETERS}
         words = {name: value for name, value in values.items() if isinstance(value, str)}
@@ -110,7 +113,7 @@ class TypedRow(Description):
 
     @classmethod
     def of(cls, row: Row) -> Self:
-        """Create the typed row from a stored `Row`."""
+        """Create the object with typed values from the `Row` in which they are stored."""
         known: dict[str, Any] = {**row.parameters, **row.measures, **row.counters, **row.words}
         return cls.model_validate({name: known[name] for name in cls.model_fields if name in known})
 
@@ -126,9 +129,9 @@ C = TypeVar("C", bound=Named)
 
 
 def found(cases: Iterable[C], records: Mapping[str, CaseRecord]) -> dict[C, CaseRecord]:
-    """Return the available records by case, in the order of the cases.
+    """Return the available records of cases, in the order of the cases.
 
-    records  records by name of the case
+    records  records by name of the case; some cases may be missing
     """
     return {case: records[case.name] for case in cases if case.name in records}
 
@@ -200,7 +203,10 @@ def _cells(row: Row) -> Cells:
 
 
 def _text(lines: Iterable[Cells]) -> str:
-    """Write lines as CSV text with a column for every name that occurs in any line."""
+    """Write lines as CSV text, with a column for every name that occurs in any line.
+
+    lines  values by column name
+    """
     lines = tuple(lines)
     text = io.StringIO()
     head = dict.fromkeys(name for line in lines for name in line)
@@ -352,7 +358,9 @@ def json_text(values: dict[str, Any]) -> str:
 
 
 def study_failure_line(study: StudyRecord) -> str:
-    """Describe the first failure of a study in one line, with the command that reproduces it."""
+    """Describe the first failed claim or lost case of a study in one line, with the command to
+    repeat it.
+    """
     failed = [s for s in study.conclusion.statements if s.outcome is Status.FAIL]
     found = [f"{s.claim}: {s.measured}" for s in failed]
     found += [f"{case.name} was lost: {case.reason}" for case in study.lost]
@@ -392,7 +400,7 @@ def stored_studies(
     return tuple(sorted(records, key=lambda record: record.name))
 
 
-RESIDUAL = "largest_residual"  # of any increment of a case, by the name of its measure
+RESIDUAL = "largest_residual"  # measure: largest residual of any increment of a case
 
 
 def judged(good: bool, *, complete: bool = True) -> Status:
@@ -419,7 +427,7 @@ def largest(rows: Iterable[Row], name: str) -> float:
 
 
 def total(rows: Iterable[Row], counter: str) -> int:
-    """Return the sum of a counter over all rows; rows without the counter add 0."""
+    """Return the sum of a counter (such as "iterations") over all rows; rows without it add 0."""
     return sum(row.counters.get(counter, 0) for row in rows)
 
 

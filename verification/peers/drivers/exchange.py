@@ -67,7 +67,7 @@ def answer(solve: Callable[[Request], Answer], *modules: str) -> None:
     """
     request = json.load(sys.stdin)
     with os.fdopen(os.dup(sys.stdout.fileno()), "w") as out:
-        os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # the prints of a code go there
+        os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # prints of a code go to stderr
         for module in modules:
             import_module(module)
         json.dump(_answered(solve, request), out)

@@ -116,10 +116,10 @@ def _run(known: KnownScene) -> tuple[Any, StatedErrors]:
 
 CONFIDENCE = 0.95
 COVERED, COVERED_IN_ALL = 0.95, 0.97
-TIMES = 10.0  # stated errors should be less than so many times the true error
+TIMES = 10.0  # limit of stated over true error for a tight stated error
 TIGHT = 0.6
-CERTAIN = 0.1  # of a stated error: the reference has to be less uncertain
-MISSED = 3.0  # uncertainties beyond the stated error that leave no doubt
+CERTAIN = 0.1  # limit of the uncertainty of a reference over the stated error
+MISSED = 3.0  # uncertainties above the stated error for a certain verdict
 BELIEVED = str(ErrorStatus.ESTIMATED), str(ErrorStatus.EXACT)
 DOUBTED = str(ErrorStatus.NOT_CONVERGED)
 

@@ -153,9 +153,9 @@ def _certain(known: KnownScene, share: float) -> Iterator[str]:
             yield quantity
 
 
-ENOUGH = 100  # numbers of a group
-REQUESTS, FALSE, FACTOR = 60, 2, 2.0  # requests; most false ones; largest true error over request
-PARTS, LEAST_SHARE = (1e-2, 1e1), 1e-3  # of the diagram
+ENOUGH = 100  # results of a group that a verdict requires
+REQUESTS, FALSE, FACTOR = 60, 2, 2.0  # number; allowed false ones; allowed true error over request
+PARTS, LEAST_SHARE = (1e-2, 1e1), 1e-3  # range of x and smallest y of the diagram
 ALL = "all numbers"
 REMARKS = (
     "Seeds: none for fitting, as no constant is fitted to scenes. The common factor 0.6 of the "

@@ -54,9 +54,9 @@ from verification.studies.refinement.scene_level import (
 )
 
 FEWEST_LEVELS = 4
-NEAR = 3.0  # ratio of sizes up to which levels count where one power does not explain them
+NEAR = 3.0  # levels up to this ratio of sizes bound the error without a common power
 COVERAGE = 2.0
-VANISHES = 1e-6  # of the natural size: a smaller number is zero by symmetry
+VANISHES = 1e-6  # relative to the natural size; smaller results are zero by symmetry
 REMEDY = "use more --cells"
 
 

@@ -196,7 +196,7 @@ def judged(name: str) -> CaseOutcome:
             store = CaseStore(Path(directory), JudgedCase)
             store.save(case, case.compute())
             record = store.load(case)
-    except Exception as error:  # whatever it is, it must be named: so does the pool of `verify`
+    except Exception as error:  # reported by name, as in the pool of `verify`
         return lost(case_of(name, Level.QUICK), f"{type(error).__name__}: {error}")
     assert isinstance(record, JudgedCase)
     return record.outcome

@@ -19,7 +19,7 @@ class Surface(StrEnum):
     """Kind of indenter that is pressed on the body, in a few cases with nonuniform friction."""
 
     BALL = "ball"
-    ALIKE_BALL = "alike-ball"  # as elastic and coated as the body: nothing couples
+    ALIKE_BALL = "alike-ball"  # equal to the body, so pressure and shear do not couple
     FLAT_PUNCH = "flat-punch"
     CONE = "cone"
     TWO_SPOTS = "two-spots"
@@ -33,11 +33,11 @@ class LoadingPath(StrEnum):
 
     PRESS = "press"  # no tangential load
     PUSH = "push"  # press, then T in one increment
-    LOOP = "loop"  # T to and fro
-    CIRCLE = "circle"  # T turns once round
-    REVERSED = "reversed"  # T turned round while W falls
+    LOOP = "loop"  # T to +, - and + its largest value
+    CIRCLE = "circle"  # the direction of T turns by 360°
+    REVERSED = "reversed"  # T is reversed while W falls
     RELOADED = "reloaded"  # W down to a hundredth and back
-    SHEARED_RELOAD = "sheared-reload"  # the same together with T
+    SHEARED_RELOAD = "sheared-reload"  # W and T fall and rise together
     FALLING = "falling"  # W falls at constant T until T is 0.98 µW
     SLIDE = "slide"  # shift far beyond sliding and back
     APPROACH = "approach"  # approach and shift prescribed instead of forces
@@ -48,7 +48,7 @@ class Solver(StrEnum):
 
     SEMI_ANALYTICAL = "semi-analytical"
     COMPLEMENTARITY = "fem-complementarity"  # finite elements without a penalty
-    PENALTY = "fem"  # finite elements with one
+    PENALTY = "fem"  # finite elements with a penalty
 
     @property
     def by_elements(self) -> bool:
@@ -130,9 +130,9 @@ class Verdict(StrEnum):
     """
 
     CONVERGED = "converged"
-    REFUSED = "refused"  # with a reason that the scene itself gives
-    NOT_CONVERGED = "not converged"  # the solver says so
-    SILENT = "silent"  # an answer that breaks the equations, given as if it were good
+    REFUSED = "refused"  # the scene has no solution or no model
+    NOT_CONVERGED = "not converged"  # reported by the solver
+    SILENT = "silent"  # a result that violates the equations without a message
 
 
 class Refusal(StrEnum):
@@ -142,7 +142,7 @@ class Refusal(StrEnum):
 
     NONE = ""
     FORCE = "force"  # above µW
-    POSE = "pose"  # a scene that the solver has no model of
+    POSE = "pose"  # the solver has no model of the scene
     OTHER = "other"
 
 
@@ -198,14 +198,14 @@ class CellRecord(TypedRow):
 
 
 ORDINARY = StabilityCell()
-# Nothing is as coupled as ν = 0 below a rigid ball: β = ½.
+# The coupling of pressure and shear is strongest for ν = 0 and a rigid ball: β = ½.
 BARE = replace(ORDINARY, modulus_ratio=1.0, poisson_ratio=0.0, base_ratio=0.0)
 UNCOATED = replace(BARE, poisson_ratio=0.3, base_ratio=0.3)
 ALIKE = replace(ORDINARY, surface=Surface.ALIKE_BALL)
 HARD_PUSH = 0.95
 HARD = replace(ORDINARY, push=HARD_PUSH)
 FIRM = replace(ORDINARY, push=0.8)
-AT_LIMIT = (1.0, 1.001)  # T/µW: all slides and the shift is undefined; beyond, it is refused
+AT_LIMIT = (1.0, 1.001)  # T/µW: at 1 gross slip with undefined shift; above 1 refused
 
 Axes = Mapping[str, Sequence[Any]]
 
@@ -400,7 +400,7 @@ OF_SURFACES = (
     ),
 )  # fmt: skip
 
-# Of revolution, under friction that is the same everywhere and loads along a line.
+# Bodies of revolution with uniform friction, and tangential loads along one line.
 SHAPES = tuple(surface for surface in Surface if surface not in NOT_OF_REVOLUTION)
 PATHS = tuple(path for path in LoadingPath if path is not LoadingPath.CIRCLE)
 OF_SECTIONS = (

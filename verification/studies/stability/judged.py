@@ -102,7 +102,7 @@ def by_elements(posed: Posed, method: Method) -> Solved:
     discretisation = FiniteElementDiscretisation(
         elements_per_radius=posed.elements,
         harmonics=posed.elements // ELEMENTS_PER_HARMONIC,
-        # Whether a penalty converges is asked here, and not what it leaves.
+        # The study tests the convergence of the penalty method, not its remaining overlap.
         augmentations=0 if on_harmonics else 1,
         overlap=100.0,
         tolerance=posed.tolerance,
@@ -145,7 +145,7 @@ def _way(decided: Plan) -> str:
     return "pressure and shear together"
 
 
-# What a scene may be refused for: its load, its meaning, its size.
+# Errors that refuse a scene for its load, its kind or its size.
 REFUSALS = (GrossSliding, UnsupportedScene, ResourceRefused)
 
 
@@ -183,7 +183,7 @@ def judged(cell: StabilityCell) -> CellRecord:
     except SolverError as error:
         return _without_answer(Verdict.NOT_CONVERGED, error, tolerance)
     increments, seen = solved.increments, solved.observed
-    # Here a residual that is no number wins.
+    # np.max propagates a residual that is NaN.
     residual = float(np.max([increment.residuals.worst for increment in increments]))
     sound = residual <= tolerance and seen <= OTHER_NORMS * tolerance
     return CellRecord(

@@ -31,12 +31,12 @@ from verification.closed_forms.coated_indentation import (
 from verification.problems.layered_scene import surface_of
 from verification.studies.stability.cell import LoadingPath, StabilityCell, Surface
 
-PRESSING = 3  # increments: large steps are the hard ones
-LEAST = 0.01  # of the normal force when it is taken away
+PRESSING = 3  # increments; large increments are the difficult ones
+LEAST = 0.01  # remaining fraction of the normal force after unloading
 REVERSED_AT = 0.85  # of the normal force
 NEARLY_ALL = 0.98  # T/µW where falling W ends
 ONCE_ROUND = 6  # increments of a circle
-SLIDES_FAR = 20.0  # times µδ, about the shift at gross sliding
+SLIDES_FAR = 20.0  # multiple of µδ, which is about the shift at gross slip
 
 
 @dataclass(frozen=True)
@@ -122,7 +122,7 @@ SPOTS = 0.55  # distance of a spot from the middle, over the contact radius
 SPOTS_FORCE = 0.15  # over that of one ball, so that the spots do not touch
 ROUGHNESS = 0.02  # standard deviation over the approach
 GREASE = 0.5  # radius of the greased disc over the contact radius
-BARE = 0.3  # of µ: less is none on a patchy surface
+BARE = 0.3  # fraction of µ; smaller values become 0 on a patchy surface
 SURELY = 0.97
 SEED = 3
 TOLERANCE = 1e-8
@@ -174,7 +174,7 @@ def pose(cell: StabilityCell) -> Posed:
     )
     gap = indenter.initial_gap(*grid.coordinates())
     rounding = GAP_ROUNDING * float(np.max(gap, where=np.isfinite(gap), initial=0.0)) / approach
-    # The mesh of a section is laid out for the contact, however small: nothing is rounded there.
+    # The mesh of a section is adapted to the contact, so that its gaps have no such round-off.
     tolerance = TOLERANCE if cell.solver.by_elements else max(TOLERANCE, rounding)
     return Posed(scene, grid, cell.cells // CELLS_PER_ELEMENT, tolerance)
 

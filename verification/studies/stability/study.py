@@ -56,7 +56,7 @@ NAMES = {
     Solver.COMPLEMENTARITY: "finite elements, complementarity",
     Solver.PENALTY: "finite elements, penalty",
 }
-WORK = {True: "linear systems", False: "convolutions"}  # by whether finite elements solve it
+WORK = {True: "linear systems", False: "convolutions"}  # by use of finite elements
 
 
 def statements(found: Found) -> tuple[Statement, ...]:
@@ -221,7 +221,7 @@ def _list(cells: Iterable[StabilityCell]) -> str:
     return ": " + ", ".join(names[:MAX_NAMED]) + more
 
 
-# Coordinates as people read them.
+# Axis labels of the coordinates.
 AXES = {
     "friction": "µ", "push": "T / µW", "modulus_ratio": "E1/E2", "thickness": "h/a",
     "poisson_ratio": "ν of the layer", "path": "path", "surface": "surface", "load": "W / W(a)",
@@ -325,7 +325,7 @@ def _texts(values: Iterable[Any]) -> tuple[str, ...]:
     return tuple(str(v) if isinstance(v, str) else plain(v, 6) for v in values)
 
 
-MAX_ROWS = 60  # of good cells; the others have all of theirs
+MAX_ROWS = 60  # of the table of the hardest contacts
 
 
 def tables(found: Found) -> tuple[Table, ...]:

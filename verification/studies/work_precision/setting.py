@@ -251,10 +251,10 @@ RINGS = {
     Level.STANDARD: (OWN // 2, OWN, 3 * OWN // 2),
     Level.FULL: (OWN // 2, OWN, 3 * OWN // 2, 2 * OWN),
 }
-# Energies and shifts of a loop stay those of cells without edges.
+# The edge correction does not change the energies and shifts of a loop.
 WITH_EDGES = (HERTZIAN.name, CATTANEO.name, COATING.name, INDENTATION.name)
 INCREMENTS = {Level.QUICK: (5,), Level.STANDARD: (5, 10, 40)}  # beside the usual ones
-MAX_SPRINGS = 64  # elements: finer penalty solves take longer than all the rest
+MAX_SPRINGS = 64  # elements; finer penalty solves take longer than all other cases
 
 
 class Method(StrEnum):
