@@ -154,7 +154,7 @@ _before: str | None = None
 
 
 class JudgedCase(Description):
-    """Outcome of a case, and its duration in seconds of wall time."""
+    """Outcome of a verification case, and the wall time of its solution and judgement [s]."""
 
     outcome: CaseOutcome
     seconds: float

@@ -523,9 +523,9 @@ def fem_partial_slip(
     elements: int = 0,
     studied: Sequence[tuple[int, float]] | None = None,
 ) -> Case:
-    """Create the verification case of partial slip and a fretting loop by finite elements, ν = 0.
+    """Create the verification case of partial slip and a fretting loop by finite elements.
 
-    Orders of convergence are judged above the quick level.
+    Orders of convergence are judged above the quick level, for a single loading with ν = 0.
 
     elements  numbers of elements per radius for the loop, in place of those of the level
     studied   meshes for the single loading, with the position of the contact edge in its element;

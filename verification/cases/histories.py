@@ -356,8 +356,8 @@ def solved_by_motion(result: semi_analytical.Result) -> semi_analytical.Result |
 def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | None = None) -> Case:
     """Create the verification case of loops, turns and unloading of coupled bodies.
 
-    The histories are solved under force control, under displacement control, rotated, and by other
-    solvers.
+    The histories are solved under force control, with the computed motions prescribed, after a
+    rotation, and by finite elements.
 
     sizes  numbers of cells per side, elements per radius, and harmonics, in place of those of the
            level

@@ -102,7 +102,7 @@ class EccentricContact:
         return float(np.sqrt(a * b))
 
     def shear(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
-        """Compute the shear along x on the lower body [force/length²]."""
+        """Compute the shear along x on the lower body at points (x, y) [force/length²]."""
         xs = np.asarray(x, dtype=float)
         lacking = self.stick.pressure(xs - self.eccentricity, y)
         return self.friction * (self.contact.pressure(xs, y) - lacking)

@@ -110,7 +110,8 @@ def _words(names: Any) -> str:
     return ", ".join(map(repr, names))
 
 
-Columns = Mapping[str, Any]  # numbers by the head of their column
+# Columns of a field file: numbers by the name of the column.
+Columns = Mapping[str, Any]
 
 
 def read_fields(

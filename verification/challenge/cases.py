@@ -53,8 +53,8 @@ from verification.problems.paper_scene import (
 from verification.problems.problem import Problem
 from verification.references import load_reference
 
-# Slopes that close the gap at positive y and x; the punch touches all over, its load 0.24 radii
-# from the axis, and the ball's contact stays in the window.
+# Slopes that close the gap at positive y and x. The punch remains in contact everywhere, with its
+# load at 0.24 radii from the axis. The contact of the ball stays in the window.
 PUNCH_TILT, BALL_TILT = (0.004, 0.003), (0.008, 0.005)
 WORDS = (
     "The tilt (φ_x, φ_y) is given: slopes that close the gap at positive y and at positive x, so "
@@ -73,7 +73,9 @@ def tilted_punch() -> Challenge:
 
     The punch remains in contact over its whole end, whose displacement is a plane.
     """
-    arm = 4 / 3 * CONTACT_MODULUS * PUNCH_RADIUS**3 / NORMAL_FORCE  # per slope
+    arm = (
+        4 / 3 * CONTACT_MODULUS * PUNCH_RADIUS**3 / NORMAL_FORCE
+    )  # of the normal force, per unit slope
     force_at = (arm * PUNCH_TILT[1], arm * PUNCH_TILT[0])
     exact = TiltedPunch(PUNCH_RADIUS, CONTACT_MODULUS, NORMAL_FORCE, force_at)
     punch = FlatPunch(radius=PUNCH_RADIUS, material=STEEL)
@@ -121,7 +123,8 @@ def _tilted(
     )
 
 
-RATIOS = (0.0, 0.3, 0.5)  # of Poisson
+# Poisson's ratios of the bodies under changing loads.
+RATIOS = (0.0, 0.3, 0.5)
 STEPS = (
     LoadStep(normal_force=0.8 * NORMAL_FORCE),
     LoadStep(normal_force=NORMAL_FORCE, tangential_force=(50.0, 0.0)),
@@ -195,8 +198,8 @@ def _asked(step: str, name: str, value: float, ends: dict[str, dict[str, float]]
     )  # fmt: skip
 
 
-# Tangential force over µW: shift [length]. Extrapolated from 40 + 3 x 12 and 80 + 3 x 24 increments
-# on 128 x 128 cells, and by 64 elements over the radius: the means, which differ by 1e-4.
+# Shift [length] by tangential force over µW. Mean of two solvers, which differ by 1e-4: 128 x 128
+# cells and 64 elements per radius, extrapolated from 40 + 3 x 12 and 80 + 3 x 24 increments.
 SHIFTS = {0.3: 1.7327e-7, 0.6: 3.8068e-7, 0.9: 6.6704e-7}
 UNCERTAINTY = 1e-4
 
@@ -228,9 +231,12 @@ def _shifts() -> Iterator[AskedValue]:
         )  # fmt: skip
 
 
-PARTS = (0.3, 0.6, 0.9, 0.99)  # of µW
-QUARTERS = (0.25, 0.5, 0.75, 1.0)  # of the largest force of the loop
-SERIES = 24  # of a coated pressure: 1e-13 in all rows
+# Tangential force over µW at the ends of the load steps.
+PARTS = (0.3, 0.6, 0.9, 0.99)
+# Tangential force over its maximum in the loop.
+QUARTERS = (0.25, 0.5, 0.75, 1.0)
+# Number of terms of the series of a coated pressure; the error is 1e-13 for all rows.
+SERIES = 24
 
 
 @cache

@@ -74,12 +74,15 @@ MANIFEST, ANSWERS, LEVELS, SOLVER, FIELDS = (
 )  # fmt: skip
 ANSWER_COLUMNS = ("level", "load_step", "quantity", "value", "unit", "u")
 POINT_COLUMNS = ("quantity", "load_step", "point", "x [m]", "y [m]", "z [m]")
-POINT = "point"  # a column more, where numbers at places are asked
+# Additional column of the answers, for numbers at given points.
+POINT = "point"
 LEVEL_COLUMNS = ("level", "status", "reason", "h", "h_unit", "unknowns", "cpu_seconds")
 FIELD_COLUMNS = ("x [m]", "y [m]", "area [m^2]")
-IN_PASCAL = " [Pa]"  # after the name of a traction, in the head of its table
+# Suffix of the name of a traction in the header of its table.
+IN_PASCAL = " [Pa]"
 TEMPLATES = Path(__file__).parent / "templates"
-GIVEN = ("scene.toml", "asked.csv", POINTS)  # must come back as they went
+# Exported files that must be returned unchanged.
+GIVEN = ("scene.toml", "asked.csv", POINTS)
 
 
 def export(challenge: Challenge, directory: Path, *, blind: bool) -> None:

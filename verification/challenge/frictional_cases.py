@@ -68,13 +68,18 @@ from verification.problems.paper_scene import (
 from verification.problems.torsion import LARGEST, OVER_TWIST, PARTS, TO_AND_FRO, TWISTED
 from verification.references import load_reference
 
-# Parts of the contact radius would print it [length].
+# Radii at which tractions are required. Fractions of the contact radius would reveal it [length].
 ROUND_RADII = 5e-5 * np.arange(1, 8)
-AMONG = 0.9  # of the contact radius: where tractions are judged
-AWAY = 0.02  # from the edge of stick, over the contact radius
-TABLE_ERROR = 2e-5  # of a shear that is linear between the radii of its table
+# Largest radius at which tractions are judged, over the contact radius.
+AMONG = 0.9
+# Smallest distance of such a radius from the stick edge, over the contact radius.
+AWAY = 0.02
+# Error of a shear that is interpolated linearly between the radii of its table.
+TABLE_ERROR = 2e-5
 STICK_ERROR = 1e-6
-PROFILE_ERROR = 3e-4  # between the reference's radii: 2.5e-4 from the finer ones of the coated row
+# Interpolation error between the radii of the reference: 2.5e-4 on the finer radii of the coated
+# row.
+PROFILE_ERROR = 3e-4
 
 
 def frictional() -> Iterator[Challenge]:
@@ -225,8 +230,10 @@ def _twist(step: int, value: float, scale: float, over: str) -> AskedValue:
                       limit=1.5)  # fmt: skip
 
 
-SLIDING = 0.3  # µ
-SLID = 1e-3  # so far that all slip is along x but for 1e-3 of a radian [length]
+# Coefficient of friction µ of the sliding ball.
+SLIDING = 0.3
+# Shift of the sliding ball; all slip is then along x within 1e-3 radian [length].
+SLID = 1e-3
 PLACES = 1e-3 * np.array(
     [
         (0, 0, 0.1), (0, 0, 0.2), (0, 0, 0.4), (0.2, 0, 0.1), (-0.3, 0, 0.1), (-0.4, 0, 0.1),
@@ -235,8 +242,9 @@ PLACES = 1e-3 * np.array(
 )  # fmt: skip
 COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
 PATCH_SOURCE = "references/influence_coefficients.json: inverse transform, 1e-12"
-THICKNESS, TRACTION, SUBSTRATE = 1e-3, 1e6, 80e9  # of a layer; on the patch; shear modulus
-# Of the rows: what moves, under which traction.
+# Thickness of the layer, traction on the patch, and shear modulus of the substrate [SI].
+THICKNESS, TRACTION, SUBSTRATE = 1e-3, 1e6, 80e9
+# Displacement component and direction of the traction, by component of the reference rows.
 MOVED = {
     "zz": ("u_z_by_pressure", "displacement along z under pressure on the patch"),
     "xx": ("u_x_by_shear_x", "displacement along x under shear along x on the patch"),

@@ -23,8 +23,9 @@ from verification.convergence.observed_order import ILLEGIBLE, observed_order
 from verification.judging.outcome import Status
 from verification.norms import cell_means
 
-# Times N^(-3/4) π^(-1/4), √radius over the area of a disc of N cells: what the number of centres
-# in it may be off, as in Gauss's circle. Twice that is seen on our grids, whose axes are its own.
+# Factor on N^(-3/4) π^(-1/4), the √radius over the area of a disc of N cells. The product bounds
+# the relative error of the number of cell centres in the disc (Gauss circle problem).
+# Our grids, which are centred on the disc, reach twice this scale.
 SCATTER = 3.0
 
 
@@ -69,11 +70,14 @@ def _covered(field: Field, semi_axes: tuple[float, float]) -> tuple[float, float
     return within, SCATTER * cells**-0.75 * pi**-0.25
 
 
-STALLS_BELOW = 0.5  # upper end of the order's interval
+# Errors stall if the upper end of the interval of the order is below this value.
+STALLS_BELOW = 0.5
 ORDER_OFF = 0.1
 FEWEST_LEVELS = 3
-KNOWN = 1e-13  # error that no discretisation has by itself
-IDLE = 25.0  # times the error: a standard uncertainty so much larger on every level says nothing
+# Errors below this value are smaller than those of any discretisation.
+KNOWN = 1e-13
+# A standard uncertainty that exceeds the error by this factor on every level is not informative.
+IDLE = 25.0
 WHOLE = "–"  # in place of a loading step
 
 
@@ -422,8 +426,11 @@ class Judgement:
 
     @property
     def grade(self) -> str:
-        """The worst of all errors; "partial" where something required is not answered, "none" where
-        an error meets no class, or a field does not carry the load or cover the contact."""
+        """Accuracy class of the worst error of the answer: "A", "B", "C", "none" or "partial".
+
+        "partial": a required quantity is missing. "none": an error meets no class, or the areas of
+        a field do not give its load or its contact area.
+        """
         if any(required for *_, required in self.omitted):
             return "partial"
         judged = [row for row in self.rows if row.error is not None and row.bound is not None]

@@ -84,15 +84,20 @@ def judge(
     at_least: str | None = None,
     solver: Solver | None = None,
 ) -> Judgement:
-    """Judge a solver on a challenge.
+    """Judge a solver function on a challenge, with answers on several refinement levels.
 
     Parameters
     ----------
+    name
+        Name of the challenge.
     solve
         Function of the problem and the level 0, 1, 2, … that returns an `Answer`. You choose the
         discretisation of a level. It raises `CannotDo` for a problem outside its scope.
+    levels
+        Number of refinement levels.
     at_least
-        Class "A", "B" or "C" that every error must meet. Default: the class of each quantity.
+        Class "A", "B" or "C" that every error must meet. Default: the class that the solver claims,
+        else the class of each quantity.
     solver
         Description of the solver. Default: the name of the function.
 

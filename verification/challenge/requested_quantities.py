@@ -69,7 +69,7 @@ class Half:
         The integral extends from s = 0 at the centre to s = 1 at the edge.
         """
         nodes, weights = np.polynomial.legendre.leggauss(NODES)
-        root = 0.5 * (nodes + 1)  # √(1 - s²): smooth in it
+        root = 0.5 * (nodes + 1)  # √(1 - s); the integrand is smooth in it
         shape = 2 * root**2 * chebyshev.chebval(1 - 2 * root**2, self.series)
         shape *= (1 - root**2) ** power
         b_x, b_y = self.semi_axes
@@ -137,7 +137,8 @@ def fitted(pressure: Callable[[Field], Field], radius: float, terms: int) -> Hal
     return HalfEllipsoids((Half((radius, radius), scale, tuple(float(c) for c in series)),))
 
 
-INTERVALS = 200  # of each part between two kinks
+# Number of table intervals between two kinks.
+INTERVALS = 200
 
 
 @dataclass(frozen=True, eq=False)
@@ -211,7 +212,8 @@ def tabulated(traction: Callable[[Field], Field], *kinks: float) -> RoundTable:
 
 
 Value = TypeVar("Value", float, tuple[float, float])
-DIGITS = 10  # of the references, by which versions are told apart
+# Digits of the references in the digest that identifies a version of a challenge.
+DIGITS = 10
 
 
 class Grade(StrEnum):
@@ -254,7 +256,7 @@ class AskedValue:
     par: Grade = Grade.B
     required: bool = True
     uncertainty: float = ROUNDING  # standard, over the scale
-    limit: float | None = None  # order that collocated constants reach
+    limit: float | None = None  # order of piecewise constant collocation
     since: int | None = None
 
 
@@ -446,10 +448,10 @@ def _digits(value: Any) -> Any:
     return value
 
 
-# Sides of windows in which all of it fits, round on purpose: what is a multiple of the contact
-# radius knows the answer [length].
+# Sides of windows that contain the contact. They are round numbers, because a multiple of the
+# contact radius would reveal the answer [length].
 SMALL, LARGE = 1.2e-3, 2.4e-3
-CLOSED = 1e-12  # of closed and semi-closed forms, relative
+CLOSED = 1e-12  # relative uncertainty of closed and semi-closed forms
 
 
 def approach(value: float, uncertainty: float = CLOSED, step: int = 1) -> AskedValue:

@@ -65,7 +65,8 @@ class PartialSlip:
 
     @property
     def shift(self) -> float:
-        """Tangential shift of the indenter, sliding_shift [1 - (1-|T|/µW)^(2/3)] [length]."""
+        """Tangential shift of the indenter, sliding_shift [1 - (1-|T|/µW)^(2/3)], with the sign of
+        T [length]."""
         ratio = self._force_ratio
         fraction = 1.0 if ratio == 1 else -expm1(log1p(-ratio) * 2 / 3)
         return copysign(self.sliding_shift * fraction, self.tangential_force)
@@ -119,7 +120,7 @@ class NormalContact(Protocol):
 
     @property
     def load(self) -> float:
-        """Normal load [force]."""
+        """Normal load of the contact [force]."""
 
     @property
     def approach(self) -> float:
@@ -127,11 +128,11 @@ class NormalContact(Protocol):
 
     @property
     def pressure(self) -> Callable[..., NDArray[np.float64]]:
-        """Pressure at a position [force/length²]."""
+        """Contact pressure as a function of the position [force/length²]."""
 
     @property
     def gap(self) -> Callable[..., NDArray[np.float64]]:
-        """Gap of the deformed surfaces at a position [length]."""
+        """Gap of the deformed surfaces as a function of the position [length]."""
 
 
 @dataclass(frozen=True)

@@ -32,7 +32,7 @@ class ConeContact:
 
     @property
     def load(self) -> float:
-        """Normal load W = (π/2) E* a² tan(slope) [force]."""
+        """Normal load W = (π/2) E* a² tan(slope) of the cone contact [force]."""
         return pi / 2 * self.contact_modulus * self.contact_radius**2 * tan(self.slope_angle)
 
     @property

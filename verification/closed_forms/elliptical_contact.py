@@ -72,7 +72,7 @@ class EllipticalContact:
 
     @property
     def load(self) -> float:
-        """Normal load W = 2πab p0/3 [force]."""
+        """Normal load W = 2πab p0/3 of the elliptical contact [force]."""
         a, b = self.semi_axes
         return 2 * pi / 3 * a * b * self.peak_pressure
 
@@ -86,7 +86,10 @@ class EllipticalContact:
         )
 
     def pressure(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
-        """Compute the pressure at (x, y) [force/length²], broadcast; zero outside the ellipse."""
+        """Compute the contact pressure at points (x, y), broadcast together [force/length²].
+
+        The pressure is zero outside the contact ellipse.
+        """
         xs, ys = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
         room = self.semi_axes[0] ** 2 - xs**2 - (ys / self.axis_ratio) ** 2
         return np.asarray(self._pressure_slope * np.sqrt(np.maximum(room, 0)))

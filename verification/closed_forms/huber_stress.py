@@ -28,7 +28,7 @@ class AxisymmetricStress:
 def huber_stress(
     r: ArrayLike, z: ArrayLike, contact_radius: float, peak_pressure: float, poisson_ratio: float
 ) -> AxisymmetricStress:
-    """Compute the stress under the Hertz pressure p0 √(1-r²/a²) (Huber 1904).
+    """Compute the stress in a half-space under the Hertz pressure p0 √(1-r²/a²) (Huber 1904).
 
     r, z            radius and depth >= 0 [length], broadcast together
     contact_radius  a > 0 [length]
@@ -150,7 +150,7 @@ def stress_by_hertz_pressure(
 def trailing_edge_tension(
     peak_pressure: float, friction_coefficient: float, poisson_ratio: float
 ) -> float:
-    """Compute the largest tensile stress of a sliding Hertz contact [force/length²].
+    """Compute the largest tensile stress of a Hertz contact in gross slip [force/length²].
 
     The maximum p0 [(1-2ν)/3 + (π/8)(4+ν) µ] is at the trailing edge (Hamilton and Goodman 1966;
     Johnson 1985, section 7.1).

@@ -18,7 +18,7 @@ from verification.judging.case import Case, Quantity
 from verification.judging.outcome import CaseOutcome, Verdict
 from verification.judging.run import BY_DEFAULT, AnyRun, RadiiRun, Run
 
-# Share of covered numbers in a report of all cases at the full level.
+# Smallest accepted fraction of covered numbers in a report of all cases at the full level.
 LEAST_SHARE = 0.95
 
 

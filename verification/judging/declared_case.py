@@ -293,7 +293,7 @@ SHEAR_AROUND = error_norm(
     field_errors.shear_around_error,
     OVER_LIMIT,
 )
-# Of a fretting loop as a whole; the answer to it is an `ExactLoop`.
+# Observables of a whole fretting loop, whose exact answer is an `ExactLoop`.
 LARGEST_SHIFT_ERROR = error_norm(
     "largest_shift_error",
     "largest difference of the shift in any increment",
@@ -489,7 +489,7 @@ def _quantities(row: Row, ladder: RefinementLevels) -> tuple[Quantity, ...]:
         found = (_quantity(row.what, ladder, ladder.refined, derived),)
         if ladder.refined.run.label == ladder.judged.run.label or row.what.scalar is None:
             return found
-        # The corrected method has no order that a tolerance could be derived from.
+        # With the edge correction there is no order of convergence from which a tolerance follows.
         return (*found, _quantity(row.what, ladder, ladder.judged, Required(cap, row.because)))
     if not isinstance(row, Within):
         return ()

@@ -67,7 +67,8 @@ def radial_chart(
     )
 
 
-POINTS = 120  # of an exact profile
+# Number of points of an exact profile in a chart.
+POINTS = 120
 
 
 @dataclass(frozen=True)

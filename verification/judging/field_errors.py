@@ -24,7 +24,8 @@ from verification.problems.problem import OVER_PEAK, Problem
 from verification.quantities import shear_of
 
 Field = NDArray[np.float64]
-AT_EDGE = 0.1  # contact radii to each side of a stick edge
+# Half-width of the excluded zone around a stick edge, over the contact radius.
+AT_EDGE = 0.1
 
 
 def _exact(result: Any, end: Any, exact: Callable[..., Field], problem: Problem) -> Field:

@@ -109,7 +109,7 @@ def _excluded(what: str, found: Mapping[str, Observed], results: Mapping[str, An
 Results = Mapping[str, Any]
 Solve = Callable[[AnyRun], Any]
 
-# Words of a scene file that are not of its scene.
+# Keys in the description of a scene file that concern the discretisation or the title.
 DISCRETISATION = ("title", "cells", "window", "tolerance", "path accuracy")
 
 

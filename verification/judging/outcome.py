@@ -21,7 +21,7 @@ SHORT_COMMIT = 7
 
 
 class ChangeKind(StrEnum):
-    """Comparison of a number with the recorded one."""
+    """Result of the comparison of a number with its recorded baseline value."""
 
     UNCHANGED = "unchanged"
     """Also what other processors and versions leave: a millionth of what errors are divided by, or
@@ -64,7 +64,7 @@ class ChangeKind(StrEnum):
 
 
 class Change(Description):
-    """A quantity or finding beside the recorded one."""
+    """Difference of a quantity or finding from its recorded baseline value."""
 
     kind: ChangeKind
     recorded: bool = True
@@ -83,7 +83,8 @@ class Change(Description):
 
 
 class CounterChange(Description):
-    """A count of a case's solves that differs from the recorded one."""
+    """Difference of a count over all solves of a case (such as iterations) from the recorded
+    count."""
 
     name: str
     kind: ChangeKind
@@ -93,7 +94,7 @@ class CounterChange(Description):
 
 
 class Gone(Description):
-    """What was recorded and is not measured any more."""
+    """Quantity that the baseline contains and that the case does not measure any more."""
 
     name: str
     run: str
@@ -102,7 +103,7 @@ class Gone(Description):
 
 
 class GoneCase(Description):
-    """A case that was recorded and is not in a report of all cases any more."""
+    """Case that the baseline contains and that a report of all cases does not contain any more."""
 
     name: str
     since: str
@@ -110,7 +111,7 @@ class GoneCase(Description):
 
 
 class Origin(Description):
-    """Where the recorded numbers of a case come from."""
+    """Commit, date and reason of the recorded baseline numbers of a case."""
 
     commit: str | None
     changed: bool
@@ -136,21 +137,21 @@ def commit_text(commit: str | None, *, changed: bool) -> str:
     return f"{text} with changes" if changed else text
 
 
-# Verdicts that any case has.
+# Names of the verdicts that every case has.
 SOLVED, RESIDUAL = "solved", "largest_residual"
 VIOLATION, IMBALANCE = "observed_violation", "energy_imbalance"
-# Of these the run is found, not chosen: it is no part of what they are.
+# Verdicts on the worst of all runs; the run is a result and does not identify the verdict.
 FOUND_IN_A_RUN = (RESIDUAL, VIOLATION, IMBALANCE)
 
 TOLERANCE_KINDS = ("required", "derived", "order")
 SAME_BUT_FOR_ROUNDING = 1e-12
 
-# Of work done: more than any run takes is damage, and may be more than a number of a page holds.
+# Count of work done. A larger number than any run needs is a sign of a damaged record.
 Count: TypeAlias = Annotated[int, Field(ge=0, le=10**15)]
 
 
 class Status(StrEnum):
-    """How a judgement ended."""
+    """Result of the judgement of a quantity or case."""
 
     PASS = "pass"
     FAIL = "fail"
@@ -158,7 +159,8 @@ class Status(StrEnum):
 
 
 class OrderRecord(Description):
-    """What an order of convergence was read off."""
+    """Data from which an observed order of convergence was computed: sizes and errors of the
+    levels."""
 
     of: Followed
     meaning: str = ""
@@ -174,8 +176,10 @@ class OrderRecord(Description):
 
 
 class Verdict(Description):
-    """One judged quantity. Errors are relative to `scale_name`; numbers that are not finite are
-    null and fail."""
+    """Verdict on one judged quantity: value, reference, error, tolerance and status.
+
+    Errors are relative to `scale_name`. Numbers that are not finite are null and fail.
+    """
 
     name: str
     run: str
@@ -264,7 +268,7 @@ def _contradiction(verdict: Verdict) -> str:
     none."""
     if verdict.tolerance_kind not in TOLERANCE_KINDS:
         return f"its tolerance is {verdict.tolerance_kind!r}, not {', '.join(TOLERANCE_KINDS)}"
-    # Uncertainties that are derived vanish where refinement changes nothing.
+    # A derived uncertainty is zero if refinement does not change the value.
     allows = verdict.allowed > 0 or (verdict.allowed == 0 and verdict.tolerance_kind == "derived")
     if not (verdict.scale > 0 and allows and math.isfinite(verdict.allowed * verdict.scale)):
         return f"it allows {verdict.allowed:g} of {verdict.scale:g}; both are positive, and finite"
@@ -322,7 +326,7 @@ def order_status(kept: bool | None) -> Status:
 
 
 class FindingRecord(Description):
-    """A number that is reported and not judged; null where it is not finite."""
+    """Number that a report shows with a remark and does not judge; null where it is not finite."""
 
     name: str
     run: str
@@ -335,7 +339,7 @@ class FindingRecord(Description):
 
 
 class RunRecord(Description):
-    """One solve and its deterministic cost."""
+    """Record of one solve: its discretisation and its deterministic cost."""
 
     label: str
     cells: tuple[int, int] | None
@@ -385,7 +389,8 @@ class RunRecord(Description):
 
 
 class SceneRecord(Description):
-    """A scene in words, and the effects that its plan switches on or off."""
+    """Description of a scene in words, with the effects that the plan of the solver switches on or
+    off."""
 
     title: str
     lines: tuple[tuple[str, str], ...]
@@ -393,7 +398,7 @@ class SceneRecord(Description):
 
 
 class CaseOutcome(Description):
-    """Everything a case has to say."""
+    """Outcome of a verification case: scenes, runs, verdicts, findings and charts."""
 
     name: str
     title: str

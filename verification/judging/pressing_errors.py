@@ -19,9 +19,13 @@ from verification.quantities import shear_of
 
 Field = NDArray[np.float64]
 
-INNERMOST, OUTERMOST = 0.1, 0.95  # part of the radius where tractions are judged; on cells
-EDGE_CELLS = 2  # to each side of the stick edge, where the shear has a kink
-ROUNDING = 1e-9  # of the radii of a table
+# Range of radii at which tractions are judged, over the contact radius. The upper limit is that of
+# cells.
+INNERMOST, OUTERMOST = 0.1, 0.95
+# Number of cells to each side of the stick edge, where the shear has a kink.
+EDGE_CELLS = 2
+# Relative rounding error of the radii of a table.
+ROUNDING = 1e-9
 
 
 def pressure_at(result: Any, r: Field) -> Field:

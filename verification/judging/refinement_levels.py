@@ -65,10 +65,14 @@ SPRINGS = HATS | {
 }
 
 WINDOW_PER_RADIUS = 3.0
-RINGS_SHOWN = 64  # where the radial solver tells its fields
-EXACT = 1e-10  # tolerance of its residuals, so that rings alone make errors
-MIDDLE = 0.5  # of an element
-ASKED_AT = 64  # elements per radius
+# Number of rings at which the radial solver returns its fields.
+RINGS_SHOWN = 64
+# Tolerance of the residuals of the radial solver: all errors are then those of the rings.
+EXACT = 1e-10
+# Position of the contact edge in the middle of an element, as a fraction of the element.
+MIDDLE = 0.5
+# Number of elements per radius to which the accuracy targets refer.
+ASKED_AT = 64
 
 
 @dataclass(frozen=True)

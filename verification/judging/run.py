@@ -19,11 +19,12 @@ if TYPE_CHECKING:
 
 SOLVER_TOLERANCE = 1e-8
 BY_DEFAULT = SurfaceDiscretisation().edge
-# Fields of cells and elements are judged apart from the solver, with other norms.
+# Factor on the tolerance for fields of cells and elements. The laws are evaluated with other norms
+# than those of the solver.
 OTHER_NORMS = 10.0
-# Of fields over the radius integrals are sums over the rings: measured on all radial cases, they
-# leave up to 1.2e-3, and 4e-3 where the solver interpolates between the angles of its points; of
-# the energy 1.4e-4, below a cone.
+# Accepted violations for the radial solver, whose integrals are sums over rings. The largest
+# violations in all radial cases are 1.2e-3, 4e-3 if the solver interpolates between the angles of
+# its points, and 1.4e-4 of the energy (cone).
 OVER_RINGS, OVER_ANGLES, ENERGY_OVER_RINGS = 2e-3, 5e-3, 2e-4
 
 

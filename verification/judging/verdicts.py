@@ -31,7 +31,8 @@ from verification.quantities import largest_residual
 
 Results = Mapping[str, Any]
 
-COVERAGE = 2.0  # standard uncertainties in a tolerance
+# Coverage factor: number of standard uncertainties in a tolerance.
+COVERAGE = 2.0
 
 
 def judge_quantity(

@@ -18,7 +18,8 @@ from semi_analytical.frf.surface import SurfaceScalars, scalars
 
 SEED = 20_240_511
 DRAWS = 200
-# Rounding of one evaluation, relative to the largest entry: the FRFs are right to about 1e-15.
+# Accepted rounding error of one evaluation, relative to the largest entry. The FRFs have errors of
+# about 1e-15.
 ROUNDING = 1e-14
 
 

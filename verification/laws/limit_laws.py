@@ -25,8 +25,8 @@ from verification.laws.law import (
     wave_vector,
 )
 
-# Bound of the echo of whatever lies below the outer layer, in units of 1/(G alpha): 24 (1 - nu) is
-# reached on the softest base at x = 1.
+# Bound of the effect of all material below the outer layer on the FRF, in units of 1/(G alpha).
+# The softest base has 24 (1 - nu) at x = 1.
 ECHO = 50.0
 
 
@@ -42,7 +42,7 @@ def _thin(rng: Generator) -> float:
         np.abs(np.array(scalars(Stack([(*coating, h)], base), 1.0)) - limit).max()
         for h in (2e-6, 1e-6)
     )
-    # Below this the difference is rounding, which has no order.
+    # A smaller difference is rounding and has no order.
     return abs(float(np.log2(far / near)) - 1) if near > 1e-12 * limit.max() else 0.0
 
 

@@ -21,11 +21,14 @@ from verification.observed.end_state import is_corrected
 
 Field = NDArray[np.float64]
 
-EDGES = 0.125  # of (h/a)²: the energy error of a point contact; ten times as much is allowed
-# Where the border of stick is not fitted, the shear follows the corrected pressure in the cells
-# along the edge, about a tenth of the contact, and carries the force to the change in these.
+# Accepted energy error of the edge correction over (h/a)²: ten times that of a point contact.
+EDGES = 0.125
+# Factor on the change of the edge correction if the edge of the stick zone is not fitted. The shear
+# then follows the corrected pressure in the cells along the edge, about 1/10 of the contact, and
+# the tangential force has the error of these cells.
 BORDER = 10.0
-INNER = 0.1  # of the change, to which the solves of the correction end
+# Tolerance of the inner solves of the edge correction, over its change.
+INNER = 0.1
 
 
 def states_on_cells(result: Result) -> list[ContactState]:
@@ -116,7 +119,7 @@ def _traces(before: Increment | None, now: Increment, area: float) -> list[float
     longest = max(float(np.max(way)), TINY)
     if before is not None and before.slip_distance is not None and before.slip is not None:
         way, slip = way - before.slip_distance, slip - before.slip
-    shorter = (np.hypot(*slip) - way) / longest  # no way is shorter than the change of the slip
+    shorter = (np.hypot(*slip) - way) / longest  # the distance is never below |change of the slip|
     off = abs(float(np.sum(now.dissipation)) * area - lost) / max(lost, TINY)
     return [off, float(np.max(shorter if now.halvings else np.abs(shorter)))]
 

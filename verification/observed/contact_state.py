@@ -20,9 +20,9 @@ from verification.observed.prescribed import Imbalance
 Field = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-LEAST_SLIP = 1e-3  # part of the sliding distance µδ that is the smallest scale of slip
-# Of the approach: slip is the small difference of motions as large as the approach, which leaves a
-# hundred-millionth of that by rounding.
+LEAST_SLIP = 1e-3  # smallest scale of slip over the sliding distance µδ
+# Rounding error of slip over the approach. Slip is the small difference of two motions of the size
+# of the approach.
 SLIP_ROUNDING = 1e-8
 TINY = float(np.finfo(float).tiny)
 
@@ -197,7 +197,7 @@ def _of_slip(before: ContactState | None, now: ContactState) -> Iterator[float]:
     work, friction = now.limit * np.hypot(*slip), np.max(now.limit) / np.max(now.pressure)
     least = max(LEAST_SLIP * friction, SLIP_ROUNDING) * approach * now.over(now.limit)
     scale = max(now.over(work), now.least_work, least)
-    if scale > 0:  # not so where the axis alone is in contact
+    if scale > 0:  # zero if only the axis is in contact
         yield now.over(work + np.sum(now.shear * slip, axis=0)) / scale
     most, last = now.increment.dissipated_energy, getattr(start.increment, "dissipated_energy", 0.0)
     if most is not None and last is not None:
@@ -231,7 +231,7 @@ def imbalances(states: Sequence[ContactState]) -> Iterator[Imbalance]:
         assert now is not None
         end = now.increment
         if now.passed is None:
-            return  # the motion is undefined, and with it all that follows
+            return  # the motion is undefined from here on
         lost, work = end.dissipated_energy or 0.0, end.trapezoidal_work or 0.0
         largest = max(largest, abs(now.energy), abs(work), abs(lost))
         scale = largest * now.coarse
@@ -243,7 +243,7 @@ def imbalances(states: Sequence[ContactState]) -> Iterator[Imbalance]:
                 yield Imbalance(number, largest, end.input_work - now.energy - lost, **terms)
         if end.energy_imbalance is not None:
             yield Imbalance(number, 1.0, end.energy_imbalance, stated=end.energy_imbalance)
-        if not now.open:  # else there are states in between
+        if not now.open:  # otherwise the result lacks intermediate states
             for difference, terms in _missing(before or now.at_rest(), now):
                 yield Imbalance(number, scale, difference, **terms)
 

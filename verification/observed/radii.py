@@ -25,10 +25,11 @@ from verification.observed.contact_state import BISECTED, FEW_RINGS, Balance, Co
 
 Field = NDArray[np.float64]
 
-# Rings inside a disc, inside its slip annulus, and inside a contact on hats; over fewer nothing is
-# integrated.
+# Smallest numbers of rings for integrals: inside a disc, inside its slip annulus, and inside a
+# contact on hat functions.
 FEWEST, IN_ANNULUS, FEWEST_HATS = 48, 96, 8
-GROWTH = 1.1  # of the radius of a disc; where it grows more the solver divides the increment
+# Growth of the radius of a disc above which the solver divides the increment.
+GROWTH = 1.1
 GAUSS = np.polynomial.legendre.leggauss(4)
 
 

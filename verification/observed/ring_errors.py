@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from fem_reference.compliance.angular_grid import AngularGrid
 
 Field = NDArray[np.float64]
-SHOWN = 1.1  # contact radii
-IN_ELEMENT = 40  # points of a sum that stands for an integral
+SHOWN = 1.1  # largest radius of charts and integrals, in contact radii
+IN_ELEMENT = 40  # integration points per element
 
 
 def at_radii(increment: Increment, traction: Field, r: Field) -> Field:
@@ -93,10 +93,12 @@ def relative_l1(
 
 
 def judged_within(elements: int) -> float:
-    """Return the fraction of the contact radius within which tractions are judged.
+    """Return the fraction of the contact radius within which finite element tractions are judged.
 
     The fraction is 0.9, or less on coarse meshes, where the edge ripple of the last five elements
     extends further inward.
+
+    elements  number of elements per contact radius
     """
     return min(0.9, 1 - 5 / elements)
 

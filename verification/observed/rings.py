@@ -20,7 +20,7 @@ from fem_reference.scales import Scales
 
 Field = NDArray[np.float64]
 
-# Gauss points of an element: exact for the product of r and a function linear on it.
+# Gauss points of an element, exact for the product of r and a linear function.
 PLACES, PARTS = np.polynomial.legendre.leggauss(2)
 
 
@@ -30,7 +30,9 @@ def model_of(result: Result, length: float) -> ContactModel:
     length  unit of length of the sections [length]
     """
     scales = Scales(length, outermost_modulus(result.scene))
-    bodies = result.scene.model_copy(update={"rig": None})  # motions of the contact
+    bodies = result.scene.model_copy(
+        update={"rig": None}
+    )  # motions of the contact, without the rig
     return ContactModel(bodies, scales, result.sections)
 
 
@@ -190,7 +192,7 @@ class Rings:
         angles)."""
         inner = (self.angles > 0) & (np.arange(len(self.angles)) < len(self.angles) - 1)
         cos, sin = np.cos(n * self.angles), np.where(inner, np.sin(n * self.angles), 0.0)
-        # There are as many angles as harmonics, so that the last sine vanishes on all of them.
+        # With as many angles as harmonics, the sine of the last harmonic is zero at all angles.
         return np.stack([cos, sin if n < len(self.angles) - 1 else 0.0 * sin, cos])
 
     def _amplitudes(self, n: int, tractions: Field) -> Field:

@@ -46,9 +46,9 @@ BALL = _pressed("Ball on a half-space (paper's data, paraboloid)", paper.pressin
 LED_BALL = _pressed("Ball on a half-space, approach prescribed", LoadStep(approach=HERTZ.approach))
 
 
-SLOPE = radians(1.0)  # of the cone's flank
+SLOPE = radians(1.0)  # angle of the cone's flank to the surface
 PUNCH_RADIUS = 0.4e-3
-PUNCH_WINDOW = 2.2  # radii
+PUNCH_WINDOW = 2.2  # side of the window over the punch radius
 PRESS = pressing()
 
 UNDER_CONE = ConeContact.under_load(NORMAL_FORCE, SLOPE, CONTACT_MODULUS)

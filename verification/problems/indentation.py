@@ -15,8 +15,8 @@ from verification.problems.problem import OVER_PEAK, Problem, ReferenceKind, Tab
 from verification.references import load_reference
 
 OVER_HERTZ_RADIUS = "a_H"
-FEW, MANY = 20, 40  # increments, uniform in contact radius
-REFERENCE_ERROR = 1e-7  # of radii and approach, relative
+FEW, MANY = 20, 40  # numbers of increments, uniform in contact radius
+REFERENCE_ERROR = 1e-7  # relative, of radii and approach
 
 
 @dataclass(frozen=True, eq=False)

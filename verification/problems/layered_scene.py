@@ -34,7 +34,7 @@ FREDHOLM_EQUATION = (
     r"\tfrac{\pi}{E^*} g(s) + \tfrac{2}{E^*} \int_0^a K(s, t) g(t) \, dt = \delta - s^2/R,\quad "
     r"K = \int_0^\infty \left(\tfrac{1}{2} k E^* F(k) - 1\right) \cos ks \cos kt \, dk"
 )
-# Of the semi-closed solution: measured against the shipped reference rows.
+# Relative error of the semi-closed solution, measured against the rows of the reference table.
 SEMI_CLOSED_ERROR = 1e-12
 
 

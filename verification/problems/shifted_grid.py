@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 
 from semi_analytical.grid import SurfaceGrid
 
-# Positions of the contact's axis in a cell, in cell sides; others are equal by symmetry.
+# Positions of the contact axis in a cell, in cell sides. Symmetric positions are omitted.
 OFFSETS = ((0.0, 0.0), (0.5, 0.5), (0.5, 0.0), (0.25, 0.25), (0.1, 0.35), (0.4, 0.15))
-# Two offsets with different divisions of circles: their joint errors scatter a third as much as
-# those of one grid of each size.
+# Two offsets for which the contact edge cuts the cells differently. Their mean errors scatter
+# 1/3 as much as those of one grid per size.
 UNLIKE = ((0.5, 0.0), (0.25, 0.25))
 
 

@@ -17,7 +17,7 @@ from verification.problems.problem import Problem
 SOURCE = "Lubkin 1951"
 MODULUS = STEEL.shear_modulus / 2
 OVER_TWIST = "the largest twist"
-AMPLITUDE = 0.9  # of the sliding torque, in the loop
+AMPLITUDE = 0.9  # largest torque of the loop over the torque at gross slip
 
 
 def virgin(torque: float) -> TorsionalPartialSlip:
@@ -68,7 +68,7 @@ def _problem(title: str, ends: tuple[object, ...], *steps: LoadStep) -> Problem:
     )
 
 
-PARTS = {1: 0.5, 2: 0.9, 3: 0.99}  # of the sliding torque, by loading step
+PARTS = {1: 0.5, 2: 0.9, 3: 0.99}  # torque over that at gross slip, by load step
 TWISTED = _problem(
     "Ball in torsion",
     tuple(virgin(part * SLIDING_TORQUE) for part in PARTS.values()),

@@ -42,7 +42,7 @@ ENERGY, CYCLE, ELASTIC, WORK = (
 AMPLITUDE, F1, F2 = "slip_amplitude", "ruiz_f1", "ruiz_f2"
 TENSION, MISES = "max_principal", "von_mises"
 STRESSES = (TENSION, MISES)
-# Kinds of numbers that are judged, each with its quantities.
+# Kinds of judged numbers, each with the registered quantities that count for the kind.
 KINDS = {
     APPROACH: (APPROACH, NORMAL),
     PEAK: (PEAK,),
@@ -128,11 +128,12 @@ Bodies = tuple[Body, Body]
 Lower = Callable[[Rng, float], Body]
 Pair = Callable[[Rng, float], Bodies]
 
-FEWEST, MOST = 16, 128  # cells along a side
-WIDTHS = (2.3, 3.4)  # window over the contact radius
+FEWEST, MOST = 16, 128  # bounds of the number of cells per side
+WIDTHS = (2.3, 3.4)  # bounds of the window side over the contact radius
 ELEMENTS_PER_RADIUS = (8, 32)
-STRAINS = (3e-3, 3e-2)  # contact radius over radius of curvature
-MAP_POINTS, MAP_WIDTH = 24, 4.0  # of a height map: along a side; over the contact radius
+STRAINS = (3e-3, 3e-2)  # bounds of contact radius over radius of curvature
+# Height map: number of points per side; side length over the contact radius.
+MAP_POINTS, MAP_WIDTH = 24, 4.0
 
 
 def logarithmic(rng: Rng, low: float, high: float) -> float:

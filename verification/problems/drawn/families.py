@@ -39,8 +39,9 @@ from verification.problems.drawn.references import (
     slid,
 )
 
-# Seeds. No constant of the error estimate is fitted to scenes. The common factor 0.6 was chosen
-# with the first seeds, rules and families were tried with the second ones, the third judges.
+# Seeds of the random numbers. No constant of the error estimate is fitted to scenes. The common
+# factor 0.6 was chosen with the first seeds. Rules and families were tested with the second seeds.
+# The third seed is that of the judged scenes.
 CHOOSING, TRIED, JUDGING = (11, 12, 34), (5001, 5002, 5003, 5004, 7013, 9029), 31607
 
 T = TypeVar("T")
@@ -146,7 +147,8 @@ UNLIKE, UNLIKE_COATED = of.unlike(of.bare), of.unlike(of.coated)
 ALIKE, ALIKE_COATED, NO_POISSON = (
     of.alike(body) for body in (of.bare, of.coated, of.without_poisson)
 )
-PUSHED, COUPLED = 10.0, 7.0  # cells per radius that finer cells are affordable for
+# Largest numbers of cells per contact radius for which the reference on finer cells is affordable.
+PUSHED, COUPLED = 10.0, 7.0
 
 FAMILIES = {
     "balls": Family((of.ball, of.sphere), (RIGID_ON_BARE, UNLIKE), by_rings, 46, stressed=True),

@@ -71,7 +71,7 @@ from verification.problems.drawn.drawing import (
 )
 from verification.problems.problem import ROUNDING, Reference, ReferenceKind
 
-WHOLE = "body"  # among the regions
+WHOLE = "body"  # name of the region of the whole body
 
 
 def stress_maxima(
@@ -99,21 +99,25 @@ def stress_maxima(
 
 Array = NDArray[np.float64]
 
-BY_MOTION = 0.3  # of the scenes are controlled by motions
-ROOM = 1.5  # cells between an eccentric contact and the edge of the window
-FAR = 50.0  # shift over the one at which gross slip begins
-TURNED = 1e-3  # relative error by slip across such a shift
-DOUBLED = 2  # rings, orders and points, and increments of the ring solver
-# Cells along a side over those that are judged. The finer solve errs by 2.5 times the difference
-# of the two at order 1, and by about the difference at order 2.
+BY_MOTION = 0.3  # fraction of the scenes with prescribed motions
+ROOM = 1.5  # smallest distance of an eccentric contact from the window edge, in cells
+FAR = 50.0  # prescribed shift over the shift at the onset of gross slip
+TURNED = 1e-3  # relative error caused by slip across such a shift
+# Factor on rings, orders, points and increments of the radial solver for the finer solution.
+DOUBLED = 2
+# Factors on the numbers of judged cells per side for the references. The error of the finer solve
+# is 2.5 times the difference of both solves at order 1, and about the difference at order 2.
 FINER, ORDER_ONE = (3.5, 2.5), 2.5
-# Least increments of a step; for more increments, in proportion. Their limit is extrapolated from
-# the first two, its error is the difference from that of the last two. The effect of increments on
-# the cells that are judged differs by `OTHER_CELLS` from that on fine cells.
+# Smallest numbers of increments per step; steps with more increments are scaled in proportion. The
+# limit of many increments is extrapolated from the first two numbers. Its error is the difference
+# from the extrapolation of the last two. The effect of increments on the judged cells differs by
+# the fraction `OTHER_CELLS` from that on fine cells.
 MANY, OTHER_CELLS = (32, 16, 8), 0.07
 SIMILAR_ERROR = 1e-9
-PER_CYCLE = (ENERGY, CYCLE, AMPLITUDE, F1, F2)  # that symmetry does not repeat along a loop
-LED = (SHIFT, TANGENTIAL, TWIST, TORQUE)  # zero before the first force or torque
+# Quantities that symmetry does not repeat along a loop.
+PER_CYCLE = (ENERGY, CYCLE, AMPLITUDE, F1, F2)
+# Quantities that are zero before the first tangential force or torque.
+LED = (SHIFT, TANGENTIAL, TWIST, TORQUE)
 
 
 @dataclass(frozen=True)
@@ -485,7 +489,7 @@ def _of_levels(fine: _Level, less: _Level, base: _Level, *cut: _Level) -> Iterat
             effect, open_path = 2 * much - some - at, abs(2 * much - 3 * some + few)
             value = best + effect
             apart = ORDER_ONE * abs(best - other) + open_path + OTHER_CELLS * abs(effect)
-            if name in AT_EDGES:  # its cell is next to the edge, anywhere in a cell
+            if name in AT_EDGES:  # the edge may lie anywhere in a cell
                 apart = max(apart, fine.cell * abs(best))
             reference = Reference(value, ReferenceKind.OWN_REFINEMENT, source, apart)
             yield Truth(step, name, reference)
