@@ -97,7 +97,7 @@ def shear_error(result: Any, step: int, problem: Problem) -> float:
 def away_from_edges(r: Field, judged: float, edges: Sequence[float], radius: float) -> NDArray[Any]:
     """Select the radii that are inside the contact and not close to the edge of a stick zone.
 
-    The exact shear has a cusp at the edge of a stick zone, where no pointwise error can converge.
+    The exact shear has a cusp at the edge of a stick zone.
 
     r       distances from the axis [length]
     judged  fraction of the contact radius up to which radii are selected

@@ -254,12 +254,12 @@ class Profile(ShapedBody):
 
 
 def ball(rng: Rng, r: float, a: float) -> ShapedBody:
-    """Return a paraboloid with radius of curvature r."""
+    """Return a paraboloid with radius of curvature r, as the indenter shape of a drawn scene."""
     return Paraboloid(radius=r, material=RIGID)
 
 
 def sphere(rng: Rng, r: float, a: float) -> ShapedBody:
-    """Return a sphere of radius r."""
+    """Return a sphere of radius r, as the indenter shape of a drawn scene."""
     return Sphere(radius=r, material=RIGID)
 
 
@@ -269,7 +269,7 @@ def cone(rng: Rng, r: float, a: float) -> ShapedBody:
 
 
 def punch(rng: Rng, r: float, a: float) -> ShapedBody:
-    """Return a flat punch of radius a."""
+    """Return a flat punch of radius a, as the indenter shape of a drawn scene."""
     return FlatPunch(radius=a, material=RIGID)
 
 
