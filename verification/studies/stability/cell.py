@@ -382,17 +382,16 @@ OF_SURFACES = (
         "limits", "At the limit of friction and beyond it", "push", "modulus_ratio",
         {"push": AT_LIMIT, "modulus_ratio": (0.5, 4.0)},
     ),
-    # Pressing is the first step of each of these cells; the views above vary T more finely.
     # Every combination of five coordinates, shown over two of them for each of two others.
     *(
         Asked(
             f"volume-{thickness:g}-{nu:g}".replace(".", "p"),
-            f"h/a = {thickness:g}, ν = {nu:g} of the layer; T in one step",
+            f"h/a = {thickness:g}, ν = {nu:g} of the layer; every T/µW in one step",
             "modulus_ratio", "friction",
             {
                 "modulus_ratio": (1e-3, 0.05, 0.5, 2.0, 4.0, 20.0, 1e3),
                 "friction": (1e-6, 0.1, 0.3, 1.0, 2.0, 5.0),
-                "push": (0.5, 0.9999),
+                "push": (0.0, 0.5, 0.9, 0.99, 0.9999),
             },
             bases=(replace(ORDINARY, thickness=thickness, poisson_ratio=nu),), least=Level.FULL,
         )
@@ -470,12 +469,12 @@ OF_SECTIONS = (
     ),
     Asked(
         "elements-volume",
-        "Finite elements: h/a from a hundredth to ten, ν of the layer up to ½, "
-        "T = 0.999 µW in one step",
+        "Finite elements: h/a from a hundredth to ten, ν of the layer up to ½, every T/µW in one "
+        "step",
         "modulus_ratio", "friction",
         {
             "modulus_ratio": (1e-3, 0.05, 2.0, 20.0, 1e3), "thickness": (0.01, 0.1, 10.0),
-            "poisson_ratio": (0.0, 0.5), "friction": (0.3, 2.0, 5.0), "push": (0.999,),
+            "poisson_ratio": (0.0, 0.5), "friction": (0.3, 2.0, 5.0), "push": (0.5, 0.999),
         },
         least=Level.FULL,
     ),
