@@ -72,7 +72,10 @@ ROUND_OFF = 1e-7
 
 
 def _no_context(fineness: object) -> AbstractContextManager[None]:
-    """Return an empty context for a solve without progress display or checkpoint store."""
+    """Return an empty context for a solve without progress display or checkpoint store.
+
+    fineness  discretisation of the solve; without effect
+    """
     return nullcontext()
 
 
@@ -123,7 +126,9 @@ class RefinementLevel:
     def meets(self, shares: Mapping[str, float]) -> bool:
         """Return true if the relative errors of all requested scalars meet the request.
 
-        The error times the margin `SPARE` must not exceed the requested error.
+        An error times the margin 1.15 must not exceed the requested error. The margin compensates
+        that the refinement stops at the first sufficient estimate, which favours estimates that are
+        too small.
 
         shares  requested relative error by name of the scalar
         """
@@ -131,11 +136,11 @@ class RefinementLevel:
         return all(r is not None and SPARE * r <= shares[name] for name, r in reached.items())
 
     def needed(self, shares: Mapping[str, float], believed: float = BELIEVED) -> Refinement:
-        """Compute the refinement factor of each parameter that the requested errors require.
+        """Compute the refinement factor of each discretisation parameter that a request needs.
 
-        The parameters are cells, increments, tolerance and others of the discretisation. The
-        factors follow from the parts of the errors of this level and the convergence orders.
-        Parameters that need no refinement are absent.
+        The parameters are cells, increments, tolerance and others. The factors follow from the
+        parts of the errors of this level and the convergence orders. Parameters that need no
+        refinement are absent.
 
         shares    requested relative error by name of the scalar
         believed  factor of the theoretical convergence orders: 0.6 for a safe estimate, 1 for the
@@ -159,13 +164,16 @@ class RefinementLevel:
 
     @property
     def part(self) -> Part:
-        """Error part that the spatial discretisation causes: cells, elements or quadrature."""
+        """Name of the error part that the spatial discretisation causes.
+
+        The name is "cells", "elements" or "quadrature", depending on the solver.
+        """
         return next(iter(self.run.required))
 
 
 @dataclass(frozen=True)
 class Levels:
-    """Sequence of refinement levels of one scene, solved by one solver.
+    """Sequence of ever finer discretisations of one scene, for a requested accuracy.
 
     solver     solver with the discretisation parameters that are refined
     stress_at  load step, from 1, at whose end the largest tensile stress of the body is computed;
@@ -202,6 +210,8 @@ class Levels:
 
         If `stress_at` is set, the largest tensile stress of the body is added to the scalars of
         that load step. Raises the SolverError of the solve.
+
+        fineness  grid or mesh, increments and tolerance
         """
         began, began_processor = time.perf_counter(), time.process_time()
         with self.keeping(fineness) as store, self.watching(fineness) as progress:
@@ -235,7 +245,11 @@ class Levels:
         return finer, estimated_seconds(level.processor_seconds, *works)
 
     def settings(self, fineness: Fineness) -> AccuracySettings:
-        """Return the record of a discretisation for summary.json: cells, increments, tolerance."""
+        """Return the record of a discretisation for summary.json.
+
+        The record contains the numbers of cells, elements or rings and of increments, and the
+        tolerance.
+        """
         return AccuracySettings(
             increments=fineness.increments,
             tolerance=fineness.tolerance,
@@ -262,7 +276,7 @@ class Levels:
 
 
 def bounded(by: Refinement, cells: Part, most: float = MAX_AT_ONCE) -> Refinement:
-    """Limit the refinement factors from one level to the next.
+    """Limit the refinement factors of the discretisation parameters from one level to the next.
 
     If no other parameter than cells and increments is refined, and by a factor below
     `LEAST_AT_ONCE`, the cells are refined by this least factor.
@@ -280,7 +294,7 @@ def bounded(by: Refinement, cells: Part, most: float = MAX_AT_ONCE) -> Refinemen
 
 @dataclass(frozen=True)
 class Refined:
-    """Outcome of an adaptive refinement.
+    """Outcome of the adaptive refinement of a scene for a requested accuracy.
 
     level     last solved level, with its result and error estimates
     accuracy  requested and reached relative errors by name, and the reason if the request is not
@@ -380,10 +394,14 @@ def targets_of(
 ) -> tuple[dict[str, float], dict[str, str]]:
     """Determine the requested relative error of each scalar that an accuracy request applies to.
 
-    The first level decides. Scalars that it does not contain, that are infinite or that are zero
-    throughout are excluded.
+    The result of the first level decides. Scalars that it does not contain, that are infinite or
+    that are zero throughout are excluded.
 
     Returns the requested relative errors by name, and the reasons of the excluded scalars by name.
+
+    request  requested relative errors
+    level    first level, with its result and error estimates
+    levels   sequence of discretisations, for the limits on cells and memory
 
     Raises AccuracyOutOfReach in two cases:
 
@@ -405,8 +423,11 @@ def targets_of(
 
 
 def _why_left_out(name: str, level: RefinementLevel) -> str:
-    """Return the reason why a scalar can have no requested accuracy; empty text if it can.
+    """Return the reason why an accuracy request cannot apply to a scalar; empty text if it can.
 
+    The scalar may be absent from the result, infinite, or zero throughout.
+
+    name   name of the scalar
     level  first level of the refinement
     """
     if not any(name in step for step in level.stated.steps):

@@ -71,7 +71,7 @@ class Fineness:
 
 @dataclass(frozen=True)
 class CoarseSolve:
-    """Specification of a coarse solve that changes one parameter of a mesh other than its cells.
+    """Specification of a coarse solve that changes one mesh parameter other than the element count.
 
     Examples are the size of the meshed section and the number of angular harmonics.
 
@@ -114,7 +114,7 @@ class DiscretisedSolver(ABC):
     @classmethod
     @abstractmethod
     def of(cls, result: Any) -> Self:
-        """Return the solver with scene, discretisation and plan of a solved result."""
+        """Create the solver for the coarse solves of a result: with its scene, settings and plan."""
 
     @classmethod
     def stated_errors(cls, result: Any) -> StatedErrors:
@@ -128,23 +128,30 @@ class DiscretisedSolver(ABC):
     @property
     @abstractmethod
     def plan(self) -> Any:
-        """Plan of the solve: modelled effects, and number of increments of each load step."""
+        """Description of a solve: modelled effects, and number of increments of each load step."""
 
     @abstractmethod
     def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Any:
         """Solve the scene with given discretisation parameters; raises a SolverError.
 
+        fineness  grid or mesh, increments and tolerance
         progress  function that is called after every increment, or None
         store     checkpoint store of the solve, or None
         """
 
     @abstractmethod
     def space_of(self, result: Any) -> Any:
-        """Return the spatial discretisation of a result: grid, mesh or multiple of the rings."""
+        """Return the spatial discretisation of a result.
+
+        It is a grid of cells, a mesh of finite elements, or a factor of the default number of
+        rings.
+        """
 
     def fineness_of(self, result: Any) -> Fineness:
-        """Return the discretisation parameters of a result: grid or mesh, increments and
-        tolerance."""
+        """Return the discretisation parameters of a result.
+
+        The parameters are the grid, mesh or ring factor, the increments and the tolerance.
+        """
         return Fineness(self.space_of(result), result.plan.increments, result.tolerance)
 
     # ---- coarse solves
@@ -153,14 +160,16 @@ class DiscretisedSolver(ABC):
     def coarser(self, result: Any, share: float, more: int) -> Any:
         """Return a coarser grid, mesh or ring factor than that of a result, for its error estimate.
 
-        share  fraction of the cells of the result along a side
-        more   number of cells that are added to this fraction
+        result  result whose errors are estimated
+        share   fraction of the cells of the result along a side
+        more    number of cells that are added to this fraction
         """
 
     def of_mesh(self, base: Any, result: Any) -> Iterable[CoarseSolve]:
-        """Return the coarse solves in other parameters of a mesh: section size, overlap, harmonics.
+        """Return the coarse solves that change a mesh parameter other than the number of elements.
 
-        Solvers without such parameters return none.
+        Such parameters are the size of the meshed section, the overlap of the penalty method and
+        the angular harmonics. Solvers without such parameters return none.
 
         base    mesh of a coarse solve, in which the parameters are changed
         result  result whose errors are estimated
@@ -170,8 +179,8 @@ class DiscretisedSolver(ABC):
     def few(self, coarse: Fineness, result: Any) -> Fineness:
         """Return the discretisation of the coarse solves that measure the increment error.
 
-        The default is the given one. A solver may use fewer cells, if they suffice to measure the
-        effect of increments.
+        A solver may use fewer cells, if they suffice to measure the effect of increments. By
+        default, the argument `coarse` is returned.
 
         coarse  discretisation with the cells of a coarse solve
         result  result whose errors are estimated
@@ -180,9 +189,10 @@ class DiscretisedSolver(ABC):
 
     @abstractmethod
     def sides(self, result: Any) -> tuple[float, ...]:
-        """Return the size of a cell, element or ring of a result, in each direction of refinement.
+        """Return the side lengths of a cell, element or ring of a result.
 
-        The ratio of the sizes of two solves is the coarsening factor of the cells.
+        There is one length for each direction of refinement. The ratio of the lengths of two solves
+        is the coarsening factor of the cells.
         """
 
     @abstractmethod
@@ -200,27 +210,32 @@ class DiscretisedSolver(ABC):
         """
 
     def residuals(self, result: Any) -> Sequence[float]:
-        """Return the relative residual of each load step, for the tolerance part of the errors.
+        """Return the relative residual of the contact equations at the end of each load step.
 
-        The default is the tolerance of the solve.
+        Used for the part of the errors that the tolerance causes. The default is the tolerance of
+        the solve.
         """
         return [result.tolerance] * len(result.steps)
 
     def neglected(self, result: Any) -> Mapping[str, float]:
-        """Return relative errors of scalars, by name, due to effects that the solver neglects."""
+        """Return the relative errors of scalars, by name, due to effects that the solver neglects.
+
+        An example is the roughness that the cells do not resolve. By default there are none.
+        """
         return {}
 
     # ---- refinement
 
     @abstractmethod
     def first(self) -> Any:
-        """Return the grid, mesh or ring factor of the coarsest refinement level."""
+        """Return the grid, mesh or ring factor of the first and coarsest refinement level."""
 
     @abstractmethod
     def finer(self, space: Any, by: Refinement) -> Any:
         """Refine a grid, mesh or ring factor for the next refinement level.
 
-        by  least refinement factor of each discretisation parameter
+        space  grid, mesh or ring factor of the present level
+        by     least refinement factor of each discretisation parameter
         """
 
     def refined(self, fineness: Fineness, by: Refinement) -> Fineness:
@@ -228,7 +243,8 @@ class DiscretisedSolver(ABC):
 
         Load steps without an increment error keep their number of increments.
 
-        by  least refinement factor of each parameter; 1 for an absent parameter
+        fineness  parameters of the present level: grid or mesh, increments and tolerance
+        by        least refinement factor of each parameter; 1 for an absent parameter
         """
         return replace(
             fineness,
@@ -242,7 +258,7 @@ class DiscretisedSolver(ABC):
 
     @abstractmethod
     def work(self, fineness: Fineness) -> Work:
-        """Return the size of a solve, from which its CPU time is estimated."""
+        """Return the numbers of unknowns and repetitions of a solve, to estimate its CPU time."""
 
     @abstractmethod
     def memory(self, fineness: Fineness) -> int:
@@ -345,6 +361,8 @@ def coarse_tolerance(features: Sequence[Features]) -> float:
     Two levels with about m cells per contact radius differ by at least about 1/m² of a scalar. The
     error caused by this tolerance is `NEGLIGIBLE` times the difference for half the cells of the
     result.
+
+    features  sizes of the contact in cells at the end of each load step of the result
     """
     most = max(step.contact for step in features)
     return NEGLIGIBLE / PER_TOLERANCE * (2 / most) ** 2
@@ -366,7 +384,7 @@ def added(found: Sequence[Values], effects: Sequence[Effect]) -> Sequence[Values
     in one of the solves are omitted.
 
     found    scalars of the coarse solve at the end of each load step, by name
-    effects  pairs of the scalars of a finer and a coarser solve
+    effects  scalars of a finer and a coarser solve, one pair for each parameter
     """
     for effect in effects:
         found = [
@@ -377,11 +395,12 @@ def added(found: Sequence[Values], effects: Sequence[Effect]) -> Sequence[Values
 
 
 def at_ends(result: Any, resolved: Callable[[Any], Features]) -> Sequence[Features]:
-    """Return the resolution of the contact at the end of each load step.
+    """Return the sizes of contact, stick zone and layers in cells at the end of each load step.
 
-    A load step that ends without contact receives the resolution of the previous step.
+    A load step that ends without contact receives the sizes of the previous step.
 
-    resolved  function that measures the resolution of a state in contact
+    result    result of any of the solvers
+    resolved  function that measures the sizes for a state in contact
     """
     found: list[Features] = []
     for end in result.steps:
@@ -406,9 +425,11 @@ def slip_zone(end: Any, per_length: float) -> tuple[float | None, float | None]:
 
 
 def _spent(found: Any) -> Mapping[str, int]:
-    """Sum the iterations and the convolutions of all increments of a solve, by name.
+    """Sum the iterations and the convolutions of all increments of a solve, for its record.
 
     Numbers that the solver does not count are absent.
+
+    found  result of the solve
     """
     names = ("iterations", "convolutions")
     return {
@@ -456,7 +477,10 @@ def ratios(
 def _pair(count: int) -> tuple[int, int]:
     """Choose two other numbers of increments for a load step, to measure its increment error.
 
-    The numbers are coarser for a step with many increments, and finer for a step with few.
+    The numbers are smaller than the given number for a step with many increments, and larger for a
+    step with few, whose halves would be outside the range of regular convergence.
+
+    count  number of increments of the load step in the result
     """
     if count < FEW:
         return MANY

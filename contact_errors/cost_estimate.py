@@ -35,7 +35,7 @@ MAX_CELLS, MAX_ELEMENTS, MAX_STEPS, MAX_INCREMENTS = 32, 8, 12, 48
 
 
 class Work(NamedTuple):
-    """Size of a solve, from which its CPU time is estimated.
+    """Numbers of unknowns and repetitions of a solve, from which its CPU time is estimated.
 
     unknowns     traction components in all cells, or square of the elements over the contact radius
     repetitions  number of increments, or a multiple of this number
@@ -49,7 +49,7 @@ class Work(NamedTuple):
     def cost(self, share: float = 1.0) -> float:
         """Return a number proportional to the CPU time of a solve.
 
-        Only ratios of costs of one scene and solver have a meaning.
+        Only the ratio of two numbers for one scene and one solver has a meaning.
 
         share  fraction of the cells along a side, for the cost of a coarser solve
         """
@@ -57,7 +57,7 @@ class Work(NamedTuple):
 
 
 def work_on_cells(cells: tuple[int, int], increments: Sequence[int], shear: bool) -> Work:
-    """Determine the size of a semi-analytical solve on a grid of cells.
+    """Determine the numbers of unknowns and repetitions of a semi-analytical solve.
 
     cells       number of cells along x and y
     increments  number of increments of each load step
@@ -67,7 +67,7 @@ def work_on_cells(cells: tuple[int, int], increments: Sequence[int], shear: bool
 
 
 def work_on_elements(per_radius: int, increments: Sequence[int], harmonics: int) -> Work:
-    """Determine the size of a finite-element solve.
+    """Determine the numbers of unknowns and repetitions of a finite-element solve.
 
     per_radius  number of elements over the contact radius
     increments  number of increments of each load step
@@ -78,29 +78,34 @@ def work_on_elements(per_radius: int, increments: Sequence[int], harmonics: int)
 
 
 def work_on_rings(increments: Sequence[int], fineness: float = 1.0) -> Work:
-    """Determine the size of a solve by the radial solver.
+    """Determine the numbers of unknowns and repetitions of a solve by the radial solver.
 
-    fineness  factor of the default numbers of rings and angles
+    increments  number of increments of each load step
+    fineness    factor of the default numbers of rings and angles
     """
     return Work(fineness**4, sum(increments), 0.0)
 
 
 def estimated_seconds(measured: float, coarse: Work, solve: Work) -> float:
-    """Estimate the CPU time of a solve [s] from that of a measured solve, within a factor of two.
+    """Estimate the CPU time of a solve [s] from that of a measured solve of the same scene.
+
+    The estimate is accurate within a factor of two.
 
     measured  CPU time of the measured solve [s]
-    coarse    size of the measured solve
-    solve     size of the solve whose time is estimated
+    coarse    unknowns and repetitions of the measured solve
+    solve     unknowns and repetitions of the solve whose time is estimated
     """
     return measured * solve.cost() / coarse.cost()
 
 
 def estimated_run_seconds(solved: float, judged: float, coarse: Work, run: Work) -> float:
-    """Estimate the CPU time of a run with its error estimate [s], within a factor of two.
+    """Estimate the CPU time of a run with its error estimate [s], from a measured coarse solve.
+
+    The estimate is accurate within a factor of two.
 
     solved       measured CPU time of the coarse solve [s]
     judged       measured CPU time of the error estimate of the coarse solve [s]
-    coarse, run  sizes of the coarse solve and of the run
+    coarse, run  unknowns and repetitions of the coarse solve and of the run
     """
     solves = sum(run.cost(share) for share in (1.0, *COARSE))
     return solved * solves / coarse.cost() + judged * run.repetitions / coarse.repetitions
@@ -117,7 +122,10 @@ def coarse_increments(increments: Sequence[int]) -> tuple[int, ...]:
 
 
 def cpu_seconds(call: Callable[[], T]) -> tuple[T, float]:
-    """Call a function without the disk cache, and return its result and its CPU time [s]."""
+    """Call a function without the disk cache, and return its result and its CPU time [s].
+
+    Used to measure the coarse solve from which the time of a run is estimated.
+    """
     with without_cache():
         began = time.process_time()
         result = call()

@@ -81,9 +81,11 @@ OF_SLIP = frozenset(
 
 @dataclass(frozen=True)
 class Features:
-    """Resolution of the contact at the end of a load step, with properties that set error orders.
+    """Features of the contact at the end of a load step on which the errors of the scalars depend.
 
-    Sizes are in cells; None stands for an absent feature.
+    The sizes determine if the cells resolve the contact, and the flags determine the convergence
+    orders. Sizes are in cells; an element or a ring counts as two cells. None stands for an absent
+    feature.
 
     contact       smaller semi-axis of the contact
     layer         thickness of the thinnest layer
@@ -99,7 +101,8 @@ class Features:
                   a power between 1 and 2 of the distance
     ridge         true if the largest pressure is nearer to the contact edge than to the middle
     slides        true in gross slip, if no stick zone can be hidden within a cell
-    left          remaining relative errors of the edge-correction iteration, by name of the scalar
+    left          relative errors of scalars, by name, that remain when the iteration of the edge
+                  correction (sub-cell pressure at the contact edge) stops
     """
 
     contact: float
@@ -117,7 +120,10 @@ class Features:
     left: Mapping[str, float] = field(default_factory=dict)
 
     def order(self, name: str) -> float:
-        """Return the convergence order of a scalar in the cell size: 2, 1 or ½.
+        """Return the theoretical convergence order p of a scalar in the cell size h: error ~ h^p.
+
+        The order is 2 for means of smooth fields, 1 for values at an edge of the contact or stick
+        zone that lies within a cell, and ½ for values near a square-root singularity.
 
         name  name of the scalar
         """
@@ -136,7 +142,10 @@ class Features:
     def resolve(self, name: str) -> bool:
         """Return true if the cells resolve all features of the contact on which a scalar depends.
 
-        Each feature, such as the stick zone, must be at least as large as its limit in `LIMITS`.
+        Each feature, such as the stick zone, must be at least as large as its limit in cells. The
+        error estimate of the scalar is unreliable otherwise.
+
+        name  name of the scalar
         """
         sizes = {"contact": self.contact, "layer": self.layer, "wave": self.wave}
         if name in STICK_EDGE:
@@ -152,9 +161,13 @@ PHYSICAL = tuple(name for name, mark in reported(State).items() if mark.physical
 
 
 def values_of(result: Any) -> tuple[Values, ...]:
-    """Return the scalars of a result at the end of each load step, by name.
+    """Return the scalars of a contact result, such as forces, at the end of each load step.
 
-    At the end of a load cycle the scalars of the cycle are included. Undefined scalars are absent.
+    The result has one mapping per load step, from the name of a scalar to its value (1,), or (2,)
+    for a vector. A load step that closes a load cycle includes the scalars of the cycle. Undefined
+    scalars are absent.
+
+    result  result of any of the solvers
     """
     closed = {
         cycle.cycle.end: {name: cycle.numbers.get(name) for name in OF_CYCLES}
@@ -173,9 +186,12 @@ def values_of(result: Any) -> tuple[Values, ...]:
 
 
 def prescribed(ramp: LoadRamp, rig: Rig | None) -> frozenset[str]:
-    """Return the names of the scalars that a load step prescribes at its end, which have no error.
+    """Return the names of the scalars that a load step prescribes, which therefore have no error.
 
-    With a test rig, the prescribed motions are those of its actuator.
+    With a spring of a test rig, the prescribed displacement is that of the actuator.
+
+    ramp  controls of the load step
+    rig   springs of the test rig, or None
     """
     approach, shift = prescribed_motions(rig)
     controls = (
@@ -199,6 +215,8 @@ def scale(name: str, values: Values) -> float:
 
     The magnitude is composed of approach, normal force, contact radius and peak pressure; for
     example normal force times approach for an energy. It is 0 for a unit without such a product.
+    The tolerance of a solve causes an error relative to this magnitude, if the scalar itself is
+    smaller.
 
     name    name of the scalar
     values  all scalars at the end of the load step, by name
@@ -226,14 +244,17 @@ def is_singular(indenter: ShapedBody) -> bool:
 def has_cusp(indenter: ShapedBody) -> bool:
     """Return true if the pressure below a smooth indenter has a cusp at the point of first contact.
 
-    The gap is then a power between 1 and 2 of the distance.
+    This is the case if the gap between the undeformed surfaces is a power between 1 and 2 of the
+    distance from this point.
     """
     return indenter.gap_exponent is not None and 1 < indenter.gap_exponent < 2
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """Scalars of two solves that differ in one discretisation parameter.
+    """Scalars of a finer and a coarser solve, to estimate the error that one parameter causes.
+
+    The two solves of the scene differ in one discretisation parameter only, such as the cell size.
 
     part          part of the error to which the parameter contributes
     base, coarse  scalars of the finer and of the coarser solve at the end of each load step
@@ -247,10 +268,12 @@ class Comparison:
     ratios: Sequence[float]
 
     def part_of(self, step: int, name: str, order: float) -> Numbers | None:
-        """Compute the part of the error of a scalar that one discretisation parameter causes.
+        """Estimate the error of a scalar that one discretisation parameter causes, by two solves.
 
-        The result is None if the parameter has no effect up to the load step, or if one of the two
-        solves lacks the scalar.
+        The estimate is |fine - coarse| / |r^(0.6 p) - 1| with the coarsening factor r and the
+        convergence order p. The safety factor 0.6 is needed because the coefficient of the error
+        varies with the position of the contact edge within the cells. The result is None if the
+        parameter has no effect up to the load step, or if one of the two solves lacks the scalar.
 
         step   load step at whose end the scalar is compared, from 0
         name   name of the scalar
@@ -266,12 +289,12 @@ class Comparison:
 
 @dataclass(frozen=True)
 class SolvedRun:
-    """Scalars of a result with those of its coarse solves, from which the errors are computed.
+    """Scalars of a contact result and of its coarse solves, from which its errors are computed.
 
     scene        solved scene
     values       scalars of the result at the end of each load step
     tolerance    relative residual of each load step
-    features     resolution of the contact at the end of each load step
+    features     sizes of contact, stick zone and layers in cells at the end of each load step
     comparisons  pairs of solves that differ in one parameter, for all parameters
     required     error parts without which an error is unknown; for each part, the load steps that
                  need it
@@ -297,11 +320,15 @@ class SolvedRun:
             }
 
     def _error(self, step: int, name: str, before: dict[str, dict[Part, Numbers]]) -> StatedError:
-        """Compute the stated error of one scalar at the end of a load step.
+        """Compute the stated error of one scalar at the end of a load step, with its status.
 
-        The error is not converged if it is large compared with the scalar, if the cells do not
-        resolve the contact, or for slip close to gross slip.
+        Without a required part, the error is unknown. Otherwise the status is "not converged" in
+        three cases: the error is large compared with the scalar, the cells do not resolve the
+        contact, or the scalar depends on slip and the tangential force is close to the friction
+        limit.
 
+        step    load step, from 0
+        name    name of the scalar
         before  parts of the errors at earlier load steps, by scalar and part; updated by this
                 function
         """
@@ -331,23 +358,30 @@ class SolvedRun:
 
     @cached_property
     def _nearly(self) -> Sequence[bool]:
-        """Flags of the load steps: true once the tangential force has come close to the friction
-        limit.
+        """For each load step, true if the tangential force has come close to the friction limit.
 
-        Errors of slip are unreliable from this load step on.
+        The limit may have been approached in this or in an earlier load step. Errors of shift, slip
+        and dissipated energy are unreliable from then on.
         """
         return near_gross_slip(self.scene)
 
     def order(self, name: str) -> float:
-        """Return the smallest convergence order of a scalar in the cell size over all steps."""
+        """Return the smallest convergence order of a scalar in the cell size over all load steps.
+
+        Used to compute the refinement factor of the cells that a requested accuracy requires.
+
+        name  name of the scalar
+        """
         return min(features.order(name) for features in self.features)
 
     def _parts(self, step: int, name: str, largest: Numbers) -> dict[Part, Numbers] | None:
-        """Compute all parts of the error of a scalar at the end of a load step.
+        """Compute all parts of the error of a scalar at the end of a load step, by their cause.
 
-        The parts are those of the cells, the increments, the tolerance and others. The result is
-        None if a required part is unknown or the exact value is infinite.
+        The causes are cells, increments, tolerance and others. The result is None if a required
+        part is unknown or the exact value is infinite.
 
+        step     load step, from 0
+        name     name of the scalar
         largest  largest absolute value of the scalar up to this load step
         """
         features = self.features[step]
@@ -387,9 +421,9 @@ def largest_so_far(values: Sequence[Values]) -> tuple[Values, ...]:
 
 
 def stated(parts: Mapping[Part, Numbers], converged: bool) -> StatedError:
-    """Build the stated error of a scalar as the sum of its parts.
+    """Build the stated error of a scalar as the sum of its parts, with its status.
 
-    parts      size of the error by source, such as cells and increments, in the unit of the scalar
+    parts      size of the error by cause, such as cells and increments, in the unit of the scalar
     converged  false for an unreliable error, which is an order of magnitude at best
     """
     status = ErrorStatus.ESTIMATED if converged else ErrorStatus.NOT_CONVERGED
@@ -402,6 +436,10 @@ UNKNOWN = StatedError(error=None, parts={}, status=ErrorStatus.NOT_CONVERGED)
 
 
 def _amount(size: Numbers, count: int) -> Amount:
-    """Convert an error size to a float for a scalar, or to two floats for a vector."""
+    """Convert an error to the form of a stated error: a float, or two floats for a vector.
+
+    size   error of the components, (1,) or (count,)
+    count  number of components of the scalar, 1 or 2
+    """
     parts = np.broadcast_to(size, count)
     return float(parts[0]) if count == 1 else (float(parts[0]), float(parts[1]))

@@ -56,9 +56,13 @@ ROOM, MAX_ENLARGEMENTS = 1.25, 5
 class CellSolver(DiscretisedSolver):
     """Semi-analytical solver of one scene with variable grid, increments and tolerance.
 
+    Used for error estimates, which coarsen these parameters, and for a requested accuracy, which
+    refines them.
+
     discretisation  settings of the scene file: window if prescribed, ratio of the cells along the
                     sides, tolerance of the first level
-    chosen_plan     plan of a solved result; None for the plan made of the scene
+    chosen_plan     plan of a solved result (modelled effects and increments); None for the plan
+                    made of the scene
     stress          true if the memory estimate includes the stress in the body
     """
 
@@ -76,7 +80,11 @@ class CellSolver(DiscretisedSolver):
 
     @property
     def plan(self) -> Plan:
-        """Plan of the solve: that of the result, or that of the first refinement level."""
+        """Description of a solve: modelled effects, and number of increments of each load step.
+
+        The description is that of the solved result, if there is one. Otherwise it is made from the
+        scene for the first refinement level.
+        """
         return self.chosen_plan or semi_analytical.plan(
             self.scene, FIRST_PATH_ACCURACY, self.discretisation.edge
         )
@@ -86,6 +94,10 @@ class CellSolver(DiscretisedSolver):
 
         If the window was fitted by the program and the contact reaches its edge, the scene is
         solved on a larger window with cells of equal size.
+
+        fineness  grid, increments and tolerance
+        progress  function that is called after every increment, or None
+        store     checkpoint store of the solve, or None
         """
         grids, plan = [fineness.space], self.plan.cut_into(fineness.increments)
         plan = plan if fineness.edges else replace(plan, edge="off")
@@ -98,7 +110,7 @@ class CellSolver(DiscretisedSolver):
         return result.grid
 
     def coarser(self, result: Result, share: float, more: int) -> SurfaceGrid:
-        """Return a grid with fewer cells on the window of the result, for an error estimate.
+        """Return a grid with fewer cells on the window of the result, for its error estimate.
 
         Cells are added around the grid if the window was fitted by the program, and if the contact
         comes within a coarse cell of its edge.
@@ -118,17 +130,21 @@ class CellSolver(DiscretisedSolver):
 
     @property
     def _can_grow(self) -> bool:
-        """True if the window may be enlarged.
+        """True if the solver may enlarge the window, the rectangle of the surface that has cells.
 
-        The window may be neither prescribed nor the extent of a height map.
+        The window may be enlarged if it is neither prescribed nor the extent of a height map.
         """
         return self.discretisation.window is None and self.scene.indenter.extent is None
 
     def few(self, coarse: Fineness, result: Result) -> Fineness:
         """Return the discretisation of the coarse solves that measure the increment error.
 
-        The grid has at most about 11 cells per contact radius. The edge correction is off, because
-        it has no effect on the shear of later increments.
+        The grid has at most about 11 cells per contact radius, which suffice to measure the effect
+        of the increments. The edge correction is off, because it has no effect on the shear of
+        later increments.
+
+        coarse  discretisation with the cells of a coarse solve
+        result  result whose errors are estimated
         """
         most = max(step.contact for step in resolution(result))
         few = self.coarser(result, min(PER_RADIUS / max(most, 1.0), 1 / 2), 0)
@@ -195,9 +211,10 @@ class CellSolver(DiscretisedSolver):
 
 
 def _left(report: EdgeReport) -> Mapping[str, float]:
-    """Return the relative errors of scalars that remain when the edge-correction iteration stops.
+    """Return the relative errors of scalars, by name, that the edge correction has not removed.
 
-    The edge correction computes the pressure at the contact edge with sub-cell resolution.
+    The edge correction computes the pressure at the contact edge with sub-cell resolution, by an
+    iteration that stops at a finite error.
 
     report  outcome of the edge correction at the end of a load step
     """
@@ -208,7 +225,12 @@ def _left(report: EdgeReport) -> Mapping[str, float]:
 
 
 def _to_edge(end: Increment) -> float:
-    """Return the distance in cells between the largest pressure and the edge of the contact."""
+    """Return the distance in cells between the largest pressure and the edge of the contact.
+
+    Used to detect a pressure maximum near the edge, which converges with a lower order.
+
+    end  state at the end of a load step
+    """
     place = np.unravel_index(np.argmax(end.pressure), end.pressure.shape)
     return float(distance_transform_edt(end.in_contact)[place])
 
@@ -216,8 +238,8 @@ def _to_edge(end: Increment) -> float:
 def _may_hide_stick(end: Increment) -> bool:
     """Return true if a contact whose cells all slip may have a stick zone smaller than a cell.
 
-    A stick zone is possible if the smallest slip increment of a cell is at most half of the largest
-    slip increment of the adjacent cells.
+    Such a stick zone is possible if the smallest slip increment of a cell is at most half of the
+    largest slip increment of the adjacent cells. Errors of slip are then unreliable.
 
     end  state at the end of a load step
     """
@@ -228,11 +250,12 @@ def _may_hide_stick(end: Increment) -> bool:
 
 
 def _part(cells: tuple[int, int], share: float, more: int = 0) -> tuple[int, int]:
-    """Reduce the numbers of cells along x and y by a factor, for a coarse solve.
+    """Reduce the numbers of cells of a grid along x and y, for a coarse solve.
 
     The reduced numbers are rounded up to even numbers.
 
-    share  factor, below 1
+    cells  numbers of cells of the result along x and y
+    share  factor of these numbers, below 1
     more   number of cells that are then added along each side
     """
     nx, ny = (2 * ceil(share * n / 2) + more for n in cells)
@@ -240,10 +263,13 @@ def _part(cells: tuple[int, int], share: float, more: int = 0) -> tuple[int, int
 
 
 def scaled(cells: tuple[int, int], factor: float) -> tuple[int, int]:
-    """Multiply the numbers of cells along x and y by a factor, for a finer or coarser grid.
+    """Multiply the numbers of cells of a grid along x and y, for a finer or a larger grid.
 
-    The result is increased to even numbers whose halves have no prime factor above 5, for which
+    The results are increased to even numbers whose halves have no prime factor above 5, for which
     Fourier transforms are fast.
+
+    cells   numbers of cells along x and y
+    factor  factor of both numbers
     """
     nx, ny = (2 * next_fast_len(ceil(round(factor * n, 6) / 2), real=True) for n in cells)
     return nx, ny

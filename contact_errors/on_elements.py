@@ -49,8 +49,12 @@ ACROSS = ("tangential_shift", "tangential_force", "stick_radius", "stick_area",
 class ElementSolver(DiscretisedSolver):
     """Finite-element solver of one scene with variable mesh, increments and tolerance.
 
+    Used for error estimates, which coarsen these parameters, and for a requested accuracy, which
+    refines them.
+
     discretisation  settings of the scene file or of a result
-    chosen_plan     plan of a solved result; None for the plan made of the scene
+    chosen_plan     plan of a solved result (modelled effects, increments); None for the plan made
+                    of the scene
     method          contact method: complementarity or penalty
     """
 
@@ -75,6 +79,10 @@ class ElementSolver(DiscretisedSolver):
 
         If the penalty method cannot reduce the overlap of the surfaces to its limit on coarse
         elements, the scene is solved with the largest allowed overlap.
+
+        fineness  mesh, increments and tolerance
+        progress  function that is called after every increment, or None
+        store     checkpoint store of the solve, or None
         """
         scene = self.scene.with_increments(fineness.increments)
         mesh = _with(fineness.space, tolerance=fineness.tolerance)
@@ -88,13 +96,14 @@ class ElementSolver(DiscretisedSolver):
         return result.discretisation
 
     def coarser(self, result: Result, share: float, more: int) -> FiniteElementDiscretisation:
-        """Return a mesh with fewer elements per contact radius, for an error estimate.
+        """Return a mesh with fewer elements over the contact radius, for an error estimate.
 
-        In the second coarse solve, the elements are sized such that the contact edge lies in the
-        middle of an element.
+        In the second of the two coarse solves, the elements are sized such that the contact edge
+        lies in the middle of an element.
 
-        share  fraction of the elements of the result
-        more   number of elements added to this fraction
+        result  result whose errors are estimated
+        share   fraction of the elements of the result
+        more    number of elements added to this fraction
         """
         mesh, radius = result.discretisation, result.radius
         count = max(FEWEST_ELEMENTS, ceil(share * mesh.elements_per_radius)) + more
@@ -105,10 +114,13 @@ class ElementSolver(DiscretisedSolver):
         return _with(mesh, elements_per_radius=count, contact_radius=radius)
 
     def of_mesh(self, base: FiniteElementDiscretisation, result: Result) -> Iterator[CoarseSolve]:
-        """Return the coarse solves in overlap, angular harmonics and size of the meshed section.
+        """Yield the coarse solves that change overlap, harmonics or size of the meshed section.
 
-        The overlap applies to the penalty method only, and the harmonics to the path with harmonics
-        only.
+        Each of them measures the error that one of these parameters causes. The overlap applies to
+        the penalty method only, and the angular harmonics to the solution path with harmonics only.
+
+        base    mesh of a coarse solve, in which the parameters are changed
+        result  result whose errors are estimated
         """
         if self.method is Method.PENALTY:
             overlap = min(LARGEST_OVERLAP, 10 * base.overlap)
@@ -134,8 +146,11 @@ class ElementSolver(DiscretisedSolver):
     def _resolved(self, result: Result, end: Increment) -> Features:
         """Measure contact, stick zone and layers in half elements at the end of a load step.
 
-        Half elements are counted, because linear elements resolve a feature as well as twice their
-        number of cells.
+        The sizes decide if the mesh resolves the contact. Half elements are counted, because linear
+        elements resolve a feature as well as twice their number of cells.
+
+        result  result of the finite-element solver
+        end     state at the end of the load step
         """
         indenter, (side,) = self.scene.indenter, self.sides(result)
         thinnest = min(self.scene.body.thinnest, indenter.thinnest)
@@ -201,11 +216,14 @@ class ElementSolver(DiscretisedSolver):
 
 
 def _with(mesh: FiniteElementDiscretisation, **update: object) -> FiniteElementDiscretisation:
-    """Return the settings of a finite-element solve with some values replaced."""
+    """Return a copy of the settings of a finite-element solve with some values replaced."""
     return mesh.model_copy(update=update)
 
 
 def _peak_radius(end: Increment) -> float:
-    """Return the radius of the ring with the largest pressure [length]."""
+    """Return the radius of the ring of nodes with the largest pressure [length].
+
+    Used to detect a pressure maximum near the contact edge, which converges with a lower order.
+    """
     largest = end.pressure.reshape(len(end.radii), -1).max(axis=1)
     return float(end.radii[np.argmax(largest)])

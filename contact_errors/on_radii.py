@@ -37,12 +37,15 @@ FIRST_FINENESS, MAX_FINENESS = 0.5, 4.0
 
 @dataclass(frozen=True)
 class RingSolver(DiscretisedSolver):
-    """Radial solver of one scene with a variable factor of its numbers of rings and angles.
+    """Radial solver of one scene with variable numbers of rings, angles and increments.
 
-    Without friction, the factor multiplies the numbers of Legendre orders and quadrature points.
+    Used for error estimates, which coarsen the discretisation, and for a requested accuracy, which
+    refines it. A single factor multiplies the default numbers of rings and angles; without
+    friction, those of Legendre orders and quadrature points.
 
     discretisation  settings of the scene file or of a result
-    chosen_plan     plan of a solved result; None for the plan made of the scene
+    chosen_plan     plan of a solved result (modelled effects, increments); None for the plan made
+                    of the scene
     """
 
     discretisation: RadialDiscretisation
@@ -63,14 +66,17 @@ class RingSolver(DiscretisedSolver):
 
     @property
     def plan(self) -> Plan:
-        """Plan of the solve: modelled effects, and number of increments of each load step."""
+        """Description of a solve: its modelled effects, and the number of increments of each load
+        step.
+        """
         return self.chosen_plan or radial.plan(self.scene)
 
     @property
     def counted(self) -> bool:
-        """True if the accuracy depends on the number of rings; false without friction.
+        """True if the accuracy of the radial solver depends on its number of rings.
 
-        Without friction, the accuracy depends on Legendre orders and quadrature points.
+        The accuracy of the other solves, such as those without friction, depends on the numbers of
+        Legendre orders and quadrature points instead.
         """
         return self.plan.coupled or self.plan.circle is not None
 
@@ -85,10 +91,12 @@ class RingSolver(DiscretisedSolver):
     def coarser(self, result: Result, share: float, more: int) -> float:
         """Return the factor of the default number of rings for a coarse solve of a result.
 
-        Results that depend on orders and points, not on rings, are compared with a solve with twice
-        the orders and points instead.
+        If the accuracy depends on Legendre orders and quadrature points instead of rings, the
+        factor is twice that of the result: the result is then compared with a finer solve.
 
-        share  fraction of the rings of the result
+        result  result whose errors are estimated
+        share   fraction of the rings of the result
+        more    without effect
         """
         return result.plan.fineness * (share if self.counted else 2.0)
 
@@ -105,11 +113,15 @@ class RingSolver(DiscretisedSolver):
         return at_ends(result, lambda end: self._resolved(result, end))
 
     def _resolved(self, result: Result, end: Increment) -> Features:
-        """Measure contact and stick zone in rings at the end of a load step.
+        """Measure the sizes of contact and stick zone in half rings at the end of a load step.
 
-        The contact radius is divided by the width of the widest ring, and stick zone and slip
-        annulus by the mean width. Half rings are counted, because of the linear interpolation
-        between rings. Without friction, the contact counts as infinitely resolved.
+        The sizes decide if the rings resolve the contact. The contact radius is divided by the
+        width of the widest ring, and stick zone and slip annulus by the mean width. Half rings are
+        counted, because of the linear interpolation between rings. If the accuracy does not depend
+        on the rings, the contact counts as infinitely resolved.
+
+        result  result of the radial solver
+        end     state at the end of the load step
         """
         indenter, plan = self.scene.indenter, result.plan
         within = end.radii[end.radii <= end.contact_radius]

@@ -97,11 +97,12 @@ def largest_stresses(
 def stress_at(
     state: LoadedBodies, x: Field, y: Field, levels: Sequence[Any], *, indenter: bool = False
 ) -> tuple[StressPoints, Field]:
-    """Compute the stress at points in a body, with the error of its components.
+    """Compute the stress at points in a body, with an error estimate at each point.
 
-    Returns the points, and the largest error of the stress components at each point (n,)
-    [force/length^2]. Raises UnsupportedScene for finite elements.
+    Returns the points with their stress, and the largest error of the stress components at each
+    point (n,) [force/length^2]. Raises UnsupportedScene for finite elements.
 
+    state     bodies and surface tractions
     x, y      coordinates of the points (n,) [length]
     levels    depth and material of each of the n points
     indenter  true for points in the indenter, false for points in the lower body
@@ -129,8 +130,9 @@ def stress_at(
 
 
 def _field(state: LoadedBodies, *, indenter: bool = False, depths: Any = None) -> StressField:
-    """Compute the stress field in a body below the tractions of any solver.
+    """Compute the stress field in a body from the surface tractions of any solver.
 
+    state     bodies and surface tractions
     indenter  true for the indenter, false for the lower body
     depths    depths of the field [length]; None for those of the solver
     """
@@ -142,7 +144,10 @@ def _field(state: LoadedBodies, *, indenter: bool = False, depths: Any = None) -
 
 
 def _is_fitted(field: StressField) -> bool:
-    """Return true if the contact edge of a stress field is fitted with sub-cell accuracy."""
+    """Return true if a fit locates the contact edge of a stress field within the cells.
+
+    The largest stress adjacent to a fitted edge converges with a higher order.
+    """
     edge = field.edge
     return bool(field.how.get("edges")) if edge is None else edge.determined
 
@@ -203,12 +208,15 @@ def stress_errors(
 
 
 def _places(field: StressField, body: Body, near: float) -> Mapping[bool, Mapping[Key, float]]:
-    """Find the largest stress of each region and measure, separately near the surface and below.
+    """Find the largest stresses near the surface and, separately, those below.
 
-    Points near the surface include the fitted contact edge. The largest stresses near the surface
-    are returned with the key True, those below with the key False.
+    There is one value for each region of the body and each stress measure. Points near the surface
+    include the fitted contact edge. The values near the surface are returned with the key True,
+    those below with the key False.
 
-    near  depth that divides the points [length]
+    field  stress field
+    body   layers and substrate, which determine the regions
+    near   depth that divides the points [length]
     """
     shallow, found = field.points.depth < near, {}
     for at_edge, chosen in ((True, shallow), (False, ~shallow)):
@@ -223,10 +231,12 @@ def _places(field: StressField, body: Body, near: float) -> Mapping[bool, Mappin
 def _between_levels(points: StressPoints, values: Field, extreme: Extreme) -> float:
     """Estimate the error of a largest stress because its maximum lies between two depth levels.
 
-    The error is twice the excess of a parabola through the largest values on three depth levels
-    over the largest stress. The factor 2 accounts for the third-order terms that a parabola omits.
-    The error is 0 on an interface and at the end of a material.
+    The stress is computed on discrete depth levels only. The error is twice the excess of a
+    parabola through the largest values on three depth levels over the largest stress. The factor 2
+    accounts for the third-order terms that a parabola omits. The error is 0 on an interface and at
+    the end of a material.
 
+    points   points of the stress field
     values   stress measure at the points (…) [force/length^2]
     extreme  largest stress found
     """
@@ -245,7 +255,10 @@ def _between_levels(points: StressPoints, values: Field, extreme: Extreme) -> fl
 
 
 def _growth(order: float) -> float:
-    """Return the divisor r^(0.6 p) - 1 of the error formula, for the coarsening factor r = 2.
+    """Return the divisor that converts the difference of a coarse and a fine stress to an error.
+
+    The divisor is r^(0.6 p) - 1 for the coarsening factor r = 2. The safety factor 0.6 reduces the
+    theoretical convergence order p, which errors on few cells do not reach.
 
     order  convergence order p of the stress
     """
@@ -253,16 +266,23 @@ def _growth(order: float) -> float:
 
 
 def _side(state: LoadedBodies) -> float:
-    """Return the side of a traction cell along x, or the mean width of a traction ring [length]."""
+    """Return the width of a traction cell along x, or the mean width of a traction ring [length].
+
+    Used to express depths and contact radii in cells.
+
+    state  bodies and surface tractions on cells or rings
+    """
     places = next(iter(state.axes.values()))
     return float(places[-1] - places[0]) / (len(places) - 1)
 
 
 def on_wide_cells(state: LoadedBodies, shift: int = 0) -> LoadedBodies:
-    """Return a state with tractions averaged over cells twice as wide, with the same total force.
+    """Average the surface tractions of a state over pairs of cells in both directions.
 
-    The stress below these coarse tractions is compared with that of the fine tractions.
+    The total force is preserved. The stress below these coarse tractions is compared with that of
+    the fine tractions, for an error estimate.
 
+    state  bodies and tractions on cells
     shift  0 or 1, number of empty cells before the first pair of cells along each side; it selects
            the position of the coarse cells
     """
@@ -281,10 +301,11 @@ def on_wide_cells(state: LoadedBodies, shift: int = 0) -> LoadedBodies:
 
 
 def on_half_the_elements(state: LoadedBodies, every: int = 1) -> LoadedBodies:
-    """Return a finite-element state with half the elements per radius and fewer rings of tractions.
+    """Return a finite-element state with half the elements per radius and fewer traction rings.
 
     The stress of this state is compared with that of the fine mesh, for its error estimate.
 
+    state  bodies and tractions on rings
     every  1 to keep the tractions of all rings, 2 to keep those of every second ring
     """
     asked, radii = state.discretisation, state.axes["radii"]
@@ -310,8 +331,10 @@ def _on_disc(
 ) -> tuple[StatedError, ...]:
     """Estimate the errors of the largest stresses below the tractions of the radial solver.
 
-    The stresses are computed again with twice the numbers of Legendre orders and quadrature points.
+    The stresses are computed again with twice the numbers of Legendre orders and quadrature points,
+    and compared.
 
+    state     bodies and tractions
     found     largest stress of each region and measure in the body
     indenter  true for the indenter, false for the lower body
     """
@@ -332,5 +355,9 @@ def _on_disc(
 
 
 def _place(e: Extreme) -> tuple[str, float, float, float, float]:
-    """Return measure, value and position of a largest stress, as a key that regions share."""
+    """Return measure, value and position of a largest stress, as a dictionary key.
+
+    The largest stress of a body is also the largest of one of its regions. The two have equal keys,
+    so that their error is computed once.
+    """
     return e.measure, e.value, e.x, e.y, e.depth
