@@ -114,7 +114,7 @@ class DiscretisedSolver(ABC):
     @classmethod
     @abstractmethod
     def of(cls, result: Any) -> Self:
-        """Create the solver for the coarse solves of a result: with its scene, settings and plan."""
+        """Create the solver for the coarse solves of a result, with its settings and plan."""
 
     @classmethod
     def stated_errors(cls, result: Any) -> StatedErrors:

@@ -76,9 +76,10 @@ class AccuracyRequest(_Named):
         return tuple(name for name in BOUND if getattr(self, name) is not None)
 
     def shares(self) -> Mapping[str, float]:
-        """Return the largest allowed relative error of each quantity with a limit.
+        """Return the largest allowed relative error of each scalar that has a limit, by its name.
 
-        A limit by name overrides the limit `overall`.
+        A limit for a single scalar overrides the limit `overall`. The errors are relative to the
+        largest value of the scalar in the load history.
         """
         overall = {} if self.overall is None else dict.fromkeys(OVERALL, self.overall)
         return overall | {name: getattr(self, name) for name in self.named}

@@ -51,7 +51,7 @@ def stress_by(strain: Sequence[float], body: Body, layer: int) -> Vector:
 
 
 def with_strain(increment: Reported, strain: Strain | None) -> Reported:
-    """Return the results of an increment with the bulk strain at its end entered.
+    """Enter the bulk strain of the lower body at the end of an increment in its results.
 
     increment  results of the increment
     strain     (εxx, εyy, εxy) of the lower body; None without bulk strain, which leaves the results
@@ -64,10 +64,10 @@ def with_strain(increment: Reported, strain: Strain | None) -> Reported:
 
 
 def around_axis(strains: Sequence[Strain], pushed: bool) -> bool:
-    """Determine if an axisymmetric solver has to apply a bulk strain.
+    """Return true if an axisymmetric solver has to apply a bulk strain of the lower body.
 
-    Raises UnsupportedScene for a strain that is not equal in all directions (equibiaxial), and for
-    a strain together with a tangential load or torsion.
+    Such a solver can apply an equibiaxial strain only, without a tangential load or torsion. Raises
+    UnsupportedScene for other strains.
 
     strains  bulk strains (εxx, εyy, εxy) of the load steps
     pushed   True if the scene has a tangential load or a torsion

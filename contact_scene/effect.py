@@ -14,7 +14,7 @@ COUPLING = "normal-tangential coupling"
 
 @dataclass(frozen=True)
 class Effect:
-    """Physical effect of contact, such as friction, and its presence in a scene.
+    """Physical effect that a solver computes or omits, such as friction, for the plan of a solve.
 
     name  name of the effect
     on    True if the effect acts in the scene
@@ -42,9 +42,10 @@ def second_body(scene: Scene) -> Effect:
 
 
 def layers(scene: Scene) -> Effect:
-    """Return the effect of layers, which acts if a body of the scene has layers.
+    """Describe the effect of the layers of both bodies, for the plan of a solve.
 
-    The reason states the number of layers of each body.
+    The effect acts if a body of the scene has layers. The reason states the number of layers of
+    each body.
     """
     where = [
         f"the {name} has {len(body.layers)} layer{'s' if len(body.layers) > 1 else ''}"
@@ -55,23 +56,30 @@ def layers(scene: Scene) -> Effect:
 
 
 def friction(scene: Scene) -> Effect:
-    """Return the effect of friction, which acts if the scene has a friction law."""
+    """Describe the effect of friction, for the plan of a solve.
+
+    The effect acts if the scene has a friction law.
+    """
     on = scene.friction is not None
     return Effect("friction", on, "[friction] is given" if on else "the scene has no friction")
 
 
 def strained(scene: Scene) -> Effect:
-    """Return the effect of bulk strain, which acts if a load step strains the lower body."""
+    """Describe the effect of the bulk strain of the lower body, for the plan of a solve.
+
+    The effect acts if a load step prescribes a bulk strain.
+    """
     on = any(ramp.stretch for ramp in scene.load_path())
     why = "a step prescribes" if on else "no step prescribes"
     return Effect("bulk strain", on, f"{why} a bulk strain or a bulk stress of the lower body")
 
 
 def coupled(scene: Scene, on: bool, why: str) -> Effect:
-    """Create the effect of the coupling of the normal and the tangential problem.
+    """Create the description of the coupling of the normal and the tangential problem.
 
-    on   True if the problems are coupled
-    why  reason; replaced by the absence of shear in a scene without friction
+    scene  scene of the plan
+    on     True if the problems are coupled
+    why    reason; replaced by the absence of shear in a scene without friction
     """
     if scene.friction is None:
         why = "without friction there is no shear"

@@ -78,7 +78,10 @@ class FrictionMap(Description):
 
     @property
     def is_even(self) -> bool:
-        """True if the map has equal coefficients of friction at (±x, ±y), to round-off."""
+        """True if the coefficient of friction is symmetric about the planes x = 0 and y = 0.
+
+        The four coefficients at (±x, ±y) are then equal, to round-off.
+        """
         values = self.map.values
         images = values[::-1], values[:, ::-1]
         nearly = ROUND_OFF * float(np.max(values))
@@ -87,7 +90,9 @@ class FrictionMap(Description):
         )
 
     def on(self, cells: tuple[int, int], spacing: Pair) -> "FrictionMap":
-        """Interpolate the map at the cell centres of a grid centred on the origin of the contact.
+        """Interpolate the map of the coefficient of friction at the cell centres of a grid.
+
+        The grid is centred on the origin of the contact.
 
         cells    number of cells along x and y
         spacing  side lengths of a cell [length]
@@ -148,8 +153,13 @@ class CoulombFriction(Description):
     def on(self, cells: tuple[int, int], spacing: Pair) -> "CoulombFriction":
         """Return the friction law with its map interpolated at the cell centres of a grid.
 
-        Without a map the law is returned unchanged. Arguments and errors are those of
-        `FrictionMap.on`.
+        The grid is centred on the origin of the contact. A law with a uniform coefficient is
+        returned unchanged.
+
+        cells    number of cells along x and y
+        spacing  side lengths of a cell [length]
+
+        Raises ValueError for cells beyond the extent of the map.
         """
         if not isinstance(self.coefficient, FrictionMap):
             return self
@@ -157,7 +167,11 @@ class CoulombFriction(Description):
 
     @property
     def is_even(self) -> bool:
-        """True if the coefficient of friction is equal at (±x, ±y), to round-off."""
+        """True if the coefficient of friction is symmetric about the planes x = 0 and y = 0.
+
+        The four coefficients at (±x, ±y) are then equal, to round-off. A uniform coefficient is
+        symmetric.
+        """
         return self.varying is None or self.varying.is_even
 
     @property
@@ -186,7 +200,7 @@ class CoulombFriction(Description):
     def _at(self, where: Where) -> float | Field:
         """Return the coefficient of friction of the selected cells: one number if it is uniform.
 
-        where  index of the cells in the friction map
+        where  index of the cells in the arrays of the friction map, such as a mask of the contact
         """
         mu = self.coefficient
         if not isinstance(mu, FrictionMap):

@@ -107,18 +107,17 @@ class ShapedBody(Body):
 
         approach  approach of the bodies [length]
         returns   a^k along x and along y [length^k], with the half width a of the contact and the
-                  exponent k of `gap_exponent`; None without an estimate
+                  exponent k of the gap as a power of the distance; None without an estimate
         """
         return None
 
     def contact_under(self, force: float, modulus: float) -> Pair | None:
-        """Estimate the size of the contact of half-spaces under a normal force, to an order of
-        magnitude.
+        """Estimate the contact size of half-spaces under a normal force, to an order of magnitude.
 
         force    normal force [force]
         modulus  contact modulus E* [force/length^2]
-        returns  a^(k+1) along x and along y [length^(k+1)], with a and k as in `contact_at`; None
-                 without an estimate
+        returns  a^(k+1) along x and along y [length^(k+1)], with the half width a of the contact
+                 and the exponent k of the gap as a power of the distance; None without an estimate
         """
         return None
 
@@ -149,18 +148,19 @@ class SmoothTip(ShapedBody):
         """Radii of curvature of the indenter along x and y at its tip [length]."""
 
     def contact_at(self, approach: float) -> Pair:
-        """Estimate a^2 = R delta along x and along y, an upper bound for each half width a of the
-        contact.
+        """Estimate the square of the half width a of the contact along x and y at an approach.
 
-        R is the radius of curvature along the axis and delta the approach.
+        The estimate a^2 = R delta is an upper bound. R is the radius of curvature along the axis
+        and delta the approach [length].
         """
         R_x, R_y = self.tip_radii
         return R_x * approach, R_y * approach
 
     def contact_under(self, force: float, modulus: float) -> Pair:
-        """Estimate a^3 = 3 W R / 4 E* for the half width a of the contact along x and along y.
+        """Estimate the cube of the half width a of the contact along x and y under a normal force.
 
-        W is the normal force, E* the contact modulus and R the larger radius of curvature.
+        The estimate is a^3 = 3 W R / 4 E*, by Hertz theory. W is the normal force, E* the contact
+        modulus and R the larger radius of curvature.
         """
         power = 3.0 * force * max(self.tip_radii) / (4.0 * modulus)
         return power, power
@@ -254,15 +254,20 @@ class Cone(ShapedBody):
         return True
 
     def contact_at(self, approach: float) -> Pair:
-        """Estimate a = 2 delta / pi tan(slope) for the contact radius a at an approach delta.
+        """Estimate the contact radius a of the cone at an approach: a = 2 delta / pi tan(slope).
 
-        See Johnson 1985, section 5.2.
+        delta is the approach of the bodies, and slope the angle between flank and plane. See
+        Johnson 1985, section 5.2.
         """
         reach = 2.0 * approach / (np.pi * self._slope)
         return reach, reach
 
     def contact_under(self, force: float, modulus: float) -> Pair:
-        """Estimate a^2 = 2 W / pi E* tan(slope) for the contact radius a under a normal force W."""
+        """Estimate the square of the contact radius a of the cone under a normal force.
+
+        The square is a^2 = 2 W / pi E* tan(slope), with the normal force W, the contact modulus E*
+        and the angle slope between flank and plane.
+        """
         power = 2.0 * force / (np.pi * modulus * self._slope)
         return power, power
 
@@ -412,9 +417,12 @@ def nearest_shape(written: Any) -> str:
 
 
 def _branch(value: Any) -> str:
-    """Return the tag of the indenter class that validates a value of a scene.
+    """Return the tag of the indenter class that validates the indenter of a scene.
 
-    The class of the most similar shape validates a table with a misspelt shape.
+    A table with a misspelt shape is validated by the class of the most similar shape, so that all
+    its other mistakes are found as well.
+
+    value  table of the indenter as written, or an indenter
     """
     shape = value.get("shape") if isinstance(value, dict) else getattr(value, "shape", None)
     return f"<{nearest_shape(shape)}>"

@@ -223,11 +223,16 @@ def _convolved(
 def interpolate_between(
     values: NDArray[np.float64], spacing: tuple[float, float], x: ArrayLike, y: ArrayLike
 ) -> NDArray[np.float64]:
-    """Interpolate a map bilinearly, so that the result stays within the range of the adjacent
-    values.
+    """Interpolate a map bilinearly, within the range of the adjacent values.
 
-    Used for coefficients of friction, which must not become negative. Arguments are those of
-    `interpolate`. Values are constant up to half a spacing beyond the outermost points.
+    Used for coefficients of friction, which must not become negative. Values are constant up to
+    half a spacing beyond the outermost points.
+
+    values   values at the centres of cells, (nx, ny), centred on the origin
+    spacing  distance between adjacent values along x and y [length]
+    x, y     coordinates [length], broadcast together
+
+    Raises ValueError for coordinates outside the cells of the map.
     """
     x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
     i, s = _locate(x, values.shape[0], spacing[0], "x")

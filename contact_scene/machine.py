@@ -42,9 +42,10 @@ def one_thread() -> Iterator[None]:
 
 @lru_cache(maxsize=1)
 def _libraries(imported: int) -> ThreadpoolController:
-    """Find the loaded libraries with threads (BLAS, OpenMP), or return the last search.
+    """Find the loaded libraries whose threads can be limited (BLAS, OpenMP), with a cache.
 
-    imported  number of imported modules; a new search is needed only after an import
+    imported  number of imported modules, the key of the cache; a new search is needed only after an
+              import
     """
     return ThreadpoolController()
 

@@ -50,7 +50,7 @@ def normal_form(scene: Scene) -> Scene:
 
 
 def _merged(body: B) -> B:
-    """Return a body in which adjacent layers of equal material are one layer.
+    """Return a body in which adjacent layers of equal material are merged into one layer.
 
     A lowest layer that has the material of the substrate becomes part of the substrate.
     """
@@ -65,10 +65,11 @@ def _merged(body: B) -> B:
 
 
 def _unnamed(scene: Scene, ramps: tuple[LoadRamp, ...]) -> Unnamed:
-    """Determine the controls of a scene that can be replaced by the default controls.
+    """Determine the controls of a scene that have no effect and are replaced by the defaults.
 
-    Such a control is zero in all load steps and, by symmetry or without friction, has the effect of
-    the default control.
+    A control prescribes a force or a displacement of one coordinate of the indenter. Such a control
+    has no effect if it is zero in all load steps and, by symmetry or without friction, equals the
+    default control of its coordinate (free shift, fixed twist, fixed tilt).
 
     scene    scene after all other replacements
     ramps    load ramps of the scene

@@ -72,12 +72,14 @@ def prescribed_motions(rig: Rig | None) -> tuple[str, str]:
 
 
 def of_contact(increment: Reported, rig: Rig | None) -> Reported:
-    """Add the displacements of the contact to an increment that was solved with the springs of a
-    rig.
+    """Add the displacements of the contact to an increment solved with springs of a test rig.
 
     Such a solve yields the displacements of the actuator. The displacement of the contact is
     smaller by the force times the compliance of the spring. Without springs the increment is
     unchanged.
+
+    increment  results with the displacements of the actuator
+    rig        springs of the test rig, or None
     """
     values: dict[str, Any] = {}
     for c, (name, (actuator, load)) in zip(compliances(rig), MOTIONS.items(), strict=True):

@@ -33,7 +33,7 @@ class NothingToCompare(ValueError):
 
 @dataclass(frozen=True)
 class Compared:
-    """Comparison of one number of the measured table with that of the run, in the unit `unit`.
+    """Comparison of one measured number with the computed number of a run, in the unit `unit`.
 
     name                description of the number, such as "energy per cycle"
     measured, computed  numbers of the table and of the run
@@ -59,9 +59,11 @@ class Compared:
 
     @property
     def ours(self) -> float | None:
-        """Largest fraction of the difference that the error of the computation explains.
+        """Largest fraction of the difference from the measurement that the numerical error
+        explains.
 
-        The fraction is 1 if the error exceeds the difference, and None if the error is unknown.
+        The fraction is 1 if the error of the computed number exceeds the difference, and None if
+        the error is unknown.
         """
         if self.error is None:
             return None
@@ -151,7 +153,7 @@ class _Loop:
 
 
 def _centre(values: Numbers) -> float:
-    """Return the mean of the largest and the smallest value."""
+    """Return the mean of the largest and the smallest value, the centre of a load loop."""
     return float(np.max(values) + np.min(values)) / 2
 
 
@@ -251,9 +253,12 @@ def _error(end: StepSummary, name: str) -> float | None:
 
 
 def _share(end: StepSummary, name: str) -> float | None:
-    """Return the stated error of a scalar relative to its largest component; None if unknown.
+    """Return the relative error of a scalar at the end of a load step; None if unknown.
 
-    end  scalars at the end of a load step
+    The stated error is divided by the largest component of the scalar.
+
+    end   scalars at the end of a load step
+    name  name of the scalar
     """
     error, value = _error(end, name), np.max(np.abs(getattr(end, name) or 0.0))
     return error / float(value) if error and value else error
@@ -270,5 +275,5 @@ def _number(
 
 
 def _rms(values: Numbers) -> float:
-    """Return the root mean square of an array."""
+    """Return the root mean square of the differences between a measured and a computed curve."""
     return float(np.sqrt(np.mean(values**2)))

@@ -35,7 +35,17 @@ def plan(
     scene: Scene | SceneFile,
     solver: Cells = "semi-analytical",
     discretisation: SurfaceDiscretisation | None = None,
-) -> semi_analytical.Plan: ...
+                           """Return the modelled effects of a solve with reasons, and the
+                           increments of each load step.
+
+                           Parameters ---------- scene : Scene or SceneFile Scene to solve. A
+                           SceneFile contains a discretisation as well. solver : str
+                           "semi-analytical", "fem", "fem-complementarity" or "radial".
+                           discretisation : SurfaceDiscretisation, FiniteElementDiscretisation or
+                           RadialDiscretisation Replaces that of the scene file.
+
+                           Raises ------ UnsupportedScene The solver does not support the scene.
+                           """
 
 
 @overload

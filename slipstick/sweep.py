@@ -203,9 +203,11 @@ class SweepPoint:
         return record
 
     def _numbers(self, result: Any) -> Iterator[tuple[str, tuple[Any, ...]]]:
-        """Yield name and data of each quantity at the end of the last load step.
+        """Yield name and data of each requested quantity at the end of the last load step.
 
         The data are value, stated error, component of a vector ("x", "y" or empty) and unit.
+
+        result  result of the solve of the sweep point
         """
         stated = stated_errors(result) if self.with_error else None
         end = summary_of(result, fretting_cycles(result), stated).steps[-1]

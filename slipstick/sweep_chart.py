@@ -25,10 +25,11 @@ MAX_KEYS, MAX_TICKS = 2, 8
 
 @dataclass(frozen=True, eq=False)
 class SweptQuantity:
-    """One quantity at all points of a parameter sweep; NaN where the scene has no solution.
+    """Values of one quantity at all points of a parameter sweep, to draw the chart of the sweep.
 
     values, errors  values and stated errors (..., sample), with one index for each spaced key and
-                    the last index for the sample of distributed keys [unit]
+                    the last index for the sample of distributed keys [unit]; NaN where the scene
+                    has no solution
     """
 
     name: str
@@ -38,13 +39,13 @@ class SweptQuantity:
 
     @property
     def suited(self) -> EngineeringUnit:
-        """Engineering unit that suits the largest value, such as µm or MPa."""
+        """Unit with the SI prefix in which the largest value is readable, such as µm or MPa."""
         known = np.abs(self.values[np.isfinite(self.values)])
         return engineering_unit(float(np.max(known, initial=0.0)), self.unit)
 
     @property
     def in_order(self) -> SweptQuantity:
-        """The quantity for a single sample, sorted in ascending order, as a column (n, 1)."""
+        """The quantity of a single sample in ascending order (n, 1), for a cumulative distribution."""
         order = np.argsort(self.values)[:, None]
         return replace(self, values=self.values[order], errors=self.errors[order])
 

@@ -199,10 +199,14 @@ def _strains(scene: Scene, end: State) -> Iterator[tuple[float, str]]:
 def _strained(body: Body, contact_radius: float) -> Iterator[tuple[float, str]]:
     """Yield the moduli of the layers and the substrate of a body to a depth of one contact radius.
 
-    The modulus is E/(1 - nu^2); for thin layers see `_layer_modulus`.
+    Used to estimate strains as mean pressure over modulus. The modulus is E/(1 - nu^2); that of a
+    layer thinner than the contact radius is larger, because its bond to the material below
+    restrains its deformation.
 
-    yields  modulus [force/length^2] and location in words, such as "layer 1"; empty for a body
-            without layers
+    body            layered body
+    contact_radius  contact radius [length]
+    yields          modulus [force/length^2] and location in words, such as "layer 1"; empty for a
+                    body without layers
     """
     depth = 0.0
     for number, layer in enumerate(body.layers, start=1):

@@ -33,7 +33,7 @@ from contact_scene.stepping.load_path import ControlKind
 
 @dataclass(frozen=True)
 class Usual:
-    """Usual range of a physical quantity, and the units in which a bare number may have been meant.
+    """Usual range of a physical quantity in scenes, for warnings about numbers outside the range.
 
     least, most  limits of the magnitude [SI unit]
     unit         SI unit
@@ -104,6 +104,7 @@ def unlikely(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
 
     Used for scenes with a result, since the result determines the strains better.
 
+    scene     bodies, friction and loads
     fineness  discretisation tables of the scene file, by name
     """
     pressed = tuple(expected_contacts(scene))
@@ -252,8 +253,9 @@ def _of_no_effect(scene: Scene, pressed: tuple[ExpectedContact, ...]) -> Iterato
 
 
 def _far(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
-    """Warn about the first load step with a tangential shift that exceeds the expected contact
-    radius.
+    """Warn about the first load step whose tangential shift exceeds the expected contact radius.
+
+    The assumption of small displacements relative to the contact is then violated.
 
     pressed  expected contacts at the ends of the load steps
     """

@@ -59,11 +59,11 @@ def load_cycles(path: Iterable[LoadRamp]) -> tuple[LoadCycle, ...]:
 
 
 def loop_increments(path: Iterable[LoadRamp]) -> tuple[int, ...]:
-    """Return the number of increments that each load step needs for an accurate work of its load
-    cycles.
+    """Return the number of increments of each load step that its load cycle needs.
 
-    The work of a cycle is a trapezoidal sum over the increments. The number is 1 outside of cycles
-    and in load steps with constant tangential load, torsion and bulk strain.
+    The work of a cycle is a trapezoidal sum over the increments, which needs this number to be
+    accurate. The number is 1 outside of cycles and in load steps with constant tangential load,
+    torsion and bulk strain.
 
     path  load ramps of all load steps
     """
@@ -80,10 +80,10 @@ def _of_loop(ramp: LoadRamp) -> int:
 
 
 def _loads(ramp: LoadRamp) -> Iterator[tuple[Kind, tuple[float, ...]]]:
-    """Yield the values of all controls at the end of a load ramp.
+    """Yield the prescribed forces and displacements at the end of a load ramp.
 
-    yields  coordinate and kind of the control; its values, one or two (the bulk strain: three or
-            none)
+    yields  coordinate of the indenter and kind of the control (force or displacement); its values,
+            one or two (the bulk strain: three or none)
     """
     controls: tuple[Any, ...] = (ramp.normal, ramp.tangential, ramp.twisting, ramp.tilting)
     for coordinate, control in enumerate(controls):
@@ -93,11 +93,12 @@ def _loads(ramp: LoadRamp) -> Iterator[tuple[Kind, tuple[float, ...]]]:
 
 
 def _scales(ramps: list[LoadRamp]) -> dict[Kind, float]:
-    """Compute the largest magnitude of each control over the load path.
+    """Compute the largest magnitude of each prescribed force and displacement over the load path.
 
-    Forces and displacements of a coordinate are separate controls. Used to compare loads with a
-    relative tolerance.
+    Used to compare the loads of two load steps with a relative tolerance. Forces and displacements
+    of a coordinate are separate.
 
+    ramps    load ramps of all load steps
     returns  largest magnitude by coordinate and kind of the control; 0 if all values are 0
     """
     scales: dict[Kind, float] = {}
@@ -107,9 +108,12 @@ def _scales(ramps: list[LoadRamp]) -> dict[Kind, float]:
 
 
 def _state(ramp: LoadRamp, scales: Mapping[Kind, float]) -> State:
-    """Return the controls at the end of a load ramp in a form that is equal for equal loads.
+    """Return the loads at the end of a load ramp in a form that is equal for equal loads.
 
-    scales   largest magnitude of each control, see `_scales`
+    Used to find load cycles, which return to the loads of an earlier load step.
+
+    ramp     load ramp of a load step
+    scales   largest magnitude of each control over the load path
     returns  coordinate and kind of each control, with its values relative to the scale and rounded
              to `DIGITS` decimals
     """

@@ -58,9 +58,11 @@ class Reported:
 
 
 def reported(record: type) -> Mapping[str, Reported]:
-    """Return the annotations of the reported values of a class, by attribute name.
+    """Return unit and meaning of the reported values of a class, by attribute name.
 
     Attributes come first, then properties. Attributes without such an annotation are left out.
+
+    record  class with annotated attributes, such as the scalars of an increment
     """
     hints = get_type_hints(record, include_extras=True)
     for owner in reversed(record.__mro__):

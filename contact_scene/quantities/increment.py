@@ -321,8 +321,10 @@ def _unsigned_zero(value: Any) -> Any:
 
 
 def components(name: str) -> tuple[str, ...]:
-    """Return the column names of a scalar in a table: its name, or a name with _x and _y for a
-    vector."""
+    """Return the column names of a scalar in a table: its name, or two names for a vector.
+
+    The names of a vector have the endings _x and _y.
+    """
     if SCALARS[name].kind is Kind.VECTOR:
         return f"{name}_x", f"{name}_y"
     return (name,)

@@ -14,17 +14,26 @@ from contact_scene.solver_errors import NotConverged
 
 
 def worst(*measures: float | None) -> float:
-    """Return the largest of several residuals, without those that are None; NaN if any is NaN.
+    """Return the largest of several residuals of the contact equations.
 
-    Python's `max` may ignore NaN.
+    Residuals that are None are ignored. The result is NaN if any residual is NaN, unlike that of
+    Python's `max`.
     """
     return float(np.max([measure for measure in measures if measure is not None]))
 
 
 @dataclass(frozen=True)
 class ShearResiduals:
-    """Residuals of the tangential problem, with the definitions of `Residuals`; None where
-    undefined."""
+    """Dimensionless residuals of the tangential problem; None where undefined.
+
+    Here q is the shear, µp the friction limit, Δs the slip in the increment and r the distance from
+    the origin. T and M_z are the prescribed tangential force and torque.
+
+    friction_cone           largest |q| - µp / largest µp
+    slip_direction          ∫(µp|Δs| + q·Δs) dA / ∫µp|Δs| dA
+    tangential_equilibrium  |∫q dA - T| / ∫µp dA, under force control
+    torque_equilibrium      |∫(q_y x - q_x y) dA - M_z| / ∫µp r dA, under force control of the twist
+    """
 
     friction_cone: float
     slip_direction: float | None
@@ -108,8 +117,10 @@ class Residuals:
     ] = None
 
     def with_shear(self, shear: ShearResiduals) -> "Residuals":
-        """Return the residuals of the normal problem together with those of the tangential
-        problem."""
+        """Combine the residuals of the normal problem with those of the tangential problem.
+
+        shear  residuals of the tangential problem, which replace the undefined ones
+        """
         return replace(self, **vars(shear))
 
     @property

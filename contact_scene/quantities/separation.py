@@ -97,9 +97,12 @@ def separated(
 
 
 def virgin(increment: Reported) -> Reported:
-    """Return the results of bodies before any contact: all values of an increment are 0.
+    """Return the results of bodies that have not been in contact: all values are 0.
 
-    Only its positions in space and in the history remain.
+    Used for separated bodies before the first contact of a load history. The position in space and
+    in the history is kept.
+
+    increment  results in contact, which determine the shapes of the fields
     """
     of: Any = increment
     values = {f.name: _zero(getattr(of, f.name)) for f in fields(of) if f.init}
@@ -108,7 +111,7 @@ def virgin(increment: Reported) -> Reported:
 
 
 def position(last: Any, ramp: LoadRamp, fraction: float) -> dict[str, Any]:
-    """Determine tangential shift, twist and tilt of separated bodies.
+    """Determine tangential shift, twist and tilt of the indenter while the bodies are separated.
 
     A prescribed displacement has its value on the load ramp. Other displacements keep their last
     value.
@@ -130,9 +133,10 @@ def position(last: Any, ramp: LoadRamp, fraction: float) -> dict[str, Any]:
 
 
 def since_touch(ramp: LoadRamp, apart: Any) -> LoadRamp:
-    """Return a load ramp with shift, twist and bulk strain counted from their values at separation.
+    """Return a load ramp whose displacements are counted from their values at separation.
 
-    Used for a contact after a separation, which starts from the virgin state.
+    A contact after a separation starts without memory of earlier contacts. Its solve therefore
+    counts shift, twist and bulk strain from the separation.
 
     ramp   load ramp of the load step
     apart  results of the last increment without contact
@@ -160,7 +164,7 @@ def _counted(control: Any, motion: Any, *, from_zero: bool) -> Any:
 
 
 def continued(apart: Any, increment: Reported) -> Reported:
-    """Add the values at separation to the results of an increment in a later contact.
+    """Add the displacements and energies at separation to the results of a later contact.
 
     The solve of a later contact counts shift, twist, work and dissipation from the separation; the
     results count them from the start of the history.
@@ -184,8 +188,10 @@ def _added(first: Any, second: Any) -> Any:
 
 
 def _zero(value: Any) -> Any:
-    """Return the zero of the type of a value: number, array, pair or residuals; None for other
-    types."""
+    """Return the zero of the type of a reported value, for separated bodies.
+
+    The types are numbers, arrays, pairs and residuals. The result is None for other types.
+    """
     if isinstance(value, Residuals):
         return Residuals(**{name: _zero(size) for name, size in vars(value).items()})
     if isinstance(value, np.ndarray):

@@ -177,11 +177,12 @@ def _named(name: str) -> str:
 
 
 def _checked(values: NDArray[Any], name: str) -> ArrayFile:
-    """Check the shape and the type of an array of a scene, and copy its values to float64.
+    """Check shape and type of the array of a height map or friction map, and copy it to float64.
 
     The checks precede the copy, which allocates memory.
 
-    name  name of the file in the scene; empty for an array made in Python
+    values  array as read or as given in Python
+    name    name of the file in the scene; empty for an array made in Python
     """
     nx, ny = shape = values.shape if values.ndim == 2 else (0, 0)
     expected = ""

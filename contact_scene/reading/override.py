@@ -41,11 +41,14 @@ def override(document: dict[str, Any], assignment: str) -> Path:
 
 
 def assign(document: dict[str, Any], key: str, value: Any) -> None:
-    """Set one key of a scene document in place to a Python value.
+    """Set one key of a scene document, the nested tables of a scene file, to a Python value.
 
-    key  dotted key. Array entries count from 1: `loading[2].increments`
+    document  tables by their keys, changed in place
+    key       dotted key. Array entries count from 1: `loading[2].increments`
+    value     new value
 
-    Raises `SceneError` and leaves the document unchanged if there is no such key; see `override`.
+    Missing tables are created, missing array entries are not. Raises `SceneError` and leaves the
+    document unchanged if there is no such key.
     """
     path = _path(key)
     if not path:
@@ -55,10 +58,11 @@ def assign(document: dict[str, Any], key: str, value: Any) -> None:
 
 
 def _changed(holder: Any, path: Path, value: Any, problem: Problem) -> Any:
-    """Return a copy of a table, model or array with another value at a path.
+    """Return a copy of a part of a scene document, with another value at a path of keys.
 
     holder   table, model or array of a scene document
     path     keys and indices from `holder` to the value; missing tables are created
+    value    new value
     problem  template of the error for a path that does not exist
     """
     if not path:

@@ -61,7 +61,7 @@ class SceneError(Exception):
 
 
 def dotted(path: Path) -> str:
-    """Join the keys and indices of a path by dots, as in `loading[2].normal_force`.
+    """Convert the path of a key in a scene to text, as in `loading[2].normal_force`.
 
     path  keys, and array indices that count from 0; in the text they count from 1
     """

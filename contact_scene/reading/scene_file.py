@@ -71,8 +71,9 @@ def read_scene_file(path: str | PathLike[str], overrides: Iterable[str] = ()) ->
 def _placed(
     problem: Problem, file: str, lines: Mapping[Key, int], options: Mapping[Key, str]
 ) -> Problem:
-    """Return a problem of a scene with its place: file and line of its key, or the option that set
-    the key.
+    """Add the place of the mistake to a problem of a scene, for the error message.
+
+    The place is the file and the line of its key, or the command-line option that set the key.
 
     problem  problem without a place
     file     name of the scene file

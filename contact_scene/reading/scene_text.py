@@ -56,19 +56,20 @@ def shape_text(indenter: Body) -> str:
 
 
 def _texts(model: BaseModel) -> Iterator[Line]:
-    """Yield the name of each key of a table of the scene, and its value as text.
+    """Yield the name of each key of a table of the scene, with its value in a readable unit.
 
-    The text is empty for a key without a value.
+    The text of the value is empty for a key without a value.
     """
     for name, field in type(model).model_fields.items():
         yield name, _text(getattr(model, name), _unit(field))
 
 
 def _joined(model: BaseModel, left_out: Container[str] = ()) -> str:
-    """Join the keys of a table of the scene and their values to one text.
+    """Write a table of the scene as one text of keys and values, for the description of a scene.
 
     The shape of an indenter comes first, without its key. Keys without a value are left out.
 
+    model     table of the scene
     left_out  names of other keys to leave out
     """
     texts = {name: text for name, text in _texts(model) if text and name not in left_out}
@@ -95,7 +96,10 @@ def _text(value: object, unit: str = "") -> str:
 
 
 def _unit(field: FieldInfo) -> str:
-    """Return the SI unit of a key of the scene; empty for pure numbers and for other types."""
+    """Return the SI unit of a key of the scene, to write its value with a unit.
+
+    The result is empty for pure numbers and for values that are not quantities.
+    """
     unit = next(_units((*field.metadata, field.annotation)), "")
     return unit if unit != "1" else ""
 

@@ -158,13 +158,14 @@ def _tokens(document: str) -> Iterator[tuple[str, bool, int]]:
 def _opened(
     keys: list[str], is_entry: bool, line: int, lines: dict[Path, int], entries: dict[Path, int]
 ) -> Path:
-    """Record the line of a TOML header `[a.b]` or `[[a.b]]`; return the path of its table.
+    """Record the line of a TOML table header `[a.b]` or `[[a.b]]`, for error messages.
 
     keys      keys of the header
     is_entry  True for a header in double brackets, which adds an entry to an array of tables
     line      line of the header
     lines     line of each path, which is changed in place
     entries   number of entries so far of each array of tables, which is changed in place
+    returns   path of the table
     """
     table: Path = ()
     for depth, key in enumerate(keys, start=1):

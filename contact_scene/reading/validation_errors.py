@@ -152,8 +152,10 @@ _MODEL_IN_BRANCH: dict[str, type[BaseModel]] = {
 
 
 def _is_branch(part: str | int) -> bool:
-    """Determine if a part of a pydantic error location names a branch of a union instead of a
-    key."""
+    """Return true if a part of a pydantic error location names a member of a union of models.
+
+    Such a part is no key of the scene file and is left out of the message.
+    """
     return isinstance(part, str) and part.startswith("<")
 
 

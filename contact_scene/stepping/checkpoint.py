@@ -29,7 +29,7 @@ class ResumePoint(Generic[S]):
     last: Any = None
 
     def within(self, before: int, count: int) -> int:
-        """Return the number of increments of one load step that are completed at the resume point.
+        """Return the number of completed increments of one load step, from which a solve resumes.
 
         before  number of increments of all earlier load steps
         count   number of increments of the load step
@@ -71,14 +71,17 @@ def with_checkpoints(
     extent: Any,
     settled: Iterable[str] = (),
 ) -> Iterator[Any]:
-    """Yield the increments of a checkpoint, then new increments, and store a checkpoint after each.
+    """Yield the increments of a solve, and store a checkpoint after each for an interrupted run.
 
-    history   new increments with their resume points, see `resumable_increments`
+    The increments of the checkpoint from which the solve continues come first.
+
+    history   new increments with their resume points (position and states for the next increment)
     since     checkpoint from which the solve continues; None for a new solve
     store     storage of the checkpoints; None to store none
     progress  function called with each increment
     extent    size of the grid or mesh, for the checkpoints
-    settled   names for `Checkpoint.settled`, read after every increment
+    settled   names of computations for all increments whose work the counters contain already; read
+              after every increment
     """
     increments, fields = list[Any](), FieldStore()
     for increment in since.increments if since else ():

@@ -32,7 +32,11 @@ NEAR_GROSS_SLIP = 0.99
 def with_error(scene: Scene) -> tuple[bool, ...]:
     """Determine for each load step if its end state depends on the number of increments.
 
-    Returns False for the proved cases of this module, else True.
+    The result is False in three cases, which are proved:
+
+    - No shear has acted so far.
+    - A torsion of bodies of revolution under constant pressure, without any other shear.
+    - A straight push at constant pressure of two uncoated bodies of one material with ν = 0.
     """
     ramps = scene.load_path()
     return tuple(not _proved(scene, ramps[: number + 1]) for number in range(len(ramps)))
@@ -92,7 +96,11 @@ def _follows_force(ramp: LoadRamp) -> bool:
 
 
 def _similar(scene: Scene) -> bool:
-    """Determine if both bodies are without layers and have Poisson's ratio 0."""
+    """Return true if both bodies have no layers and Poisson's ratio 0.
+
+    The direction of slip of a straight push is then constant, which proves that its result does not
+    depend on the increments.
+    """
     materials = {body.material for body in (scene.body, scene.indenter)}
     layers = scene.body.layers or scene.indenter.layers
     return not layers and all(

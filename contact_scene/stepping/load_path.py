@@ -206,11 +206,13 @@ def _stretched(
 def _next(
     force: Value | None, displacement: Value | None, last: Control[Value], at_rest: bool
 ) -> Control[Value]:
-    """Determine the control of one coordinate in a load step.
+    """Determine the control of one coordinate of the indenter in a load step.
+
+    A control is a prescribed force or displacement that changes linearly. A coordinate without a
+    prescribed value keeps its last control.
 
     force, displacement  values that the load step prescribes; at most one of them is not None
-    last                 control of the coordinate in the preceding load step, which continues if
-                         both are None
+    last                 control of the coordinate in the preceding load step
     at_rest              True if force and displacement are both zero so far, so that the ramp
                          starts from 0
     """

@@ -37,7 +37,7 @@ class WordedCommand(TyperCommand):
 
 
 def _in_short(message: str) -> str:
-    """Shorten a message above `LONGEST` characters to its start and its end."""
+    """Shorten an error message above `LONGEST` characters to its start and its end."""
     left_out = len(message) - LONGEST
     if left_out <= 0:
         return message
@@ -46,9 +46,9 @@ def _in_short(message: str) -> str:
 
 
 def _in_our_words(error: typer.BadParameter) -> str:
-    """Return the message of an invalid option value, with pydantic's wording replaced.
+    """Return the message of an invalid option value in the wording of slipstick.
 
-    Messages that do not come from pydantic are unchanged.
+    Messages of the library pydantic are reworded; other messages are unchanged.
     """
     find: Any = getattr(error.__cause__, "errors", None)
     if find is None:

@@ -148,7 +148,10 @@ def _unknown_name(kind: str, name: str, known: Collection[str]) -> str:
 
 
 def _near(name: str, known: Collection[str]) -> list[str]:
-    """Return the most similar existing name; without a very similar one, up to three names."""
+    """Return existing names that are similar to a misspelt name, for an error message.
+
+    The most similar name is returned; without a very similar one, up to three names.
+    """
     spelt = {one.replace("-", "_"): one for one in known}
     name = name.replace("-", "_")
     found = get_close_matches(name, spelt, 1, ALMOST) or get_close_matches(name, spelt, 3, ALIKE)

@@ -119,8 +119,9 @@ def print_level(
 
 
 def solved_in(result: Result, seconds: float) -> Iterator[tuple[str, str]]:
-    """Yield two lines about a solve: tolerance with largest residual, and increments with time.
+    """Yield two lines about a finished solve: tolerance with residual, and increments with time.
 
+    result   result of the solve
     seconds  elapsed time [s]
     """
     worst = np.max([increment.worst_residual for increment in result.increments])
@@ -129,8 +130,9 @@ def solved_in(result: Result, seconds: float) -> Iterator[tuple[str, str]]:
 
 
 def how_stated(stated: StatedErrors, seconds: float | None) -> Iterator[tuple[str, str]]:
-    """Yield lines about an error estimate: its coarse solves, their time, and failed coarse solves.
+    """Yield lines about the coarse solves of an error estimate, their time and their failures.
 
+    stated   error estimates with the records of the coarse solves
     seconds  elapsed time of the coarse solves [s]; None if it was not measured
     """
     made = "; ".join(dict.fromkeys(solve.differs for solve in stated.coarse_solves))
@@ -142,9 +144,11 @@ def how_stated(stated: StatedErrors, seconds: float | None) -> Iterator[tuple[st
 
 
 def how_accurate(accuracy: AccuracyReached) -> Iterator[tuple[str, str]]:
-    """Yield lines about a requested accuracy: requested and reached error of each scalar.
+    """Yield lines about the requested and the reached error of each scalar of a run.
 
     The last lines state scalars that the request does not apply to, and the outcome.
+
+    accuracy  outcome of a run with a requested accuracy
     """
     for name, share in accuracy.asked.items():
         outcome = _request_text(share, accuracy.reached[name])
@@ -214,7 +218,7 @@ def run_shown(
 
 
 def how_it_ended(end: CaseEnd) -> str:
-    """Return the text of a case that is computed, already stored, or lost with its worker."""
+    """Return the outcome of a case as text: computed, already stored, or lost with its worker."""
     if end.lost is not None:
         return f"LOST           {end.case.name:24} {end.lost.reason}"
     return f"{'already there' if end.stored else 'done'}: {end.case.name}"

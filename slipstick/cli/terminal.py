@@ -22,7 +22,7 @@ def print_pairs(pairs: Iterable[tuple[str, str]]) -> None:
 
 
 def tell(text: str) -> None:
-    """Print a line to stderr, with control characters escaped."""
+    """Print a message to stderr in one line, with control characters escaped."""
     typer.echo(harmless(text), err=True)
 
 
@@ -69,11 +69,13 @@ def print_table(
 
 
 def _blocks(headings: Sequence[str], rows: Sequence[Sequence[str]], width: int) -> list[list[int]]:
-    """Divide the columns of a wide table into blocks that fit the width of the terminal.
+    """Divide the columns of a printed table into blocks that fit the width of the terminal.
 
     Returns the column indices of each block. Each block begins with the first column of the table.
 
-    width  width of the terminal in characters
+    headings  headings of the columns
+    rows      texts of the rows
+    width     width of the terminal in characters
     """
     lines = [
         [*heading.split("\n"), *(row[k] for row in rows)] for k, heading in enumerate(headings)

@@ -129,10 +129,14 @@ class OnCells(Solver):
 
 
 def _saving(scene: Scene, fineness: SurfaceDiscretisation, grid: SurfaceGrid, plan: Plan) -> Pairs:
-    """Yield the factor of convolutions that the plan saves by leaving out effects.
+    """Yield the reduction of the number of convolutions because the plan omits effects.
 
-    The factor is measured by two coarse solves of the first load steps: one with the planned
-    effects, one with all effects. A factor below `LEAST_SAVING` is not reported.
+    The convolutions dominate the cost of a solve. The ratio is measured by two coarse solves of the
+    first load steps: one with the planned effects, one with all effects. A ratio below
+    `LEAST_SAVING` is not reported.
+
+    grid  grid of the planned solve
+    plan  effects and increments of the planned solve
     """
     forced = all_effects(plan)
     if not any(was.on < now.on for was, now in zip(plan.effects, forced.effects, strict=True)):

@@ -104,7 +104,7 @@ class OnElements(Solver):
 
 
 def _method_text(method: Method, fineness: FiniteElementDiscretisation) -> str:
-    """Return the text of the contact method with its penalty parameters."""
+    """Return the text of the contact method of finite elements with its penalty parameters."""
     if method is Method.COMPLEMENTARITY:
         return "finite elements, complementarity: no penalty"
     return (
@@ -123,7 +123,13 @@ def _mesh_text(sections: Iterable[SectionMesh], fineness: FiniteElementDiscretis
 
 
 def _motions(plan: Plan, fineness: FiniteElementDiscretisation) -> int:
-    """Return the number of angular harmonics whose stiffness matrix is factorised."""
+    """Return the number of angular harmonics whose stiffness matrix a solve factorises.
+
+    The command `slipstick plan` prints the number of factorisations.
+
+    plan      solution path of the solve
+    fineness  settings with the number of harmonics
+    """
     if plan.path is Path.HARMONICS:
         return fineness.harmonics + 1
     return 2 if plan.path in (Path.TWISTING, Path.SHEARING) else 1

@@ -71,7 +71,7 @@ class OnRadii(Solver):
 
 
 def _rings_text(fineness: RadialDiscretisation, plan: Plan) -> str:
-    """Return the text of the number of rings and angles.
+    """Return the text of the numbers of rings and angles of the radial solver.
 
     Without friction, the rings are only points of output.
     """

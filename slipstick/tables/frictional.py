@@ -67,7 +67,9 @@ def pressed(place: tuple[float, ...], increments: int, fineness: int) -> Frictio
 
     Returns the state at the full normal force.
 
-    place       E1/E2, h/a_H, ν and µ, as in `scene`
+    place       E1/E2, h/a_H, ν and µ: modulus of the layer over that of the substrate, layer
+                thickness over Hertz's contact radius on the substrate, Poisson's ratio of both,
+                coefficient of friction
     increments  number of increments of the normal force
     fineness    factor of the number of rings
     """
@@ -81,10 +83,13 @@ def pressed(place: tuple[float, ...], increments: int, fineness: int) -> Frictio
 def scalars(place: Sequence[float], fineness: int) -> Found:
     """Compute contact radius, approach and stick radius of a frictional indentation.
 
-    Radius and approach are in Hertz units, and the stick radius is relative to the contact radius.
-    The additional uncertainty of the stick radius is the resolution of the rings.
+    Contact radius and approach are relative to those of Hertz's contact with the same force on the
+    bare substrate, and the stick radius is relative to the contact radius. The additional
+    uncertainty of the stick radius is the resolution of the rings.
 
-    place     E1/E2, h/a_H, ν and µ, as in `scene`
+    place     E1/E2, h/a_H, ν and µ: modulus of the layer over that of the substrate, layer
+              thickness over Hertz's contact radius on the substrate, Poisson's ratio of both,
+              coefficient of friction
     fineness  factor of the numbers of rings and increments
     """
     found = pressed(tuple(place), PATH_INCREMENTS * fineness, fineness)
@@ -94,13 +99,15 @@ def scalars(place: Sequence[float], fineness: int) -> Found:
 
 
 def tractions(place: Sequence[float], fineness: int) -> Found:
-    """Compute pressure p and q/µ, radial shear over friction, at a radius of an indentation.
+    """Compute pressure p and q/µ at one radius of a frictional indentation.
 
-    Tractions are in units of Hertz's pressure on the bare substrate. Near the stick radius, the
-    change of the tractions over a distance of `FRONT` contact radii is stated as additional
-    uncertainty.
+    Here q is the radial shear and µ the coefficient of friction. Tractions are in units of Hertz's
+    pressure on the bare substrate. Near the stick radius, the change of the tractions over a
+    distance of `FRONT` contact radii is stated as additional uncertainty.
 
-    place     E1/E2, h/a_H, ν and µ, as in `scene`, and the radius over the contact radius
+    place     E1/E2, h/a_H, ν, µ and x: modulus of the layer over that of the substrate, layer
+              thickness over Hertz's contact radius on the substrate, Poisson's ratio of both,
+              coefficient of friction, radius over the contact radius
     fineness  factor of the numbers of rings and increments
     """
     *contact, x = place
@@ -108,7 +115,7 @@ def tractions(place: Sequence[float], fineness: int) -> Found:
     end, friction = found.end, contact[-1]
 
     def both(at: float) -> tuple[float, float]:
-        """Compute pressure p and radial shear over friction, q/µ, at one radius.
+        """Compute the pressure p and the ratio q/µ of radial shear to friction coefficient.
 
         at  radius over the contact radius
         """

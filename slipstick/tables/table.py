@@ -37,7 +37,7 @@ class Axis:
 
 @dataclass(frozen=True)
 class Found:
-    """Computed quantities of one row of a table of reference numbers.
+    """Computed quantities of one row of a table of reference numbers, with their errors.
 
     values  quantities in the order of the table
     missed  relative difference of the computed normal force from the prescribed force

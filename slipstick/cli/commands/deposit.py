@@ -57,7 +57,7 @@ def datasets() -> Iterator[Dataset]:
 
 
 def _command(table: Table) -> Callable[[Mapping[str, Any]], str]:
-    """Return a function that writes the command line by which one row of a table is computed.
+    """Return a function that writes the command line of a table row, for its provenance.
 
     table  table of reference numbers
     """
@@ -69,9 +69,12 @@ def _command(table: Table) -> Callable[[Mapping[str, Any]], str]:
 def _traced(
     found: Dataset, method: str, command: Callable[[Mapping[str, Any]], str], digest: str
 ) -> Dataset:
-    """Add three columns to a table of reference numbers: method, command and digest of the sources.
+    """Add the provenance of each row to a table of reference numbers, in three columns.
+
+    The columns are the method, the command that computes the row, and the digest of the sources.
 
     found    table without these columns
+    method   method of the computation
     command  function that writes the command line of a row
     digest   digest of the sources that computed the rows
     """
@@ -82,7 +85,10 @@ def _traced(
 
 
 def recorded() -> Iterator[Dataset]:
-    """Yield two stored tables: the onset of gross slip, and the paths of changing loads."""
+    """Yield two reference tables of stored numbers, which are not computed again.
+
+    The tables are the onset of gross slip, and the paths of changing loads.
+    """
     onset = load_reference("gross_slip_onset")
     about = onset["about"]
     yield _traced(

@@ -60,7 +60,7 @@ def plan(
 
 
 def by_radii(scene: Scene) -> str | None:
-    """Return the kind of solution by which the radial solver can solve a scene.
+    """Describe in words by which solution method the radial solver can solve a scene.
 
     The result is None for a scene that the radial solver does not support.
     """

@@ -221,6 +221,10 @@ def _refuse_in_part(
     """Refuse a requested accuracy of the largest stress if only a part of the body is computed.
 
     Raises BadParameter for the indenter and for chosen depths.
+
+    request   requested accuracy, or None
+    indenter  value of the option `--indenter`
+    depths    values of the option `--depths`, or None
     """
     if request is None or not request.binds_stress:
         return
@@ -236,7 +240,9 @@ def _refuse_in_part(
 
 
 def _refuse_with_points(at: list[str] | None, given: dict[str, object]) -> None:
-    """Refuse options that exclude `--at`, and `--history` without `--at`; raises BadParameter.
+    """Refuse options that cannot be combined with `--at`, the stress at chosen points.
+
+    Raises BadParameter for such an option, and for `--history` without `--at`.
 
     at     arguments of `--at`, or None
     given  values of the excluded options by name
@@ -355,7 +361,12 @@ def _solved(
 def _refuse_beside_section(solver: SolverName, depths: list[float] | None, volume: bool) -> None:
     """Refuse `--depths` and `--volume` for solvers that compute the stress in one plane only.
 
-    Finite elements allow neither option. The radial solver does not allow `--volume`.
+    Finite elements allow neither option. The radial solver does not allow `--volume`. Raises
+    BadParameter.
+
+    solver  name of the solver
+    depths  values of the option `--depths`, or None
+    volume  value of the option `--volume`
     """
     if solver.is_fem and (depths is not None or volume):
         raise typer.BadParameter(
@@ -371,10 +382,11 @@ def _refuse_beside_section(solver: SolverName, depths: list[float] | None, volum
 def _below(
     state: LoadedBodies, depths: list[float] | None, *, indenter: bool, volume: bool
 ) -> StressField:
-    """Compute the stress field in a body below the contact.
+    """Compute the stress field in a body below the contact, for the command `slipstick stress`.
 
     Raises BadParameter for depths or a volume that the solver cannot compute.
 
+    state     bodies and surface tractions
     depths    depths of the field [length]; None for those of the solver
     indenter  true for the indenter, false for the lower body
     volume    true for the field in the volume as well

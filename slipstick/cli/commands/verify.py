@@ -195,7 +195,10 @@ def judged(
 
 
 def _verdict(end: CaseEnd) -> str:
-    """Return the line about a finished case: status, name, verdicts, solves and seconds."""
+    """Return the line that is printed when a case of the verification has ended.
+
+    The line states status, name, number of verdicts and solves, and seconds.
+    """
     if not isinstance(end.record, JudgedCase):
         return how_it_ended(end)
     outcome, seconds = end.record.outcome, f"{end.record.seconds:6.1f} s"
@@ -207,9 +210,9 @@ def _verdict(end: CaseEnd) -> str:
 
 
 def _left_out(problem: str) -> None:
-    """Print a warning about a stored study that the report omits.
+    """Print a warning about a stored study that the verification report omits.
 
-    problem  text about the record, which is damaged or of another version
+    problem  text about the record of the study, which is damaged or of another version
     """
     typer.echo(f"WARN {problem}: left out; use --studies for another folder", err=True)
 
