@@ -59,8 +59,7 @@ class Compared:
 
     @property
     def ours(self) -> float | None:
-        """Largest fraction of the difference from the measurement that the numerical error
-        explains.
+        """Largest fraction of the difference that the error of the computed number explains.
 
         The fraction is 1 if the error of the computed number exceeds the difference, and None if
         the error is unknown.

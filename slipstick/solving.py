@@ -35,17 +35,7 @@ def plan(
     scene: Scene | SceneFile,
     solver: Cells = "semi-analytical",
     discretisation: SurfaceDiscretisation | None = None,
-                           """Return the modelled effects of a solve with reasons, and the
-                           increments of each load step.
-
-                           Parameters ---------- scene : Scene or SceneFile Scene to solve. A
-                           SceneFile contains a discretisation as well. solver : str
-                           "semi-analytical", "fem", "fem-complementarity" or "radial".
-                           discretisation : SurfaceDiscretisation, FiniteElementDiscretisation or
-                           RadialDiscretisation Replaces that of the scene file.
-
-                           Raises ------ UnsupportedScene The solver does not support the scene.
-                           """
+) -> semi_analytical.Plan: ...
 
 
 @overload
@@ -71,7 +61,20 @@ def plan(
 ) -> Any:
     """Return the plan of a solve: modelled effects with reasons, and increments of each load step.
 
-    The parameters are those of `solve`. Raises UnsupportedScene.
+    Parameters
+    ----------
+    scene : Scene or SceneFile
+        Scene to solve. A SceneFile contains a discretisation as well.
+    solver : str
+        "semi-analytical"; "fem", finite elements with a penalty; "fem-complementarity", finite
+        elements without a penalty; or "radial", for bodies of revolution.
+    discretisation : SurfaceDiscretisation, FiniteElementDiscretisation or RadialDiscretisation
+        Replaces that of the scene file.
+
+    Raises
+    ------
+    UnsupportedScene
+        The solver does not support the scene.
     """
     chosen, solved, fineness = _resolved(scene, solver, discretisation)
     return chosen.plan(solved, fineness)

@@ -45,7 +45,7 @@ class SweptQuantity:
 
     @property
     def in_order(self) -> SweptQuantity:
-        """The quantity of a single sample in ascending order (n, 1), for a cumulative distribution."""
+        """Values of a single sample in ascending order (n, 1), for a cumulative distribution."""
         order = np.argsort(self.values)[:, None]
         return replace(self, values=self.values[order], errors=self.errors[order])
 
