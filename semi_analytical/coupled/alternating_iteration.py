@@ -165,8 +165,7 @@ def _solve_pressure(
 
 
 def _full_slip(problem: CoupledProblem, bound: Field, motion: Vector) -> TangentialSolution:
-    """Return the tangential solution of gross slip, with the shear at the friction limit along the
-    load.
+    """Return the tangential solution of gross slip: shear at the friction limit along the load.
 
     bound   friction limit µp (nx, ny)
     motion  rigid motion, returned where gross slip does not determine it
@@ -176,10 +175,13 @@ def _full_slip(problem: CoupledProblem, bound: Field, motion: Vector) -> Tangent
 
 
 class _AndersonMixing:
-    """Anderson mixing for the fixed-point iteration x -> x + factor r(x) of the pressure.
+    """Anderson mixing, which accelerates the fixed-point iteration of the pressure.
+
+    Without mixing the iteration is p -> p + factor r(p). The residual r is the pressure after one
+    alternating iteration minus the pressure before.
 
     load    normal load, which defines the admissible pressures
-    factor  damping factor of the residual r
+    factor  damping factor of the residual
     """
 
     def __init__(self, load: NormalLoad, factor: float = 1.0) -> None:
@@ -189,10 +191,10 @@ class _AndersonMixing:
         self._residuals: list[Field] = []
 
     def next(self, p: Field, answer: Field) -> Field:
-        """Compute the next admissible pressure from p and the value of its fixed-point map.
+        """Compute the next pressure of the alternating iteration by Anderson mixing.
 
         p       present pressure (nx, ny)
-        answer  value p + r of the fixed-point map at p (nx, ny)
+        answer  pressure after one alternating iteration from p (nx, ny)
         """
         r = answer - p
         self._points = [*self._points, p][-MAX_HISTORY:]

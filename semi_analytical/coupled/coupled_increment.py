@@ -117,7 +117,11 @@ def solve_coupled_increment(
 
 
 def _box_with_margin(cells: Mask, domain: ReducedDomain) -> Box:
-    """Return the smallest box around marked cells with a margin into which the contact may grow."""
+    """Return the smallest box around given cells, with a margin into which the contact may grow.
+
+    cells   cells that the box must contain (nx, ny), such as those under pressure
+    domain  domain of the cells
+    """
     nx, ny = (int(np.count_nonzero(np.any(cells, axis=axis))) for axis in (1, 0))
     widest = max(domain.window((nx, ny)))
     return box_around(cells, max(MARGIN, round(RELATIVE_MARGIN * widest)), domain)
@@ -182,7 +186,9 @@ def _problem(
 
 @dataclass(frozen=True)
 class _Trial:
-    """Solution of an increment in a box, whose residuals are evaluated on the whole domain.
+    """Solution of an increment in a box of cells, as a candidate for the state of the whole domain.
+
+    The residuals of the candidate are evaluated on the whole domain.
 
     last                tangential state at the start of the increment
     normal, tangential  prescribed loads

@@ -20,14 +20,21 @@ PATCHES = 40
 
 
 class Preconditioner(Protocol):
-    """Interface of an approximate inverse of the displacement operator; see
-    `ApproximateInverse`."""
+    """Interface of an approximate inverse of the displacement operator, from displacements to
+    tractions.
+
+    Krylov solvers use it as preconditioner. `ApproximateInverse` implements it.
+    """
 
     def __call__(self, displacements: NDArray[Any], /) -> NDArray[Any]: ...
 
     def yielding(self, compliance: float) -> "Preconditioner":
-        """Return the approximate inverse for bodies whose self-compliance is larger by
-        `compliance`."""
+        """Return the approximate inverse for surfaces with an additional compliance in each cell.
+
+        The proximal-point method adds this compliance.
+
+        compliance  additional displacement of a cell by its own unit traction [length^3/force]
+        """
 
 
 @dataclass(frozen=True)
@@ -82,10 +89,11 @@ class CoupledProblem:
         return 1 / (self.self_compliance * max(1.0, shortest / PATCHES))
 
     def yielding(self, compliance: float, tractions: Field) -> "CoupledProblem":
-        """Return the regularised problem of the proximal-point method.
+        """Return the coupled problem with an additional compliance, as a step of the proximal-point
+        method.
 
-        Its displacements are u + compliance * (t - tractions). Newton's method solves it and reads
-        `together` only.
+        Displacements become u + compliance * (t - tractions), with the tractions t. Newton's method
+        solves the new problem. Of the operators only `together` and its preconditioner are changed.
 
         compliance  additional displacement per traction [length^3/force]
         tractions   reference tractions (q_x, q_y, p) (3, nx, ny)
@@ -126,7 +134,7 @@ class CoupledSolution:
 
     @property
     def approach(self) -> float:
-        """Approach of the bodies at the origin in the solution of a coupled increment [length]."""
+        """Approach of the bodies at the origin [length]."""
         return float(np.ravel(self.closing)[0])
 
     @property

@@ -43,10 +43,10 @@ MAX_SLIP_COMPLIANCE = 1e6
 class Point:
     """Iterate of Newton's method for a coupled increment.
 
-    tractions      (q_x, q_y, p), shape (3, nx, ny) [force/length^2]
-    displacements  (u_x, u_y, u_z) by these tractions, shape (3, nx, ny) [length]
-    closure        reduction of the gap by the rigid normal motion [length]
-    motion         initial guess of the rigid tangential motion
+    tractions      shear and pressure (q_x, q_y, p), shape (3, nx, ny) [force/length^2]
+    displacements  surface displacements (u_x, u_y, u_z) by these tractions (3, nx, ny) [length]
+    closure        reduction of the gap by the rigid normal motion of the indenter [length]
+    motion         initial guess of the rigid tangential motion: shift, and twist under a torque
     """
 
     tractions: Tractions
@@ -57,22 +57,23 @@ class Point:
 
 @dataclass(frozen=True)
 class Natural:
-    """Value of the natural map of contact and friction at an iterate; fields (nx, ny), vectors (2,
-    nx, ny).
+    """Contact and friction conditions at an iterate (natural map); fields (nx, ny), vectors (2, nx,
+    ny).
 
-    The iterate is a solution if p = max(0, p - γ g) and q = P_b(z), see the module.
+    The iterate is a solution if p = max(0, p - γ g) and q = P_b(z). P_b is the projection of a
+    vector on the disc of radius b, and γ a stiffness [force/length^3].
 
     pressure        p [force/length^2]
     gap             g [length]
     bound           friction limit b of max(0, p)
-    z, length       q + γ (ω + c - u_t) and its magnitude
-    motion          rigid tangential motion ω, by the exact projection on the shears that carry the
-                    load
+    z, length       z = q + γ (ω + c - u_t) and its magnitude, with the displacement c that stick
+                    requires and the tangential displacement u_t
+    motion          rigid tangential motion ω, for which the projected shear carries the load
     contact         cells with p > γ g
     slip            cells in contact with |z| > b
     slipped         ω + c - u_t: slip of the indenter relative to the body [length]
     pressure_error  Σ|p - max(0, p - γ g)| / Σ|p|
-    shear_error     error of q = P_b(z), see `NaturalShear`
+    shear_error     Σ|q - P(z)| / Σb, with P the projection that also has the prescribed forces
     """
 
     pressure: Field
@@ -150,7 +151,11 @@ class Zones:
 
     @classmethod
     def of(cls, natural: Natural, problem: CoupledProblem) -> "Zones":
-        """Determine the zones of contact, stick and slip from the natural map at an iterate."""
+        """Determine the zones of contact, stick and slip of an iterate.
+
+        natural  contact and friction conditions at the iterate (natural map)
+        problem  coupled problem of the increment
+        """
         slip = np.flatnonzero(natural.slip)
         length, bound = natural.length.ravel()[slip], natural.bound.ravel()[slip]
         normal = natural.z.reshape(2, -1)[:, slip] / length
@@ -185,7 +190,7 @@ class Zones:
         return 2 * len(self._stuck) + len(self.slip) + len(self._pressed)
 
     def parts(self, vector: Vector) -> tuple[Vector, Vector, Vector]:
-        """Split a vector of free unknowns into views of its three parts.
+        """Split a vector of the free unknowns of the linear system into views of its three parts.
 
         The parts are the shear in the stick zone (2, cells), the shear across the slip in the slip
         zone (cells,) and the pressure in contact (cells,).
@@ -208,8 +213,11 @@ class Zones:
         return free
 
     def field(self, vector: Vector) -> Field:
-        """Extend the free unknowns of the zones by zeros to a field (3, nx, ny) with components
-        x, y, z."""
+        """Extend the free unknowns of the zones by zeros to a traction field (3, nx, ny).
+
+        vector  free unknowns: shear of sticking cells, shear across the slip of slipping cells,
+                pressure of cells in contact
+        """
         v = np.zeros((3, self.contact.size))
         stuck, along, pressed = self.parts(vector)
         for one, at_stick, tangent in zip(v[:2], stuck, self.tangent, strict=True):
@@ -218,19 +226,23 @@ class Zones:
         return v.reshape(3, *self.contact.shape)
 
     def fixed(self, v: Field) -> Vector:
-        """Restrict a field (3, nx, ny) to the fixed unknowns.
+        """Restrict a field (3, nx, ny) to the components that the linear system does not solve for.
 
-        These are the components along n of slipping cells and all components outside the contact.
+        These are the components along the slip direction in slipping cells and all components
+        outside the contact. The result is a vector.
         """
         v = v.reshape(3, -1)
         across = self.tangent[1] * v[0][self.slip] - self.tangent[0] * v[1][self.slip]
         return np.concatenate([across, *(one[self._apart] for one in v)])
 
     def whole(self, free: Vector, fixed: Vector) -> Field:
-        """Combine free and fixed unknowns into a field (3, nx, ny).
+        """Assemble a field (3, nx, ny) from its free and its fixed components in the zones.
 
-        free   free unknowns, as from `free`
-        fixed  fixed unknowns, as from `fixed`
+        Inverse of `free` and `fixed` together. Used for the displacement of a Newton step.
+
+        free   shear components and pressure, or displacements, that are free: vector as from `free`
+        fixed  components along the slip direction, and all outside the contact: vector as from
+               `fixed`
         """
         v = self._with_normal(self.field(free), fixed[: len(self.slip)]).reshape(3, -1)
         for one, apart in zip(v, fixed[len(self.slip) :].reshape(3, -1), strict=True):
@@ -260,10 +272,10 @@ class Zones:
         return t.reshape(3, *self.contact.shape)
 
     def nearest(self, tractions: Tractions, bound: Field) -> Tractions:
-        """Return tractions near the given ones that are admissible in the zones.
+        """Modify tractions so that they are admissible in the zones of contact, stick and slip.
 
-        Tractions are zero outside the contact. The shear along n of slipping cells is the friction
-        limit.
+        Tractions become zero outside the contact. The shear of slipping cells along the slip
+        direction becomes the friction limit.
 
         tractions  (q_x, q_y, p), shape (3, nx, ny)
         bound      friction limit b (nx, ny)
@@ -271,18 +283,22 @@ class Zones:
         return self._with_normal(self.field(self.free(tractions)), bound.ravel()[self.slip])
 
     def slip_terms(self, free: Vector) -> Vector:
-        """Compute the terms d s of the slip zone in the linear equations; the other rows are zero.
+        """Compute the terms d s of slipping cells in the rows of the linear system; other rows are
+        zero.
 
-        free  free unknowns
+        s is the shear across the slip direction and d the slip compliance [length^3/force].
+
+        free  free unknowns (size,)
         """
         rows = np.zeros_like(free)
         self.parts(rows)[1][:] = self.slip_compliance * self.parts(free)[1]
         return rows
 
     def changes(self, other: "Zones | None") -> int:
-        """Return the number of cells that have another zone (contact, stick, slip) than in `other`.
+        """Return the number of cells that are in another zone (contact, stick, slip) than in
+        another iterate.
 
-        All cells count if `other` is None.
+        other  zones of the other iterate; None counts all cells
         """
         if other is None:
             return self.contact.size

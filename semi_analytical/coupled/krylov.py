@@ -18,12 +18,12 @@ ROUND_OFF = 1e-14
 
 @dataclass(frozen=True)
 class LeastResidual:
-    """Solution of the linear system A v + E m = r of `least_residual`.
+    """Solution of the linear system A v + E m = r by GMRES.
 
-    solution    v
-    image       A v
-    extra       B v, summed from single-precision values
-    motion      m
+    solution    vector v
+    image       product A v
+    extra       product B v of another linear map B, summed from single-precision values
+    motion      coefficients m of the columns of E (rigid motions of the indenter)
     iterations  number of products with A
     """
 
@@ -42,12 +42,13 @@ def least_residual(
     depth: float,
     most: int,
 ) -> LeastResidual:
-    """Solve the linear system A v + E m = r for v and m by GMRES.
+    """Solve the linear system A v + E m = r for the vectors v and m by GMRES.
 
-    The solve ends when the residual is `depth` times the minimum over m at v = 0, or after `most`
+    Newton's method uses this function: v are changes of tractions, m changes of rigid motions. The
+    solve ends when the residual is `depth` times the minimum over m at v = 0, or after `most`
     iterations. The rounding does not depend on the number of threads (no matrix products).
 
-    apply  v -> A v and B v, another linear map of v to vectors of the size `extra`
+    apply  function v -> (A v, B v), with B another linear map, to vectors of the size `extra`
     right  r (n,)
     free   columns of E (k, n); they may be linearly dependent
     """

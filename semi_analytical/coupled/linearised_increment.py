@@ -28,11 +28,11 @@ UNDETERMINED = 1e-12
 
 @dataclass(frozen=True)
 class Step:
-    """Newton step of a coupled increment.
+    """Newton step of a coupled increment: changes of the iterate.
 
-    tractions, displacements  changes of tractions and displacements (3, nx, ny)
-    closure                   change of the closure of the gap by the rigid motion [length]
-    iterations                GMRES iterations
+    tractions, displacements  changes of tractions and surface displacements (3, nx, ny)
+    closure                   change of the closure of the gap by the rigid normal motion [length]
+    iterations                GMRES iterations of the linear solve
     """
 
     tractions: Tractions
@@ -82,8 +82,11 @@ class LinearisedIncrement:
         return np.array([*transferred]).reshape(-1, zones.size)
 
     def _free_units(self) -> Matrix:
-        """Restrict the unit rigid motions of prescribed force to the free unknowns (k,
-        unknowns)."""
+        """Restrict the unit rigid motions of prescribed force to the free unknowns (k, unknowns).
+
+        Rows are the shifts and the twist of the tangential load, then approach and tilts of the
+        normal load, as far as their forces are prescribed.
+        """
         zones, free = self._zones, []
         for parts, motions in ((slice(2), self._shifts), (slice(2, 3), self._closures)):
             for motion in motions:
@@ -93,8 +96,9 @@ class LinearisedIncrement:
         return np.array(free).reshape(len(free), zones.size)
 
     def admissible(self, tractions: Tractions) -> Tractions:
-        """Return admissible tractions near given ones: in the zones, within the friction limit,
-        under the load.
+        """Return admissible tractions near given tractions.
+
+        The result lies in the zones and within the friction limit, and has the prescribed forces.
 
         tractions  (q_x, q_y, p), shape (3, nx, ny)
         raises     NotConverged if the load reaches the friction limit

@@ -54,8 +54,12 @@ class NewtonIterate:
         self._increment: LinearisedIncrement | None = None
 
     def linearise(self) -> None:
-        """Linearise the problem in the zones of the iterate, and move to admissible tractions of
-        these zones."""
+        """Linearise the coupled problem in the zones of the iterate, and make the tractions
+        admissible.
+
+        The zones of contact, stick and slip follow from the natural map. The tractions become
+        admissible in these zones, and the natural map is evaluated again.
+        """
         problem, motion = self._problem, self.natural.motion
         zones = Zones.of(self.natural, problem)
         images = problem.domain.images
@@ -71,7 +75,8 @@ class NewtonIterate:
         self.natural = natural_map(problem, self.point)
 
     def step(self, depth: float) -> None:
-        """Take a Newton step with line search.
+        """Take a Newton step: solve the linear system in the present zones, then search along the
+        step.
 
         depth  reduction of the residual by the linear solve
         """
@@ -85,7 +90,9 @@ class NewtonIterate:
 
 
 def reached(problem: CoupledProblem, tractions: Tractions, motion: Vector) -> tuple[Point, Motion]:
-    """Return the iterate at given tractions, and the rigid normal motion that closes its gap.
+    """Compute displacements and rigid normal motion for given tractions of a coupled increment.
+
+    Return the iterate, and the rigid normal motion that closes its gap on average.
 
     tractions  (q_x, q_y, p), shape (3, nx, ny)
     motion     initial guess of the rigid tangential motion

@@ -30,7 +30,8 @@ Start = tuple[Field, VectorField]
 
 @dataclass(frozen=True)
 class Dilation:
-    """Geometric dilation of fields about a centre.
+    """Geometric dilation of fields about a centre, used to predict the tractions of a growing
+    contact.
 
     centre  centre in index coordinates (x, y)
     factor  ratio of lengths after and before the dilation
@@ -43,9 +44,12 @@ class Dilation:
 
     @classmethod
     def about(cls, pressure: Field, factor: float, domain: ReducedDomain = WINDOW) -> Dilation:
-        """Return the dilation about the centre of a pressure (nx, ny).
+        """Return the dilation about the centroid of a pressure (nx, ny).
 
         Along an axis with a mirror plane the centre lies on the plane.
+
+        pressure  pressure of the last state
+        factor    ratio of lengths after and before the dilation
         """
         lines = (np.sum(pressure, axis=1), np.sum(pressure, axis=0))
         x, y = (
@@ -80,12 +84,12 @@ class Dilation:
         return values
 
     def grown(self, p: Field, q: VectorField, load: float) -> Start:
-        """Dilate tractions p and q to a contact of larger or smaller normal force; return pressure
-        and shear.
+        """Predict pressure and shear of a contact that has grown or shrunk by this dilation.
 
-        The ratio q/p at a material point of the dilation is constant.
+        The square of the pressure is dilated, and the ratio q/p of a material point is constant.
+        Return pressure and shear.
 
-        p, q  pressure (nx, ny) and shear (2, nx, ny)
+        p, q  pressure (nx, ny) and shear (2, nx, ny) before
         load  ratio of the normal forces after and before
         """
         pressure, linear = np.sqrt(self(p * p)), self(p)

@@ -81,9 +81,11 @@ def solve_on_springs(
 
 
 def _proximal_step(problem: CoupledProblem, tractions: Tractions, motion: Vector) -> NewtonIterate:
-    """Solve a regularised increment approximately by Newton's method from its reference tractions.
+    """Solve the coupled increment with additional compliance approximately, by Newton's method.
 
-    tractions  reference tractions (q_x, q_y, p), shape (3, nx, ny)
+    problem    coupled problem with the additional compliance
+    tractions  reference and initial tractions (q_x, q_y, p), shape (3, nx, ny)
+    motion     initial guess of the rigid tangential motion
     raises     NotConverged
     """
     at = NewtonIterate(problem, tractions.copy(), motion)

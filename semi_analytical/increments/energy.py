@@ -69,10 +69,10 @@ class Configuration:
 
     @classmethod
     def at_rest(cls, gap: Field, after: Configuration) -> Configuration:
-        """Return the unloaded configuration before first touch, with fields shaped as those of
-        `after`.
+        """Return the unloaded configuration before first touch, in which all tractions are zero.
 
-        gap  undeformed gap (nx, ny) [length]
+        gap    undeformed gap (nx, ny) [length]
+        after  configuration whose shapes of fields are used
         """
         nothing, unsheared = np.zeros_like(gap), np.zeros_like(after.shear)
         return cls(
@@ -136,6 +136,8 @@ class Energy:
         return float(abs(work - elastic - dissipated - unresolved) / self.largest)
 
     def _terms(self) -> Vector | None:
+        """Return input work, elastic, dissipated and unresolved energy (4,); None where
+        undefined."""
         if self.input_work is None or self.dissipated is None or self.unresolved is None:
             return None
         return np.array([self.input_work, self.elastic, self.dissipated, self.unresolved])
@@ -191,10 +193,9 @@ def elastic_energy(state: Configuration, cell_area: float) -> float:
 def pressed_work(pressure: Field, displacement: Field) -> float:
     """Compute the integral ∫ p u_z over the contact area, divided by the cell area [force/length].
 
-    u_z is smooth at the edge of the contact. With its values at the cell centres, and the mean
-    pressure of each cell, Σ p (u_z - Δ²u_z/24) has an error of third order, with Δ² the sum of
-    second differences. The cell integral of a smooth p u_z adds Δ²u_z/24 p, and the gradients of p
-    and u_z contribute twice this amount with the opposite sign.
+    Half this integral times the cell area is the elastic energy of an edge-corrected pressure. The
+    sum Σ p (u_z - Δ²u_z/24) is used, with Δ² the sum of second differences. Its error is of third
+    order in the cell size, because p is the mean and u_z the central value of a cell.
 
     pressure      mean pressure of each cell (nx, ny), on the window
     displacement  u_z at the cell centres (nx, ny), on the window
@@ -207,12 +208,13 @@ def pressed_work(pressure: Field, displacement: Field) -> float:
 
 
 def unresolved_work(before: Configuration, after: Configuration, cell_area: float) -> float:
-    """Compute the unresolved work of one increment: the error of linear interpolation [force
+    """Compute the work of one increment that linear interpolation of the load path misses [force
     length].
 
-    The formula is ½ Σ (p₁ g₀ - p₀ g₁) Δ + Σ (κf - ½ (q₀ + q₁))·(s₁ - s₀) Δ, see the module. The
-    first sum is over cells where contact begins or ends. A gap within lasting contact is a residual
-    of the solution and belongs to the imbalance.
+    The formula is ½ Σ (p₁ g₀ - p₀ g₁) Δ + Σ (κf - ½ (q₀ + q₁))·(s₁ - s₀) Δ. Indices 0 and 1 denote
+    start and end of the increment, p pressure, g gap, q shear, f mean friction, κ contact fraction,
+    s slip and Δ the cell area. The first sum is over cells where contact begins or ends. A gap
+    within lasting contact is a residual of the solution and belongs to the imbalance.
     """
     p0, p1 = before.pressure, after.pressure
     begins, ends = (p0 == 0) & (p1 > 0), (p0 > 0) & (p1 == 0)
@@ -231,7 +233,8 @@ def unresolved_work(before: Configuration, after: Configuration, cell_area: floa
 def friction_changed(before: Configuration, after: Configuration, cell_area: float) -> float:
     """Compute the uncertainty of the energy dissipated in one increment [force length].
 
-    The formula is Σ |q₁ - q₀| κ|s₁ - s₀| Δ, with shear q, slip s and contact fraction κ.
+    The formula is Σ |q₁ - q₀| κ|s₁ - s₀| Δ. Indices 0 and 1 denote start and end of the increment,
+    q shear, s slip, κ contact fraction and Δ the cell area.
     """
     changed, slipped = after.shear - before.shear, after.slipped - before.slipped
     way = after.contact_fraction * np.hypot(*slipped)
@@ -239,10 +242,10 @@ def friction_changed(before: Configuration, after: Configuration, cell_area: flo
 
 
 def _work(before: Configuration, after: Configuration) -> float | None:
-    """Compute the work of forces and moments in one increment, Σ ½ (f₀ + f₁)(ω₁ - ω₀) [force
-    length].
+    """Compute the work of all prescribed forces and moments in one increment [force length].
 
-    None is returned where a motion is undefined.
+    The sum is Σ ½ (f₀ + f₁)(ω₁ - ω₀), with the forces and moments f and their conjugate rigid
+    motions ω at start (0) and end (1). None is returned where a motion is undefined.
     """
     if before.motions is None or after.motions is None:
         return None

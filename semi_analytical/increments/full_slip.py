@@ -71,9 +71,11 @@ def refuse_excessive_torque(model: ContactModel, bound: Field, load: TangentialT
 def at_limit(
     model: ContactModel, pressure: Field, last: TangentialState, load: TangentialTarget
 ) -> TangentialState:
-    """Return the tangential state of force control at the friction limit.
+    """Return the tangential state in which a prescribed tangential force reaches the friction
+    limit.
 
-    The shear is µp in the direction of the force. The tangential shift is undefined (None).
+    The shear is µp in the direction of the force in all cells. The tangential shift is undefined
+    (None), because the indenter could slide any distance.
 
     pressure  p (nx, ny) [force/length^2]
     last      tangential state of the previous increment

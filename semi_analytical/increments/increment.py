@@ -95,10 +95,13 @@ def moment_of(model: ContactModel, pressure: Field) -> Pair:
 
 
 def reached_moment(model: ContactModel, target: NormalTarget, pressure: Field) -> Pair | None:
-    """Return the moment of a solved state: the prescribed one, else that of the pressure [force
-    length].
+    """Return the moment (M_x, M_y) on the indenter in a solved state [force length].
 
-    None is returned if the indenter does not tilt.
+    The result is the prescribed moment, or else the moment of the pressure. None is returned if the
+    indenter does not tilt.
+
+    target    prescribed normal load, with moment or tilt
+    pressure  p (nx, ny) [force/length^2]
     """
     if target.moment is None and target.tilt is None:
         return None

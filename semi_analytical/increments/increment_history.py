@@ -41,10 +41,11 @@ class PreviousIncrement:
 def further(
     now: PreviousIncrement, behind: PreviousIncrement | None, tangential: TangentialTarget
 ) -> float:
-    """Compute the ratio of the next increment of the tangential load to the last one.
+    """Compute the ratio of the next increment of the tangential load to the last increment.
 
-    The result is 0 where no extrapolation applies: the direction of the load or the normal load
-    changes, the ratio exceeds FURTHEST, or torsion acts.
+    The predictor extrapolates shear and displacement by this ratio. The result is 0 where no
+    extrapolation applies: the direction of the load or the normal load changes, the ratio exceeds
+    FURTHEST, or torsion acts.
 
     now         data of the last converged state
     behind      data of the state before `now`; None if unknown
@@ -67,11 +68,14 @@ def further(
 def further_shear(
     now: PreviousIncrement, behind: PreviousIncrement | None, tangential: TangentialTarget
 ) -> Point:
-    """Extrapolate shear and tangential displacement linearly to the tangential load of the next
-    increment.
+    """Extrapolate shear and tangential displacement linearly to the next tangential load.
 
-    Without valid extrapolation the last shear and displacement are returned. Arguments as for
-    `further`.
+    The result is an initial guess for the next increment. Without valid extrapolation it is the
+    last shear and displacement.
+
+    now         data of the last converged state
+    behind      data of the state before `now`; None if unknown
+    tangential  tangential load of the next increment
     """
     ratio = further(now, behind, tangential)
     if behind is None or ratio == 0:

@@ -90,13 +90,19 @@ class NormalTarget:
         return model.gap - plane(model, self.tilt) - self._first_touch(model)
 
     def _first_touch(self, model: ContactModel) -> float:
-        """Return the approach at which the tilted indenter first touches a cell [length]; 0
-        without tilt."""
+        """Return the approach at which the indenter, tilted as prescribed, first touches a cell
+        [length].
+
+        The result is 0 without prescribed tilt.
+        """
         return 0.0 if self.tilt is None else float(np.min(model.gap - plane(model, self.tilt)))
 
     def on(self, model: ContactModel, box: Box) -> NormalLoad:
-        """Return the load object for the normal solver on a box of cells, relative to
-        `NormalTarget.gap`."""
+        """Convert the prescribed normal load to a load object of the normal solver, on a box of
+        cells.
+
+        Its approach counts from first touch, as `NormalTarget.gap` does.
+        """
         total = None if self.force is None else self.force / model.grid.cell_area
         if self.moment is not None:
             from semi_analytical.normal.tilting import PressureMoments
@@ -192,16 +198,17 @@ def rough_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
     """Return an initial guess of the pressure (nx, ny) for the coupled problem, and the iterations
     spent.
 
-    The guess is that of `nested_start`. Without a coarser grid it is the solution on the model's
-    own grid at the loose COARSE_TOLERANCE.
+    The guess is the frictionless pressure, solved on successively finer grids. Without a coarser
+    grid the guess is the solution on the model's own grid at the loose COARSE_TOLERANCE.
     """
     return _rough(model, target) if model.coarse is None else nested_start(model, target)
 
 
 def _rough(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
-    """Solve the normal problem on the model's own grid to COARSE_TOLERANCE.
+    """Solve the frictionless normal problem on the model's own grid at the loose COARSE_TOLERANCE.
 
-    Return the pressure (nx, ny) and the iterations.
+    Return the pressure (nx, ny) and the number of iterations. The pressure is an initial guess for
+    a finer grid or for the coupled problem.
     """
     start, iterations = nested_start(model, target)
     gap = target.gap(model)
@@ -218,7 +225,7 @@ def _rough(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
 
 
 def _on_half_cells(pressure: Field) -> Field:
-    """Interpolate a pressure (nx, ny) to cells of half the side (2 nx, 2 ny).
+    """Interpolate a pressure (nx, ny) from a coarse grid to the next finer grid (2 nx, 2 ny).
 
     Parabolas interpolate the square of the pressure, which has a finite slope at the contact edge.
     The contact area does not change.
@@ -228,7 +235,10 @@ def _on_half_cells(pressure: Field) -> Field:
 
 
 def _halves(values: Field) -> Field:
-    """Interpolate cell values (n, …) to the centres of half cells along the first axis (2 n, …)."""
+    """Interpolate cell values to cells of half the width along the first axis, by parabolas.
+
+    values  cell values (n, …); the result has the shape (2 n, …)
+    """
     continued = np.concatenate([values[:1], values, values[-1:]])
     before, after = continued[:-2], continued[2:]
     bend, slope = (before + after - 2 * values) / 32, (after - before) / 8
@@ -238,8 +248,8 @@ def _halves(values: Field) -> Field:
 
 
 def _touches(model: ContactModel, target: NormalTarget) -> bool:
-    """Return True if the prescribed normal load brings a cell into contact, see
-    `NormalLoad.touches`."""
+    """Return True if the prescribed normal load brings at least one cell of the grid into
+    contact."""
     gap = target.gap(model)
     load = target.on(model, Box.whole(gap.shape))
     return load.touches(gap)
@@ -279,11 +289,8 @@ def refuse_unresolved_contact(model: ContactModel, target: NormalTarget) -> None
 
 
 def _lower(model: ContactModel) -> str:
-    """Return the sentence of an error message that states the remedy for a contact that begins at
-    the window
-
-    border.
-    """
+    """Return the remedy, as text of an error message, for a contact that begins at the window
+    border."""
     if model.scene.indenter.extent is None:
         return _wider(model)
     return (
@@ -293,8 +300,7 @@ def _lower(model: ContactModel) -> str:
 
 
 def _wider(model: ContactModel) -> str:
-    """Return the sentence of an error message that states the remedy for a window that is too
-    small."""
+    """Return the remedy, as text of an error message, for a window that is too small."""
     if model.scene.indenter.extent is not None:
         return "Use a height map and a window that are larger than the contact"
     if model.scene.friction is not None and model.scene.friction.extent is not None:

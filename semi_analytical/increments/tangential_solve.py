@@ -46,7 +46,7 @@ class TangentialTarget:
         domain: ReducedDomain = WINDOW,
         spring: float = 0.0,
     ) -> TangentialLoad:
-        """Return the load object for the tangential solver on cells of this area.
+        """Convert the prescribed tangential load to a load object of the tangential solver.
 
         cell_area  area of a cell and its mirror images [length^2]
         rotation   (-y, x) of the cells (2, nx, ny) [length]; None without torsion

@@ -70,7 +70,10 @@ class TangentialState:
 
 
 def untouched(cells: tuple[int, int]) -> TangentialState:
-    """Return the tangential state before first touch: no shear, no shift, no slip."""
+    """Return the tangential state before first touch: no shear, no shift, no slip.
+
+    cells  number of cells of the domain along x and y
+    """
     nothing = np.zeros((2, *cells))
     return TangentialState(
         shear=nothing,
@@ -91,7 +94,7 @@ def untouched(cells: tuple[int, int]) -> TangentialState:
 
 
 def rigid(model: ContactModel, motion: Vector) -> VectorField:
-    """Compute the tangential displacement of the surface points by a rigid motion of the indenter
+    """Compute the displacement of the indenter's surface points by its rigid tangential motion
     [length].
 
     The result broadcasts with (2, nx, ny).
@@ -147,10 +150,12 @@ def strain_moments(model: ContactModel, q: VectorField) -> Vector:
 
 
 def first_motion(last: TangentialState, load: TangentialTarget) -> Vector:
-    """Return the rigid tangential motion of the previous state, as an initial guess of the next
-    one.
+    """Return the initial guess of the rigid tangential motion: the motion of the previous state.
 
-    The twist is included if a torque is prescribed.
+    The result is the shift (2,), or shift and twist (3,) if a torque is prescribed.
+
+    last  tangential state at the start of the increment
+    load  prescribed tangential load
     """
     assert last.shift is not None
     if load.torque is None:
@@ -222,8 +227,15 @@ def _new_contact_fraction(less: Field, more: Field, changes: Mask) -> Field:
 
 
 def _at_nearest(values: Field, known: Mask, wanted: Mask) -> Field:
-    """Return for each wanted cell the mean of `values` over the nearest known cells, shape
-    (wanted,)."""
+    """Return for each wanted cell the mean of a field over the nearest cells where the field is
+    known.
+
+    Equally near cells have equal weight. The result has the shape (number of wanted cells,).
+
+    values  field (nx, ny), such as the growth of p² in an increment
+    known   cells with a value (nx, ny)
+    wanted  cells that need a value (nx, ny)
+    """
     from scipy.spatial import KDTree  # as long to import as a small contact takes
 
     tree = KDTree(np.argwhere(known))

@@ -30,28 +30,36 @@ class TangentialLoad(Protocol):
     """
 
     def rigid(self, motion: Vector) -> VectorField:
-        """Compute the tangential displacement by a rigid motion, which broadcasts with (2, nx, ny)
-        [length].
+        """Compute the displacement of the indenter's surface points by a rigid tangential motion.
 
-        By default the motion is a shift.
+        The result [length] broadcasts with (2, nx, ny). By default the motion is a shift.
+
+        motion  shift (2,) [length], or shift and twist (3,)
         """
         return everywhere(motion)
 
     def nearest(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
-        """Project y + γ rigid(motion) on the admissible shears; return the shear and the free rigid
-        motion.
+        """Project a trial shear on the admissible shears, and find the rigid motion of the
+        indenter.
 
-        y       shear (2, nx, ny) [force/length^2]
+        A shear is admissible if |q| <= bound in all cells and its forces have the prescribed
+        values. The projected shear is y + γ rigid(motion). The motion is chosen so that the
+        projection has the prescribed forces. Return the admissible shear and this motion.
+
+        y       trial shear without the rigid motion (2, nx, ny) [force/length^2]
         bound   friction limit µp (nx, ny)
         gamma   γ, traction per displacement [force/length^3]
         motion  initial guess of the free components of the rigid motion
         """
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """Project a shear q (2, nx, ny) on the shears that satisfy the friction limit and the
-        prescribed forces."""
+        """Project a shear on the shears within the friction limit that have the prescribed forces.
+
+        q      shear (2, nx, ny) [force/length^2]
+        bound  friction limit µp (nx, ny)
+        """
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[VectorField, ...]:
         """Return the unit rigid motions whose conjugate forces are prescribed, as fields (2, nx,
@@ -60,22 +68,28 @@ class TangentialLoad(Protocol):
 
     @property
     def given(self) -> Vector:
-        """Prescribed forces divided by the cell area, in the order of the free motions."""
+        """Prescribed tangential forces and torque, divided by the cell area.
+
+        The order is that of `free_motions`: one force per rigid motion that is free.
+        """
         return np.zeros(0)
 
     def forces(self, q: VectorField) -> Vector:
-        """Compute the forces of a shear that are conjugate to the free motions, divided by the
-        cell area."""
+        """Compute the forces and the torque of a shear (2, nx, ny), divided by the cell area.
+
+        The result has one entry per rigid motion of `free_motions`, conjugate to this motion.
+        """
         return np.zeros(0)
 
     def exhausts(self, bound: Field) -> bool:
-        """Return True if the load is at or above the friction limit, which may be zero.
+        """Return True if the prescribed load reaches or exceeds the friction limit, so that all
+        cells slip.
 
-        bound  friction limit µp (nx, ny)
+        bound  friction limit µp (nx, ny); may be zero everywhere
         """
 
     def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
-        """Return the shear (2, nx, ny) and the rigid motion in gross slip.
+        """Return the shear (2, nx, ny) and the rigid motion of the indenter in gross slip.
 
         bound   friction limit µp (nx, ny)
         motion  rigid motion that is returned where gross slip does not determine it
@@ -98,14 +112,15 @@ class ShearSum(TangentialLoad):
     def nearest(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
-        """Project y + γ shift on the shears with the prescribed sum; return the shear and the
-        shift.
+        """Project a trial shear on the shears with the prescribed tangential force.
 
-        The multiplier of the sum is γ times the shift.
+        The projected shear is y + γ shift, within |q| <= bound. The shift is chosen so that the sum
+        of the projection is the prescribed sum. Return the projected shear and the shift.
 
-        y       shear (2, nx, ny)
+        y       trial shear without the shift (2, nx, ny) [force/length^2]
         bound   friction limit µp (nx, ny)
-        motion  initial guess of the shift (2,)
+        gamma   γ, traction per displacement [force/length^3]
+        motion  initial guess of the shift (2,) [length]
         """
         q, multiplier = project(y, bound, self.total, gamma * motion, self.summed)
         return q, multiplier / gamma
@@ -115,16 +130,19 @@ class ShearSum(TangentialLoad):
         return project(q, bound, self.total, summed=self.summed)[0]
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[VectorField, ...]:
-        """Return the unit shifts along the components with a resultant, as fields (2, nx, ny)."""
+        """Return unit shifts of the indenter along the components with a resultant, as fields (2,
+        nx, ny)."""
         return tuple(np.broadcast_to(everywhere(e), shape) for e in np.eye(2)[list(self.summed)])
 
     @property
     def given(self) -> Vector:
-        """Prescribed sum of the shear, along the components with a resultant."""
+        """Prescribed sum of the shear over the cells, for the components x and y with a
+        resultant."""
         return self.total[list(self.summed)]
 
     def forces(self, q: VectorField) -> Vector:
-        """Compute the sum of a shear over the cells, along the components with a resultant."""
+        """Compute the sum of a shear (2, nx, ny) over the cells, for the components with a
+        resultant."""
         return np.array([np.sum(one) for one, summed in zip(q, self.summed, strict=True) if summed])
 
     def exhausts(self, bound: Field) -> bool:
@@ -154,8 +172,15 @@ class FixedShift(TangentialLoad):
     def nearest(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
-        """Project y + γ shift on the friction discs cell by cell; return the shear and the
-        prescribed shift."""
+        """Project the trial shear y + γ shift on the friction discs |q| <= bound, cell by cell.
+
+        Return the projected shear and the prescribed shift.
+
+        y       trial shear without the shift (2, nx, ny) [force/length^2]
+        bound   friction limit µp (nx, ny)
+        gamma   γ, traction per displacement [force/length^3]
+        motion  not used, because the shift is prescribed
+        """
         return project_on_discs(y + everywhere(gamma * self.shift), bound), self.shift
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
@@ -163,7 +188,8 @@ class FixedShift(TangentialLoad):
         return project_on_discs(q, bound)
 
     def exhausts(self, bound: Field) -> bool:
-        """Return True if the friction limit is zero in all cells."""
+        """Return True if friction is zero in all cells: a prescribed shift causes gross slip only
+        then."""
         return not np.any(bound)
 
     def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
@@ -177,13 +203,13 @@ class SprungShift(FixedShift):
     """Displacement control through a spring of the test rig: the shift of the actuator is
     prescribed.
 
-    The spring is part of the compliance. `nearest` uses the spring force after the step: with the
-    force before the step, a soft spring would convert every change of the shift into slip of all
-    cells. The motion is that of the contact.
+    The shift of the contact is the shift of the actuator minus the extension of the spring.
+    `nearest` uses the spring force after the step. With the force before the step, a soft spring
+    would convert every change of the shift into slip of all cells.
 
     shift       shift of the actuator (2,) [length]
-    compliance  displacement of the spring per sum of the shear [length^3/force]
-    summed      see `ShearSum`
+    compliance  extension of the spring per sum of the shear over the cells [length^3/force]
+    summed      True for the components x and y with a resultant; the sum of the others is zero
     """
 
     compliance: float
@@ -197,10 +223,17 @@ class SprungShift(FixedShift):
     def nearest(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
-        """Project y + λ such that Σq + λ/(γc) = δ/c, with the actuator shift δ and the spring
-        compliance c.
+        """Project a trial shear on the shears that are in equilibrium with the spring of the test
+        rig.
 
-        Return the shear q and λ/γ, the motion of the contact.
+        The projected shear is q = P(y + λ), with P the projection on |q| <= bound and λ = γ times
+        the shift of the contact. Equilibrium requires Σq + λ/(γ c) = δ/c, with the actuator shift δ
+        and the spring compliance c. Return q and λ/γ, the shift of the contact.
+
+        y       trial shear without the shift (2, nx, ny) [force/length^2]
+        bound   friction limit µp (nx, ny)
+        gamma   γ, traction per displacement [force/length^3]
+        motion  initial guess of the shift of the contact (2,) [length]
         """
         c = self.compliance
         total = self.shift * self.summed / c
@@ -209,10 +242,14 @@ class SprungShift(FixedShift):
         return q, multiplier / gamma
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """Project a shear on the friction discs with its sum preserved, if friction can carry the
-        sum.
+        """Project a shear on the friction discs |q| <= bound, and preserve its sum if friction can
+        carry it.
 
-        With a soft spring a change of the sum would be a large motion.
+        The preserved sum keeps the extension of the spring. With a soft spring a change of the sum
+        would mean a large change of the shift.
+
+        q      shear (2, nx, ny) [force/length^2]
+        bound  friction limit µp (nx, ny)
         """
         total = np.sum(q, axis=(1, 2)) * self.summed
         if np.hypot(*total) >= np.sum(bound) * (1 - AT_LIMIT):
@@ -280,13 +317,17 @@ def magnitude(v: VectorField) -> Field:
 
 
 def everywhere(v: Vector) -> VectorField:
-    """Return a vector (2,) as a uniform vector field that broadcasts with (2, nx, ny)."""
+    """Reshape a vector (2,) to a uniform vector field (2, 1, 1), which broadcasts with (2, nx,
+    ny)."""
     return v[:, None, None]
 
 
 def project_on_discs(y: VectorField, bound: Field) -> VectorField:
-    """Project a shear y (2, nx, ny) on |q| <= bound, cell by cell.
+    """Project a shear on the friction discs |q| <= bound, cell by cell.
 
+    A shear above the friction limit is scaled to this limit. Its direction is preserved.
+
+    y      shear (2, nx, ny) [force/length^2]
     bound  friction limit µp (nx, ny)
     """
     length = magnitude(y)
@@ -301,15 +342,18 @@ def project(
     summed: tuple[bool, bool] = (True, True),
     stiffness: float = 0.0,
 ) -> tuple[VectorField, Vector]:
-    """Project a shear on the set |q| <= bound, Σq = total; return the shear and the multiplier λ of
-    the sum.
+    """Project a shear on the shears with |q| <= bound in all cells and a prescribed sum over the
+    cells.
+
+    The result is q = P(y + λ), with P the projection on |q| <= bound. The multiplier λ of the sum
+    is a uniform traction (2,). Return q and λ.
 
     y          any shear (2, nx, ny)
     bound      friction limit µp (nx, ny); |total| must be less than its sum
     total      prescribed sum of the shear (2,)
     guess      initial guess of λ (2,)
     summed     components with a prescribed sum; λ is zero along the others
-    stiffness  stiffness of a spring, over γ: Σq + stiffness λ = total
+    stiffness  stiffness of a test rig's spring, over γ: the sum then obeys Σq + stiffness λ = total
     """
     if guess is None:
         open_cells = bound > 0
@@ -345,7 +389,10 @@ class ProjectedShear:
         self.capacity = float(np.sum(bound))
 
     def settled(self, multiplier: Vector) -> bool:
-        """Return True if the defect of the prescribed forces is at the level of rounding errors.
+        """Return True if the forces of the projected shear equal the prescribed ones up to rounding
+        errors.
+
+        The Newton iteration for the multiplier stops then.
 
         multiplier  multiplier for which the projection was computed
         """
@@ -356,17 +403,19 @@ class ProjectedShear:
 
     @property
     def radial(self) -> Field:
-        """Weight w of the derivative of the projected shear, which is scale - w z z (...).
+        """Weight w (…) of the radial part of the derivative of the projection z -> q in each cell.
 
-        The weight is zero in cells where |z| is within the friction limit.
+        The derivative is the matrix scale - w z zᵀ. The weight is zero where |z| is within the
+        friction limit, because q = z there.
         """
         return np.where(self.outside, self.scale / np.where(self.outside, self.length**2, 1.0), 0.0)
 
 
 class _ShiftedSum(ProjectedShear):
-    """Projection of y + λ on the friction discs, with the defect Σq + stiffness λ - total.
+    """Projection of y + λ on the friction discs |q| <= bound, for one value of the multiplier λ.
 
-    The defect is zero along components without a prescribed sum. Arguments as for `project`.
+    The defect is Σq + stiffness λ - total, with the prescribed sum `total`. It is zero along
+    components without a prescribed sum. `project` solves for the λ with zero defect.
     """
 
     def __init__(

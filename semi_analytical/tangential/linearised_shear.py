@@ -23,7 +23,7 @@ UNDETERMINED = 1e-12
 
 
 class Point(NamedTuple):
-    """Iterate of the tangential problem.
+    """Iterate of the tangential problem: a shear and the displacement that it causes.
 
     shear         q (2, nx, ny) [force/length^2]
     displacement  tangential displacement by the shear (2, nx, ny) [length]
@@ -82,13 +82,15 @@ class LinearisedShear:
         return self._load.admissible(near, bound)
 
     def solved(self, base: Point, slipped: VectorField, depth: float) -> tuple[Point, int]:
-        """Solve the linearised tangential problem by preconditioned conjugate gradients.
+        """Solve the tangential problem in fixed stick and slip zones by preconditioned conjugate
+        gradients.
 
-        Return the solution and the number of iterations. Iterations stop when the norm of the
-        residual at the start has fallen by the factor `depth`.
+        Return the solution and the number of iterations. The iteration stops when the norm of the
+        residual has fallen by the factor `depth`.
 
-        base     starting point
-        slipped  slip ω + c - u at the starting point (2, nx, ny) [length]
+        base     starting point: shear and its displacement
+        slipped  slip at the starting point (2, nx, ny) [length]: rigid motion plus the displacement
+                 that stick requires minus the actual displacement
         """
         zones = self._zones
         q, u = base.shear.copy(), base.displacement.copy()
@@ -117,10 +119,13 @@ class LinearisedShear:
         return free
 
     def _carry(self, forces: Field, free: VectorField) -> None:
-        """Add carrier shears with the given forces to a free shear, in place.
+        """Add a combination of carrier shears to a shear in place, so that its forces change as
+        required.
 
-        forces  forces to be added (k,), divided by the cell area
-        free    shear of the free components (2, nx, ny)
+        Carriers are the shears that correct the prescribed forces in the present zones.
+
+        forces  required change of the forces (k,), divided by the cell area
+        free    shear that is changed (2, nx, ny)
         """
         for share, carrier in zip(self._shares @ forces, self.carriers, strict=True):
             free += share * carrier

@@ -26,11 +26,16 @@ STIFFEST = 1e6
 
 
 class ShearZones:
-    """Stick and slip zones at a point z of the natural map.
+    """Stick and slip zones of one iterate of the tangential problem, with the slip direction per
+    cell.
+
+    The zones follow from z = q + γ slip, with the shear q and a stiffness γ: cells with |z| above
+    the friction limit µp slip.
 
     slip             slipping cells (nx, ny)
     sliding_shear    µp n in slipping cells, n the direction of slip (2, nx, ny) [force/length^2]
-    slip_compliance  compliance d of slipping cells (nx, ny) [length^3/force]
+    slip_compliance  additional compliance d of slipping cells perpendicular to the slip (nx, ny)
+                     [length^3/force]
     """
 
     def __init__(self, z: VectorField, bound: Field, self_compliance: float) -> None:
@@ -52,10 +57,11 @@ class ShearZones:
         self._xy = self._tangent[0] * self._tangent[1]
 
     def free(self, v: VectorField) -> VectorField:
-        """Project a vector field v (2, nx, ny) on the free shears: both components where cells
-        stick.
+        """Restrict a vector field (2, nx, ny) to the components in which the shear is free to
+        change.
 
-        In slipping cells only the component perpendicular to the slip remains, elsewhere nothing.
+        Both components remain in sticking cells, the component perpendicular to the slip in
+        slipping cells. All others become zero.
         """
         across = self._xy * v
         free = np.empty_like(across)
@@ -65,7 +71,7 @@ class ShearZones:
         return free
 
     def same(self, other: "ShearZones | None") -> bool:
-        """Return True if another point has the same slip zone."""
+        """Return True if another iterate has the same slip zone; None counts as different."""
         return other is not None and np.array_equal(self.slip, other.slip)
 
     @cached_property

@@ -45,13 +45,14 @@ REDUCTION, SAME_POINT = 0.5, 2.0
 
 @dataclass(frozen=True)
 class TangentialSolution:
-    """Solution of the tangential problem of one increment.
+    """Solution of the tangential problem of one increment at a given pressure.
 
-    shear, displacement  shear and its tangential displacement, each (2, nx, ny)
-    motion               rigid motion of the load
+    shear, displacement  shear [force/length^2] and its tangential displacement [length], (2, nx,
+                         ny)
+    motion               rigid tangential motion of the indenter: shift, and twist under a torque
     in_slip              slipping cells (nx, ny)
-    residual             larger residual of natural map and slip direction
-    iterations           iterations of the linear solves
+    residual             larger of the two residuals: friction law (natural map) and slip direction
+    iterations           number of conjugate-gradient iterations of all linear solves
     """
 
     shear: VectorField
@@ -76,10 +77,10 @@ class _Problem:
     self_compliance: float
 
     def natural(self, point: Point, motion: Vector) -> NaturalShear:
-        """Evaluate the natural map q -> P(q + γ (ω + c - u)), whose fixed points solve the
-        tangential problem.
+        """Evaluate the natural map of the friction law at an iterate of the tangential problem.
 
-        P is the projection on the admissible shears, ω the rigid motion, c the displacement that
+        The natural map is q -> P(q + γ (ω + c - u)), and a shear q is a solution if the map returns
+        q. P is the projection on the admissible shears, ω the rigid motion, c the displacement that
         stick requires, u the tangential displacement and γ a stiffness.
 
         point   shear q and displacement u

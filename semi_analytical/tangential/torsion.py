@@ -54,10 +54,12 @@ class ShearMoments:
 
     @cached_property
     def units(self) -> tuple[VectorField, ...]:
-        """Unit rigid motions whose conjugate forces are prescribed, fields (2, nx, ny).
+        """Unit rigid motions of the indenter whose conjugate forces are prescribed, fields (2, nx,
+        ny).
 
-        The motions are shifts along x and y if Σq is prescribed, and the rotation divided by
-        `reach`.
+        The motions are shifts along x and y if the tangential force is prescribed, and the
+        rotation. The rotation is divided by `reach`, the largest distance of a cell from the
+        origin.
         """
         turn = self.rotation / self.reach
         if self.total is None:
@@ -66,13 +68,17 @@ class ShearMoments:
 
     @cached_property
     def given(self) -> Vector:
-        """Prescribed forces conjugate to the unit motions (k,), divided by the cell area."""
+        """Prescribed tangential force and torque (k,) of the unit motions `units`, divided by the
+        cell area."""
         torque = self.torque / self.reach
         return np.array([torque] if self.total is None else [*self.total, torque])
 
     def forces(self, q: VectorField) -> Vector:
-        """Compute the forces of a shear that are conjugate to the unit motions (k,), divided by
-        the cell area."""
+        """Compute tangential force and torque (k,) of a shear (2, nx, ny), divided by the cell
+        area.
+
+        Each entry is conjugate to one of the unit motions `units`.
+        """
         return np.array([np.sum(q * unit) for unit in self.units])
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[VectorField, ...]:
@@ -87,10 +93,17 @@ class ShearMoments:
     def nearest(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
-        """Project y + γ rigid(motion) on the shears with the prescribed forces; return shear and
-        motion.
+        """Project a trial shear on the shears with the prescribed torque and tangential force or
+        shift.
 
-        The multipliers of the forces are γ times the motion.
+        The projected shear is y + γ rigid(motion), within |q| <= bound. The free components of the
+        motion are chosen so that the projection has the prescribed force and torque. Return the
+        projected shear and the motion (shift x, shift y, twist).
+
+        y       trial shear without the rigid motion (2, nx, ny) [force/length^2]
+        bound   friction limit µp (nx, ny)
+        gamma   γ, traction per displacement [force/length^3]
+        motion  initial guess of the motion (3,)
         """
         if self.shift is not None:
             y = y + everywhere(gamma * self.shift)
@@ -102,7 +115,11 @@ class ShearMoments:
         return q, np.array([*shift, multiplier[-1] / (gamma * self.reach)])
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """Project a shear on the friction discs |q| <= bound and on the prescribed forces."""
+        """Project a shear (2, nx, ny) on the shears within the friction limit with the prescribed
+        torque.
+
+        The projection also has the prescribed tangential force, if one is prescribed.
+        """
         return self._projected(q, bound, np.zeros(len(self.given)))[0]
 
     def _projected(self, y: VectorField, bound: Field, guess: Vector) -> tuple[VectorField, Vector]:
@@ -117,8 +134,10 @@ class ShearMoments:
         return q, multiplier
 
     def _loaded(self, bound: Field) -> tuple[Mask, Field]:
-        """Return the cells that carry shear (nx, ny), and the unit motions in these n cells (k,
-        2, n)."""
+        """Select the cells that can carry shear, because their friction limit is positive.
+
+        Return their mask (nx, ny) and the unit motions in these n cells (k, 2, n).
+        """
         loaded = bound > 0
         return loaded, np.stack([unit[:, loaded] for unit in self.units])
 
@@ -129,8 +148,14 @@ class ShearMoments:
         return bool(np.any(self.given)) and self.limit(bound)[0] <= 1 + AT_LIMIT
 
     def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
-        """Return the shear in gross slip about the pole of the friction limit, and an unchanged
-        motion."""
+        """Return the shear (2, nx, ny) in gross slip under torque and force, and the given motion
+        unchanged.
+
+        Each cell carries the friction limit in the direction of the rigid motion of gross slip.
+
+        bound   friction limit µp (nx, ny)
+        motion  rigid motion, which gross slip under force control does not determine
+        """
         if not np.any(bound) or not np.any(self.given):
             return np.zeros((2, *bound.shape)), motion
         loaded, units = self._loaded(bound)
@@ -140,10 +165,12 @@ class ShearMoments:
         return q, motion
 
     def limit(self, bound: Field) -> tuple[float, Vector]:
-        """Compute the load factor at the friction limit, and the rigid motion of gross slip (k,).
+        """Compute the factor by which the load could grow until all cells slip, and the motion of
+        gross slip.
 
-        Newton's method minimises the power of friction over all rigid motions on which the load
-        does unit work. The load factor, limit load over prescribed load, is the minimum.
+        The factor is the limit load over the prescribed load. Newton's method minimises the power
+        of friction over all rigid motions on which the load does unit work; the minimum is the
+        factor (upper-bound theorem). The motion (k,) is given in components along `units`.
 
         bound  friction limit µp (nx, ny)
         """
@@ -186,17 +213,31 @@ def _power(velocity: Vector, limit: Vector, units: Field) -> tuple[float, Vector
 
 
 def _forces(units: Field, q: Field) -> Vector:
-    """Compute the forces (k,) of a shear (2, n) that are conjugate to the unit motions."""
+    """Compute tangential force and torque (k,) of a shear, divided by the cell area.
+
+    units  unit rigid motions (k, 2, n), to which the forces are conjugate
+    q      shear of n cells (2, n)
+    """
     return np.asarray(units.reshape(len(units), -1) @ q.ravel())
 
 
 def _along(units: Field, vector: Field) -> Field:
-    """Compute the scalar products (k, n) of the unit motions with a vector of each cell (2, n)."""
+    """Compute the scalar products of the unit motions with a vector field, in each of n cells (k,
+    n).
+
+    units   unit motions (k, 2, n)
+    vector  vector of each cell (2, n)
+    """
     return np.asarray(units[:, 0] * vector[0] + units[:, 1] * vector[1])
 
 
 def _products(units: Field, weight: Vector) -> Field:
-    """Compute the weighted sums (k, k) over the cells of the products of pairs of unit motions."""
+    """Compute the matrix (k, k) of weighted scalar products of pairs of unit motions, summed over
+    cells.
+
+    units   unit motions (k, 2, n)
+    weight  weight of each cell (n,)
+    """
     flat = units.reshape(len(units), -1)
     return np.asarray((units * weight).reshape(flat.shape) @ flat.T)
 
@@ -232,13 +273,15 @@ def _descended(
 
 
 class _ShiftedMoments(ProjectedShear):
-    """Projection of y + Σ λ unit on the friction discs of the loaded cells (2, n).
+    """Projection of y + Σ λ unit on the friction discs of the loaded cells, for given multipliers
+    λ.
 
-    The defect is that of the prescribed forces.
+    The defect is the difference between the forces of the projection and the prescribed forces.
+    `ShearMoments` solves for the λ with zero defect.
 
     multiplier  multipliers λ (k,) of the prescribed forces
-    units       unit motions in the loaded cells (k, 2, n)
-    given       prescribed forces conjugate to the unit motions (k,)
+    units       unit rigid motions in the loaded cells (k, 2, n)
+    given       prescribed forces and torque conjugate to the unit motions (k,)
     """
 
     def __init__(
