@@ -31,15 +31,20 @@ class NormalLoad(Protocol):
     def touches(self, gap: Field) -> bool:
         """Return True if a pressure on the cells of finite gap can carry the load.
 
+        Otherwise the grid is too coarse, or the bodies do not touch.
+
         gap  undeformed gap (nx, ny) [length]; infinite where contact is impossible
         """
 
     def bearing_depth(self, gaps: Vector, stiffness: Vector) -> float:
-        """Return the depth [length] below which cells bear the load in Hertz theory
-        (`initial_pressure`).
+        """Return the depth below which cells carry the load in the initial guess of the pressure
+        [length].
+
+        The initial guess applies Hertz theory: cells with an undeformed gap below this depth are in
+        contact.
 
         gaps       undeformed gaps of all cells, in ascending order [length]
-        stiffness  Σp over the depth, as a function of the number of bearing cells [force/length^3]
+        stiffness  Σp over the depth, as a function of the number of these cells [force/length^3]
         """
 
     def motion(self, p: Field, s: Field) -> Motion:
@@ -75,7 +80,10 @@ class NormalLoad(Protocol):
         """
 
     def less(self, carried: Field) -> NormalLoad:
-        """Return the remaining load after other cells carry the pressures `carried` (nx, ny)."""
+        """Return the load that remains for the solver if other cells carry given pressures.
+
+        carried  pressures of the other cells (nx, ny)
+        """
         return self
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
@@ -99,12 +107,17 @@ class PressureSum(NormalLoad):
     total: float
 
     def touches(self, gap: Field) -> bool:
-        """Return True if the gap of at least one cell is finite."""
+        """Return True if the gap of at least one cell is finite, so that this cell can carry the
+        force."""
         return bool(np.isfinite(np.min(gap)))
 
     def bearing_depth(self, gaps: Vector, stiffness: Vector) -> float:
-        """Return the Hertz bearing depth [length] at which the bearing cells carry the
-        prescribed sum."""
+        """Return the depth below which cells carry the prescribed force in the initial guess
+        [length].
+
+        gaps       undeformed gaps of all cells, in ascending order [length]
+        stiffness  Σp over the depth, as a function of the number of these cells [force/length^3]
+        """
         bearing = int(np.searchsorted(stiffness * gaps, self.total))
         return float(self.total / stiffness[max(bearing - 1, 0)])
 
@@ -123,8 +136,12 @@ class PressureSum(NormalLoad):
         return np.asarray(p * (self.total / p.sum()))
 
     def projection(self, inside: Field) -> Projection:
-        """Return the projection on the contact that removes the mean and thus preserves the sum
-        Σp."""
+        """Return the projection of pressure changes on changes that preserve the sum Σp.
+
+        The projection restricts a change to the contact and subtracts its mean over the contact.
+
+        inside  1 in contact, 0 elsewhere (nx, ny)
+        """
         count = inside.sum()
 
         def projected(field: Field) -> Field:
@@ -164,7 +181,7 @@ class FixedApproach(NormalLoad):
         return 0.5 * self.approach
 
     def motion(self, p: Field, s: Field) -> Motion:
-        """Return the prescribed approach [length]."""
+        """Return the prescribed approach [length], which does not depend on pressure and gap."""
         return self.approach
 
     def admissible(self, p: Field) -> Field:

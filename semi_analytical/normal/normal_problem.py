@@ -126,10 +126,10 @@ def solve_normal(
 def _solve_on(
     contact: Mask, problem: _Problem, p: Field, u: Field, g: Field, depth: float
 ) -> tuple[Field, Field, int]:
-    """Solve the linear problem that closes the gap on a given contact set; return p, u and
-    iterations.
+    """Solve for the pressure that closes the gap on a fixed contact set.
 
-    Conjugate gradients stop when the residual norm has fallen by the factor `depth`.
+    Return pressure, displacement and number of iterations. Conjugate gradients stop when the
+    residual norm has fallen by the factor `depth`.
 
     contact  contact set, which contains all cells under pressure (nx, ny)
     p, u, g  pressure, displacement and gap at the start (nx, ny)

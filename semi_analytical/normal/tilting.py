@@ -52,9 +52,11 @@ class PressureMoments:
 
     @cached_property
     def shapes(self) -> Field:
-        """Closures of the gap by unit motions whose conjugate forces are prescribed (k, nx, ny).
+        """Closures of the gap (k, nx, ny) by unit rigid motions whose conjugate forces are
+        prescribed.
 
-        The closures are 1 if Σp is prescribed, then y and x over `reach`.
+        The closures are 1 (approach) if the normal force is prescribed, then y and x (tilts) over
+        `reach`, the largest |x| or |y| of a cell.
         """
         slopes = self.arms / self.reach
         return slopes if self.total is None else np.stack([np.ones_like(slopes[0]), *slopes])
@@ -77,7 +79,14 @@ class PressureMoments:
         return self._is_carried_on(self.cells & np.isfinite(gap))
 
     def bearing_depth(self, gaps: Vector, stiffness: Vector) -> float:
-        """Return the Hertz bearing depth [length] of the force or the approach without moments."""
+        """Return the depth below which cells carry the load in the initial guess of the pressure
+        [length].
+
+        The moments are ignored.
+
+        gaps       undeformed gaps of all cells, in ascending order [length]
+        stiffness  Σp over the depth, as a function of the number of these cells [force/length^3]
+        """
         if self.total is None:
             return FixedApproach(self.approach or 0.0).bearing_depth(gaps, stiffness)
         return PressureSum(self.total).bearing_depth(gaps, stiffness)
@@ -181,8 +190,9 @@ class PressureMoments:
         return projected
 
     def less(self, carried: Field) -> NormalLoad:
-        """Return the load less the sum and moments of pressures carried by other cells, which are
-        excluded.
+        """Return the load that remains for the solver if other cells carry given pressures.
+
+        Force and moments of these pressures are subtracted, and these cells are excluded.
 
         carried  pressures of the other cells (nx, ny)
         """
@@ -210,9 +220,10 @@ def _products(a: Field, b: Field) -> Field:
 
 
 class _Shifted:
-    """Projected pressure max(0, p + weight Σ λ shape), for one value of the multipliers λ.
+    """Projected pressure max(0, p + weight Σ λ shape) for given multipliers λ of force and moments.
 
-    `multipliers.py` solves for the multipliers whose pressure has the prescribed sum and moments.
+    The shapes are the closures of the gap by unit rigid motions. `multipliers.py` solves for the
+    multipliers whose pressure has the prescribed force and moments.
     """
 
     def __init__(
@@ -226,13 +237,17 @@ class _Shifted:
         self.defect = np.array([np.sum(self.p * shape) for shape in shapes]) - sums
 
     def settled(self, multiplier: Vector) -> bool:
-        """Return True if the defect of the prescribed sum and moments is at the level of
-        rounding errors."""
+        """Return True if the pressure has the prescribed force and moments up to rounding errors.
+
+        multiplier  not used
+        """
         size = float(np.sum(self.p)) + float(np.max(np.abs(self._sums)))
         return bool(np.sum(np.abs(self.defect)) <= ROUND_OFF * size)
 
     def newton_step(self) -> Vector:
-        """Compute the Newton step of the multipliers; the shortest step where they are not
-        unique."""
+        """Compute the Newton step of the multipliers of force and moments (k,).
+
+        The shortest step is taken where the multipliers are not unique.
+        """
         metric = _products(self._slack * self._shapes, self._shapes)
         return np.asarray(-np.linalg.pinv(metric, rcond=1e-14, hermitian=True) @ self.defect)

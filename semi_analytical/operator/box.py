@@ -14,7 +14,7 @@ QUANTUM = 16
 
 @dataclass(frozen=True)
 class Box:
-    """Rectangle of cells of a window or reduced domain.
+    """Rectangle of cells around a contact, outside of which all tractions are zero.
 
     first  indices of the first cell along x and y
     shape  number of cells along x and y
@@ -41,20 +41,24 @@ class Box:
         return field
 
     def mask(self, cells: tuple[int, int]) -> Mask:
-        """Return the mask (nx, ny) of the cells that lie in the box."""
+        """Return a mask (nx, ny) that is True for the cells in the box.
+
+        cells  number of cells of the domain along x and y
+        """
         inside = np.zeros(cells, dtype=bool)
         inside[self.slices] = True
         return inside
 
 
 def box_around(cells: Mask, margin: int, domain: ReducedDomain = WINDOW) -> Box:
-    """Return the smallest box around marked cells and a margin, with sides in multiples of QUANTUM.
+    """Return the smallest box around given cells and a margin, with sides in multiples of QUANTUM.
 
-    A side that does not fit becomes the side of the window. On a reduced domain the box surrounds
-    the marked cells and their mirror images and is then restricted to the domain.
+    Convolutions are restricted to this box. A side that does not fit becomes the side of the
+    window. On a reduced domain the box surrounds the cells and their mirror images and is then
+    restricted to the domain.
 
-    cells   marked cells (nx, ny)
-    margin  number of cells around the marked cells
+    cells   cells that the box must contain, such as those in contact (nx, ny)
+    margin  number of cells around them
     domain  domain of `cells`
     """
     sides = [
@@ -65,9 +69,10 @@ def box_around(cells: Mask, margin: int, domain: ReducedDomain = WINDOW) -> Box:
 
 
 def _side(marked: Mask, margin: int) -> tuple[int, int]:
-    """Return the first index and the number of cells of a box along one axis.
+    """Return the first index and the number of cells of the box `box_around` along one axis.
 
-    marked  True at indices along the axis with marked cells
+    marked  True at indices along the axis with cells that the box must contain
+    margin  number of cells on both sides of them
     """
     at = np.nonzero(marked)[0]
     available = len(marked)
@@ -80,10 +85,13 @@ def _side(marked: Mask, margin: int) -> tuple[int, int]:
 
 
 def _half_side(marked: Mask, margin: int) -> tuple[int, int]:
-    """Return first index and number of cells of a box along an axis with a mirror plane before cell
-    0.
+    """Return first index and number of cells of the box `box_around` along an axis with a mirror
+    plane.
 
-    marked  True at indices along the axis with marked cells
+    The plane lies before cell 0, so that the box begins there.
+
+    marked  True at indices along the axis with cells that the box must contain
+    margin  number of cells around them
     """
     _, length = _side(np.concatenate([marked[::-1], marked]), margin)
     return 0, length // 2

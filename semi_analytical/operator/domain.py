@@ -40,7 +40,8 @@ class ReducedDomain:
 
     @property
     def _sides(self) -> Pair:
-        """Ratio of the sides of the window to those of the domain, along x and y: 1 or 2."""
+        """Ratio of the window's side to the domain's side along x and y: 2 with a mirror plane,
+        else 1."""
         x, y = self.mirrors
         return 1 + x, 1 + y
 
@@ -68,9 +69,11 @@ class ReducedDomain:
 
     @property
     def rotating(self) -> Parity:
-        """Parity about x = 0 and y = 0 of the change of direction of a tangential vector.
+        """Parity about x = 0 and y = 0 of the bins of slip compliance, which act on slip
+        directions.
 
-        The parity is -1 (odd) about a mirror plane and 0 without one.
+        A bin holds changes of the shear perpendicular to the slip, whose sign is that of a
+        rotation. The parity is -1 (odd) about a mirror plane and 0 without one.
         """
         x, y = self.scalar
         return -x, -y
@@ -131,8 +134,11 @@ class ReducedDomain:
         return np.where(self.summed, np.sum(field, axis=(1, 2)), 0.0)
 
     def rim(self, values: AnyField) -> AnyField:
-        """Select the values of a field (nx, ny) in the cells at the border of the window, as a
-        flat array."""
+        """Return the values of a field (nx, ny) in the cells at the border of the window, as a flat
+        array.
+
+        Cells at a mirror plane are not at the border of the window.
+        """
         (x, y), (nx, ny) = self.mirrors, values.shape
         rows, columns = [0] * (not x) + [nx - 1], [0] * (not y) + [ny - 1]
         return np.concatenate([values[rows].ravel(), values[:, columns].ravel()])
@@ -151,11 +157,13 @@ class ReducedDomain:
         return framed
 
     def folded(self, framed: Field, width: int) -> Field:
-        """Remove a frame of `width` cells from a scalar response (adjoint of `framed`).
+        """Remove a frame of `width` cells from a displacement field of a reduced domain.
 
-        The response beyond a mirror plane is added to its image in the domain.
+        The displacement beyond a mirror plane is added to that of the mirror cell in the domain.
+        The operation is the adjoint of `framed`.
 
-        framed  response with its frame (nx + 2 width, ny + 2 width)
+        framed  displacement with its frame (nx + 2 width, ny + 2 width)
+        width   number of cells of the frame on each side
         """
         framed, images = framed.copy(), slice(width - 1, None, -1)
         if self.mirrors[0]:

@@ -26,12 +26,15 @@ BINS = "".join(str(number) for number in range(len(COMPLIANCES)))
 
 
 def response(transforms: Transforms, pair: str, spectrum: KernelSpectrum) -> Response:
-    """Compute the real response between Fourier amplitudes of a displacement and a traction
+    """Compute the real factors between the Fourier amplitudes of a traction and a displacement
     component.
+
+    The factors follow from the spectrum of the influence coefficients.
 
     transforms  transforms of the domain
     pair        names of the displacement and the traction component, e.g. "zx"
-    spectrum    S; the coefficients have the spectrum i S if one component is z, else S
+    spectrum    real spectrum S; the coefficients have the spectrum i S if one component is z, else
+                S
     """
     if transforms.whole:  # the phases cancel
         return spectrum
@@ -47,12 +50,15 @@ def response(transforms: Transforms, pair: str, spectrum: KernelSpectrum) -> Res
 
 
 def _in_order(lines: Field, one: int, other: int) -> Field:
-    """Sort the lines of a response along one axis in the order of the amplitudes.
+    """Sort the factors of a traction-displacement pair along one axis in the order of the
+    amplitudes.
 
-    Waves have two amplitudes per wavenumber. Sines have the largest wavenumber in the place of 0,
-    where the response between a sine and a cosine vanishes.
+    Fourier transforms (no mirror plane) have two real amplitudes per wavenumber. Sine transforms
+    have the largest wavenumber in the place of 0, where the factor between a sine and a cosine
+    vanishes.
 
-    one, other  parity of the two components along the axis; 0 for waves
+    lines       factors by wavenumber along the first axis
+    one, other  parity of the two components along the axis; 0 without a mirror plane
     """
     if one == 0:
         return np.repeat(lines, 2, axis=0)
@@ -62,13 +68,15 @@ def _in_order(lines: Field, one: int, other: int) -> Field:
 
 
 class Product:
-    """Product of a matrix of responses with fields: transform, multiply the amplitudes, transform
-    back.
+    """Convolution of several fields with a matrix of kernels, by transforms on a domain.
+
+    A call transforms the fields, multiplies their amplitudes by the matrix of factors of
+    `response`, and transforms the products back.
 
     transforms       transforms of the domain
-    entries          responses by pairs of component names, e.g. "xy"
+    entries          factors by pairs of component names, e.g. "xy"
     inputs, outputs  names of the components of the input and output fields
-    padded           transform with zero padding to twice the window (linear convolution)
+    padded           True for zero padding to twice the window (linear convolution)
     dtype            precision of the transforms
     """
 
@@ -89,7 +97,7 @@ class Product:
         self._entries = {name: entries[name] for row in self._rows for _, name in row}
 
     def __call__(self, values: Array) -> Array:
-        """Apply the matrix of responses to input fields (inputs, nx, ny); return (outputs, nx,
+        """Convolve input fields (inputs, nx, ny) with the matrix of kernels; return (outputs, nx,
         ny)."""
         return self._transforms.filtered(values, *self._sides, self._times)
 
@@ -153,7 +161,8 @@ class DisplacementOperator:
         return self._product("z", "xy", pressure[None])
 
     def together(self, tractions: Field) -> Field:
-        """Compute (u_x, u_y, u_z) [length] caused by (q_x, q_y, p), both (3, nx, ny)."""
+        """Compute all surface displacements (u_x, u_y, u_z) [length] caused by (q_x, q_y, p), both
+        (3, nx, ny)."""
         return self._product("xyz", "xyz", tractions)
 
     def _product(self, inputs: str, outputs: str, values: Field) -> Field:
@@ -168,10 +177,11 @@ class DisplacementOperator:
         return self._products[inputs, outputs](values)
 
     def spectrum(self, pair: str) -> KernelSpectrum:
-        """Compute the spectrum S of the influence coefficients of two components, with the padded
-        period.
+        """Compute the real Fourier spectrum of the influence coefficients of two components.
 
-        pair  names of the two components in alphabetical order
+        The spectrum has the zero-padded period. It is stored after the first call.
+
+        pair  names of displacement and traction component in alphabetical order, e.g. "xz"
         """
         if pair not in self._spectra:
             self._spectra[pair] = kernel_spectrum(self._coefficients, pair, self.transforms.reach)
@@ -219,11 +229,13 @@ class DisplacementOperator:
 
 
 class ApproximateInverse:
-    """Approximate map from displacements to tractions, without normal-tangential coupling.
+    """Approximate inverse of the displacement operator without normal-tangential coupling
+    (preconditioner).
 
-    The spectra are those of the coefficients with the unpadded period. A component costs 1/4
-    convolution. Components are x, y and z if they have spectra, then the bins of slip compliance. A
-    bin is a shear of one component, with the compliance of the bin added.
+    The input are displacements, the output tractions. The spectra are those of the influence
+    coefficients without zero padding. A component costs 1/4 convolution. Components are x, y and z
+    if they have spectra, then the bins of slip compliance. A bin is a scalar shear, for which the
+    mean tangential compliance plus the compliance of the bin is inverted.
 
     spectra  spectra of the inverse (quarters) by pairs of components; real and symmetric
     dtype    precision of the transforms
@@ -252,9 +264,10 @@ class ApproximateInverse:
         return tractions
 
     def yielding(self, compliance: float) -> ApproximateInverse:
-        """Build the approximate inverse for bodies whose self-compliance is larger by `compliance`.
+        """Build the approximate inverse for surfaces with an additional compliance in each cell.
 
-        The compliances of the bins increase in proportion to the self-compliance.
+        The proximal-point method adds this compliance. The compliances of the bins increase in
+        proportion to the self-compliance of a cell.
 
         compliance  additional displacement of a cell by its own unit traction [length^3/force]
         """
@@ -274,19 +287,21 @@ class ApproximateInverse:
 
 
 def positive_inverse(spectrum: Field) -> Field:
-    """Invert the magnitudes of a spectrum, with a lower bound that keeps the result finite.
+    """Compute 1/|S| of a spectrum S, with a lower bound on |S| that keeps the result finite.
 
-    Conjugate gradients require a positive matrix. Entries of films much stiffer than their base can
-    be negative, because the displacements reach beyond the period.
+    Used for preconditioners: conjugate gradients require a positive matrix. Values of S can be
+    negative for films much stiffer than their base, because the displacements reach beyond the
+    period.
     """
     size = np.abs(spectrum)
     return np.asarray(1 / np.maximum(size, np.finfo(float).eps * np.max(size)))
 
 
 def inverse_2x2(xx: Field, yy: Field, xy: Field) -> tuple[Field, Field, Field]:
-    """Invert the symmetric matrix [[xx, xy], [xy, yy]] at every wavenumber; return xx, yy, xy.
+    """Invert the tangential spectrum, a symmetric matrix [[xx, xy], [xy, yy]], at every wavenumber.
 
-    Eigenvalues are replaced by their magnitudes with a lower bound (see `positive_inverse`).
+    Return the entries xx, yy, xy of the inverse. Eigenvalues are replaced by their magnitudes, with
+    a lower bound, because conjugate gradients require a positive matrix.
     """
     mean, half = 0.5 * (xx + yy), np.hypot(0.5 * (xx - yy), xy)
     least = np.finfo(float).eps * np.max(mean + half)

@@ -18,7 +18,10 @@ COMPLIANCES: Vector = np.array([1.0, RATIO])
 def shares(compliance: Field) -> Field:
     """Compute the weights χ of each cell in the bins of slip compliance (1 + bins, …).
 
-    compliance  slip compliance over self-compliance, d/K₀ (…)
+    The preconditioner of the tangential problem divides slipping cells among a few bins of the slip
+    compliance d. The sum of χ² is 1 up to the last bin.
+
+    compliance  d/K₀ (…): slip compliance over the self-compliance of a cell
     """
     place = np.log(np.maximum(compliance, 1 / RATIO)) / np.log(RATIO) + 1
     number = np.arange(len(COMPLIANCES) + 1).reshape(-1, *np.ones(place.ndim, dtype=int))
@@ -30,9 +33,13 @@ def shares(compliance: Field) -> Field:
 
 
 def beyond(compliance: Field) -> Field:
-    """Compute the degree to which a slip compliance d/K₀ exceeds the last bin, from 0 to 1.
+    """Compute the degree, from 0 to 1, to which the slip compliance of a cell exceeds the last bin.
 
-    The result is 0 up to the last d_j, 1 from RATIO times d_j on, and linear in log d between.
+    The preconditioner treats such cells separately, because their slip compliance dominates. The
+    result is 0 up to the compliance of the last bin, 1 from RATIO times this value on, and linear
+    in the logarithm between.
+
+    compliance  d/K₀ (…): slip compliance over the self-compliance of a cell
     """
     last = COMPLIANCES[-1]
     return np.asarray(np.clip(np.log(np.maximum(compliance, last) / last) / np.log(RATIO), 0, 1))

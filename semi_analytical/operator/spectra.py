@@ -25,8 +25,9 @@ class KernelSpectrum:
     mirror: int
 
     def __getitem__(self, columns: slice) -> Field:
-        """Return values at some wavenumbers along y and all 2 mx wavenumbers along x (columns, 2
-        mx).
+        """Return the spectrum at some wavenumbers along y and all 2 mx wavenumbers along x.
+
+        The shape is (number of columns, 2 mx).
 
         columns  slice of the wavenumbers along y
         """
@@ -37,9 +38,9 @@ class KernelSpectrum:
 def kernel_spectrum(
     coefficients: InfluenceCoefficients, pair: str, reach: tuple[slice, slice]
 ) -> KernelSpectrum:
-    """Transform the influence coefficients of two components to Fourier space.
+    """Compute the real Fourier spectrum S of the influence coefficients of two components.
 
-    The result S is the spectrum; for zx and zy the spectrum is -i S.
+    For the pairs xz and yz, whose coefficients are odd along one axis, the spectrum is -i S.
 
     pair   names of the two components in alphabetical order, e.g. "xz"
     reach  slices of the offsets along x and y that are transformed
@@ -74,7 +75,9 @@ def odd_transform(coefficients: Field) -> KernelSpectrum:
 
 
 def mixed_transform(coefficients: Field, odd_axis: int) -> KernelSpectrum:
-    """Compute S of influence coefficients that are odd along one axis only; the spectrum is -i S.
+    """Transform influence coefficients that are odd along one axis and even along the other.
+
+    The result is the real S; the Fourier spectrum is -i S.
 
     odd_axis  0 if odd along x, 1 if odd along y
     """

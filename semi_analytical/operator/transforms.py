@@ -59,9 +59,9 @@ class Waves:
 
     cells       number of cells along the axis
     period      period in cells
+    turned      True if amplitudes are i times the spectrum
     of_complex  True if values are complex, so that wavenumbers have both signs
     in_pairs    True if amplitudes are pairs of real numbers
-    turned      True if amplitudes are i times the spectrum
     """
 
     def __init__(
@@ -143,11 +143,12 @@ _mirrored = lru_cache(maxsize=64)(MirroredWaves)
 
 
 def offsets_for(window: Pair) -> Pair:
-    """Return the number of offsets of influence coefficients along x and y for a window of cells.
+    """Return the number of cell offsets along x and y for which influence coefficients are
+    required.
 
-    The offsets are 0 to half the padded period, which is even.
+    The offsets are 0 to half the zero-padded period of the convolution.
 
-    window  number of cells along x and y
+    window  number of cells of the window along x and y
     """
     x, y = (2 * int(next_fast_len((n + 1) // 2)) + 1 for n in window)
     return x, y
@@ -205,10 +206,12 @@ class Transforms:
     def sides(
         self, inputs: str, outputs: str, *, padded: bool = True, dtype: Dtype = DOUBLE
     ) -> tuple[list[Sides], list[Sides]]:
-        """Return the transforms along x and y of each input and each output component.
+        """Return the one-dimensional transforms along x and y of each input and each output
+        component.
 
-        padded  transform with zero padding to twice the window
-        dtype   precision of the transforms
+        inputs, outputs  names of the components, e.g. "xyz"
+        padded           True for zero padding to twice the window
+        dtype            precision of the transforms
         """
         # Responses between scalars need no factor i on the full window.
         mixed = not (self.whole and {*inputs, *outputs} <= {"z"})
@@ -234,11 +237,11 @@ class Transforms:
     def filtered(
         self, values: Array, inputs: Sequence[Sides], outputs: Sequence[Sides], multiply: Multiply
     ) -> Array:
-        """Transform fields, multiply their amplitudes by a function, and transform the products
-        back.
+        """Transform fields, multiply their Fourier amplitudes by a function, and transform the
+        products back.
 
         values           input fields (inputs, nx, ny)
-        inputs, outputs  transforms of each component, from `sides`
+        inputs, outputs  transforms along x and y of each component, from `sides`
         multiply         function from amplitudes of the inputs to amplitudes of the outputs
         returns          output fields (outputs, nx, ny)
         """

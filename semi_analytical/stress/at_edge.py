@@ -79,10 +79,16 @@ def change_at_depth(
 
 
 def _in_box(edged: EdgedTractions, phi: Quadratic, material: HalfSpace, spacing: Spacing) -> Field:
-    """Compute the surface stress (6, n) by the tractions in a box of cells about each position.
+    """Compute the surface stress (6, n) by the tractions in a box of cells about each of n
+    positions.
 
-    The part √φ of the pressure is integrated along rays. The deviation of the cell means from √φ
-    acts uniformly on each cell.
+    The root √φ of the fitted φ = p² is integrated along rays. The difference between the cell means
+    of the traction and those of the root acts uniformly on each cell.
+
+    edged     tractions with their variation within the edge cells
+    phi       quadratics of φ about the n positions
+    material  outermost material of the body
+    spacing   cell sides [length]
     """
     i, j = np.rint(phi.x).astype(int), np.rint(phi.y).astype(int)
     x, y = phi.x - i, phi.y - j
@@ -124,11 +130,11 @@ def _by_points(
     *,
     slopes_alone: bool = False,
 ) -> Field:
-    """Compute the stress (6, n) by mean and slope of the cells near each position, from point
-    forces.
+    """Compute the stress (6, n) by the cells near each of n positions, with tractions linear in
+    each cell.
 
-    The point forces lie at Gauss points of the cells at a distance of more than BOX and at most
-    PATCH cells.
+    Mean and slope of a cell act as point forces at Gauss points. The cells lie at a distance of
+    more than BOX and at most PATCH cells from the position.
 
     x, y          positions (n,) in index coordinates
     depth         z >= 0 [length]
@@ -170,14 +176,15 @@ def _by_parts(
     count: int,
     within: tuple[int, int],
 ) -> Field:
-    """Compute the stress (6, n) by the deviations of subcell tractions from the uniform cell
-    tractions.
+    """Compute the stress (6, n) by the variation of tractions within the edge cells, at n
+    positions.
 
-    Each subcell acts as a point force.
+    Each subcell acts as a point force: its traction minus the uniform traction of its cell.
 
     x, y    positions (n,) in index coordinates
+    depth   z >= 0 [length]
     count   number of subcells along a cell side
-    within  first and last ring of cells about the position
+    within  least and largest distance in cells of the edge cells that are included
     """
     i, j = np.rint(x).astype(int), np.rint(y).astype(int)
     pairs = []
@@ -202,9 +209,10 @@ def _by_parts(
 
 
 def _summed(stress: Field, observer: Indices, count: int) -> Field:
-    """Sum the stress (6, pairs) over all pairs that belong to one position; result (6, positions).
+    """Sum the stresses of pairs of a position and a source over all sources of each position.
 
+    stress    stress of each pair (6, pairs)
     observer  index of the position of each pair
-    count     number of positions
+    count     number of positions; the result has the shape (6, count)
     """
     return np.stack([np.bincount(observer, component, count) for component in stress])

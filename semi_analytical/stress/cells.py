@@ -162,6 +162,7 @@ def _clear_boxes(spacing: tuple[float, float], cells: Indices, clearance: float)
 
 
 def _quartered(boxes: Boxes) -> Boxes:
+    """Divide each integration box into four boxes of half the sides."""
     half_x, half_y = boxes.half_x / 2, boxes.half_y / 2
     return joined(
         [
@@ -180,11 +181,17 @@ def layered_coefficients(
     *,
     sheared: bool,
 ) -> Iterator[Field]:
-    """Iterate over the displacements and stresses that the layers of a body contribute at each
-    depth.
+    """Iterate over the response of a layered body to unit tractions on one cell, at each depth.
 
-    At a depth in the outermost layer, the response of a half-space of its material is excluded.
-    Arguments and shapes are those of `field.depth_coefficients`.
+    The response are displacements [length^3/force] and stresses [1] at all cell offsets >= 0. At a
+    depth in the outermost layer, the response of a half-space of its material is excluded.
+
+    stack    layers and base of the body
+    levels   depths, each with the index of its layer
+    spacing  cell sides [length]
+    shape    number of offsets along x and y, including zero
+    sheared  include the responses to shear, before those to pressure
+    yields   shape (FIELDS, acting tractions, nx, ny)
     """
     reach = hypot((shape[0] + MARGIN) * spacing[0], (shape[1] + MARGIN) * spacing[1])
     for start in range(0, len(levels), AT_ONCE):

@@ -40,7 +40,10 @@ def parity(field: str, traction: str) -> tuple[int, int]:
 def each_response(
     coefficients: NDArray[np.float64],
 ) -> Iterator[tuple[NDArray[np.float64], tuple[int, int]]]:
-    """Iterate over each response to a traction component, with its parity along x and y.
+    """Iterate over the responses of every displacement and stress component to every traction
+    component.
+
+    Each response (nx, ny) comes with its parity along x and y: 1 even, -1 odd.
 
     coefficients  responses (FIELDS, acting tractions, nx, ny)
     """

@@ -21,11 +21,12 @@ ROUND_OFF = 1e-14  # between mirror images, relative to the largest traction
 
 
 def offsets_between(tractions: Field, rows: Indices) -> tuple[int, int]:
-    """Return the number of cell offsets along x and y, from 0, between loaded cells and some rows
-    of cells.
+    """Return the number of cell offsets along x and y at which response coefficients are required.
+
+    These are the offsets, from 0, between loaded cells and the cells of some rows.
 
     tractions  (acting tractions, nx, ny)
-    rows       indices of the rows along y
+    rows       indices along y of the rows where stresses are required
     """
     loaded = np.any(tractions, axis=0)
     counts = []
@@ -77,7 +78,10 @@ class _Side:
         return np.pad(transformed, [(0, 0), (int(odd), int(not odd))])
 
     def factor(self, odd_response: bool, odd_traction: bool) -> complex:
-        """Return the ratio of the amplitudes of a response to its sums of sines or cosines.
+        """Return the phase factor of a response in the product of Fourier amplitudes along this
+        axis.
+
+        The response is represented by sums of cosines (even) or sines (odd).
 
         odd_response  True if the response coefficient is odd along the axis
         odd_traction  True if the traction component changes its sign at the mirror plane
@@ -143,7 +147,7 @@ def plane_convolution(tractions: Field, offsets: tuple[int, int]) -> Convolution
 
 
 def _sums(response: Field, parity: int) -> Field:
-    """Sum a response times cosines (even) or sines (odd) over the cell offsets of a period.
+    """Compute the cosine (even) or sine (odd) transform of a response over the offsets of a period.
 
     response  (…, half + 1) values at offsets >= 0; also the shape of the result
     parity    1 for cosines, -1 for sines

@@ -94,7 +94,8 @@ def _directions(phi: Quadratic, box: Field) -> tuple[Field, Field]:
 def _along_ray(f: Field, b: Field, c: Field, reach: Field) -> Field:
     """Integrate √max(Q, 0)/r along rays over 0 < r < reach, with Q = f + b r + c r².
 
-    The result is the Hadamard finite part of the integral.
+    r is the distance from the observer, and Q the squared pressure p² along the ray. The result is
+    the Hadamard finite part of the integral, of the shape of b.
     """
     root = np.sqrt(np.maximum(b * b - 4 * f * c, 0.0))
     q = -(b + np.where(b < 0, -root, root)) / 2
@@ -113,9 +114,10 @@ def _along_ray(f: Field, b: Field, c: Field, reach: Field) -> Field:
 
 
 def _between(f: Field, b: Field, c: Field, low: Field, high: Field) -> Field:
-    """Integrate √Q/r over low < r < high, where Q = f + b r + c r² >= 0.
+    """Integrate √Q/r along a loaded part of a ray, low < r < high, with Q = f + b r + c r² >= 0.
 
-    The singular part is omitted if low is 0.
+    Q is the squared pressure at the distance r from the observer. The singular part of the integral
+    is omitted if `low` is 0.
     """
     at_low, at_high = (np.sqrt(np.maximum(f + (b + c * r) * r, 0.0)) for r in (low, high))
     whole = at_high - at_low + b / 2 * _arc(c, high - low, at_low + at_high)
@@ -132,7 +134,8 @@ def _between(f: Field, b: Field, c: Field, low: Field, high: Field) -> Field:
 def _arc(k: Field, n: Field, d: Field) -> Field:
     """Compute 2 arctan(√-k n/d)/√-k for k < 0, and 2 artanh(√k n/d)/√k for k > 0.
 
-    Used in the closed form of the integral along a ray.
+    Both are branches of one primitive, used in the closed form of ∫ √Q/r dr along a ray, with a
+    quadratic Q.
     """
     size = np.sqrt(np.abs(k))
     flat = size * n <= STRAIGHT * d

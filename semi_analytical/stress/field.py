@@ -154,9 +154,15 @@ def fields_by_level(
     depths: Sequence[float | Level],
     rows: Indices | None = None,
 ) -> Iterator[SubsurfaceField]:
-    """Iterate over displacement and stress at each depth; other arguments as for `subsurface`.
+    """Iterate over displacement and stress in the lower body, one depth at a time.
 
-    rows  indices along y of the required rows of cells; None for all
+    A depth at a time limits the memory.
+
+    body             body, or scene whose lower body is used
+    grid             cells that carry the tractions
+    pressure, shear  (nx, ny) and (2, nx, ny), traction on the body; None is no shear
+    depths           depths [length], or levels where the side of an interface matters
+    rows             indices along y of the required rows of cells; None for all
     """
     tractions = _tractions(grid, pressure, shear)
     stack = _stack(body)
@@ -266,7 +272,9 @@ def required_bytes(cells: tuple[int, int], levels: int, numbers: int = 0) -> int
 def refuse_beyond_memory(cells: tuple[int, int], levels: int, numbers: int = 0) -> None:
     """Raise ResourceRefused if displacement and stress at several depths exceed the free memory.
 
-    Arguments as for `required_bytes`.
+    cells    number of cells along x and y
+    levels   number of depths
+    numbers  largest count of numbers per point derived from the fields, fields included
     """
     required, available = required_bytes(cells, levels, numbers), available_bytes()
     if required > available:

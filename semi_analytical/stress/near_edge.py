@@ -99,8 +99,10 @@ class NearEdge:
         return _at_surface(self, self.phi)
 
     def at(self, x: Field, y: Field) -> Field:
-        """Compute the surface stress at positions x, y (n,) [length] near the contact edge (6,
-        n)."""
+        """Compute the surface stress (6, n) [force/length^2] at n positions near the contact edge.
+
+        x, y  coordinates of the positions (n,) [length]
+        """
         of_cells = (
             (p - c[0]) / side
             for p, c, side in zip(
@@ -148,9 +150,11 @@ class NearEdge:
         return replace(field, stress=stress)
 
     def reaches(self, level: Level) -> bool:
-        """Return True if the stress at a level is corrected.
+        """Return True if the stress at a depth is corrected for the contact edge inside cells.
 
-        The level must lie in the outermost layer and near the surface.
+        The depth must lie in the outermost layer and near the surface.
+
+        level  depth with the index of its layer
         """
         return level.layer == 0 and near_surface(level.depth, self.grid.spacing)
 
@@ -173,13 +177,15 @@ def near_edge(
     *,
     corrected: bool = False,
 ) -> NearEdge:
-    """Fit the contact edge of a smooth contact; arguments as for `subsurface`.
+    """Fit the contact edge of a smooth contact, for the surface stress at and near the edge.
 
-    The pressure must fall like a square root towards the edge.
+    The pressure must fall like a square root towards the edge. Raises EdgeNotSeen, and the errors
+    of `subsurface`.
 
-    corrected  True if the tractions are cell means with edge correction
-
-    Raises EdgeNotSeen, and the errors of `subsurface`.
+    stack            layers and base of the body
+    grid             cells that carry the tractions
+    pressure, shear  (nx, ny) and (2, nx, ny), traction on the body; None is no shear
+    corrected        True if the tractions are cell means with edge correction
     """
     if shear is not None and np.max(np.abs(shear)) <= NO_SHEAR * np.max(pressure):
         shear = None

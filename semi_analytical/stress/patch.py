@@ -48,7 +48,12 @@ def stress_from_beyond(
 
 
 def _patches(cells: Field, i: Indices, j: Indices) -> Field:
-    """Return the tractions on the patches about the cells (i, j), shape (n, 3, side, side)."""
+    """Return the tractions on a square patch of cells about each of n cells, shape (n, 3, side,
+    side).
+
+    cells  tractions (3, nx, ny)
+    i, j   indices of the central cell of each patch (n,)
+    """
     shift = np.arange(2 * PATCH + 1)
     padded = np.pad(cells, [(0, 0), (PATCH, PATCH), (PATCH, PATCH)])
     found = padded[:, (i[:, None] + shift)[:, :, None], (j[:, None] + shift)[:, None, :]]

@@ -61,10 +61,12 @@ def stress_by_force(x: Field, y: Field, depth: float, nu: float, force: Field) -
 def _at_surface(
     x: Field, y: Field, nu: float, force: tuple[Field, Field, Field], sheared: bool
 ) -> Field:
-    """Compute stress times area (6, …) at depth zero, where only xx, yy and xy are not zero.
+    """Compute stress times area (6, …) at depth zero under point forces; only xx, yy and xy are not
+    zero.
 
-    Arguments as for `stress_by_force`, with the force divided by 2π.
-
+    x, y     observer minus force (…) [length]
+    nu       Poisson's ratio
+    force    (q_x, q_y, p) as traction times area, divided by 2π
     sheared  True if q_x or q_y is not zero
     """
     q_x, q_y, p = force

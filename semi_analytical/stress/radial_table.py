@@ -73,8 +73,14 @@ class DepthTable:
 
 
 def clearance(stack: Stack, level: Level) -> float:
-    """Return the distance from a level to the nearest source of the tabulated functions
-    [length]."""
+    """Return the distance from a depth to the nearest singularity of the tabulated functions
+    [length].
+
+    In the outermost layer of thickness h the singularity is an image source at 2h - z. Below this
+    layer the singularity is the force at the surface.
+
+    level  depth z with the index of its layer
+    """
     if level.layer == 0:
         return 2 * stack.layers[0].thickness - level.depth
     return level.depth
@@ -140,10 +146,12 @@ def _bessel(x: Array) -> tuple[Array, Array, Array, Array]:
 
 
 def integrands(fields: DepthScalars, plane: PlaneScalars) -> Array:
-    """Compute the integrands of the Hankel transforms, shape (functions, wavenumbers).
+    """Compute the integrands of the 15 Hankel transforms of displacement and stress at one depth.
 
-    fields  displacement and traction scalars at one depth, in Fourier space
-    plane   stress scalars in the horizontal plane at this depth
+    The shape is (functions, wavenumbers).
+
+    fields  displacement and traction at the depth, in Fourier space
+    plane   stress in the horizontal plane at the depth, in Fourier space
     """
     (U_q, U_p), (W_q, W_p) = fields.displacement
     (s_q, s_p), (n_q, n_p) = fields.traction

@@ -21,10 +21,11 @@ from semi_analytical.stress.components import empty_response
 
 
 class AxisPotentials:
-    """Integrals over a rectangle of the derivatives of the potentials A, B, C along one surface
+    """Integrals over a loaded rectangle of derivatives of the potentials A, B, C along one surface
     axis s.
 
-    Each integral has shape (…, nx, ny). The potentials are defined in the module.
+    With the distance ρ from the source point, A = 1/ρ, B = -ln(ρ + z) and C = z ln(ρ + z) - ρ. Each
+    integral has shape (…, nx, ny).
 
     s, o   corner offsets of the observers along this and the other axis, which broadcast [length]
     depth  z >= 0 [length]
@@ -38,16 +39,20 @@ class AxisPotentials:
 
     @cached_property
     def log(self) -> Field:
-        """Primitive of the derivative A_s of the potential A along axis s, at the corners of the
-        rectangle."""
+        """Primitive of the derivative A_s of the potential A = 1/ρ, at the corners of the
+        rectangle.
+
+        s is the coordinate along the axis and ρ the distance from the source point.
+        """
         return np.arcsinh(self._o / np.sqrt(self._sz))
 
     @cached_property
     def angle(self) -> Field:
-        """Primitive of the derivative -B_ss of the potential B along axis s, at the corners of the
+        """Primitive of the derivative -B_ss of the potential B = -ln(ρ + z), at the corners of the
         rectangle.
 
-        The formula contains rho - z without cancellation.
+        s is the coordinate along the axis and ρ the distance from the source point. The formula
+        contains ρ - z without cancellation.
         """
         s, o, z, rho = self._s, self._o, self._z, self._rho
         return np.arctan(s * o * (s**2 + o**2) / (self._deep * (s**2 * rho + o**2 * z)))
