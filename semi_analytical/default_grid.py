@@ -57,7 +57,10 @@ def discretise(scene: Scene, asked: SurfaceDiscretisation) -> SurfaceGrid:
 
 
 def enlarged(scene: Scene, asked: SurfaceDiscretisation, grid: SurfaceGrid) -> SurfaceGrid:
-    """Return a grid whose window is GROWTH times wider, within the extent of the maps of the scene.
+    """Return a grid with a window GROWTH times wider, if a contact has reached the border of the
+    window.
+
+    The window stays within the extent of the height and friction maps of the scene.
 
     asked  prescribed number of cells and window
     grid   grid whose window is too small
@@ -186,8 +189,10 @@ def _largest_loads(scene: Scene, tilts: bool) -> list[NormalTarget]:
 
 
 def _control(load: NormalTarget) -> tuple[bool, bool]:
-    """Return the kind of control of a normal load: force prescribed or not, moment prescribed or
-    not."""
+    """Return the kind of control of a normal load, to compare only loads of one kind.
+
+    The result is (True if the force is prescribed, True if the moment is prescribed).
+    """
     return load.force is not None, load.moment is not None
 
 
@@ -198,9 +203,12 @@ def _size(load: NormalTarget) -> float:
 
 
 def _lean(axis: int, load: NormalTarget) -> float:
-    """Return the magnitude of the tilt or moment of a normal load along y (axis 0) or x (axis 1).
+    """Return the size of the tilt or moment of a normal load, to find the load of largest
+    eccentricity.
 
     A moment is divided by the force, if the force is prescribed.
+
+    axis  0 for the component along y, 1 for that along x
     """
     if load.moment is not None:
         return abs(load.moment[axis]) / (load.force or 1.0)

@@ -49,7 +49,12 @@ Advance = Callable[
 
 
 class Correct(Protocol):
-    """Interface of the edge correction, see `edge_correction.correction.EdgeCorrection`."""
+    """Interface of the edge correction: a function that corrects pressure and shear of a solved
+    state.
+
+    The correction accounts for contact edges inside cells. The result is the corrected state, or a
+    report of the reason why a correction is impossible. `EdgeCorrection` implements the interface.
+    """
 
     def __call__(
         self, last: State | None, state: State, *, path_known: bool, tolerance: float
@@ -65,11 +70,10 @@ MAX_CONVOLUTIONS = 30_000
 def marked(
     model: ContactModel, plan: Plan, tolerance: float, since: Checkpoint | None = None
 ) -> Iterator[tuple[Increment, ResumePoint[State]]]:
-    """Iterate over the converged increments of the load history, each with its resume point.
+    """Iterate over the converged increments of the load history, each with a state for a later
+    restart.
 
-    A resume point is the state from which the solution can be continued later.
-
-    model, plan  contact model and effects to compute
+    model, plan  contact model, and effects to compute
     tolerance    limit of all dimensionless residuals
     since        checkpoint from which to resume; None to start at the beginning
     raises       NotConverged and GrossSliding, with the last converged increment as `last_state`
@@ -105,10 +109,12 @@ def _correction(model: ContactModel, plan: Plan) -> Correct | None:
 
 @dataclass(frozen=True)
 class _Solver:
-    """Contact model with the solver of one increment, as required by the load stepping.
+    """Solver of single increments of a contact model, as called by the load stepping.
 
-    Work is counted in convolutions.
+    The cost of an increment is counted in convolutions.
 
+    model      contact model of the scene on a grid
+    plan       effects to compute, such as friction and coupling
     increment  function that solves one increment
     correct    edge correction; None without one
     tolerance  limit of all dimensionless residuals
@@ -327,8 +333,13 @@ def _stick(
 
 
 def _traced(increment: Increment, last: Increment | None, sheared: TangentialState) -> Increment:
-    """Add slip, slip distance and dissipation to an increment, unless the tangential shift is
-    undefined."""
+    """Add slip, slip distance and dissipation of a state to an increment of the results.
+
+    The increment is returned unchanged if the tangential shift is undefined.
+
+    last     preceding increment of the results, with slip and dissipation at the start
+    sheared  tangential state at the end of the increment
+    """
     if sheared.dissipated_energy is None:
         return increment
     nothing = untouched(sheared.in_stick.shape)

@@ -72,7 +72,7 @@ class StepIncrements:
 
 @dataclass(frozen=True)
 class Bodies:
-    """Properties of the contacting bodies that the error rules of increments need.
+    """Properties of the two bodies that determine the number of increments for a given error.
 
     coupled   True if the normal and tangential problems are coupled
     beta      Dundurs constant β; None if a body has layers
@@ -127,7 +127,7 @@ NO_SHEAR = "no shear: the state does not depend on the load path"
 
 @dataclass(frozen=True)
 class _LoadStep:
-    """Load step with the data that the error rules of increments need.
+    """Load step, with functions that choose its number of increments for a given error.
 
     ramp   linear change of the prescribed loads
     start  tangential force or shift at the start of the step (x, y)

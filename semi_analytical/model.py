@@ -68,7 +68,8 @@ class ContactModel:
     def friction_slope(self, pressure: Field, first: Pair = (0, 0)) -> Field:
         """Compute the derivative of the friction limit with respect to the pressure [1].
 
-        Arguments as for `friction_limit`.
+        pressure  p on the reduced domain, or on a box of its cells (nx, ny)
+        first     first cell of the box
         """
         return self.friction.slope(pressure, self._of_window(first, pressure.shape))
 
@@ -172,7 +173,8 @@ class ContactModel:
 
     @cached_property
     def coarse(self) -> "ContactModel | None":
-        """Contact model on the same domain with half the cells per side, for initial guesses.
+        """Contact model on the same domain with half the cells per side, for initial guesses of the
+        pressure.
 
         None if a number of cells is odd or the window has too few cells to save time.
         """

@@ -18,8 +18,12 @@ MAX_SWEEPS = 100
 
 
 class Shifted(Protocol):
-    """Interface of a traction that is shifted by multipliers and projected on the friction or
-    contact law."""
+    """Interface of the projected traction for one value of the multipliers of the prescribed
+    forces.
+
+    The traction is shifted by the multipliers and projected on the friction or contact law.
+    `find_multiplier` changes the multipliers until its forces have the prescribed values.
+    """
 
     @property
     def defect(self) -> Vector:
@@ -29,11 +33,15 @@ class Shifted(Protocol):
         """
 
     def settled(self, multiplier: Vector) -> bool:
-        """Return True if the defect of the prescribed sums is at the level of rounding errors."""
+        """Return True if the forces of the traction have the prescribed values up to rounding
+        errors.
+
+        multiplier  multipliers for which the traction was computed
+        """
 
     def newton_step(self) -> Vector:
-        """Compute the change of the multipliers that removes the defect of the sums to first
-        order."""
+        """Compute the change of the multipliers that gives the traction its prescribed forces to
+        first order."""
 
 
 Point = TypeVar("Point", bound=Shifted)

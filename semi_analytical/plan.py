@@ -50,7 +50,7 @@ class Coupling(StrEnum):
 
 @dataclass(frozen=True)
 class Plan:
-    """Effects to compute for a scene. Effects that are off cause no cost.
+    """Effects that the solution of a scene includes. Effects that are off cause no cost.
 
     shear     True if shear tractions are solved for
     tilt      True if the indenter tilts, by prescribed moments or tilts
@@ -80,7 +80,10 @@ class Plan:
         return tuple(step.count for step in self.path)
 
     def cut_into(self, increments: Sequence[int]) -> "Plan":
-        """Return the plan with other numbers of increments, one for each load step."""
+        """Return the plan with prescribed numbers of increments.
+
+        increments  number of increments of each load step
+        """
         path = zip(self.path, increments, strict=True)
         return replace(self, path=tuple(replace(step, count=count) for step, count in path))
 
@@ -185,9 +188,12 @@ def _symmetry(
 
 
 def _edges(scene: Scene, asked: EdgeCorrection, torsion: bool) -> tuple[bool, str]:
-    """Decide if the edge correction is applied, and state the reason.
+    """Decide if the edge correction is applied to a scene, and state the reason.
 
-    asked  requested edge correction
+    The edge correction accounts for contact edges inside cells.
+
+    asked    requested edge correction: "off", or the increments at whose end it is applied
+    torsion  True if the scene has torsion
     """
     if asked == "off":
         return False, "not requested: tractions are constant on every cell"
@@ -218,10 +224,12 @@ def all_effects(plan: Plan) -> Plan:
 
 
 def one_way(plan: Plan) -> Plan:
-    """Return a plan with one-way coupling: shear does not act on the pressure (Goodman 1962).
+    """Return a plan in which shear does not act on the pressure (one-way coupling, Goodman 1962).
 
     This is an approximation for coupled bodies. For uncoupled bodies it has equal results at a
     higher cost.
+
+    plan  effects that the solution of a scene includes
     """
     why = "requested: pressure acts on the tangential problem, shear not on the normal problem"
     effects = [replace(e, on=True, why=why) if e.name == COUPLING else e for e in plan.effects]
@@ -242,7 +250,11 @@ def one_way(plan: Plan) -> Plan:
 
 
 def _forced(effect: Effect) -> Effect:
-    """Mark an effect as on in a plan with all effects, and an unused symmetry reduction as off."""
+    """Return the description of an effect in a plan that computes all effects.
+
+    Effects that the scene does not require are marked as forced on, a symmetry reduction as not
+    used.
+    """
     if effect.name == MIRROR_PLANES and effect.on:
         return replace(effect, on=False, why=f"not used, although {effect.why}")
     if effect.name not in COMPUTED or effect.on:

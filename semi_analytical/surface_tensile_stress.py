@@ -61,12 +61,13 @@ def _in_plane_stress(result: Result, end: Increment) -> Field:
 
 
 def _direction(path: Sequence[Increment], cell_area: float) -> Vector | None:
-    """Return the unit vector of the largest change of the tangential force since the start of a
-    load cycle.
+    """Return the direction in which the tangential force changes most in a load cycle (unit
+    vector).
 
-    None is returned if the force is constant.
+    The change is counted from the start of the cycle. None is returned if the force is constant.
 
-    path  increments of the cycle
+    path       increments of the cycle
+    cell_area  area of a cell [length^2]
     """
     force = np.array([increment.tangential_force for increment in path])
     changes = force - force[0]

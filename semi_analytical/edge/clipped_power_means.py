@@ -51,7 +51,8 @@ def mean_power(f: Field, f_x: Field, f_y: Field, exponent: Exponent) -> Field:
 
 
 def power(base: Field, exponent: Exponent) -> Field:
-    """Compute base^exponent, shape of base; multiples of 1/2 use fast square roots."""
+    """Compute base^exponent element by element, by square roots if the exponent is a multiple of
+    1/2."""
     if isinstance(exponent, np.ndarray) or exponent < 0 or 2 * exponent % 1:
         return np.asarray(base**exponent)
     whole = int(exponent)
@@ -61,18 +62,23 @@ def power(base: Field, exponent: Exponent) -> Field:
 
 
 def _among(exponent: Exponent, shape: tuple[int, ...], where: NDArray[Any]) -> Exponent:
-    """Select the exponents at some places; a single number remains a single number.
+    """Select the exponents that belong to some elements; a single number remains a single number.
 
     exponent  a number, or an array that broadcasts to `shape`
-    where     selected places (shape)
+    shape     shape of the data
+    where     mask of the selected elements, of this shape
     """
     return np.broadcast_to(exponent, shape)[where] if np.ndim(exponent) else exponent
 
 
 def mean_of_smooth(f: Field, f_x: Field, f_y: Field, a: Exponent) -> Field:
-    """Compute `mean_power` by a binomial series where the function is positive in the whole cell.
+    """Compute the mean of (f + f_x x + f_y y)^a over a unit cell in which the function is positive.
 
-    The error is 3e-7 if f is at least 1.5 times the sum of the slopes.
+    The binomial series has an error of 3e-7 if f is at least 1.5 times the sum of the slopes.
+
+    f         value of the linear function at the cell centre
+    f_x, f_y  slopes: change of the function across a cell
+    a         exponent
     """
     mean = _series(1 / f**2, *_series_terms(f_x, f_y, a))
     mean *= power(f, a)
@@ -80,9 +86,13 @@ def mean_of_smooth(f: Field, f_x: Field, f_y: Field, a: Exponent) -> Field:
 
 
 def mean_of_cut(f: Field, f_x: Field, f_y: Field, a: Exponent) -> Field:
-    """Compute `mean_power` in cells that the zero line of the function may cut, shape (n,).
+    """Compute the mean of (f + f_x x + f_y y)_+^a over unit cells that the zero line may cut, shape
+    (n,).
 
-    f lies between -1/2 and a few times the sum of the slopes. The slopes must not be negative.
+    f         value of the linear function at the cell centre: between minus half and a few times
+              the sum of the slopes
+    f_x, f_y  slopes: change of the function across a cell, not negative
+    a         exponent
     """
     return _cut_with_slope(f, np.maximum(f_x, f_y), np.minimum(f_x, f_y), a)[0]
 
@@ -172,12 +182,13 @@ def _differences(corners: Field) -> Field:
 def centre_value(
     mean: Field, f_x: Field, f_y: Field, exponent: Exponent, near: Field | None = None
 ) -> Field:
-    """Compute the centre value f of a linear function from the cell mean of its power, shape (n,).
+    """Compute the centre value f of a linear function from the mean of its power over a cell, shape
+    (n,).
 
-    This function is the inverse of `mean_power`. The result lies within half the sum of the slopes
-    of mean^(1/exponent).
+    Inverse of `mean_power`. The edge correction computes φ = p^(1/α) from the mean pressure in this
+    way. The result lies within half the sum of the slopes of mean^(1/exponent).
 
-    mean      mean of the power over the cell, positive
+    mean      mean of (f + f_x x + f_y y)_+^exponent over the cell, positive
     f_x, f_y  slopes: change of the function across a cell
     near      initial guess of f for cells that the zero line may cut
     """
@@ -193,12 +204,12 @@ def centre_value(
 
 
 def _smooth_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
-    """Solve for the centre value f by fixed-point iteration where the function is positive in the
-    cell.
+    """Solve mean^(1/a) = target for the centre value f in cells where the linear function is
+    positive.
 
-    Each iteration divides the error by 200.
+    Each fixed-point iteration divides the error by 200.
 
-    target  mean^(1/a)
+    target  mean^(1/a), with the mean of (f + b x + c y)^a over the cell
     b, c    larger and smaller slope, not negative
     a       exponent
     """
@@ -228,8 +239,10 @@ def _cut_centre(target: Field, b: Field, c: Field, a: Exponent, near: Field | No
 
     The equation is almost linear in f. Newton's method is safeguarded by bisection.
 
-    b, c  larger and smaller slope, not negative
-    near  initial guess of f; None if unknown
+    target  mean^(1/a), with the mean of (f + b x + c y)_+^a over the cell
+    b, c    larger and smaller slope, not negative
+    a       exponent
+    near    initial guess of f; None if unknown
     """
     half = (b + c) / 2
     low, high = -half, target + half

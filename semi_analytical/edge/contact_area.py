@@ -74,16 +74,20 @@ def stuck_cells(shear: Field, bound: Field, in_stick: Mask) -> float:
 
 
 def _box_with_edge(marked: Mask) -> tuple[slice, ...]:
-    """Return the slices of the smallest rectangle that contains the marked cells and their
-    neighbours."""
+    """Return the slices of the smallest rectangle that contains given cells and their neighbours.
+
+    marked  cells that the rectangle must contain (nx, ny)
+    """
     at = (np.flatnonzero(np.any(marked, axis=axis)) for axis in (1, 0))
     return tuple(slice(max(0, i[0] - 1), i[-1] + 2) if len(i) else slice(0) for i in at)
 
 
 def near(marked: Mask) -> Mask:
-    """Select the cells that are marked or have a marked neighbour (8 neighbours).
+    """Select the cells that belong to a set or touch it at a side or a corner.
 
     The result has the shape (nx - 2, ny - 2), because the outermost layer of cells is omitted.
+
+    marked  cells of the set (nx, ny)
     """
     along = marked[:-2] | marked[1:-1] | marked[2:]
     return np.asarray(along[:, :-2] | along[:, 1:-1] | along[:, 2:])

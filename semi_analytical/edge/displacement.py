@@ -73,8 +73,11 @@ class Within:
         return cls(slopes, i, j, rest.reshape(parts.shape))
 
     def along(self, n: Field, component: Field) -> Within:
-        """Return the variation of one component n v of a vector field whose magnitude v has this
-        variation.
+        """Return the variation within cells of one component of a vector traction from that of its
+        magnitude.
+
+        Used for the shear at the friction limit, whose direction is smooth. In edge cells the
+        variation is n times the present one; elsewhere the slopes are differences of the component.
 
         n          direction cosine of the component (nx, ny)
         component  cell means of the component (nx, ny)
@@ -207,11 +210,12 @@ class EdgeOperator:
 
 
 def around(within: Within, near: Field, count: int) -> Field:
-    """Sum the displacements that the remainders of edge cells cause in cells at most REACH away.
+    """Compute the displacements that the tractions of edge cells cause at most REACH cells away.
 
+    Only the remainders of the tractions act: subcell tractions minus mean and slopes of the cell.
     The result (count, nx + 2 REACH, ny + 2 REACH) includes a margin of REACH cells on each side.
 
-    within  variation of one traction component
+    within  variation of one traction component within the cells
     near    (count * offsets, PARTS²) displacement by unit traction on each subcell
     count   number of displacement components
     """

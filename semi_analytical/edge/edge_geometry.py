@@ -21,9 +21,11 @@ MIN_SLOPE_RATIO, MIN_JACOBIAN = 0.1, 0.3
 
 @dataclass(frozen=True)
 class LocalEdge:
-    """Geometry of the contact edge near given places, all arrays of one shape.
+    """Distance from the contact edge and geometry of the edge near given places, all arrays of one
+    shape.
 
-    φ is the function that vanishes at the edge (see `semi_analytical.edge`).
+    φ = p^(1/α) is a smooth function that vanishes at the edge, with the pressure p ~ s^α at the
+    distance s from the edge.
 
     distance   distance s of the places from the edge, negative outside
     normal     (2, …) inward unit normal of the edge
@@ -40,14 +42,16 @@ class LocalEdge:
 
     @property
     def slope_at_place(self) -> Field:
-        """Slope of φ along the edge normal at the places, at least MIN_SLOPE_RATIO of that at
-        the edge."""
+        """Slope of φ = p^(1/α) along the edge normal at the places, not at the edge.
+
+        The value is at least MIN_SLOPE_RATIO of the slope at the edge.
+        """
         inside = self.slope + self.bend * self.distance
         return np.maximum(inside, MIN_SLOPE_RATIO * self.slope)
 
     @property
     def foot(self) -> Field:
-        """Vectors (2, …) from the places to their nearest points of the edge."""
+        """Vectors (2, …) from the places to the nearest points of the contact edge."""
         return -self.distance * self.normal
 
 

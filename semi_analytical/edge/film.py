@@ -59,12 +59,14 @@ SAMPLED = np.geomspace(1e-3, 10.0, 41)
 
 @dataclass(frozen=True)
 class FilmLaw:
-    """Law of the pressure near the contact edge of layered bodies: Φ1 + c (Φ2 - ⅔ s Φ1).
+    """Law of the pressure near the contact edge of layered bodies, which replaces the root √s.
 
-    The law replaces √s of homogeneous bodies. Without layers the law is √s for all c: a factor 1 +
-    ⅔ c s is fitted with φ instead. Distances s from the edge are in units of the layer thickness.
+    s is the distance from the edge in units of the layer thickness. The law is Φ1 + c (Φ2 - ⅔ s
+    Φ1), with two functions Φ1(s), Φ2(s) of the layers and a coefficient c. Without layers the law
+    is √s for all c, up to a factor.
 
-    response   X as a function of wavenumber times thickness; X is defined in the module
+    response   normal compliance over that of the outermost material, as a function of wavenumber
+               times thickness
     stretched  sides of a cell along x and y over the thickness
     """
 
@@ -141,10 +143,12 @@ class FilmLaw:
         return law / root, law_rate * root / (law * root_rate) - 1
 
     def _at(self, s: Field) -> Field:
-        """Interpolate the ratios of Φ1, Φ2 and Φ3 with layers to their values without layers; shape
-        (3, …).
+        """Interpolate the effect of the layers on three basic edge pressures Φ1, Φ2, Φ3, shape (3,
+        …).
 
-        s  distances from the edge over the layer thickness
+        The results are the ratios of Φ1, Φ2 and Φ3 with layers to their values without layers.
+
+        s  distances from the edge over the layer thickness (…)
         """
         u = np.log(np.maximum(s, 1e-300))
         found = self._ratios(np.clip(u, self._ratios.x[0], self._ratios.x[-1]))
@@ -163,10 +167,13 @@ class FilmLaw:
         ])  # fmt: skip
 
     def _integrals(self, s: Field, c: Field) -> Field:
-        """Compute the integrals from 0 to s of the edge pressure law, its derivative, √s and its
+        """Compute integrals from 0 to s of the edge pressure law, its derivative, √s and its
         derivative.
 
-        The shape is (4, n). Arguments as for `_values`.
+        The result has the shape (4, n). Means over cells follow from these integrals.
+
+        s  distances s > 0 from the edge over the layer thickness (n,)
+        c  coefficient of the second term of the law (n,)
         """
         root = np.sqrt(s)
         first, second, third = self._at(s)
@@ -227,6 +234,9 @@ def _uniform_depth(stack: Stack) -> float:
 
 
 def _compliance(stack: Stack) -> float:
-    """Return k F_zz = (1 - ν)/G of the outermost material of a body [length²/force]."""
+    """Return (1 - ν)/G of the outermost material of a body [length²/force].
+
+    This is its normal surface compliance per wavelength: wavenumber times u_z over pressure.
+    """
     outer = stack.outer
     return (1 - outer.poisson_ratio) / outer.shear_modulus

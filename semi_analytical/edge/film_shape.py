@@ -145,7 +145,9 @@ class _Problem:
         return power(self.means / self.law.over_root(s, curved), np.divide(1, self.exponent))
 
     def first(self, i: Indices, j: Indices) -> EdgeLine:
-        """Return the initial guess of the edge, from fits to cells that are not adjacent to the
+        """Return the initial guess of the contact edge, fitted to cells away from the edge.
+
+        Cells along the edge are excluded, because their φ depends on the unknown position of the
         edge.
 
         i, j  indices of the cells along the edge (n,)
@@ -158,7 +160,10 @@ class _Problem:
     def about(self, line: EdgeLine) -> FilmShape:
         """Compute the cell means of φ and their sensitivity to the edge, for a given contact edge.
 
-        The distances in the pressure law are those from the given edge.
+        φ = (pressure over the ratio of the edge law to √s)^(1/α). The distances s are those from
+        the given edge.
+
+        line  points of the given contact edge
         """
         phi, weight = self.by_depth, self.region.astype(float)
         sensitivity = np.zeros_like(phi)

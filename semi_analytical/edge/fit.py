@@ -109,10 +109,11 @@ def fit_about(
 
 
 def in_windows(padded: Field, i: Indices, j: Indices, stencil: Stencil) -> Field:
-    """Return the values of a field in the windows of a stencil about cells (i, j); shape (n,
-    window).
+    """Return the values of a field in square windows about cells (i, j); shape (n, window).
 
-    padded  field with a margin of `stencil.reach` cells on each side
+    padded   field with a margin of `stencil.reach` cells on each side
+    i, j     indices of the central cells (n,)
+    stencil  size of the windows
     """
     dx, dy = _offsets(stencil)
     across = padded.shape[1]
@@ -139,7 +140,13 @@ def monomials(stencil: Stencil) -> Field:
 @cache
 def _products(stencil: Stencil, degree: int) -> Field:
     """Compute the products of all pairs of monomials in the window of a stencil (9 degree²,
-    window)."""
+    window).
+
+    They yield the matrices of the least-squares fits.
+
+    stencil  square window of cells
+    degree   degree of the polynomials, 1 or 2
+    """
     basis = monomials(stencil)[: 3 * degree]
     return _read_only((basis[:, None] * basis).reshape(len(basis) ** 2, -1))
 
@@ -157,9 +164,9 @@ def _read_only(values: Field) -> Field:
 
 
 def solution(normal: Field, right: Field) -> Field:
-    """Solve regularised normal equations of least-squares fits; return the coefficients (n, m).
+    """Solve the regularised normal equations of n least-squares fits for their coefficients (n, m).
 
-    normal  matrices of n fits (n, m, m); their diagonals are regularised in place
+    normal  matrices of the fits (n, m, m); their diagonals are regularised in place
     right   right-hand sides (n, m)
     """
     diagonal = np.einsum("nkk->nk", normal)

@@ -131,12 +131,14 @@ def _subcell_sums(weights: Field, parity: int) -> Field:
 
 
 def _slope(values: Field, axis: int, parity: int) -> Field:
-    """Compute the derivative per cell, along one axis, of influence coefficients at offsets >= 0.
+    """Compute the derivative of influence coefficients along one axis, per cell.
 
-    The differences are of fourth order, at the far end of lower order.
+    The first moments of the coefficients follow from it. Differences are of fourth order, at the
+    far end of lower order.
 
-    values  coefficients (nx, ny)
-    parity  parity of the coefficients along the axis
+    values  coefficients at offsets >= 0 (nx, ny)
+    axis    0 for x, 1 for y
+    parity  parity of the coefficients along the axis: 1 even, -1 odd
     """
     v = np.moveaxis(values, axis, 0)
     v = np.concatenate([parity * v[2:0:-1], v])
@@ -164,9 +166,13 @@ def spectra_of(
 
 
 def _spectrum(moment: Field, parity: tuple[int, int]) -> KernelSpectrum:
-    """Compute the Fourier spectrum of one moment with a given parity along x and y.
+    """Compute the real Fourier spectrum of a displacement kernel from its parity along x and y.
 
-    The spectrum is -i times the result if the two parities differ.
+    The kernel is a first moment of influence coefficients. The spectrum is -i times the result if
+    the two parities differ.
+
+    moment  kernel at offsets >= 0
+    parity  parity along x and y: 1 even, -1 odd
     """
     if parity == (1, 1):
         return even_transform(moment)
@@ -176,12 +182,15 @@ def _spectrum(moment: Field, parity: tuple[int, int]) -> KernelSpectrum:
 
 
 def _by_differences(of: EdgeKernels, known: KernelSpectrum, axis: int) -> KernelSpectrum:
-    """Compute the spectrum of a moment from the known spectrum of the influence coefficients.
+    """Compute the spectrum of a first moment from the known spectrum of the influence coefficients.
 
-    Far moments are differences of the periodic coefficients: the spectrum times a symbol. The
-    transform of the near moments minus these differences is added.
+    The moment is the displacement by a traction that is linear in the cell. Far from the cell
+    moments are differences of the coefficients, so that their spectrum is a known factor times that
+    of the coefficients. The transform of the near moments minus these differences is added.
 
-    axis  direction of the slope: 0 for x, 1 for y
+    of     kernels of one component
+    known  spectrum of the influence coefficients
+    axis   direction of the slope: 0 for x, 1 for y
     """
     periods = known.quarter.shape[1] - 1, known.quarter.shape[0] - 1
     near = of.near_moments[axis][tuple(slice(m + 1) for m in periods)]
@@ -201,8 +210,10 @@ def _by_differences(of: EdgeKernels, known: KernelSpectrum, axis: int) -> Kernel
 
 
 def _differences(values: Field, m: int, count: int) -> Field:
-    """Approximate moments by fourth-order differences of periodic coefficients, along the first
-    axis.
+    """Approximate first moments of influence coefficients by fourth-order differences, along the
+    first axis.
+
+    The coefficients are continued periodically.
 
     values  influence coefficients at offsets >= 0 along the first axis
     m       half the period
@@ -215,12 +226,14 @@ def _differences(values: Field, m: int, count: int) -> Field:
 
 
 def _waves(wave: np.ufunc, m: int, count: int) -> Field:
-    """Return the matrix of Fourier sums over the first `count` offsets of 0 … m; shape (m + 1,
+    """Return the matrix of a cosine or sine transform over the first offsets of a period, (m + 1,
     count).
 
     Offsets strictly between 0 and m have the factor 2, because they occur with both signs.
 
-    wave  sine or cosine
+    wave   sine or cosine
+    m      half the period
+    count  number of offsets
     """
     values = wave(np.pi / m * np.arange(2 * m))
     waves = values[np.outer(np.arange(m + 1), np.arange(count)) % (2 * m)]

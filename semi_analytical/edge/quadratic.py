@@ -33,9 +33,9 @@ class Quadratic:
         return np.hypot(self.f_x, self.f_y)
 
     def chosen(self, which: Mask | Indices | slice) -> Quadratic:
-        """Select the quadratics of some places.
+        """Select some of the quadratics.
 
-        which  mask, indices or slice of the places
+        which  mask, indices or slice of their places
         """
         return Quadratic(*(part[which] for part in vars(self).values()))
 
@@ -54,15 +54,18 @@ class Quadratic:
         )
 
     def at(self, dx: Field, dy: Field) -> Field:
-        """Evaluate the quadratics at offsets (dx, dy) from their places.
+        """Evaluate the quadratics at offsets from their places.
 
-        Further axes of dx and dy come first.
+        dx, dy  offsets in cells; further axes come first
         """
         bend = (self.f_xx * dx + 2 * self.f_xy * dy) * dx + self.f_yy * dy * dy
         return np.asarray(self.f + self.f_x * dx + self.f_y * dy + bend / 2)
 
     def about(self, x: Field, y: Field) -> Quadratic:
-        """Expand the same quadratic functions about other places (x, y)."""
+        """Expand the quadratics about other places; the functions themselves do not change.
+
+        x, y  new places in index coordinates
+        """
         dx, dy = x - self.x, y - self.y
         return Quadratic(
             *np.broadcast_arrays(

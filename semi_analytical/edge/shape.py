@@ -74,11 +74,13 @@ class EdgeShape:
         return self.nearest[:, i, j]
 
     def about(self, x: Field, y: Field) -> tuple[Quadratic, Mask]:
-        """Expand φ about places (x, y) near the edge, shape (n,); the second result marks reliable
-        fits.
+        """Expand φ about places near the edge of the region by local fits; mark reliable fits.
 
         At places outside the region the fit about the nearest cell of the region is used. A fit
         centred outside has one-sided data and a hundredfold error.
+
+        x, y     places in index coordinates (n,)
+        returns  quadratics of φ about the places, and True for reliable fits (n,)
         """
         fits = self.fits(*self.nearest_to(x, y))
         return fits.quadratic.about(x, y), reliable(fits)
@@ -155,11 +157,12 @@ class AdjacentCells:
 
 
 def _downhill(here: Quadratic) -> tuple[Field, Field]:
-    """Return the places nearest to given places where the linear part of φ vanishes.
+    """Move places towards the edge of the region, where φ = 0, by one Newton step of at most one
+    cell.
 
-    The distance is at most one cell.
+    Return the new coordinates x and y.
 
-    here  quadratic fits of φ about the given places
+    here  quadratic fits of φ about the present places
     """
     squared = np.maximum(here.slope**2, np.finfo(float).tiny)
     step = here.f / squared
@@ -168,7 +171,8 @@ def _downhill(here: Quadratic) -> tuple[Field, Field]:
 
 
 def reliable(fits: Fits) -> Mask:
-    """Select the fits of φ that have enough data and small residuals."""
+    """Return True for fits of φ that have enough data and small residuals, compared with the
+    slope."""
     few = fits.count < LEAST_DATA
     return np.asarray(~few & (fits.rms < LARGEST_RMS * fits.quadratic.slope))
 

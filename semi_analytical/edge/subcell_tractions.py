@@ -222,7 +222,10 @@ def means_of_power(phi: Quadratic, exponent: Exponent) -> Field:
 
 
 def _means_of_power(phi: Quadratic, a: Exponent) -> Field:
-    """Compute the means of φ_+^a over the subcells of one chunk of cells (n, PARTS²).
+    """Compute the means of φ_+^a over the subcells of n cells (n, PARTS²), negative φ counted as
+    zero.
+
+    With the exponent a these means are tractions p = φ^a near a contact edge.
 
     phi  quadratics of φ about the cells (n,)
     a    exponent, a number or (n, 1)
@@ -247,10 +250,14 @@ def _means_of_power(phi: Quadratic, a: Exponent) -> Field:
 def by_differences(
     means: Field, i: Indices, j: Indices, fade: Field, domain: ReducedDomain
 ) -> Field:
-    """Compute subcell tractions (n, PARTS, PARTS) of cells (i, j) from differences of cell means.
+    """Compute subcell tractions (n, PARTS, PARTS) of cells away from the edge, from a local
+    quadratic.
+
+    The quadratic follows from differences of the cell means.
 
     means   cell means of the traction (nx, ny)
-    fade    weight of the second differences (n,)
+    i, j    indices of the cells (n,)
+    fade    weight of the second differences, from 1 near the edge to 0 inside (n,)
     domain  domain of `means`
     """
     i, j = i + 1, j + 1

@@ -43,10 +43,10 @@ class EdgeOperators:
 
     @cached_property
     def apart(self) -> EdgeOperator:
-        """Operator from variations of (q_x, q_y, p) within cells to u_z [length], on the full
-        window.
+        """Operator from variations of (q_x, q_y, p) within cells to the normal displacement u_z
+        [length].
 
-        Used for coupled bodies, whose shear causes normal displacements.
+        Used on the full window for coupled bodies, whose shear causes normal displacements.
         """
         return self._operator(APART, WINDOW)
 

@@ -112,11 +112,12 @@ def next_change(changes: Sequence[float]) -> float:
 
 
 def left_over(changes: Sequence[float]) -> float:
-    """Return the ratio κ/(1-κ) of the remaining error of an iteration to its last change.
+    """Estimate the remaining error of the edge correction, as a ratio to the last change of its
+    iteration.
 
-    The contraction factor κ is the mean ratio of successive changes without the first change. It is
-    1/2 if there are too few changes. It is limited to 0.9, because ten iterations cannot resolve
-    slower convergence.
+    The ratio is κ/(1-κ). The contraction factor κ is the mean ratio of successive changes without
+    the first change. It is 1/2 if there are too few changes. It is limited to 0.9, because ten
+    iterations cannot resolve slower convergence.
 
     changes  relative changes of all iterations
     """
@@ -178,7 +179,13 @@ class _Last(NamedTuple):
 
 @dataclass(frozen=True)
 class _Problem:
-    """Deferred correction of the pressure of one state, with the arguments of `edge_pressure`."""
+    """Edge correction of the pressure of one solved state, by deferred correction.
+
+    operators  displacement operators of tractions that vary within cells
+    state      solved state with uniform pressure in each cell
+    shear      shear as a function of the pressure; None without friction
+    coupled    True if the shear causes normal displacements
+    """
 
     operators: EdgeOperators
     state: State
@@ -238,8 +245,11 @@ class _Problem:
         """Return the approach [length], or at a prescribed approach the sum of the pressure over
         the cells.
 
-        The change of this quantity between iterations yields the error of the approach or normal
+        The change of this number between iterations yields the error of the approach or normal
         force.
+
+        approach  approach of the iterate [length]
+        p         mean pressure of each cell (nx, ny)
         """
         return approach if self.state.target.approach is None else float(np.sum(p))
 

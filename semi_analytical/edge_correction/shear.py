@@ -120,8 +120,10 @@ class ShearProblem:
     tolerance: float
 
     def full(self, bound: Field, slip: VectorField, before: VectorField) -> VectorField:
-        """Return the shear of gross slip µp n, or q' + µp (n - n') after a load reversal (2, nx,
-        ny).
+        """Return the shear (2, nx, ny) that gross slip would cause at the corrected pressure.
+
+        The shear is µp n, or after a load reversal q' + µp (n - n'), with the direction of slip n'
+        of the previous state.
 
         bound   friction limit µp (nx, ny) [force/length^2]
         slip    direction of slip n (2, nx, ny)

@@ -34,8 +34,9 @@ class Waves(NamedTuple):
 
 
 def decaying_waves(x: Array) -> Waves:
-    """Compute the wave functions of a layer times exp(-2x), with full relative accuracy for all x
-    >= 0.
+    """Compute the hyperbolic functions of a layer times exp(-2x), accurately for all x >= 0.
+
+    The scale exp(-2x) prevents overflow for thick layers.
 
     x  wavenumber times thickness of the layer
     """
@@ -66,10 +67,10 @@ def _thin_series(x: Array) -> tuple[Array, Array]:
 
 
 def echo_waves(x: Array) -> Waves:
-    """Compute the wave functions of a layer without their terms exp(2x)/4, with the scale 1.
+    """Compute the hyperbolic functions of a layer without their part of an infinitely thick layer.
 
-    These terms represent an infinitely thick layer and cancel exactly in the difference from the
-    half-space. The remaining terms are multiplied by exp(-2x).
+    These parts exp(2x)/4 cancel in the difference between the compliance of a layered body and that
+    of a half-space. The remaining terms are multiplied by exp(-2x).
 
     x  wavenumber times thickness of the layer
     """

@@ -98,9 +98,9 @@ class Descent:
             self._transverse.append(across * self._transverse[k])
 
     def at(self, level: Level) -> DepthScalars:
-        """Compute displacement and traction at a level per unit surface traction, in Fourier space.
+        """Compute displacement and traction at a depth per unit surface traction, in Fourier space.
 
-        The level must not lie inside a rigid base.
+        level  depth with the index of its layer; not inside a rigid base
         """
         k = level.layer
         G, nu = material_at(self.stack, level)
@@ -185,15 +185,15 @@ def in_plane(fields: DepthScalars, material: HalfSpace, alpha: Array) -> PlaneSc
 
 
 def _transmitted(below: Compliance, nu: float, x: Array) -> tuple[Array, Array]:
-    """Compute the traction at a plane per unit traction at a plane d above, in one material.
+    """Compute the traction at a depth per unit traction at a smaller depth within one material.
 
-    The results are the sagittal matrix (2, 2, wavenumbers) and the transverse factor. M is the
-    lower half of exp(-x A), A the matrix of the equations above, applied to (C, 1): tau_0 = M tau.
-    Its determinant is the divisor of the compound recursion.
+    The results are the matrix (2, 2, wavenumbers) of the components along the wave vector and
+    normal, and the factor of the transverse component (wavenumbers,). The traction above is M times
+    that below; the matrix is the inverse of M.
 
-    below  compliance of the material below the lower plane
+    below  compliance of the material below the lower depth
     nu     Poisson's ratio
-    x      wavenumber times distance, alpha d
+    x      wavenumber times the distance between the depths
     """
     x = np.minimum(x, OPAQUE)
     decay, w = np.exp(-x), np.exp(-2 * x)
@@ -213,7 +213,9 @@ def _transmitted(below: Compliance, nu: float, x: Array) -> tuple[Array, Array]:
 
 
 def _x_cosh_minus_sinh(x: Array, scale: Array | float = 1.0) -> Array:
-    """Compute (x cosh x - sinh x) * scale, by series where the two terms nearly cancel.
+    """Compute (x cosh x - sinh x) * scale, by series for x < 1, where the two terms nearly cancel.
+
+    Used for the propagation of stresses through a layer, with x the wavenumber times the distance.
 
     scale  exp(-x) to keep the result bounded, or one
     """

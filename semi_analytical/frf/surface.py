@@ -112,10 +112,13 @@ def remainder_scalars(stack: Stack, alpha: ArrayLike) -> SurfaceScalars:
 
 
 def _echo(stack: Stack, alpha: Array) -> SurfaceScalars:
-    """Compute the surface compliance minus that of a half-space of the outermost material.
+    """Compute the surface compliance of a body minus that of a half-space of its outermost
+    material.
 
-    The wave functions without their half-space terms avoid cancellation in thick layers.
+    The difference is computed without cancellation for thick layers: the parts of an infinitely
+    thick layer are omitted from the hyperbolic functions.
 
+    stack  layers and base of the body
     alpha  wavenumbers (n,) [1/length]
     """
     film = stack.layers[0]
@@ -139,16 +142,24 @@ def _echo(stack: Stack, alpha: Array) -> SurfaceScalars:
 
 
 def _underside(stack: Stack, alpha: Array) -> Compliance:
-    """Compute the compliance of the material below the outermost layer, in units of this layer."""
+    """Compute the compliance of the material below the outermost layer, in units 1/(2 G alpha).
+
+    G is the shear modulus of the outermost layer.
+
+    stack  layers and base of the body
+    alpha  wavenumbers (n,) [1/length]
+    """
     return compliances_below(stack, alpha)[0]
 
 
 def compliances_below(stack: Stack, alpha: Array) -> list[Compliance]:
-    """Compute the compliance of the material below each layer of a body, in units of this layer.
+    """Compute the compliance of the material below each layer of a body.
 
-    The list begins with the outermost layer and ends with the base in its own units.
+    The list begins with the outermost layer and ends with the base. Each compliance is in units
+    1/(2 G alpha), with G the shear modulus of its layer, for the last one of the base.
 
-    alpha  wavenumbers [1/length]
+    stack  layers and base of the body
+    alpha  wavenumbers (n,) [1/length]
     """
     one, zero = np.ones_like(alpha), np.zeros_like(alpha)
     if stack.base is None:
@@ -170,11 +181,11 @@ def compliances_below(stack: Stack, alpha: Array) -> list[Compliance]:
 
 
 def compliance_above(below: Compliance, nu: float, x: Array) -> Compliance:
-    """Propagate the compliance below a plane upward through x = alpha d of one material.
+    """Compute the compliance at a plane from the compliance at a deeper plane, in one material.
 
-    below  compliance below the lower plane
-    nu     Poisson's ratio
-    x      wavenumber times distance
+    below  compliance of the material below the deeper plane
+    nu     Poisson's ratio of the material between the planes
+    x      wavenumber times the distance of the planes
     """
     x = np.minimum(x, OPAQUE)
     *rows, divisor = compound_rows(below.rows, nu, decaying_waves(x))

@@ -41,8 +41,10 @@ def hankel_points(r: float, limit: float) -> tuple[Array, Array]:
 
 
 def faded_points(low: float, high: float, limit: float = inf) -> tuple[Array, Array]:
-    """Return points and weights for Hankel transforms, with a window that removes short waves
-    smoothly.
+    """Return quadrature points and weights for Hankel transforms at distances that are not zero.
+
+    A smooth window removes wavenumbers that are large compared with the inverse of the smallest
+    distance.
 
     low, high  smallest and largest distance of the transform [length]
     limit      wavenumber beyond which the integrand is zero [1/length]

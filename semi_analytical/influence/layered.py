@@ -40,7 +40,14 @@ FOLDERS = ("frf", "influence")
 
 
 def computed_afresh(identity: str, shape: tuple[int, ...], compute: Callable[[], Field]) -> Field:
-    """Compute an array without a cache; default of `LayeredCoefficients.remember`."""
+    """Compute an array without a cache.
+
+    Default of `LayeredCoefficients.remember`, which may instead read arrays from a disk cache.
+
+    identity  cache key, not used
+    shape     shape of the array, not used
+    compute   function that computes the array
+    """
     return compute()
 
 

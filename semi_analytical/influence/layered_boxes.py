@@ -37,7 +37,11 @@ class Boxes:
 
     @staticmethod
     def single(x: float, y: float, half_x: float, half_y: float) -> Boxes:
-        """Return one box with the given centre and half sides, which belongs to cell 0."""
+        """Return a collection of one integration box, which belongs to cell 0.
+
+        x, y            centre [length]
+        half_x, half_y  half sides [length]
+        """
         sides = np.array([half_x]), np.array([half_y])
         return Boxes(np.array([x]), np.array([y]), *sides, np.zeros(1, np.intp))
 
@@ -114,9 +118,9 @@ def boxes_around_core(
 
 
 def _cut(boxes: Boxes) -> Boxes:
-    """Halve boxes along each side that is not small compared with the distance from the origin.
+    """Halve integration boxes until all sides are small compared with the distance from the origin.
 
-    The division is repeated until all sides are small.
+    Each box is halved along every side that is too long. The origin is the point of the force.
     """
     done = []
     while len(boxes.x):
@@ -136,8 +140,8 @@ def _cut(boxes: Boxes) -> Boxes:
 
 
 def _ends(half: Array) -> tuple[Array, Array]:
-    """Return the centres of both halves of a side, relative to the centre of the side.
+    """Return the centres of both halves of an interval, relative to the centre of the interval.
 
-    half  half the length of the side
+    half  half the length of the interval
     """
     return -half / 2, half / 2

@@ -110,9 +110,14 @@ def _near(
     spacing: tuple[float, float],
     cells: Indices,
 ) -> Field:
-    """Integrate the point response over near cells by Gauss quadrature; shape (components, cells).
+    """Integrate the point response over cells near the loaded cell by Gauss quadrature.
 
-    cells  indices (i, j) of the cells (cells, 2)
+    The result has the shape (components, cells).
+
+    table       radial functions of the point response
+    components  displacement-traction pairs to be integrated
+    spacing     cell sides [length]
+    cells       indices (i, j) of the cells (cells, 2)
     """
     result = np.zeros((len(components.names), len(cells)))
     for start in range(0, len(cells), BATCH):
@@ -145,7 +150,14 @@ def _loaded_cell(
 
 
 def _integrals(table: RadialTable, components: Components, boxes: Boxes) -> Field:
-    """Integrate the point response over boxes by Gauss quadrature; shape (components, boxes)."""
+    """Integrate the point response of a layered body over boxes by Gauss quadrature.
+
+    The result has the shape (components, boxes).
+
+    table       radial functions of the point response
+    components  displacement-traction pairs to be integrated
+    boxes       integration rectangles
+    """
     x, y, weight = boxes.gauss_points()
     values = point_response(table, components, x, y)
     integrals: Field = np.einsum("fbp,bp->fb", values, weight)
