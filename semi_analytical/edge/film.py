@@ -236,7 +236,7 @@ def _uniform_depth(stack: Stack) -> float:
 def _compliance(stack: Stack) -> float:
     """Return (1 - ν)/G of the outermost material of a body [length²/force].
 
-    This is its normal surface compliance per wavelength: wavenumber times u_z over pressure.
+    This is the wavenumber times the normal surface displacement per pressure.
     """
     outer = stack.outer
     return (1 - outer.poisson_ratio) / outer.shear_modulus
