@@ -30,12 +30,12 @@ def contact_fraction(r: Array, start_radius: float, radius: float) -> Array:
 def front(
     radius: float, start_radius: float, stick_through: float, first: float, before: float
 ) -> float:
-    """Extrapolate the stick radius to the end of an increment [length].
+    """Extrapolate the stick radius to the end of an increment of normal load [length].
 
-    The zone that sticks throughout an increment is the stick zone at the middle of the increment.
-    The stick radius half an increment later is extrapolated linearly in the contact radius, from
-    the middles of this and the preceding increment. After a reversal of the load the radius of the
-    middle is returned.
+    The increment gives only the radius of the zone that sticks throughout, which is the stick
+    radius at its middle. The stick radius half an increment later is extrapolated linearly in the
+    contact radius, from the middles of this and the preceding increment. After a reversal of the
+    load the radius of the middle is returned.
 
     radius         contact radius at the end of this increment [length]
     start_radius   contact radius at the start of this increment [length]

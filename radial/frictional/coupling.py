@@ -42,10 +42,11 @@ class Response(NamedTuple):
 
 @dataclass(frozen=True)
 class Coupling:
-    """Elastic response of the lower body and the indenter to normal and tangential tractions.
+    """Elastic response of the surfaces of both bodies to pressure and shear.
 
-    Direct responses (normal by normal, tangential by tangential) of both bodies add. Coupling
-    responses subtract.
+    Displacements are those of the lower body relative to the indenter. Direct responses (normal by
+    pressure, tangential by shear) of both bodies add. Coupling responses (normal by shear,
+    tangential by pressure) subtract.
 
     bodies   normal response of both bodies
     stacks   layers and base of each body, with the sign of its coupling response: 1 for the lower
@@ -63,7 +64,7 @@ class Coupling:
 
     @classmethod
     def of(cls, scene: Scene) -> Coupling:
-        """Create the elastic response of the lower body and the indenter of a scene."""
+        """Create the surface response of the two bodies of a scene to pressure and shear."""
         stacks = ((stack_of(scene.body), 1.0), (stack_of(scene.indenter), -1.0))
         outer = [(stack.outer, sign) for stack, sign in stacks if not stack.is_rigid]
         return cls(
@@ -134,11 +135,14 @@ class Coupling:
 
 
 def _carried(contact: Disc, x: Array) -> Array:
-    """Return the pressure of a frictionless contact integrated from the axis, ∫₀ˣ p x dx (n,).
+    """Integrate the pressure of a frictionless contact from the axis, ∫₀ˣ p x dx (n,).
 
-    x is the radius over the contact radius a. The unit is [force/length²]. The integral is the load
-    over 2πa² minus the part outside x, (E*/π a) [G(1) √(1-x²) - ∫ₓ¹ G'(t) √(t²-x²) dt]. G is the
-    function of the contact equation, see `disc`.
+    The integral [force/length²] is the load over 2πa² minus the part outside x, (E*/π a) [G(1)
+    √(1-x²) - ∫ₓ¹ G'(t) √(t²-x²) dt]. G is the function of which the pressure is the Abel transform,
+    see `disc`. Used for the radial displacement by the pressure.
+
+    contact  frictionless contact of radius a
+    x        radii over the contact radius (n,)
     """
     inside = np.minimum(x, 1.0)[:, None]
     chord = np.sqrt((1 - inside) * (1 + inside))

@@ -67,9 +67,11 @@ class FrictionalState:
         return self.target.actuator_approach(self.end) if prescribed is None else prescribed
 
     def at(self, field: Array, r: Array) -> Array:
-        """Interpolate a field linearly to given radii (n,); it is zero outside the contact.
+        """Interpolate a field linearly from the nodes of the contact to given radii (n,).
 
-        field  values at the nodes of the rings (nodes,)
+        The field is zero outside the contact.
+
+        field  values at the nodes (nodes,)
         r      radii (n,) [length]
         """
         return np.asarray(np.interp(r, self.end.radius * self.end.rings.x, field, right=0.0))
@@ -85,14 +87,16 @@ def frictional_state(
     iterations: int,
     strain: float,
 ) -> FrictionalState:
-    """Compute slip, stick radius and energies of an increment of normal loading with friction.
+    """Compute slip, stick radius and energies at the end of an increment with friction.
 
-    friction                   friction law
-    end                        solved contact at the end of the increment
-    target                     prescribed normal force or approach
-    radii                      radii of the output rings (n,) [length]
-    before                     state at the start of the increment; None before first contact
-    power, iterations, strain  see `FrictionalState`
+    friction    friction law
+    end         solved contact at the end of the increment
+    target      prescribed normal force or approach
+    radii       radii of the output rings (n,) [length]
+    before      state at the start of the increment; None before first contact
+    power       exponent of the prescribed quantity as a power of the contact radius
+    iterations  number of contact radii tried
+    strain      bulk strain of the lower body since first contact, equal in all directions
     """
     x, a = end.rings.x, end.radius
     start_radius, force, depth = 0.0, 0.0, 0.0

@@ -145,7 +145,10 @@ class FrictionalSteps(StepsOnRings):
 
     @property
     def _count(self) -> int:
-        """Return the number of rings over the contact, without those of dense regions."""
+        """Return the number of rings over the contact, without those of the dense regions.
+
+        Dense regions are at the border of the stick zone, at the axis and at the contact edge.
+        """
         return round(COUNT * self.fineness)
 
     def _intermediate(
@@ -158,7 +161,7 @@ class FrictionalSteps(StepsOnRings):
 
         radius  contact radius [length]
         before  state of the preceding contact; None before first contact
-        strain  bulk strain of the lower body
+        strain  bulk strain of the lower body, equal in all directions [1]
         """
         share = before.mid_stick_radius / before.end.radius if before else MIDDLE
         like = before.end if before else None
@@ -176,7 +179,7 @@ class FrictionalSteps(StepsOnRings):
         radial_displacement: Callable[[Array], Array],
         like: FrictionalContact | None,
     ) -> FrictionalContact:
-        """Solve the contact with friction of a prescribed radius.
+        """Solve pressure and shear of a contact with friction and given radius.
 
         radius               contact radius [length]
         rings                nodes over the contact
@@ -191,10 +194,11 @@ class FrictionalSteps(StepsOnRings):
         )  # fmt: skip
 
     def _first_radius(self, target: Target, before: FrictionalState | None) -> tuple[float, int]:
-        """Estimate the contact radius under a prescribed load, and count the radii tried for it.
+        """Estimate the contact radius under a prescribed load, as an initial guess [length].
 
         The estimate is extrapolated from the previous contact by a power law. Before first contact
-        it is the radius without friction.
+        it is the radius without friction. The second result is the number of radii tried for the
+        estimate.
 
         target  prescribed normal force or approach
         before  state of the previous contact; None before first contact
@@ -207,10 +211,12 @@ class FrictionalSteps(StepsOnRings):
 
     @staticmethod
     def _power(target: Target, before: FrictionalState | None) -> float:
-        """Return the exponent of the prescribed force or approach as a power of the contact radius.
+        """Estimate the exponent of the normal load as a power of the contact radius.
 
-        It is that of the previous state if this state prescribes the same quantity. Otherwise it is
-        3 for a force and 2 for an approach.
+        The load is the prescribed force or approach. The exponent is that of the previous state if
+        this state prescribes an equal quantity. Otherwise it is 3 for a force and 2 for an
+        approach, as in Hertz contact. Used for the initial guess and the first secant step of the
+        contact radius.
         """
         if before is not None and (before.target.force is None) == (target.force is None):
             return before.power
@@ -239,7 +245,7 @@ class FrictionalSteps(StepsOnRings):
         like = before.end if before else None
 
         def solve(a: float) -> FrictionalContact:
-            """Solve the contact with friction of a given radius [length].
+            """Solve the contact with friction of a given radius [length], for the secant method.
 
             The slip zone of the last solve is the initial guess.
             """
@@ -339,11 +345,11 @@ def _reference_displacement(
 ) -> Callable[[Array], Array]:
     """Return the radial displacement that stick requires, as a function of the radius [length].
 
-    It is the displacement of the preceding state minus the displacement of the lower body by the
-    bulk strain since then.
+    Sticking points keep the displacement of the preceding state. The displacement of the lower body
+    by the change of the bulk strain is subtracted.
 
     before  preceding state; None before first contact
-    strain  bulk strain at the end
+    strain  bulk strain at the end of the increment [1]
     """
     if before is None:
         return lambda radii: -strain * radii
@@ -353,12 +359,13 @@ def _reference_displacement(
 
 
 def _beyond(r: Array, field: Array, limit: float) -> Callable[[Array], Array]:
-    """Return a function of the radius that interpolates a surface field and continues it outwards.
+    """Return an interpolant of a surface field that continues outside the given positions.
 
     Beyond the last position the field decays as 1/r to the value `limit`.
 
     r      positions, from the axis to outside the contact [length]
     field  values at these positions
+    limit  value of the field at infinite radius
     """
     spline, last = CubicSpline(r, field), r[-1]
 
@@ -383,7 +390,7 @@ def _intermediate_radii(start_radius: float, end: float, growth: float) -> Array
 
 
 def _sliding(was: FrictionalContact | None, rings: Rings) -> Signs:
-    """Return an initial guess of the slip zone of a contact from that of another contact (n + 1,).
+    """Return an initial guess of the slip zone of a contact from another contact (n + 1,).
 
     The values are the signs of the shear of slipping nodes, and 0 for sticking nodes. A node takes
     the value of the other contact at an equal fraction of the contact radius.
@@ -397,11 +404,14 @@ def _sliding(was: FrictionalContact | None, rings: Rings) -> Signs:
 
 
 def _against(end: FrictionalContact, friction: CoulombFriction) -> float:
-    """Return the residual of the direction of slip in an increment [1].
+    """Compute the residual of the direction of slip in an increment with friction [1].
 
     The residual is |∫ (b|Δs| + q Δs) dA| / ∫ b|Δs| dA, with the friction limit b, the shear q and
     the slip Δs of the increment. It is zero where slip opposes a shear at the limit. Slip below
     round-off is omitted.
+
+    end       solved contact at the end of the increment
+    friction  friction law
     """
     slip_increment = (
         end.slip_increment * (end.sliding != 0) * (np.abs(end.slip_increment) > REST * end.approach)
@@ -411,7 +421,10 @@ def _against(end: FrictionalContact, friction: CoulombFriction) -> float:
 
 
 def _status(state: FrictionalState) -> ContactStatus:
-    """Return the contact status: full stick, partial slip, or no stick area left."""
+    """Return the contact status: full stick, partial slip, or no stick area left.
+
+    state  state at the end of the increment
+    """
     sticks = state.end.sliding[1:-1] == 0
     if np.all(sticks):
         return ContactStatus.FULL_STICK

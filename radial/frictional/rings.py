@@ -40,13 +40,13 @@ OUTSIDE = 1 + np.array([0.01, 0.03, 0.08, 0.2, 0.4, 0.7, 1.1, 1.6, 2.5, 4.0])
 
 @dataclass(frozen=True, eq=False)
 class Rings:
-    """Nodes over a contact disc, and the response of half-spaces to tractions on these nodes.
+    """Nodes along the radius of a contact disc, and responses of half-spaces to tractions on them.
 
-    Tractions are hat functions φ of the nodes times √(1-x²), with x = r/a. The responses are
-    matrices. Their rows are positions of displacements: the nodes, then points outside the contact.
-    Their columns are nodal tractions: pressure at the nodes 0 to n - 1 (it ends with zero at the
-    edge), or radial shear at the nodes 1 to n - 1. In the last element tractions are multiples of
-    √(1-x²). Objects are created by `rings_about`.
+    Tractions are hat functions φ of the nodes (linear between nodes) times √(1-x²), with x = r/a
+    and the contact radius a. The responses are matrices. Their rows are the positions of
+    displacements: the nodes, then points outside the contact. Their columns are nodal tractions:
+    pressure at the nodes 0 to n - 1, or radial shear at the nodes 1 to n - 1. In the last element
+    tractions are multiples of √(1-x²). Objects are created by `rings_about`.
 
     x  radii of the n + 1 nodes over the contact radius, from 0 to 1
     """
@@ -60,23 +60,30 @@ class Rings:
 
     @cached_property
     def places(self) -> Array:
-        """Return the positions at which displacements are evaluated, over the contact radius.
+        """Return the radii at which displacements are evaluated, over the contact radius (rows,).
 
-        They are the n + 1 nodes, then points outside the contact. They are the rows of all
-        matrices.
+        They are the n + 1 nodes, then points outside the contact. All response matrices have these
+        rows.
         """
         return np.concatenate([self.x, OUTSIDE])
 
     @cached_property
     def weights(self) -> Array:
-        """Return the weights of nodal values in integrals over the contact (n + 1,).
+        """Return the weights of nodal tractions in integrals over the contact area (n + 1,).
 
-        A weight is ∫ φ x dx, with the hat function φ of the node and x = r/a.
+        A weight is ∫ φ x dx, with the hat function φ of the node, which contains the factor
+        √(1-x²), and x = r/a. ∫ p dA is 2πa² times the sum of weights and nodal values.
         """
         return self._on_nodes(*self._integrals(1))
 
     def at(self, field: Array, x: Array) -> Array:
-        """Interpolate nodal tractions (n + 1,) to positions x = r/a; zero outside the contact."""
+        """Interpolate nodal tractions to given radii; the result is zero outside the contact.
+
+        The ratio of the traction to √(1-x²) is interpolated linearly.
+
+        field  traction at the nodes (n + 1,)
+        x      radii over the contact radius
+        """
         share = field[:-1] / _root(self.x[:-1])
         return np.asarray(np.interp(x, self.x[:-1], share) * _root(np.minimum(x, 1.0)))
 
@@ -132,12 +139,12 @@ class Rings:
         return by_shear[:, 1:-1], (by_pressure / reach)[:, :-1]
 
     def _integrals(self, power: int) -> tuple[Array, Array]:
-        """Return the integrals of the hat functions over every element, ∫ φ xᵐ dx.
+        """Integrate the hat functions φ over every element, ∫ φ xᵐ dx.
 
-        The two results (n,) are those of the hats φ of the inner and of the outer node of the
-        element.
+        Hat functions contain the factor √(1-x²). The two results (n,) belong to the hats of the
+        inner and of the outer node of each element.
 
-        power  exponent m of the radius x
+        power  exponent m of the radius x = r/a
         """
         v, weights = unit_gauss(POINTS)
         inner, length = self.x[:-1, None], np.diff(self.x)[:, None]
@@ -191,7 +198,7 @@ class Rings:
 
 
 def _root(x: Array) -> Array:
-    """Return √(1 - x²), the behaviour of tractions at the contact edge; x is r over the radius."""
+    """Return √(1 - x²), the behaviour of tractions at the edge; x is r over the contact radius."""
     return np.asarray(np.sqrt((1 - x) * (1 + x)))
 
 
@@ -200,9 +207,11 @@ Transforms: TypeAlias = tuple[Array, Array, Array, Array]
 
 @cached_within(MAX_CACHED)
 def _transforms(rings: Rings, waves: Waves) -> Transforms:
-    """Compute Hankel transforms of hat functions on rings, and Bessel functions at their rows.
+    """Compute Hankel transforms of hat functions on rings, and Bessel functions, for layers.
 
-    `Rings.transforms` defines the four results. They are cached.
+    The four results are ∫ φ J₀(κs) s ds and ∫ φ J₁(κs) s ds (κ, columns), and J₀(κx) and J₁(κx)
+    (rows, κ). φ are the hat functions of the nodes of pressure and of shear, x the positions of
+    displacements. The results are cached.
 
     rings  nodes over the contact
     waves  dimensionless wavenumbers κ
@@ -225,19 +234,19 @@ def _transforms(rings: Rings, waves: Waves) -> Transforms:
 
 
 def place_of(front: float) -> int:
-    """Return the index of the layout of rings for a given stick radius.
+    """Return the number of the ring layout that is dense at a given stick radius.
 
-    A layout is dense at its stick radius. Similar stick radii have equal index and share their
-    rings, whose responses are cached.
+    The number is log(c/(a - c)), rounded to multiples of an interval. Stick radii in one interval
+    share their rings, whose response matrices are cached.
 
-    front  stick radius over the contact radius
+    front  stick radius over the contact radius, c/a
     """
     c = min(max(front, 1e-9), 1 - 1e-9)
     return round(min(max(log(c / (1 - c)), -NEAREST), NEAREST) / SHARED)
 
 
 def rings_about(front: float, count: int) -> Rings:
-    """Return the nodes over a contact (rings), dense at the border of the stick zone.
+    """Return nodes over a contact that are dense at the border of the stick zone.
 
     front  stick radius over the contact radius
     count  approximate number of rings, without those of dense regions
@@ -247,9 +256,9 @@ def rings_about(front: float, count: int) -> Rings:
 
 @lru_cache(maxsize=CACHED)
 def _rings(place: int, count: int) -> Rings:
-    """Create the rings of a layout, dense at its stick radius, at the axis and at the edge.
+    """Create the rings of a layout: dense at the stick radius, at the axis and at the contact edge.
 
-    place  index of the layout, see `place_of`
+    place  number of the layout, returned by `place_of` for a stick radius
     count  approximate number of rings, without those of dense regions
     """
     c = 1 / (1 + exp(-place * SHARED))

@@ -101,9 +101,9 @@ class FrictionalContact:
         return pressure(self.contact, self.rings.x) + self.pressure_change
 
     def over(self, field: Array) -> float:
-        """Integrate a field over the contact area, ∫ f dA.
+        """Integrate a nodal field over the contact area, ∫ f dA.
 
-        field  f at the nodes (n + 1,)
+        field  f at the nodes (n + 1,); zero at the edge, where it varies as √(1-x²)
         """
         return float(2 * pi * self.radius**2 * (self.rings.weights @ field))
 
@@ -130,15 +130,17 @@ def frictional_contact(
     guess: Signs,
     fineness: int = 1,
 ) -> FrictionalContact:
-    """Solve pressure, shear and stick zone of a contact of given radius.
+    """Solve pressure, radial shear and stick zone of a contact with friction and given radius.
 
     coupling  elastic response of both bodies
+    indenter  shape of the indenter
     radius    contact radius [length]
     rings     nodes over the contact
     friction  friction law
-    before    radial displacement that stick requires, at the rows [length]
-    guess     initial guess of `sliding`: signs of the shear of slipping nodes, 0 for sticking nodes
-              (n + 1,)
+    before    radial displacement that stick requires, at the nodes and points outside (rows,)
+              [length]
+    guess     initial guess of the slip zone: signs of the shear of slipping nodes, 0 for sticking
+              nodes (n + 1,)
     fineness  multiple of the numbers of polynomials and wavenumbers
     raises    NotConverged if the sticking nodes cannot be determined, and errors of `disc`
     """
@@ -173,16 +175,17 @@ def _newton(
     response: Response, n: int, friction: CoulombFriction, smooth: Array,
     stick_displacement: Array, guess: Signs, places: Array,
 ) -> tuple[Array, Signs]:  # fmt: skip
-    """Solve for the pressure change, the shear and the sticking nodes by semismooth Newton.
+    """Solve for pressure change, shear and slip zone of a contact of given radius.
 
-    The result is the vector of Δp, q and the change of the approach, and the signs of the shear of
-    slipping nodes.
+    The method is semismooth Newton: each step solves a linear system with fixed sticking and
+    slipping nodes. Returns the vector of Δp, q and the change of the approach, and the signs of the
+    shear of slipping nodes. Δp is the pressure minus that without friction.
 
     response            compliance matrices between rings
     n                   number of elements
     friction            friction law
     smooth              pressure without friction, at the nodes between axis and edge (n - 1,)
-    stick_displacement  u_r by Δp and q that stick requires, at these nodes (n - 1,)
+    stick_displacement  radial displacement by Δp and q that stick requires, at these nodes (n - 1,)
     guess               initial guess of the signs of the shear, 0 for sticking nodes (n - 1,)
     places              radii of these nodes over the contact radius (n - 1,)
     """

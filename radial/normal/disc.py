@@ -62,13 +62,17 @@ PLACES = 40
 class Disc:
     """Solution of the frictionless contact on a disc of radius a.
 
-    bodies    normal response of both bodies
+    The pressure is the Abel transform of a function G(t) on 0 < t < 1: p(a x) = (E*/π a)
+    [G(1)/√(1-x²) - ∫ₓ¹ G'(t)/√(t²-x²) dt]. Within the contact G = δ - S + C, with the approach δ,
+    the Abel transform S of the undeformed gap, and the contribution C of the layers.
+
+    bodies    normal response of both bodies, with the contact modulus E*
     profile   undeformed gap over the contact, by its Abel transform S
     radius    contact radius a [length]
     approach  δ since first contact [length]
-    layers    coefficients c_n of the contribution C of the layers to G (orders,) [length]
-    residual  largest error of the contact equation over the approach [1]; it bounds the gap that
-              remains within the contact, over the approach
+    layers    Legendre coefficients c_n of C (orders,) [length]
+    residual  largest error of the contact equation G = δ - S + C over the approach [1]; it bounds
+              the gap that remains within the contact, over the approach
     """
 
     bodies: Bodies
@@ -80,9 +84,9 @@ class Disc:
 
     @property
     def load(self) -> float:
-        """Return the normal force of the contact [force].
+        """Return the normal force of the contact, W = 2 E* a ∫₀¹ G dt [force].
 
-        It is W = 2 E* a ∫₀¹ G dt, with the function G of the contact equation (see `disc`).
+        G(t) is the function of which the pressure is the Abel transform, a the contact radius.
         """
         mean = self.approach - self.profile.abel[0] + self.layers[0]
         return float(2 * self.bodies.modulus * self.radius * mean)
@@ -91,8 +95,8 @@ class Disc:
     def elastic_energy(self) -> float:
         """Return the elastic energy of both bodies, ½ ∫ p u_z dA [force length].
 
-        The integral is E* a ∫₀¹ G (δ - S) dt, with the approach δ and the functions G and S of the
-        contact equation (see the module).
+        The integral is E* a ∫₀¹ G (δ - S) dt. G(t) is the function of which the pressure is the
+        Abel transform, δ the approach, and S the Abel transform of the undeformed gap.
         """
         t, weights = unit_gauss(len(self.profile.abel) + len(self.layers))
         moved = self.approach - self.profile.at(t)
@@ -100,36 +104,42 @@ class Disc:
 
     @property
     def edge(self) -> float:
-        """Return the strength of the singularity of the pressure at a rim [length].
+        """Return the strength of the singularity of the pressure at a rim, G(1) [length].
 
-        The strength is G(1), the end value of the function G of the contact equation. It is 0 at a
-        smooth edge, where the pressure ends with zero.
+        Near the edge p = (E*/π a) G(1)/√(1-x²), with x = r/a. G is the function of which the
+        pressure is the Abel transform. The strength is 0 at a smooth edge, where the pressure ends
+        with zero.
         """
         value = float(self.transform(np.ones(1))[0])
         return value if abs(value) > SMOOTH * self.approach else 0.0
 
     def transform(self, t: Array) -> Array:
-        """Return the function G(t) that represents the pressure, for 0 ≤ t ≤ 1 [length].
+        """Evaluate the function G(t) of which the pressure is the Abel transform [length].
 
-        The cosine transform of G is proportional to the Hankel transform of the pressure (see the
-        module). t is a coordinate between the axis (0) and the edge (1).
+            p(a x) = (E*/π a) [G(1)/√(1-x²) - ∫ₓ¹ G'(t)/√(t²-x²) dt]
+
+        t  coordinates between the axis (0) and the contact edge (1)
         """
         changed = legendre.legval(t, every_order(self.layers))
         return np.asarray(self.approach - self.profile.at(t) + changed)
 
     def rate(self, t: Array) -> Array:
-        """Return the derivative dG/dt of the function G that represents the pressure [length].
+        """Evaluate dG/dt, where G is the function of which the pressure is the Abel transform.
 
-        t is a coordinate between the axis (0) and the edge (1).
+            p(a x) = (E*/π a) [G(1)/√(1-x²) - ∫ₓ¹ G'(t)/√(t²-x²) dt]
+
+        The unit is [length].
+
+        t  coordinates between the axis (0) and the contact edge (1)
         """
         changed = legendre.legval(t, legendre.legder(every_order(self.layers)))
         return np.asarray(changed - shifted(self.profile.rate, t))
 
     def wave_transform(self, waves: Waves) -> Array:
-        """Return the cosine transform of the function G that represents the pressure (κ,) [length].
+        """Compute the cosine transform G~(κ) = ∫₀¹ G(t) cos κt dt for the layers (κ,) [length].
 
-        G~ = ∫₀¹ G(t) cos κt dt. (E* a/π) G~ is the Hankel transform of the pressure at the
-        wavenumber κ/a.
+        G is the function of which the pressure is the Abel transform. (E* a/π) G~ is the Hankel
+        transform of the pressure at the wavenumber κ/a.
 
         waves  dimensionless wavenumbers κ
         """
@@ -139,14 +149,15 @@ class Disc:
 
 
 class _Galerkin:
-    """Galerkin equations for the contribution of layers to the pressure, for one contact radius.
+    """Galerkin equations for the contribution of layers to the contact pressure, for one radius.
 
-    The contribution is the function C of the contact equation, see the module.
+    The pressure is the Abel transform of G = f + C: f is the part without layers, C the
+    contribution of the layers with the Legendre coefficients c_n.
 
     waves   dimensionless wavenumbers κ
-    count   number of coefficients c_n of C
-    excess  relative contribution X - 1 of the layers to the normal response, times the quadrature
-            weight (κ,)
+    count   number of coefficients c_n
+    excess  contribution X - 1 of the layers to the normal response, relative to half-spaces, times
+            the quadrature weights (κ,)
     """
 
     def __init__(self, waves: Waves, count: int, excess: Array) -> None:
@@ -156,7 +167,7 @@ class _Galerkin:
 
     @cached_property
     def factor(self) -> Any:
-        """Return the Cholesky factor of the Galerkin matrix of the contact equation.
+        """Return the Cholesky factor of the Galerkin matrix of the coefficients c_n.
 
         The matrix is positive definite because the normal response of the bodies is positive.
         """
@@ -168,11 +179,11 @@ class _Galerkin:
         return cho_factor(matrix, lower=True, overwrite_a=True, check_finite=False)
 
     def changed(self, transform: Array) -> Array:
-        """Solve for the contribution C of layers to the function G that represents the pressure.
+        """Solve for the contribution C of layers to the transform G of the pressure.
 
-        The contact equation is G = f + C. The given function f is the part without layers: the
-        approach, or the undeformed gap. The method returns the Legendre coefficients c_n of C
-        (count,).
+        The pressure is the Abel transform of G = f + C. The given function f is the part without
+        layers: the approach, or the undeformed gap. The method returns the Legendre coefficients
+        c_n of C (count,).
 
         transform  cosine transform of f (κ,)
         """
@@ -180,11 +191,12 @@ class _Galerkin:
         return np.asarray(self.scale * cho_solve(self.factor, right, check_finite=False))
 
     def residual(self, layers: Array, transform: Array) -> float:
-        """Return the largest error of the contact equation G = f + C at check points [length].
+        """Return the largest error of the contribution C of layers at check points [length].
 
-        G represents the pressure, C is the contribution of layers, and f the part without layers.
+        The pressure is the Abel transform of G = f + C, where f is the part without layers. The
+        exact C is an integral of the cosine transform of G over the wavenumbers.
 
-        layers     coefficients c_n of C (count,)
+        layers     Legendre coefficients c_n of C (count,)
         transform  cosine transform of f (κ,)
         """
         polynomials, cosines = _judged(self.waves, self.count)
@@ -194,9 +206,13 @@ class _Galerkin:
 
 @cached_within(MAX_CACHED)
 def _judged(waves: Waves, count: int) -> tuple[Array, Array]:
-    """Return Legendre polynomials and cosines at the points where the contact equation is checked.
+    """Return even Legendre polynomials and cosines at the check points of the contact equation.
 
-    They are P_2n(t), shape (points, count), and cos κt, shape (points, κ).
+    They are P_2n(t), shape (points, count), and cos κt, shape (points, κ). The points t lie between
+    the axis (0) and the contact edge (1).
+
+    waves  dimensionless wavenumbers κ
+    count  number of polynomials
     """
     t = (np.arange(PLACES) + 0.5) / PLACES
     polynomials = np.asarray(legendre.legvander(t, 2 * count - 2)[:, ::2], dtype=float)
@@ -213,14 +229,17 @@ def disc(
 ) -> Disc:
     """Solve the frictionless contact of a prescribed contact radius.
 
-    Below a rim the approach is prescribed. Otherwise the approach follows from G(1) = 0: the
-    pressure ends with zero at the edge. The number of polynomials is doubled until the error of the
+    Below a rim the approach is prescribed. Otherwise the pressure is zero at the edge, which
+    determines the approach. The number of Legendre polynomials is doubled until the error of the
     contact equation is due to round-off.
 
+    bodies    normal response of both bodies
+    indenter  shape of the indenter
     radius    contact radius [length]
     approach  approach below a rim, else None [length]
     fineness  multiple of the numbers of points and polynomials
-    most      largest number of polynomials, for estimates with an error of a few percent
+    most      largest number of polynomials, for estimates with an error of a few percent; None
+              without a limit
     raises    NotConverged if the equation cannot be solved to round-off, and errors of `profile`
     """
     shape = profile(indenter, radius, fineness)

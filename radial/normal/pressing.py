@@ -66,17 +66,18 @@ class Target:
         return value
 
     def value(self, contact: Loaded) -> float:
-        """Return the normal force [force] or the approach [length] of a solved contact.
+        """Return the quantity of a solved contact that this target prescribes.
 
-        The quantity is the one that this target prescribes.
+        The quantity is the normal force [force], or the approach with the shortening of the spring
+        [length].
         """
         return self.actuator_approach(contact) if self.force is None else contact.load
 
     def residual(self, contact: Loaded) -> float:
-        """Return log(value of a solved contact / prescribed value), of normal force or approach.
+        """Return log(computed / prescribed) of the normal force or approach of a solved contact.
 
-        Raises UnsupportedScene if the value is not positive. The contact radius is then beyond the
-        end of the shape (the equator of a sphere).
+        Raises UnsupportedScene if the computed value is not positive. The contact radius is then
+        beyond the end of the shape (the equator of a sphere).
         """
         value = self.value(contact)
         if not (value > 0 and isfinite(value)):
@@ -141,7 +142,7 @@ def normal_contact(
             return NormalContact(contact, target, 1)
 
     def solve(radius: float) -> Disc:
-        """Solve the frictionless contact of a prescribed contact radius [length]."""
+        """Solve the frictionless contact of a given radius [length], for the secant method."""
         return disc(bodies, indenter, radius, fineness=fineness)
 
     radius = first_radius(bodies, indenter, target)
@@ -194,8 +195,11 @@ def _contact_at_rim(
 
     Force and pressure are linear in the approach, so two contacts determine the approach.
 
-    target  prescribed normal force or approach
-    whole   contact that just reaches the rim
+    bodies    normal response of both bodies
+    indenter  shape of the indenter
+    target    prescribed normal force or approach
+    whole     contact that just reaches the rim
+    fineness  multiple of the numbers of polynomials and quadrature points
     """
     missing = further = target.prescribed - target.value(whole)
     if target.force is not None:
@@ -215,7 +219,7 @@ def first_radius(bodies: Bodies, indenter: ShapedBody, target: Target) -> float:
     modulus = bodies.stiffest
 
     def short(r: float) -> bool:
-        """Return true if a radius r is smaller than the estimate of the contact radius."""
+        """Return true if a radius r [length] is smaller than the estimate of the contact radius."""
         gap = float(indenter.initial_gap(r, 0.0))
         if target.force is None:
             return gap < (target.approach or 0.0)

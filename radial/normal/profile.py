@@ -33,8 +33,9 @@ class Profile:
 
         S(t) = t ∫₀^(π/2) f'(t sin φ) dφ
 
-    f' is the derivative with respect to r/a. At the approach δ, half-spaces have the transform of
-    the pressure p~(k) = (E*/π) ∫₀ᵃ (δ - S(s)) cos ks ds, s = a t (Sneddon 1965).
+    f' is the derivative with respect to r/a. The pressure between half-spaces is the Abel transform
+    of δ - S with the approach δ (Sneddon 1965). t is a coordinate between the axis (0) and the
+    contact edge (1).
 
     abel  Legendre coefficients of S in 2t - 1 [length]
     apex  true if the gap has a nonzero slope at the axis, where the pressure is infinite
@@ -44,25 +45,30 @@ class Profile:
     apex: bool
 
     def at(self, t: Array) -> Array:
-        """Return the Abel transform S of the undeformed gap at s = a t, 0 ≤ t ≤ 1 [length].
+        """Evaluate the Abel transform S of the undeformed gap f at points t [length].
 
-        a is the contact radius.
+            S(t) = t ∫₀^(π/2) f'(t sin φ) dφ
+
+        f' is the derivative with respect to r/a, with the contact radius a.
+
+        t  coordinates between the axis (0) and the contact edge (1)
         """
         return shifted(self.abel, t)
 
     @property
     def at_edge(self) -> float:
-        """Return the value S(1) of the Abel transform of the undeformed gap [length].
+        """Return the Abel transform S(1) of the undeformed gap at the contact edge [length].
 
-        S(1) is the approach at which the pressure of half-spaces is zero at the contact radius a.
+        S(1) is the approach at which the pressure of half-spaces is zero at the contact radius.
         """
         return float(np.sum(self.abel))
 
     @cached_property
     def rate(self) -> Array:
-        """Return the Legendre coefficients in 2t - 1 of the derivative dS/dt [length].
+        """Return the Legendre coefficients of the derivative dS/dt [length], in 2t - 1.
 
-        S is the Abel transform of the undeformed gap.
+        S(t) is the Abel transform of the undeformed gap, and t a coordinate between the axis (0)
+        and the contact edge (1).
         """
         return np.asarray(2 * legendre.legder(self.abel))
 
@@ -113,9 +119,10 @@ def _coefficients(indenter: ShapedBody, radius: float, count: int) -> Array:
 
 @cache
 def _fit(count: int) -> tuple[Array, Array]:
-    """Return Chebyshev points on 0 < x < 1, and the matrix from values there to coefficients.
+    """Return Chebyshev points on 0 < x < 1, and the matrix that fits a Chebyshev series there.
 
-    The coefficients are those of a series in Chebyshev polynomials of 2x - 1.
+    The matrix (count, count) maps values at the points to coefficients of the polynomials of 2x -
+    1.
     """
     points = chebyshev.chebpts1(count)
     fit = chebyshev.chebvander(points, count - 1).T * (2.0 / count)
@@ -125,11 +132,13 @@ def _fit(count: int) -> tuple[Array, Array]:
 
 @cache
 def _abel(count: int, fineness: int) -> Array:
-    """Return the matrix from coefficients of the slope of the gap to those of its Abel transform S.
+    """Return the matrix that maps the slope of the undeformed gap to its Abel transform S.
 
-    Chebyshev coefficients (count,) of the slope in 2x - 1 are mapped to Legendre coefficients
-    (count + 1,) of S in 2t - 1. The shape is (count, count + 1).
+    The slope f' and S(t) = t ∫₀^(π/2) f'(t sin φ) dφ are given by coefficients: Chebyshev
+    coefficients (count,) of the slope in 2x - 1, Legendre coefficients (count + 1,) of S in 2t - 1.
+    The shape is (count, count + 1).
 
+    count     number of Chebyshev coefficients
     fineness  multiple of the number of quadrature points
     """
     t, weights = unit_gauss(count + 1)

@@ -23,16 +23,17 @@ PLACE = 1e-9  # error of the position of the largest pressure over the contact r
 
 
 def pressure(contact: Disc, x: Array) -> Array:
-    """Return the pressure of a frictionless contact at r = a x (n,) [force/length²].
+    """Compute the pressure of a frictionless contact at given radii (n,) [force/length²].
 
     The pressure is 0 outside the contact, and infinite at an apex or a rim.
 
-        p = (E*/π a) [G(1)/√(1-x²) - ∫ₓ¹ G'(t)/√(t²-x²) dt]
+        p(a x) = (E*/π a) [G(1)/√(1-x²) - ∫ₓ¹ G'(t)/√(t²-x²) dt]
 
     G is the function of the contact equation, see `disc`. The substitutions t² = x² + (1-x²) v² for
     the contribution of layers and t = x cosh y for the profile make both integrands smooth.
 
-    x  radii over the contact radius a (n,)
+    contact  frictionless contact of radius a
+    x        radii over the contact radius (n,)
     """
     found = np.zeros_like(x)
     inside = x < 1
@@ -46,12 +47,15 @@ def pressure(contact: Disc, x: Array) -> Array:
 
 
 def _of_layers(contact: Disc, rho: Array, chord: Array) -> Array:
-    """Return the integral ∫ₓ¹ C'(t)/√(t²-x²) dt, the contribution of layers to the pressure (n,).
+    """Compute ∫ₓ¹ C'(t)/√(t²-x²) dt, the contribution of layers to the contact pressure (n,).
 
-    C is the contribution of the layers to G, see `disc` [length]. C'/t is a polynomial.
+    C is the contribution of the layers to the function G of which the pressure is the Abel
+    transform. The unit is [length]. The integrand is a polynomial after a substitution, since C'/t
+    is one.
 
-    rho    radii x < 1 over the contact radius (n,)
-    chord  √(1-x²) (n,)
+    contact  frictionless contact
+    rho      radii x < 1 over the contact radius (n,)
+    chord    √(1-x²) (n,)
     """
     rate = legendre.legder(every_order(contact.layers))
     v, weights = unit_gauss(len(contact.layers) + 1)
@@ -60,13 +64,14 @@ def _of_layers(contact: Disc, rho: Array, chord: Array) -> Array:
 
 
 def _of_profile(contact: Disc, rho: Array, chord: Array) -> Array:
-    """Return the integral ∫ₓ¹ S'(t)/√(t²-x²) dt, the contribution of the gap to the pressure (n,).
+    """Compute ∫ₓ¹ S'(t)/√(t²-x²) dt, the contribution of the gap to the contact pressure (n,).
 
     S is the Abel transform of the undeformed gap [length]. The value at the axis is infinite below
     a tip.
 
-    rho    radii x < 1 over the contact radius (n,)
-    chord  √(1-x²) (n,)
+    contact  frictionless contact
+    rho      radii x < 1 over the contact radius (n,)
+    chord    √(1-x²) (n,)
     """
     shape = contact.profile
     v, weights = unit_gauss(POINTS + len(shape.abel))
@@ -100,14 +105,16 @@ def largest_pressure(contact: Disc, x: Array, p: Array) -> float:
 
 
 def displacement(contact: Disc, x: Array) -> Array:
-    """Return the normal surface displacement outside a frictionless contact (n,) [length].
+    """Compute the normal surface displacement outside a frictionless contact (n,) [length].
 
         u_z = (2/π) [∫₀¹ G(t)/√(x²-t²) dt + ∫₀^∞ (X - 1) G~ J₀(κx) dκ]
 
-    G is the function of the contact equation and G~ its cosine transform, see `disc`. X - 1 is the
-    relative contribution of the layers to the normal response.
+    G is the function of which the pressure is the Abel transform and G~ its cosine transform. X - 1
+    is the contribution of the layers to the normal response, relative to half-spaces. u_z is that
+    of both bodies together, positive into each body.
 
-    x  radii over the contact radius, above 1 (n,)
+    contact  frictionless contact
+    x        radii over the contact radius, above 1 (n,)
     """
     v, weights = unit_gauss(POINTS + len(contact.layers))
     angle = np.arcsin(1 / x)

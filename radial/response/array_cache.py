@@ -27,12 +27,12 @@ def cached_within(most: int) -> Callable[[Callable[P, R]], Callable[P, R]]:
     """
 
     def of(compute: Callable[P, R]) -> Callable[P, R]:
-        """Return the function `compute` with a cache of its results."""
+        """Decorate the function `compute` with a cache of its results."""
         found: OrderedDict[Hashable, Any] = OrderedDict()
 
         @wraps(compute)
         def remembered(*given: P.args, **named: P.kwargs) -> R:
-            """Return the cached result for the arguments, or compute and cache it."""
+            """Return the cached result for the arguments, or compute the result and cache it."""
             key = (given, *named.items())
             value = found.pop(key, None)
             if value is None:

@@ -33,7 +33,7 @@ CACHED = 4
 
 @dataclass(frozen=True)
 class Bodies:
-    """Response of both bodies to pressure: that of half-spaces, and of their layers.
+    """Normal response of both bodies to pressure: that of half-spaces, plus that of their layers.
 
     layered  the bodies with layers (none, one or two)
     modulus  contact modulus E* of the outermost materials, which determines the response of
@@ -67,7 +67,9 @@ class Bodies:
         return min((stack.layers[0].thickness for stack in self.layered), default=np.inf)
 
     def waves(self, radius: float, reach: float = 1.0, fineness: int = 1) -> Waves:
-        """Return the wavenumbers at which the layers contribute to the fields of a contact.
+        """Return the quadrature over wavenumbers at which the layers contribute to a contact.
+
+        Wavenumbers are multiplied by the contact radius.
 
         radius    contact radius [length]
         reach     largest distance of the points of evaluation from the axis, over the contact
@@ -104,9 +106,12 @@ def added_by(stack: Stack, waves: Waves, radius: float) -> SurfaceScalars:
 
 
 def longest(stack: Stack, radius: float) -> float:
-    """Return the dimensionless wavenumber κ below which the layers of a body have no effect.
+    """Estimate the wavenumber κ below which the layers of a body have no effect.
 
-    κ is the wavenumber times the contact radius `radius`. The result is an order of magnitude.
+    κ is multiplied by the contact radius. The result is an order of magnitude.
+
+    stack   the body with its layers
+    radius  contact radius [length]
     """
     moduli = _moduli(stack)
     total = sum(film.thickness for film in stack.layers)

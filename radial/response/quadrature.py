@@ -28,7 +28,9 @@ def shifted(coefficients: Array, t: Array) -> Array:
 def every_order(coefficients: Array) -> Array:
     """Return the coefficients of a Legendre series of all orders from those of its even orders.
 
-    The coefficients of odd orders are 0. The input contains c_0, c_2, c_4, …
+    The coefficients of odd orders are 0. The result is evaluated with numpy's Legendre functions.
+
+    coefficients  c_0, c_2, c_4, …
     """
     every = np.zeros(2 * len(coefficients) - 1)
     every[::2] = coefficients

@@ -33,13 +33,14 @@ CACHED = 8
 
 
 class Waves(NamedTuple):
-    """Panels of the quadrature over dimensionless wavenumbers κ = k a.
+    """Quadrature over dimensionless wavenumbers κ = k a, with the contact radius a.
 
-    Panels near zero grow geometrically. Panels of equal width follow.
+    Intervals (panels) near zero grow geometrically. Intervals of equal width follow. Each has Gauss
+    points.
 
-    first   power of GROWTH at which the first panel ends; it begins at 0
-    widest  width of the equal panels
-    equal   number of the equal panels
+    first   power of 3 (`GROWTH`) at which the first interval ends; it begins at 0
+    widest  width of the equal intervals
+    equal   number of the equal intervals
     """
 
     first: int
@@ -72,12 +73,15 @@ class Waves(NamedTuple):
 
 
 def waves(shortest: float, longest: float, reach: float, fineness: int = 1) -> Waves:
-    """Return the panels of the quadrature that resolve all waves between two wavenumbers.
+    """Choose the quadrature over wavenumbers that resolves all waves between two wavenumbers.
 
-    shortest  dimensionless wavenumber κ of the shortest wave, at which the panels end
-    longest   κ of the longest wave, near which the first panel ends
+    Wavenumbers κ are multiplied by the contact radius. The quadrature consists of intervals with
+    Gauss points.
+
+    shortest  κ of the shortest wave, at which the intervals end
+    longest   κ of the longest wave, near which the first interval ends
     reach     largest distance of the points of evaluation from the axis, over the contact radius; a
-              larger distance requires narrower panels
+              larger distance requires narrower intervals
     fineness  multiple of the number of points
     """
     widest = PHASE / (1 + reach) / fineness
@@ -87,7 +91,10 @@ def waves(shortest: float, longest: float, reach: float, fineness: int = 1) -> W
 
 @lru_cache(maxsize=CACHED)
 def _rule(chosen: Waves) -> tuple[Array, Array]:
-    """Compute the quadrature points κ (n,) and weights (n,) of panels."""
+    """Compute the quadrature points κ (n,) and weights (n,) of a quadrature over wavenumbers.
+
+    chosen  intervals of the quadrature
+    """
     last = floor(log(chosen.widest) / log(GROWTH))
     growing = GROWTH ** np.arange(chosen.first, last + 1.0)
     equal = growing[-1] + chosen.widest * np.arange(1.0, chosen.equal + 1)
@@ -99,9 +106,14 @@ def _rule(chosen: Waves) -> tuple[Array, Array]:
 
 @cached_within(MAX_CACHED)
 def _even_transforms(chosen: Waves, count: int) -> Array:
-    """Compute the cosine transforms of P_2n(t), n < `count`, at all wavenumbers (count, κ).
+    """Compute the cosine transforms of even Legendre polynomials at all wavenumbers (count, κ).
 
-    See `Waves.even_transforms`. The results are cached.
+        ∫₀¹ P_2n(t) cos κt dt = (-1)ⁿ j_2n(κ),    n < count
+
+    j is the spherical Bessel function. The results are cached.
+
+    chosen  quadrature over the wavenumbers κ
+    count   number of polynomials
     """
     places = chosen.rule[0]
     found = np.empty((count, len(places)))
@@ -121,10 +133,14 @@ def _even_transforms(chosen: Waves, count: int) -> Array:
 
 @cached_within(MAX_CACHED)
 def _shifted_transforms(chosen: Waves, count: int) -> Array:
-    """Compute the cosine transforms of P_l(2t - 1), l < `count`, at all wavenumbers (count, κ).
+    """Compute the cosine transforms of shifted Legendre polynomials at all wavenumbers (count, κ).
 
-    The interval is 0 < t < 1. The transforms are Re iˡ exp(iκ/2) j_l(κ/2), with the spherical
-    Bessel function j_l. The results are cached.
+        ∫₀¹ P_l(2t - 1) cos κt dt = Re iˡ exp(iκ/2) j_l(κ/2),    l < count
+
+    j is the spherical Bessel function. The results are cached.
+
+    chosen  quadrature over the wavenumbers κ
+    count   number of polynomials
     """
     half = chosen.rule[0] / 2
     found = np.empty((count, len(half)))

@@ -35,14 +35,16 @@ PANELS, NODES = 26, 26
 
 @dataclass(frozen=True)
 class FrictionLimit:
-    """Transform of the friction limit of a contact for a coefficient of friction of 1.
+    """Transform of the friction limit of a contact, for a coefficient of friction of 1.
 
-    The shear at the friction limit is the pressure p. Its transform is h(t)/t (see the module),
-    expanded on panels 2^-(n+1) < t < 2^-n of the range 2^-26 < t <= 1. t is a coordinate between
-    the axis (0) and the edge (1).
+    Shear at the friction limit then equals the pressure p. The class holds the function h(s)/t, s =
+    a t, whose Abel transform is this shear: q(r) = -d/dr ∫ᵣᵃ h/√(s²-r²) ds. The function is
+    expanded in Chebyshev series on the panels 2^-(n+1) < t < 2^-n of the range 2^-26 < t <= 1.
 
+    a       contact radius
+    t       coordinate between the axis (0) and the contact edge (1)
     slopes  Chebyshev coefficients of h/t on each panel (panels, nodes) [force/length]
-    rates   Chebyshev coefficients of d(h/t)/dt on each panel, times 2^-n
+    rates   Chebyshev coefficients of d(h/t)/dt on each panel, times 2^-n (panels, nodes - 1)
     """
 
     slopes: Array
@@ -50,9 +52,9 @@ class FrictionLimit:
 
     @classmethod
     def of(cls, contact: Disc) -> FrictionLimit:
-        """Compute the transform of the friction limit for a coefficient of friction of 1.
+        """Compute the transform of the friction limit of a contact, for µ = 1.
 
-        contact  frictionless contact
+        contact  frictionless contact, whose pressure is the friction limit
         """
         count = NODES + len(contact.layers)
         points = chebyshev.chebpts1(count)
@@ -64,28 +66,35 @@ class FrictionLimit:
         return cls(slopes, rates)
 
     def slope(self, t: Array) -> Array:
-        """Return the transform h/t of the friction limit at points t [force/length].
+        """Evaluate the transform h/t of shear at the friction limit, for µ = 1 [force/length].
 
-        h represents shear equal to the pressure (see the module). t is a coordinate between the
-        axis (0) and the edge (1).
+        h(s), s = a t, is the function whose Abel transform is the shear: q(r) = -d/dr ∫ᵣᵃ
+        h/√(s²-r²) ds. Here the shear equals the pressure.
+
+        t  coordinates between the axis (0) and the contact edge (1)
         """
         panel, place = _place(t)
         return _summed(self.slopes, panel, place)
 
     def slope_rate(self, t: Array) -> Array:
-        """Return the derivative d(h/t)/dt of the transform of the friction limit [force/length].
+        """Evaluate the derivative d(h/t)/dt for shear at the friction limit, µ = 1 [force/length].
 
-        h represents shear equal to the pressure (see the module). t is a coordinate between the
-        axis (0) and the edge (1).
+        h(s), s = a t, is the function whose Abel transform is the shear: q(r) = -d/dr ∫ᵣᵃ
+        h/√(s²-r²) ds. Here the shear equals the pressure.
+
+        t  coordinates between the axis (0) and the contact edge (1)
         """
         panel, place = _place(t)
         return np.asarray(_summed(self.rates, panel, place) * 2.0**panel)
 
 
 def _place(t: Array) -> tuple[NDArray[np.int64], Array]:
-    """Return the index of the panel that contains a point t, and the position of t in the panel.
+    """Find the interval of a piecewise Chebyshev series that contains each point.
 
-    Panel n is the interval 2^-(n+1) < t < 2^-n. The position is between -1 and 1.
+    Interval n is 2^-(n+1) < t < 2^-n. The function returns the indices n and the positions within
+    the intervals, between -1 and 1.
+
+    t  points, 0 < t <= 1
     """
     panel = np.clip(np.floor(-np.log2(t)), 0, PANELS - 1).astype(np.int64)
     return panel, np.asarray(4 * t * 2.0**panel - 3)
@@ -94,9 +103,9 @@ def _place(t: Array) -> tuple[NDArray[np.int64], Array]:
 def _summed(coefficients: Array, panel: NDArray[np.int64], place: Array) -> Array:
     """Evaluate a piecewise Chebyshev series at points (Clenshaw's recurrence).
 
-    coefficients  Chebyshev coefficients of every panel (panels, nodes)
-    panel         index of the panel of every point
-    place         position of every point in its panel, from -1 to 1
+    coefficients  Chebyshev coefficients of every interval (intervals, nodes)
+    panel         index of the interval that contains each point
+    place         position of each point in its interval, from -1 to 1
     """
     last, now = np.zeros_like(place), np.zeros_like(place)
     for column in coefficients.T[:0:-1]:
@@ -107,10 +116,16 @@ def _summed(coefficients: Array, panel: NDArray[np.int64], place: Array) -> Arra
 def _slope(contact: Disc, t: Array) -> Array:
     """Compute the transform h/t of shear at the friction limit, for µ = 1 [force/length].
 
-    The shear equals the pressure. The result is 2E*/π² times the integral m of the module, with the
-    substitution τ = t exp(y).
+    Shear at the friction limit equals the pressure. h(s), s = a t, is the function whose Abel
+    transform is the shear: q(r) = -d/dr ∫ᵣᵃ h/√(s²-r²) ds. With the function G of which the
+    pressure is the Abel transform (see `disc`),
 
-    t  coordinates between the axis (0) and the edge (1)
+        h/t = (2E*/π²) [G(1) K'(t) - ∫ₜ¹ G'(τ) K'(t/τ) dτ/τ],    K'(t) = K(√(1-t²)).
+
+    The integral is evaluated with τ = t exp(y).
+
+    contact  frictionless contact
+    t        coordinates between the axis (0) and the contact edge (1)
     """
     v, weights = unit_gauss(POINTS + len(contact.profile.abel) + 2 * len(contact.layers))
     furthest = -np.log(t)[..., None]
@@ -121,5 +136,5 @@ def _slope(contact: Disc, t: Array) -> Array:
 
 
 def _complete(t: Array) -> Array:
-    """Return the complementary complete elliptic integral K'(t) = K(√(1-t²))."""
+    """Return the complementary complete elliptic integral of the first kind, K'(t) = K(√(1-t²))."""
     return np.asarray(ellipkm1(t**2))

@@ -46,10 +46,12 @@ AXIS = 1e-7  # smallest radius over the contact radius in integrals, without eff
 
 @dataclass(frozen=True)
 class Torsion:
-    """Contact under torsion, with a constant pressure.
+    """Contact of two bodies that are twisted against each other, under a constant pressure.
+
+    The class computes states of monotonic torsion. All of them are functions of the stick radius.
 
     contact   frictionless contact, which gives the pressure
-    layered   bodies with layers
+    layered   the bodies with layers (none, one or two)
     modulus   torsional modulus G: reciprocal of the sum of 1/G of the outermost materials
               [force/length²]
     friction  coefficient of friction µ
@@ -77,10 +79,10 @@ class Torsion:
         return cls(contact, layered, modulus, friction, fineness)
 
     def points(self, width: float) -> int:
-        """Return the number of Gauss points that resolve the shear and its waves over an interval.
+        """Return the number of Gauss points of an integral over an interval of the coordinate t.
 
-        The interval is a part of 0 < t < 1, with t a coordinate between the axis (0) and the edge
-        (1).
+        t is 0 at the axis and 1 at the contact edge. The points resolve the shear and, with layers,
+        the waves sin κt of the largest wavenumber κ.
 
         width  length of the interval
         """
@@ -89,55 +91,69 @@ class Torsion:
         return self.fineness * (POINTS + len(self.contact.layers) + waves)
 
     def limit(self, t: Array) -> Array:
-        """Return N(t)/t of shear at the friction limit [1].
+        """Evaluate the transform N(t)/t of shear at the friction limit µp [1].
 
-        N is the dimensionless function that represents circumferential shear (see the module). t is
-        a coordinate between the axis (0) and the edge (1).
+        N(t)  function whose Abel transform is the shear: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt, with
+              the torsional modulus G and the contact radius a
+        t     coordinates between the axis (0) and the contact edge (1)
         """
         return np.asarray(self._scale * self._limit.slope(t))
 
     def limit_rate(self, t: Array) -> Array:
-        """Return the derivative of N(t)/t of shear at the friction limit [1].
+        """Evaluate the derivative d(N/t)/dt of the transform of shear at the friction limit µp [1].
 
-        N is the dimensionless function that represents circumferential shear (see the module). t is
-        a coordinate between the axis (0) and the edge (1).
+        N(t)  function whose Abel transform is the shear: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt, with
+              the torsional modulus G and the contact radius a
+        t     coordinates between the axis (0) and the contact edge (1)
         """
         return np.asarray(self._scale * self._limit.slope_rate(t))
 
     @cached_property
     def _limit(self) -> FrictionLimit:
-        """Return the transform of shear at the friction limit for a coefficient of friction 1."""
+        """Return the transform of shear at the friction limit, for a coefficient of friction of 1.
+
+        `_scale` converts the transform to the dimensionless function of this class.
+        """
         return FrictionLimit.of(self.contact)
 
     @property
     def _scale(self) -> float:
-        """Return the factor from the transform of `_limit` to the dimensionless function N.
+        """Return µ/(G a), which makes the transform of the friction limit dimensionless.
 
-        The factor is µ/(G a), with the torsional modulus G and the contact radius a [length/force].
+        The transform for a coefficient of friction of 1 has the unit [force/length]. µ is the
+        coefficient of friction, G the torsional modulus, a the contact radius. The unit is
+        [length/force].
         """
         return self.friction / (self.modulus * self.contact.radius)
 
     @cached_property
     def whole(self) -> PartialSlip:
-        """Return the state of torsion at incipient slip: all of the contact area still sticks."""
+        """Return the state of monotonic torsion at incipient slip: the whole contact still sticks.
+
+        States with a smaller twist are proportional to this state.
+        """
         return self.partial_slip(1.0)
 
     @cached_property
     def none(self) -> PartialSlip:
-        """Return the state with the smallest stick radius that is solved, close to gross slip."""
+        """Return the state of monotonic torsion with the smallest stick radius that is solved.
+
+        The state is close to gross slip.
+        """
         return self.partial_slip(NO_STICK)
 
     @cached_property
     def largest(self) -> float:
-        """Return the largest torque that friction can carry, at gross slip [force length]."""
+        """Return the torque of gross slip, the largest that friction carries [force length]."""
         return self.partial_slip(0.0).torque
 
     @cached_property
     def waves(self) -> tuple[Array, Array]:
-        """Return the wavenumbers κ, and their quadrature weights times Y - 1 (κ,).
+        """Return the wavenumbers κ of the layers, and quadrature weights times Y - 1 (κ,).
 
-        Y - 1 is the relative contribution of the layers to the torsional compliance. Both arrays
-        are empty without layers.
+        Y - 1 is the contribution of the layers to the torsional compliance, relative to that of
+        half-spaces. Wavenumbers are multiplied by the contact radius. Both arrays are empty without
+        layers.
         """
         if not self.layered:
             return np.zeros(0), np.zeros(0)
@@ -149,7 +165,10 @@ class Torsion:
         return places, np.asarray(weights * self.modulus * places / a * added)
 
     def partial_slip(self, stick: float) -> PartialSlip:
-        """Solve the state of monotonic torsion with a given stick radius.
+        """Solve the state of monotonic torsion that has a given stick radius.
+
+        The shear is the friction limit in the slip annulus. In the stick disc the surfaces rotate
+        by the twist. The twist follows from the continuity of the shear at the stick radius.
 
         stick  stick radius over the contact radius, 0 to 1
         """
@@ -177,10 +196,10 @@ class Torsion:
         return PartialSlip(self, stick, float(twist), layers, panels)
 
     def _panels(self, stick: float) -> list[Panel]:
-        """Return intervals that cover the slip annulus, with the function N of its shear.
+        """Return intervals that cover the slip annulus, with the transform N of the shear in it.
 
-        The shear is the friction limit, and N represents it (see the module). An interval is not
-        wider than its distance from the axis.
+        The shear in the slip annulus is the friction limit µp. N(t) is the function whose Abel
+        transform is the shear. An interval is not wider than its distance from the axis.
 
         stick  stick radius over the contact radius
         """
@@ -197,12 +216,14 @@ class Torsion:
 
 @dataclass(frozen=True)
 class Panel:
-    """Interval of 0 < t < 1, with the function N that represents the shear at its Gauss points.
+    """Interval of the coordinate t, with values of the transform N of the circumferential shear.
 
-    N is defined in the module. t is a coordinate between the axis (0) and the edge (1).
+    N(t) is the function whose Abel transform is the shear: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt.
+    Torque and energy are integrals of N over all intervals.
 
+    t          coordinate between the axis (0) and the contact edge (1)
     low, high  ends of the interval of t
-    values     N at the Gauss points (n,)
+    values     N at the Gauss points of the interval (n,)
     """
 
     low: float
@@ -210,10 +231,10 @@ class Panel:
     values: Array
 
     def integral(self, power: int, factor: int = 1) -> float:
-        """Return the integral ∫ N^factor t^power dt over the interval.
+        """Integrate N^factor t^power over the interval, for torque and elastic energy.
 
-        N represents the circumferential shear.
-
+        N(t)    function whose Abel transform is the circumferential shear
+        t       coordinate between the axis (0) and the contact edge (1)
         power   exponent of t
         factor  exponent of N
         """
@@ -223,11 +244,11 @@ class Panel:
         return float(width * np.sum(weights * self.values**factor * t**power))
 
     def transform(self, places: Array) -> Array:
-        """Return the sine transform ∫ N sin κt dt over the interval, at all wavenumbers (κ,).
+        """Compute the sine transform ∫ N sin κt dt over the interval, at given wavenumbers (κ,).
 
-        N represents the circumferential shear.
-
-        places  dimensionless wavenumbers κ
+        N(t)    function whose Abel transform is the circumferential shear
+        t       coordinate between the axis (0) and the contact edge (1)
+        places  wavenumbers κ, multiplied by the contact radius
         """
         v, weights = unit_gauss(len(self.values))
         width = self.high - self.low
@@ -239,11 +260,15 @@ class Panel:
 class PartialSlip:
     """State of monotonic torsion with a stick disc and a slip annulus.
 
+    The shear is represented by the function N(t) whose Abel transform it is: q(a x) = -G d/dx ∫ₓ¹
+    N/√(t²-x²) dt, with the contact radius a and the torsional modulus G.
+
     of      contact under torsion
     stick   stick radius over the contact radius, c/a
     twist   twist φ of the indenter [radian]
-    layers  Legendre coefficients of the contribution of the layers to N in the stick disc
-    panels  function N of the shear in the slip annulus (see the module)
+    layers  Legendre coefficients of D in the stick disc, where N = (4/π) φ t - D; D is the
+            contribution of the layers
+    panels  intervals of the slip annulus, with N of the shear at the friction limit
     """
 
     of: Torsion
@@ -253,11 +278,14 @@ class PartialSlip:
     panels: Sequence[Panel]
 
     def inside(self, t: Array) -> Array:
-        """Return the function N that represents the circumferential shear, in the stick disc.
+        """Evaluate the transform N of the circumferential shear in the stick disc [1].
 
-        N is defined in the module.
+            N(t) = (4/π) φ t - D(t)
 
-        t  coordinates between the axis (0) and the stick radius (`stick`)
+        N(t)  function whose Abel transform is the shear: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt, with
+              the torsional modulus G and the contact radius a
+        φ, D  twist of the indenter, and contribution of the layers
+        t     coordinates between the axis (0) and the stick radius over the contact radius
         """
         every = np.zeros(2 * len(self.layers))
         every[1::2] = self.layers
@@ -265,9 +293,10 @@ class PartialSlip:
 
     @property
     def _disc(self) -> list[Panel]:
-        """Return the function N of the shear in the stick disc, as a list with one panel.
+        """Return one interval that covers the stick disc, with the transform N of the shear in it.
 
-        The list is empty without a stick disc.
+        N(t) is the function whose Abel transform is the shear. The interval is in a list, for sums
+        over stick disc and slip annulus. The list is empty without a stick disc.
         """
         if self.stick == 0:
             return []
@@ -276,18 +305,20 @@ class PartialSlip:
 
     @cached_property
     def torque(self) -> float:
-        """Return the torque of the circumferential shear [force length].
+        """Compute the torque of the circumferential shear, 4π G a³ ∫ N t dt [force length].
 
-        It is 4π G a³ ∫ N t dt, with the function N of the module and the torsional modulus G.
+        N(t) is the function whose Abel transform is the shear, G the torsional modulus, a the
+        contact radius.
         """
         total = sum(panel.integral(1) for panel in (*self._disc, *self.panels))
         return 4 * pi * self.of.modulus * self.of.contact.radius**3 * total
 
     @cached_property
     def transform(self) -> Array:
-        """Return the sine transform of the function N that represents the shear (κ,).
+        """Compute the sine transform ∫₀¹ N sin κt dt for the contribution of the layers (κ,).
 
-        The wavenumbers κ are those of `Torsion.waves`.
+        N(t) is the function whose Abel transform is the circumferential shear. The wavenumbers κ
+        are those of `Torsion.waves`.
         """
         places, _ = self.of.waves
         parts = [panel.transform(places) for panel in (*self._disc, *self.panels)]
@@ -295,12 +326,13 @@ class PartialSlip:
 
     @cached_property
     def elastic_energy(self) -> float:
-        """Return the elastic energy of both bodies by the circumferential shear q [force length].
+        """Compute the elastic energy of both bodies by the circumferential shear q [force length].
 
             ½ ∫ q u dA = π G a³ [(π/2) ∫ N² dt + ∫ (Y - 1) N~² dκ]
 
-        N~ is the sine transform of the function N that represents the shear. Y - 1 is the relative
-        contribution of the layers to the torsional compliance.
+        N, N~  function whose Abel transform is the shear, and its sine transform
+        Y - 1  contribution of the layers to the torsional compliance, relative to half-spaces
+        G, a   torsional modulus and contact radius
         """
         squares = sum(panel.integral(0, 2) for panel in (*self._disc, *self.panels))
         _, wave_weights = self.of.waves
@@ -310,7 +342,7 @@ class PartialSlip:
 
     @property
     def work(self) -> float:
-        """Return the work ∫ M dφ of the torque since the start of the twist [force length]."""
+        """Compute the work ∫ M dφ of the torque M since the start of the twist φ [force length]."""
         return self.twist * self.torque - self.elastic_energy
 
     @property
@@ -323,9 +355,9 @@ class PartialSlip:
         return self.twist * self.torque - 2 * self.elastic_energy
 
     def shear(self, x: Array, limit: Array) -> Array:
-        """Return the circumferential shear q_θ at r = a x within the contact (n,) [force/length²].
+        """Compute the circumferential shear q_θ at radii within the contact (n,) [force/length²].
 
-        x      radii over the contact radius (n,)
+        x      radii over the contact radius, below 1 (n,)
         limit  friction limit µp at these radii (n,) [force/length²]
         """
         found = limit.copy()
@@ -351,9 +383,12 @@ class PartialSlip:
         return found
 
     def _layers_rate(self, t: Array) -> Array:
-        """Return d(-D/t)/dt at points t in the stick disc, for the integral of the shear.
+        """Evaluate d(-D/t)/dt in the stick disc, an integrand of the circumferential shear.
 
-        D is the contribution of the layers to the function N that represents the shear.
+        D(t) is the contribution of the layers to the function N(t) whose Abel transform is the
+        shear.
+
+        t  coordinates between the axis (0) and the stick radius over the contact radius
         """
         every = np.zeros(2 * len(self.layers))
         every[1::2] = self.layers
@@ -362,9 +397,10 @@ class PartialSlip:
         return np.asarray((changed / x - rate) / (x * self.stick**2))
 
     def slip(self, x: Array) -> Array:
-        """Return the circumferential slip u_θ - φ r at r = a x (n,) [length].
+        """Compute the circumferential slip u_θ - φ r at given radii (n,) [length].
 
-        The slip is 0 in the stick disc and outside the contact.
+        u_θ is the displacement of the lower body relative to the indenter by the shear, φ the
+        twist. The slip is 0 in the stick disc and outside the contact.
 
         x  radii over the contact radius (n,)
         """

@@ -30,10 +30,10 @@ NO_ANNULUS = 1e-9
 
 @dataclass(frozen=True)
 class TorsionState:
-    """State of a contact with torsion at the end of an increment.
+    """State of a contact under normal load and torsion at the end of an increment.
 
     normal_contact  frictionless contact under the normal load
-    path            state of torsion after its history
+    path            twist, torque and energies of torsion, with the history of load reversals
     prescribed      kind of control, and the prescribed torque [force length] or twist [radian]
     """
 
@@ -56,7 +56,7 @@ class TorsionState:
 
 @dataclass(frozen=True)
 class TorsionSteps(StepsOnRings):
-    """Solver of the increments of normal load and torsion.
+    """Solver of load steps of a contact under normal load and torsion, in closed form.
 
     pressing   solver of the frictionless normal problem, which does not depend on the twist
     friction   coefficient of friction µ
@@ -163,11 +163,12 @@ class TorsionSteps(StepsOnRings):
         )
 
     def _fields(self, path: TwistPath, x: Array, pressure: Array) -> tuple[Array, Array]:
-        """Return the circumferential shear [force/length²] and slip [length] at the rings (n,).
+        """Compute circumferential shear [force/length²] and slip [length] at the output rings (n,).
 
-        They are the sum of the changes of all branches of the torsion path. Both are zero outside
-        the contact.
+        Shear and slip are sums over the branches between load reversals. Both are zero outside the
+        contact.
 
+        path      state of torsion, with its branches
         x         radii of the rings over the contact radius (n,)
         pressure  pressure at the rings (n,) [force/length²]
         """
@@ -183,9 +184,9 @@ class TorsionSteps(StepsOnRings):
 
 
 def _status(stick: float) -> ContactStatus:
-    """Return the contact status (full stick, partial slip or gross slip) for a stick radius.
+    """Return the contact status of torsion: full stick, partial slip or gross slip.
 
-    stick  stick radius over the contact radius
+    stick  stick radius over the contact radius: 1 for full stick, 0 for gross slip
     """
     if stick >= 1:
         return ContactStatus.FULL_STICK

@@ -29,14 +29,14 @@ Named = Literal["twist", "torque"]
 
 @dataclass(frozen=True)
 class Branch:
-    """Change of the twist since a load reversal, or since the first twist, in one direction.
+    """Change of torsion in one direction, since a load reversal or since the first twist.
 
-    The equivalent first twist is a monotonic twist of the virgin contact. The change is `sense`
-    times `weight` times that twist.
+    The change is `sense` times `weight` times a state of monotonic torsion of the virgin contact
+    (the equivalent first twist).
 
-    sense   direction, +1 or -1
-    weight  1 for the first twist, 2 after a reversal
-    state   state of the equivalent first twist; None at the start of the branch
+    sense   direction of the twist, +1 or -1
+    weight  1 for the first twist, 2 after a load reversal
+    state   equivalent first twist; None at the start of the branch
     """
 
     sense: float
@@ -44,10 +44,10 @@ class Branch:
     state: PartialSlip | None = None
 
     def size(self, of: str) -> float:
-        """Return the twist, torque, work or dissipated energy of the equivalent first twist.
+        """Return twist, torque, work or dissipated energy of the branch's equivalent first twist.
 
-        It is 0 at the start of the branch. The equivalent first twist is a monotonic twist of the
-        virgin contact.
+        The equivalent first twist is a state of monotonic torsion of the virgin contact. The change
+        in the branch is a multiple of this state. The value is 0 at the start of the branch.
 
         of  name of the quantity: "twist", "torque", "work" or "dissipated"
         """
@@ -56,13 +56,15 @@ class Branch:
 
 @dataclass(frozen=True)
 class TwistPath:
-    """State of torsion after a history of twists, as a path of branches.
+    """State of torsion after a history of twists with load reversals.
+
+    A branch is a change of the twist in one direction.
 
     of          contact under torsion
-    branches    branches of the path that are not closed load cycles, the current branch last; empty
+    branches    branches that are not part of a closed load cycle, the current branch last; empty
                 before the first twist
-    dissipated  energy dissipated since the start [force length]
-    work        work of the torque since the start [force length]
+    dissipated  energy dissipated since the start of the history [force length]
+    work        work of the torque since the start of the history [force length]
     """
 
     of: Torsion
@@ -82,16 +84,19 @@ class TwistPath:
 
     @property
     def stick(self) -> float:
-        """Return the stick radius of the current branch over the contact radius."""
+        """Return the stick radius since the last load reversal, over the contact radius.
+
+        The stick radius is 1 (full stick) before the first twist and at a load reversal.
+        """
         last = self.branches[-1].state if self.branches else None
         return 1.0 if last is None else last.stick
 
     def to_twist(self, twist: float) -> TwistPath:
-        """Continue the path of torsion to a given twist [radian], and return the new state."""
+        """Continue the torsion to a prescribed twist [radian], and return the new state."""
         return self._on("twist", twist)
 
     def to_torque(self, torque: float) -> TwistPath:
-        """Continue the path of torsion to a given torque [force length], and return the new state.
+        """Continue the torsion to a prescribed torque [force length], and return the new state.
 
         Raises GrossSliding if the torque is not below its friction limit.
         """
@@ -103,10 +108,11 @@ class TwistPath:
         return self._on("torque", torque)
 
     def _on(self, of: Named, target: float) -> TwistPath:
-        """Continue the path of torsion until the twist or the torque has a given value.
+        """Continue the torsion until the twist or the torque has a prescribed value.
 
-        A change of direction begins a new branch of the path. A branch that reaches the length of
-        the preceding branch closes a load cycle with it.
+        The method returns the new state. A load reversal begins a new branch. A branch that reaches
+        the length of the preceding branch closes a load cycle with it, and the branch before the
+        two continues.
 
         of      "twist" or "torque", the prescribed quantity
         target  value of this quantity [radian or force length]
@@ -133,18 +139,24 @@ class TwistPath:
 
 
 def _sum(branches: list[Branch] | tuple[Branch, ...], of: str) -> float:
-    """Return the twist or torque of a path, the sum of the changes of its branches.
+    """Return the twist [radian] or torque [force length] after a sequence of branches of torsion.
 
-    of  "twist" or "torque"
+    A branch is a change in one direction, since a load reversal. The value is the sum of all
+    changes.
+
+    branches  branches of the history, the current one last
+    of        "twist" or "torque"
     """
     return sum((branch.sense * branch.weight * branch.size(of) for branch in branches), 0.0)
 
 
 def _work(others: list[Branch], branch: Branch) -> float:
-    """Return the work ∫ M dφ of the torque along one branch of a path [force length].
+    """Compute the work ∫ M dφ of the torque M along one branch of torsion [force length].
 
-    others  preceding branches; their torque is constant during the branch
-    branch  the branch of the path
+    A branch is a change of the twist φ in one direction, since a load reversal.
+
+    others  preceding branches; the sum of their torques is constant during the branch
+    branch  the branch
     """
     linear = branch.sense * branch.weight * branch.size("twist") * _sum(others, "torque")
     return linear + branch.weight**2 * branch.size("work")
@@ -153,9 +165,9 @@ def _work(others: list[Branch], branch: Branch) -> float:
 def reached(
     torsion: Torsion, of: Named, needed: float, since: PartialSlip | None = None
 ) -> PartialSlip:
-    """Find the state of a monotonic first twist that has a given twist or torque.
+    """Find the state of monotonic torsion of the virgin contact that has a given twist or torque.
 
-    The unknown is the stick radius.
+    The stick radius is the unknown of a root search.
 
     torsion  contact under torsion
     of       "twist" or "torque", the prescribed quantity
@@ -171,9 +183,11 @@ def reached(
     most = 1.0 if since is None or since.stick == 0 else min(1.0, since.stick * (1 + NO_STICK))
 
     def missing(stick: float) -> float:
-        """Return the twist or torque at a given stick radius, minus the prescribed value.
+        """Return the twist or torque of a state of monotonic torsion, minus the prescribed value.
 
-        stick  stick radius over the contact radius
+        The root search finds the zero of this function.
+
+        stick  stick radius of the state over the contact radius
         """
         return float(getattr(torsion.partial_slip(stick), of)) - needed
 
