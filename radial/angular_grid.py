@@ -27,10 +27,12 @@ class Circle(Enum):
     WHOLE = "the whole circle"
 
     def angles(self, highest: int) -> Array:
-        """Return the angles θ_j = π(j + ½)/J of the points on a ring [radian].
+        """Return the angles of the points on a ring, θ_j = π(j + ½)/J [radian].
 
-        A half circle has J angles and a whole circle 2J. They resolve harmonics up to J =
-        `highest`. The single angle of axisymmetric fields is 0.
+        A half circle has J angles and a whole circle 2J. They resolve angular harmonics up to J.
+        The single angle of axisymmetric fields is 0.
+
+        highest  highest harmonic J
         """
         if self is Circle.ONE:
             return np.zeros(1)
@@ -38,19 +40,24 @@ class Circle(Enum):
         return np.pi * (np.arange(count) + 0.5) / highest
 
     def shown(self, highest: int) -> Array:
-        """Return the angles πj/J at which fields are output, with J = `highest` [radian].
+        """Return the angles at which fields on a ring are output, πj/J [radian].
 
         They run from 0 to π for a half circle and from 0 to less than 2π for a whole circle.
+
+        highest  highest angular harmonic J of the fields
         """
         count = highest + 1 if self is Circle.HALF else 2 * highest
         return np.pi * np.arange(count) / highest
 
     def families(self, highest: int) -> tuple[Array, ...]:
-        """Return matrices from values at the angles of a ring to amplitudes of harmonics.
+        """Return matrices from values at the angles of a ring to amplitudes of angular harmonics.
 
-        Each family of harmonics (symmetric, antisymmetric) has one matrix of shape (3, J + 1,
-        angles), with the components q_r, q_θ, p and the harmonics 0 … J = `highest`. A half circle
-        has the symmetric family only.
+        In the symmetric family of harmonics p and q_r are ∝ cos mθ and q_θ ∝ sin mθ, in the
+        antisymmetric family p and q_r are ∝ sin mθ and q_θ ∝ -cos mθ. Each family has one matrix of
+        shape (3, J + 1, angles), with the components q_r, q_θ, p and the harmonics 0 … J. A half
+        circle has the symmetric family only.
+
+        highest  highest harmonic J
         """
         angles = self.angles(highest)
         at = np.multiply.outer(np.arange(highest + 1), angles)

@@ -142,10 +142,14 @@ def _extrapolated(
 
 
 def _solver(scene: Scene, discretisation: RadialDiscretisation, plan: Plan) -> Any:
-    """Create the solver of load steps with the effects of the plan.
+    """Create the solver of load steps that the effects of a plan require.
 
-    The solvers are: contact at points (rings × angles), normal load with friction, normal load
-    without friction, and torsion in closed form.
+    The solvers are: tangential load or torsion at points (rings × angles), normal load with
+    friction, normal load without friction, and torsion in closed form.
+
+    scene           contact problem
+    discretisation  output rings and tolerance
+    plan            effects of the scene, such as friction and torsion
     """
     if plan.circle:
         from radial.tangential.tangential_steps import TangentialSteps
@@ -173,6 +177,7 @@ class _Solver(StepsOnRings):
 
     The contact of an increment does not depend on the previous increment.
 
+    scene      the contact problem
     bodies     normal response of both bodies
     tolerance  upper bound of every residual
     fineness   multiple of the numbers of polynomials and quadrature points
@@ -211,7 +216,7 @@ class _Solver(StepsOnRings):
 
         ramp      load step
         start     contact at the start of the load step; None without contact
-        before    contact at the end of the previous increment (not used)
+        before    not used; the contact does not depend on the previous increment
         fraction  fraction of the linear change of the load, 0 to 1
         """
         reached = (start.normal_force, start.approach) if start else (0.0, 0.0)

@@ -61,7 +61,7 @@ def _radius(bodies: Bodies, scene: Scene, target: Target) -> float:
         return scene.indenter.rim
 
     def residual(x: float) -> float:
-        """Return the logarithm of the ratio of computed to prescribed force or approach.
+        """Return log(computed / prescribed) of the normal force or approach, for the iteration.
 
         x  logarithm of the contact radius
         """

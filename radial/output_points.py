@@ -46,7 +46,7 @@ def largest_targets(scene: Scene) -> Iterator[Target]:
 
 
 def targets(scene: Scene) -> Iterator[Target]:
-    """Yield the normal force or approach that each load step prescribes at its end.
+    """Yield the normal force or approach that each load step of a scene prescribes at its end.
 
     Load steps that end without contact are skipped.
     """
@@ -60,8 +60,9 @@ def targets(scene: Scene) -> Iterator[Target]:
 def target(scene: Scene, force: float | None, approach: float | None) -> Target:
     """Create the prescribed normal load of a contact: a normal force, or an approach.
 
-    The approach is that of the far end of the normal spring of the scene's rig (test machine). One
-    of `force` and `approach` is None.
+    scene     contact problem, whose rig (test machine) can have a normal spring
+    force     normal force; None under a prescribed approach [force]
+    approach  approach of the far end of the normal spring; None under a prescribed force [length]
     """
     return Target(force, approach, compliances(scene.rig)[0])
 
@@ -85,10 +86,10 @@ def output_radii(count: int, largest: Sequence[NormalContact], rim: float | None
 
 @dataclass(frozen=True)
 class StepsOnRings:
-    """Base class of the solvers of load steps.
+    """Base class of the solvers of load steps of bodies of revolution.
 
-    The work of an increment does not limit its bisection. A subclass that limits it overrides
-    `most_spent` and `spent`.
+    The class does not limit the repeated bisection of an increment that does not converge. A
+    subclass that limits the bisection overrides `most_spent` and `spent`.
 
     scene  the contact problem
     """
@@ -104,7 +105,10 @@ class StepsOnRings:
         return 0.0
 
     def spent(self) -> float:
-        """Return the work of all increments up to now; 0 if the solver does not count it."""
+        """Return the solver's work up to now, which limits the bisection of increments.
+
+        The value is 0 if the solver does not count its work, as in this class.
+        """
         return 0.0
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Array:

@@ -70,17 +70,23 @@ class Plan:
 
     @property
     def rings(self) -> int:
-        """Return the number of rings inside the largest contact, for a contact at points."""
+        """Return the number of rings inside the largest contact, for a solve at rings × angles.
+
+        The number does not include the dense rings at contact edges.
+        """
         return round(self.fineness * (ROUND_RINGS if self.circle is Circle.ONE else RINGS))
 
     @property
     def highest(self) -> int:
-        """Return the highest angular harmonic of the tractions of a contact at points."""
+        """Return the highest angular harmonic of the tractions, for a solve at rings × angles."""
         return round(self.fineness * ANGLES)
 
     @property
     def angles(self) -> int:
-        """Return the number of angles of the points on a ring; 0 without a contact at points."""
+        """Return the number of angles on a ring, for a solve at points (rings × angles).
+
+        The number is 0 if the plan has no such solve.
+        """
         return 0 if self.circle is None else len(self.circle.angles(self.highest))
 
     @property
@@ -145,10 +151,11 @@ def _twists(ramp: LoadRamp, curved: bool) -> bool:
 def _circle(
     scene: Scene, frictional: bool, twists: bool, pushed: bool, curved: bool
 ) -> Circle | None:
-    """Return the angles of the points on a ring; None if no contact at points is necessary.
+    """Determine the angles at which a contact with tangential load or torsion is solved on a ring.
 
     A tangential load needs half a circle, or a whole one if the load turns or acts with torsion.
-    Torsion alone needs one angle, unless its shear has a closed form.
+    Torsion alone needs one angle, unless its shear has a closed form. The result is None if no
+    solve at points (rings × angles) is necessary.
 
     frictional  true if friction acts under a normal load alone
     twists      true with torsion
@@ -176,10 +183,12 @@ def _normal_changes_in_torsion(ramps: tuple[LoadRamp, ...]) -> bool:
 
 
 def _pushed_increments(scene: Scene, circle: Circle) -> tuple[int, ...]:
-    """Return the number of increments of each load step of a contact at points (rings × angles).
+    """Return the number of increments of each load step with tangential load or torsion.
 
     A number in the scene has precedence. Otherwise the result is the larger one of two numbers: for
     load cycles, and for the change of the loads in the load step.
+
+    circle  angles at which the contact is solved on a ring
     """
     ramps = scene.load_path()
     return tuple(
@@ -191,9 +200,12 @@ def _pushed_increments(scene: Scene, circle: Circle) -> tuple[int, ...]:
 def _on_path(scene: Scene, ramp: LoadRamp, circle: Circle) -> int:
     """Return the number of increments that the change of the loads in a load step requires.
 
-    The number is fixed if the normal load or the twist changes, or if displacements are prescribed.
-    Otherwise it is proportional to the change of the tangential force over the friction limit. It
-    is 1 if no load changes.
+    Tangential load and torsion with friction are path-dependent. The number is fixed if the normal
+    load or the twist changes, or if displacements are prescribed. Otherwise it is proportional to
+    the change of the tangential force over the friction limit. It is 1 if no load changes.
+
+    ramp    load step
+    circle  angles on a ring, which determine the fixed number
     """
     start, end = ramp.tangential.start, ramp.tangential.end
     most = PATH_INCREMENTS if circle is Circle.ONE else PUSHED_INCREMENTS
@@ -227,7 +239,7 @@ def _increments(scene: Scene, frictional: bool) -> tuple[int, ...]:
 def _moves(ramp: LoadRamp) -> bool:
     """Return true if the normal load or the bulk strain changes in a load step.
 
-    Either change can cause slip.
+    Either change can cause slip, so the load step is path-dependent with friction.
     """
     return ramp.normal.start != ramp.normal.end or ramp.strains
 
@@ -243,7 +255,7 @@ def _refuse_shape(scene: Scene) -> None:
 
 
 def _refuse_map(scene: Scene) -> None:
-    """Raise UnsupportedScene if the coefficient of friction is a map over the surface."""
+    """Raise UnsupportedScene if the coefficient of friction is a map (values over the surface)."""
     assert scene.friction is not None
     if scene.friction.varying is not None:
         raise UnsupportedScene(
@@ -255,10 +267,10 @@ def _refuse_map(scene: Scene) -> None:
 def _refuse_friction(scene: Scene, circle: Circle | None) -> None:
     """Raise UnsupportedScene if the solver does not support the friction of a scene.
 
-    The solver does not support friction maps, or friction below an indenter with a rim. Tangential
-    load and torsion require a coefficient of friction above zero.
+    The solver does not support a coefficient of friction that varies over the surface, or friction
+    below an indenter with a rim. Tangential load and torsion require a coefficient above zero.
 
-    circle  angles of a contact at points; None without one
+    circle  angles of a solve at points (rings × angles); None without such a solve
     """
     _refuse_map(scene)
     assert scene.friction is not None

@@ -24,7 +24,10 @@ EXTRAPOLATED = (
 
 
 def doubled(plan: Plan) -> Plan:
-    """Return a plan with twice the number of increments in every load step."""
+    """Return a plan with twice the number of increments in every load step.
+
+    The finer load history is used for the extrapolation to infinitely many increments.
+    """
     return replace(plan, increments=tuple(2 * count for count in plan.increments))
 
 
@@ -53,10 +56,13 @@ def extrapolated(coarse: Increment, fine: Increment) -> Increment:
 
 
 def _limit(coarse: Any, fine: Any) -> Any:
-    """Return 2 `fine` - `coarse`: a value extrapolated to zero length of the increments.
+    """Extrapolate a value to zero length of the load increments: 2 `fine` - `coarse`.
 
-    Tuples are extrapolated by component. None (a quantity that the scene lacks) is returned as
-    None.
+    The error is of first order in the length of the increments. Tuples are extrapolated by
+    component. None (a quantity that the scene lacks) is returned as None.
+
+    coarse  value with the planned number of increments
+    fine    value with twice this number
     """
     if isinstance(fine, tuple):
         return tuple(_limit(*pair) for pair in zip(coarse, fine, strict=True))

@@ -54,7 +54,9 @@ ANOTHER = Fit(begins=0.6, over=0.3, powers=3, fitted_from=0.87)
 def round_circle(
     radii: Array, radius: float, outward: Array, around: Array, p: Array
 ) -> LoadedCircle:
-    """Return the loaded circle of an axisymmetric contact with given tractions at rings.
+    """Represent the tractions of an axisymmetric contact, given at rings, as a loaded circle.
+
+    The loaded circle is used to compute the stress below the surface.
 
     radii               radii of the rings (n,) [length]
     radius              contact radius [length]
@@ -76,10 +78,10 @@ def round_circle(
 def pushed_circle(
     radii: Array, angles: Array, outward: Array, around: Array, p: Array, fit: Fit = USUAL
 ) -> LoadedCircle:
-    """Fit a loaded circle to the tractions of a contact with tangential load.
+    """Fit a loaded circle to the pressure and shear of a contact with tangential load.
 
-    The angles cover 0 to π, and the other half is the mirror image. The circle carries the load of
-    the hat functions of the nodes.
+    The loaded circle is used to compute the stress below the surface. Its normal force is that of
+    the nodal pressures. The angles cover 0 to π, and the other half is the mirror image.
 
     radii               radii of the nodes (n,) [length]
     angles              angles from 0 to π (J + 1,)
@@ -142,15 +144,18 @@ def _refuse_few(rings: int) -> None:
 def _least_squares(
     s: Array, angles: Array, values: Array, weights: Array, powers: int
 ) -> Callable[[Array, Array], Array]:
-    """Return the weighted least-squares fit Σ c_mk cos mθ s^k of values, as a function of s and θ.
+    """Fit Σ c_mk cos mθ s^k to values near the contact edge by weighted least squares.
 
-    s, angles        coordinates of the points, s = 1 - r²/a² (any shape)
+    The fit is returned as a function of s and θ. Used for p² and for its smooth factor.
+
+    s, angles        coordinates of the points: s = 1 - r²/a² with a reference radius a, and θ (any
+                     shape)
     values, weights  values at the points and their weights
     powers           highest power of s
     """
 
     def terms(s: Array, angle: Array) -> Array:
-        """Return the terms cos mθ s^k of the fit at points (…, terms)."""
+        """Return the terms cos mθ s^k of the least-squares fit at points (…, terms)."""
         return np.stack([
             np.cos(m * angle) * s**k for m in range(HARMONICS + 1) for k in range(powers + 1)
         ], axis=-1)  # fmt: skip
@@ -164,12 +169,12 @@ def _least_squares(
 
 
 def _zeros(squared: Callable[[Array, Array], Array], angles: Array) -> tuple[float, float]:
-    """Return centre and radius of the circle through the zeros of a function.
+    """Find centre and radius of the circle through the zeros of a fit of p², the contact edge.
 
-    The zeros on rays are found by Newton's method.
+    The zeros on rays are found by Newton's method. The centre lies on the x axis.
 
-    squared  function of 1 - r² and the angle, a fit of p²
-    angles   angles of the rays
+    squared  fit of p² as a function of 1 - r² and the angle
+    angles   angles of the rays [radian]
     """
     s, step = np.zeros_like(angles), 1e-6
     for _ in range(STEPS):
@@ -183,10 +188,12 @@ def _zeros(squared: Callable[[Array, Array], Array], angles: Array) -> tuple[flo
 
 
 def _continued(ratio: Array, known: Mask) -> Array:
-    """Replace the values of every ray beyond its outermost known value by this value.
+    """Extend a field on rays with a constant value beyond the outermost known value of each ray.
+
+    Used for the ratio of shear to pressure near the contact edge.
 
     ratio  field at nodes (n, rays)
-    known  true for known values
+    known  true for known values (n, rays)
     """
     last = len(known) - 1 - np.argmax(known[::-1], axis=0)
     position = np.minimum(np.arange(len(known))[:, None], last)
@@ -196,7 +203,7 @@ def _continued(ratio: Array, known: Mask) -> Array:
 def _all_around(
     field: Array, r: Array, angles: Array, sense: int, degree: int
 ) -> RectBivariateSpline:
-    """Return a spline over the full circle through nodes and their mirror images.
+    """Return a spline over the full circle through a field on half a circle and its mirror image.
 
     field   values at the nodes (n, J + 1)
     r       radii of the nodes (n,)

@@ -30,7 +30,7 @@ AXIS = 1e-7
 
 
 def below_pressure(contact: Disc, material: HalfSpace, x: Array, depth: float) -> Array:
-    """Return displacement and stress in a half-space below the pressure of a contact (6, n).
+    """Compute displacement and stress in a half-space below a frictionless contact (6, n).
 
     The fields are u_r, u_z [length], σ_rr, σ_θθ, σ_zz, σ_rz [force/length²].
 
@@ -67,12 +67,14 @@ def below_pressure(contact: Disc, material: HalfSpace, x: Array, depth: float) -
 
 
 def _waves(contact: Disc, x: Array, depth: float) -> tuple[Array, ...]:
-    """Return the integrals ∫ G~ exp(-κz) f dκ of the pressure at points of equal depth (n,).
+    """Compute six integrals ∫ G~ exp(-κz) f dκ for displacement and stress below a pressure (n,).
 
-    f = J₀, κ J₀, κ² J₀, J₁/x, κ J₁/x and κ² J₁/x. G~ is the cosine transform of G, see `disc`.
+    f = J₀, κ J₀, κ² J₀, J₁/x, κ J₁/x and κ² J₁/x, with Bessel functions of κx. G~ is the cosine
+    transform of the function G of which the pressure is the Abel transform (see `disc`).
 
-    x      radii of the points over the contact radius (n,)
-    depth  depth z over the contact radius, > 0
+    contact  frictionless contact
+    x        radii of the points over the contact radius (n,)
+    depth    depth z over the contact radius, > 0
     """
     offset, weights = _places(contact, x, depth)
     t = x[:, None] + offset
@@ -100,12 +102,15 @@ def _waves(contact: Disc, x: Array, depth: float) -> tuple[Array, ...]:
 
 
 def _places(contact: Disc, x: Array, depth: float) -> tuple[Array, Array]:
-    """Return quadrature points t - x and weights (n, points) for integrals over 0 < t < 1.
+    """Return quadrature points and weights for integrals over t below the pressure (n, points).
 
-    The substitution t = x + z sinh y removes the root of 1/R at t = x ± iz.
+    t is a coordinate between the axis (0) and the contact edge (1). The first result is t - x. The
+    substitution t = x + z sinh y removes the root of 1/R at t = x ± iz, where R = √(x² + (z +
+    it)²).
 
-    x      radii of the points of evaluation over the contact radius (n,)
-    depth  depth z over the contact radius
+    contact  frictionless contact
+    x        radii of the points of evaluation over the contact radius (n,)
+    depth    depth z over the contact radius
     """
     first, last = np.arcsinh(-x / depth), np.arcsinh((1 - x) / depth)
     count = ceil(2 * asinh(max(1.0, float(np.max(x))) / depth) / WIDTH)
@@ -117,10 +122,13 @@ def _places(contact: Disc, x: Array, depth: float) -> tuple[Array, Array]:
 
 
 def _distance(x: Array, depth: float, offset: Array) -> tuple[Complex, Complex]:
-    """Return c = z + it and R = √(x² + c²), the complex distances at t = x + offset.
+    """Compute the complex distances c = z + it and R = √(x² + c²) at t = x + offset.
 
-    x      radii of the points of evaluation over the contact radius
-    depth  depth z over the contact radius
+    1/R is the integral over all wavenumbers of the waves below the surface.
+
+    x       radii of the points of evaluation over the contact radius
+    depth   depth z over the contact radius
+    offset  t - x, where t is the variable of integration
     """
     t = x + offset
     c = np.asarray(depth + 1j * t, dtype=np.complex128)
@@ -128,9 +136,12 @@ def _distance(x: Array, depth: float, offset: Array) -> tuple[Complex, Complex]:
 
 
 def _mean(contact: Disc, x: Array) -> Array:
-    """Return half the mean pressure within the radius of each point, in units of E*/πa (n,).
+    """Compute half the mean pressure within the radius of each point, in units of E*/πa (n,).
 
-    x  radii of the points over the contact radius (n,)
+    The radial displacement and the radial and hoop stress at the surface contain this mean.
+
+    contact  frictionless contact of radius a, with the contact modulus E*
+    x        radii of the points over the contact radius (n,)
     """
     found = np.empty_like(x)
     inside = x < 1
@@ -150,12 +161,13 @@ def _mean(contact: Disc, x: Array) -> Array:
 
 
 def _settled(contact: Disc, x: Array) -> Array:
-    """Return the integral ∫ G~ J₀(κx) dκ of the surface displacement u_z below a pressure (n,).
+    """Compute the integral ∫ G~ J₀(κx) dκ of the surface displacement u_z by a pressure (n,).
 
-    It equals ∫ G(t)/√(x²-t²) dt over t < x and t < 1. G is the function of the contact equation,
-    see `disc`.
+    The integral equals ∫ G(t)/√(x²-t²) dt over t < x and t < 1. G is the function of which the
+    pressure is the Abel transform (see `disc`), G~ its cosine transform.
 
-    x  radii of the points over the contact radius (n,)
+    contact  frictionless contact
+    x        radii of the points over the contact radius (n,)
     """
     v, weights = unit_gauss(2 * POINTS + len(contact.profile.abel) + len(contact.layers))
     angle = np.arcsin(np.minimum(1 / x, 1.0))

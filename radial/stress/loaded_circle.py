@@ -23,9 +23,10 @@ PANEL, LOAD_POINTS, HARMONICS = 16, 128, 15
 
 @dataclass(frozen=True, eq=False)
 class LoadedCircle:
-    """Pressure and shear on the lower body, over a circle.
+    """Pressure and shear on the lower body, over a circular contact area.
 
-    η is the distance from the centre over the radius. The tractions are `smooth` times √(1-η²).
+    The fields below the surface are computed from these tractions. η is the distance from the
+    centre over the radius. The tractions are `smooth` times √(1-η²).
 
     radius  radius of the circle [length]
     centre  x of the centre; y is 0 [length]

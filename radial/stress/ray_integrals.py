@@ -61,21 +61,24 @@ def below_circle(
 
 
 def _panels(smallest: Array) -> Array:
-    """Return the number of panels whose widths grow in constant ratio from a smallest value to 1.
+    """Return the number of intervals that grow in constant ratio from a smallest width to 1.
 
-    The number is not rounded.
+    Used for the quadrature over angles and rays. The number is not rounded.
+
+    smallest  width of the smallest interval
     """
     return np.asarray(1 - np.log(smallest) / np.log(WIDER))
 
 
 def _of_angles(r: Array, count: int, fineness: int) -> tuple[Array, Array]:
-    """Return the angles of rays and their weights (n, rays), for points inside the circle.
+    """Return the directions of rays and their weights (n, rays), for points inside the circle.
 
-    Angles are counted from the outward direction. Rays are dense where they are nearly tangential
-    to the edge.
+    The tractions are integrated along rays from each point. Directions are angles from the outward
+    direction [radian]. Rays are dense where they are nearly tangential to the edge.
 
-    r      distances of the points from the centre over the radius (n,)
-    count  number of panels of a quadrant
+    r         distances of the points from the centre over the radius (n,)
+    count     number of intervals of a quadrant
+    fineness  multiple of the number of angles
     """
     width = np.sqrt((1 - r) * (1 + r))
     v, weights = unit_gauss(ANGLES * fineness)
@@ -88,12 +91,12 @@ def _of_angles(r: Array, count: int, fineness: int) -> tuple[Array, Array]:
 
 
 def _graded(smallest: Array, count: int) -> Array:
-    """Return the edges of panels between 0 and 1 that grow in constant ratio (…, count + 1).
+    """Return the ends of intervals between 0 and 1 that grow in constant ratio (…, count + 1).
 
-    They are 0, the smallest value, …, 1.
+    The ends are 0, the smallest value, …, 1. Used for the quadrature over angles and rays.
 
-    smallest  first edge after 0 (…)
-    count     number of panels
+    smallest  first end after 0 (…)
+    count     number of intervals
     """
     powers = np.arange(count - 1, -1, -1) / max(count - 1, 1)
     grown = smallest[..., None] ** powers
@@ -104,11 +107,17 @@ def _summed(
     circle: LoadedCircle, material: HalfSpace, x: Array, y: Array, depth: float,
     angles: tuple[Array, Array] | None, count: int, fineness: int,
 ) -> Array:  # fmt: skip
-    """Compute displacement and stress as in `below_circle`, for points with equal panels.
+    """Compute displacement and stress below a loaded circle, for points with equal quadrature.
 
-    angles  angles of the rays from the outward direction, and weights; None for points outside the
-            circle
-    count   number of panels of a ray
+    The shape is (9, n): u_x, u_y, u_z over the radius of the circle, then σ_xx, yy, zz, yz, xz, xy.
+
+    circle       tractions on the surface
+    material     elastic constants of the half-space
+    x, y, depth  coordinates of the points from the circle's centre, over its radius
+    angles       angles of the rays from the outward direction, and weights; None for points outside
+                 the circle
+    count        number of intervals of a ray
+    fineness     multiple of the number of points
     """
     r = np.hypot(x, y)[:, None]
     outward = np.arctan2(y, x)[:, None]
@@ -153,12 +162,13 @@ def _summed(
 
 
 def _on_rays(scale: Array, count: int, fineness: int) -> tuple[Array, Array]:
-    """Return positions along rays between 0 and 1, and weights (…, points), dense towards 0.
+    """Return quadrature positions along rays between 0 and 1, and weights (…, points).
 
-    Substitutions remove roots at both ends.
+    The points are dense towards 0, the start of the ray. Substitutions remove roots at both ends.
 
-    scale  width of the first panel over the length of the ray (…)
-    count  number of panels
+    scale     width of the first interval over the length of the ray (…)
+    count     number of intervals
+    fineness  multiple of the number of points
     """
     edges = _graded(scale, count)
     v, weights = unit_gauss(POINTS * fineness)
@@ -174,11 +184,12 @@ def _on_rays(scale: Array, count: int, fineness: int) -> tuple[Array, Array]:
 
 
 def _kernels(material: HalfSpace, d: Array, depth: float) -> tuple[Array, ...]:
-    """Return displacement and stress by a unit point force at a distance d, times d.
+    """Compute displacement and stress by a unit point force on a half-space, times the distance d.
 
-    For pressure and for shear along the ray they are u_s, u_z, σ_ss, σ_tt, σ_zz, σ_sz, and for
-    shear across the ray u_t, σ_st. s points along the ray towards the force, t across. Each has the
-    shape of d.
+    The factor d is the Jacobian of polar coordinates about the point of evaluation. For pressure
+    and for shear along the ray the results are u_s, u_z, σ_ss, σ_tt, σ_zz, σ_sz, and for shear
+    across the ray u_t, σ_st. s points along the ray towards the force, t across. Each has the shape
+    of d.
 
     material  elastic constants of the half-space
     d         horizontal distance between the point and the force
@@ -217,19 +228,21 @@ def _kernels(material: HalfSpace, d: Array, depth: float) -> tuple[Array, ...]:
 def _by_rays(
     material: HalfSpace, t: Array, d: Array, weight: Array, depth: float, cos: Array, sin: Array
 ) -> Array:
-    """Integrate displacement and stress along every ray (8, n, rays).
+    """Integrate displacement and stress below tractions along every ray (8, n, rays).
 
     The fields are u_s, u_t, u_z, σ_ss, σ_tt, σ_zz, σ_sz, σ_st, with s along the ray and t across.
 
+    material   elastic constants of the half-space
     t          tractions q_x, q_y, p at the points of the rays (3, n, rays, points)
-    d, weight  distances of these points, and quadrature weights
-    cos, sin   of the direction of every ray
+    d, weight  distances of these points from the start of the ray, and quadrature weights
+    depth      depth of the points of evaluation
+    cos, sin   cosine and sine of the direction of every ray
     """
     pu, pw, pss, ptt, pzz, psz, su, sw, sss, stt, szz, ssz, tu, tst = _kernels(material, d, depth)
     q_x, q_y, p = t * weight
 
     def total(field: Array) -> Array:
-        """Sum an integrand over the points of every ray."""
+        """Sum the integrand over the quadrature points of every ray."""
         return np.asarray(np.sum(field, axis=-1))
 
     c, s = cos[..., None], sin[..., None]
@@ -244,14 +257,17 @@ def _by_rays(
 def _finite_part(
     material: HalfSpace, here: Array, d: Array, weight: Array, length: Array, cos: Array, sin: Array
 ) -> Array:
-    """Return the correction of quadratures of t/d along rays to their finite parts (8, n, rays).
+    """Return the correction of stress integrals along rays to their finite parts (8, n, rays).
 
-    For the traction t at the point of evaluation the correction is ln(length of the ray) minus the
+    At the surface the integrals of t/d are singular, with the traction t and the distance d. For
+    the traction at the point of evaluation the correction is ln(length of the ray) minus the
     quadrature of 1/d.
 
+    material   elastic constants of the half-space
     here       tractions q_x, q_y, p at the points of evaluation (3, n)
     d, weight  distances of the points of the rays, and quadrature weights
     length     lengths of the rays
+    cos, sin   cosine and sine of the direction of every ray
     """
     left = np.log(length) - np.sum(weight / d, axis=-1)
     unit, g, nu = 1 / (2 * pi), 1 - 2 * material.poisson_ratio, material.poisson_ratio
@@ -266,10 +282,10 @@ def _finite_part(
 
 
 def _turned(rays: Array, cos: Array, sin: Array, weight: Array) -> Array:
-    """Sum the fields of all rays of every point, in the components of x and y (9, n).
+    """Sum displacement and stress over all rays of every point, in x and y components (9, n).
 
     rays              u_s, u_t, u_z and stresses along and across every ray (8, n, rays)
-    cos, sin, weight  direction and weight of every ray
+    cos, sin, weight  cosine and sine of the direction, and weight of every ray
     """
     u_s, u_t, u_z, ss, tt, zz, sz, st = rays * weight
     c2, s2, cs = cos * cos, sin * sin, cos * sin

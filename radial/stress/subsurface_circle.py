@@ -60,9 +60,11 @@ class SubsurfaceCircle:
             self._sources = self._transforms() * (weights * self._kappa)
 
     def _transforms(self) -> Complex:
-        """Return the Hankel transforms A, B and that of the pressure, for all harmonics.
+        """Compute the Hankel transforms of the shear and pressure of the circle, for all harmonics.
 
-        The shape is (3, M + 1, κ). The module defines A and B. Lengths are in units of the radius.
+        They are A = H_{m+1}(q_r + i q_θ), B = H_{m-1}(q_r - i q_θ) and H_m(p), with the transform
+        H_n of order n. The shape is (3, M + 1, κ), with the highest harmonic M. Lengths are in
+        units of the radius of the circle.
         """
         count = ceil(max(LEAST_POINTS, self._kappa[-1]) * self.fineness)
         eta, area = self.circle.disc_rule(count)
@@ -114,8 +116,8 @@ class SubsurfaceCircle:
         """Add the contribution of the layers to displacement and stress at all depths.
 
         levels  depths, each with the layer that contains it
-        x, y    coordinates of the points from the centre over the radius (n,)
-        found   fields to which the contribution is added (levels, 9, n)
+        x, y    coordinates of the points from the centre of the circle, over its radius (n,)
+        found   fields to which the contribution is added, in place (levels, 9, n)
         """
         a, h = self.circle.radius, self.stack.layers[0].thickness
         r, theta = np.hypot(x, y), np.arctan2(y, x)
@@ -136,9 +138,10 @@ class SubsurfaceCircle:
 
 
 def _order(orders: Sequence[Array], m: int) -> Array:
-    """Return the Bessel function J_m of positive or negative order m.
+    """Return the Bessel function J_m of a positive or negative order m, from positive orders.
 
     orders  J_0, J_1, … at the arguments
+    m       order
     """
     return orders[m] if m >= 0 else (-1) ** m * orders[-m]
 
@@ -147,16 +150,18 @@ def _transformed(
     descent: Descent, level: Level, sources: Complex, orders: Sequence[Array], turns: Complex,
     count: int,
 ) -> Array:  # fmt: skip
-    """Compute the fields of the waves in cylindrical components, summed over harmonics (9, n).
+    """Compute the contribution of layers below a loaded circle at one depth (9, n).
 
-    They are u_r, u_θ, u_z, σ_rr, θθ, zz, θz, rz, rθ.
+    The fields are u_r, u_θ, u_z, σ_rr, θθ, zz, θz, rz, rθ, summed over wavenumbers and angular
+    harmonics m.
 
     descent  propagation of the surface tractions to depths of the body
-    level    depth and layer
-    sources  A, B and the transform of the pressure, times quadrature weights (3, M + 1, κ)
+    level    depth and the layer that contains it
+    sources  Hankel transforms of q_r + i q_θ, q_r - i q_θ and the pressure, times quadrature
+             weights (3, M + 1, κ)
     orders   Bessel functions J_0, J_1, … at κ r (κ, n)
     turns    exp(imθ) at the points (M + 1, n)
-    count    number of wavenumbers
+    count    number of wavenumbers that contribute
     """
     fields = descent.remainder(level)
     plane = in_plane(fields, material_at(descent.stack, level), descent.alpha)
@@ -166,10 +171,12 @@ def _transformed(
         along, across = (B - A) / 2, -(A + B) / 2
 
         def by_wave(entries: Array, along: Complex = along, p: Complex = p) -> Complex:
-            """Return the response to the traction along the wave vector and the pressure (κ,).
+            """Return the response to the pressure and the traction along a wave vector (κ,).
 
             entries  responses to a unit traction along the wave vector and to a unit pressure (2,
                      κ)
+            along    traction along the wave vector (κ,)
+            p        pressure (κ,)
             """
             return np.asarray(entries[0, :count] * along + entries[1, :count] * p)
 
@@ -196,10 +203,10 @@ def _transformed(
 
 
 def _turned(polar: Array, cos: Array, sin: Array) -> Array:
-    """Transform radial and circumferential components of fields to x and y (levels, 9, n).
+    """Transform displacement and stress from cylindrical to x and y components (levels, 9, n).
 
     polar     u_r, u_θ, u_z, σ_rr, θθ, zz, θz, rz, rθ (levels, 9, n)
-    cos, sin  of the angle θ of the points (n,)
+    cos, sin  cosine and sine of the angle θ of the points (n,)
     """
     u_r, u_t, u_z, rr, tt, zz, tz, rz, rt = np.moveaxis(polar, 1, 0)
     mean, half = (rr + tt) / 2, (rr - tt) / 2

@@ -73,7 +73,7 @@ class SubsurfaceDisc:
 
         levels  depths, each with the layer that contains it
         x       radii of the points over the contact radius (n,)
-        found   fields to which the contribution is added (levels, 6, n)
+        found   fields to which the contribution is added, in place (levels, 6, n)
         """
         a, h = self.contact.radius, self.stack.layers[0].thickness
         for start in range(0, len(self._places), BLOCK):
@@ -98,8 +98,10 @@ class SubsurfaceDisc:
 def _scalars(descent: Descent, level: Level) -> Array:
     """Return the responses of a layered body to pressure at one depth, for all wavenumbers (6, κ).
 
-    They are the displacements U, W and tractions s, n of `frf.depth`, and half the sum and half the
-    difference of the stresses along and across the wave vector.
+    A unit pressure wave causes the displacements U (along the wave vector) and W (normal), the
+    tractions s (along the wave vector) and n (normal) on a horizontal plane, and in-plane stresses
+    along and across the wave vector. The result is U, W, s, n, and half the sum and half the
+    difference of these stresses.
 
     descent  propagation of the surface tractions to depths of the body
     level    depth and the layer that contains it
@@ -112,12 +114,13 @@ def _scalars(descent: Descent, level: Level) -> Array:
 
 
 def _transformed(scalars: Array, zeroth: Array, first: Array, second: Array) -> Array:
-    """Compute u_r, u_z, σ_rr, σ_θθ, σ_zz, σ_rz from their Hankel transforms (6, n).
+    """Compute the contribution of layers below a contact from its Hankel transforms (6, n).
 
-    The inverse Hankel transforms are sums over the wavenumbers κ.
+    The fields are u_r, u_z, σ_rr, σ_θθ, σ_zz, σ_rz. The inverse Hankel transforms are sums over the
+    wavenumbers κ.
 
-    scalars                responses of `_scalars`, times the transform of the pressure and
-                           quadrature weights (6, κ)
+    scalars                responses of the body (6, κ), times the transform of the pressure and
+                           quadrature weights
     zeroth, first, second  Bessel functions J₀, J₁, J₂ at κ x (κ, n)
     """
     U, W, s, n, mean, half = scalars

@@ -65,7 +65,9 @@ def _upwards(
     whole: Array,
     small: Array,
 ) -> None:
-    """Compute the kernels G_m, m ≥ 1, of pairs with r near s, by the upward recurrence.
+    """Compute the kernels G_m = ∫₀^∞ J_m(kr) J_m(ks) dk, m ≥ 1, of pairs with r near s.
+
+    G_m = Q_{m-½}(χ)/(π√(rs)) with the Legendre function Q. The upward recurrence is
 
         (m+½) Q_{m+½} = 2mχ Q_{m-½} - (m-½) Q_{m-3/2}
 

@@ -29,7 +29,7 @@ def ring_compliance(
 ) -> Array:
     """Compute the symmetric Galerkin matrices of hat functions on rings, for every harmonic.
 
-    Their shape is (M + 1, 3, 3, n + 1, n + 1) [length^6/force]. An entry is the displacement by the
+    Their shape is (M + 1, 3, 3, n + 1, n + 1) [length^5/force]. An entry is the displacement by the
     traction of the column, along the direction of the row, integrated with the hat of the row and r
     dr. The directions are r, θ, z. Harmonic 0 of q_θ is torsion, which is not coupled to r and z.
 
@@ -65,10 +65,16 @@ def ring_compliance(
 
 
 def _of_layers(coupling: Coupling, nodes: tuple[float, ...], radius: float, highest: int) -> Array:
-    """Compute the contribution of layers to the Galerkin matrices of PP, QQ, PQ, zz, zP and zQ.
+    """Compute the contribution of layers to the Galerkin matrices of tractions on rings.
 
-    P = q_r - q_θ and Q = q_r + q_θ are sums of shear components, z is the pressure. The shape is (M
-    + 1, 6, n + 1, n + 1), and lengths are in units of the radius.
+    The matrices couple the combinations PP, QQ, PQ, zz, zP and zQ of tractions, where P = q_r -
+    q_θ, Q = q_r + q_θ and z is the pressure. The shape is (M + 1, 6, n + 1, n + 1). Lengths are in
+    units of `radius`.
+
+    coupling  elastic response of both bodies
+    nodes     radii of the nodes over `radius` (n + 1,)
+    radius    unit of length [length]
+    highest   highest angular harmonic M
     """
     found = np.zeros((highest + 1, 6, len(nodes), len(nodes)))
     waves = coupling.bodies.waves(radius, max(1.0, nodes[-1]))

@@ -37,14 +37,14 @@ MAX_AT_ONCE = 1 << 21  # numbers in a block of Bessel functions: 16 MiB
 
 
 class Unit(NamedTuple):
-    """Galerkin integrals of hats i and j on rings, for kernels of all harmonics.
+    """Galerkin integrals ∬ φ_i K φ_j r s dr ds of half-space kernels K, for all angular harmonics.
 
-    The shapes are (harmonics, n + 1, n + 1). Lengths are in units of the radius.
+    φ_i and φ_j are the hat functions of the nodes of rings. The shapes are (harmonics, n + 1, n +
+    1). Lengths are in units of the outermost radius.
 
-    equal_order  kernel G_m = ∫ J_m(kr_i) J_m(ks_j) dk, m = 0 … M + 1
-    shifted      kernel ∫ J_{m-1}(kr_i) J_{m+1}(ks_j) dk, m = 1 … M; the entry m = 0 is
-                 -equal_order[1]
-    stepped      kernel ∫ J_m(kr_i) J_{m+1}(ks_j) dk, m = 0 … M
+    equal_order  kernel G_m = ∫ J_m(kr) J_m(ks) dk, m = 0 … M + 1
+    shifted      kernel ∫ J_{m-1}(kr) J_{m+1}(ks) dk, m = 1 … M; the entry m = 0 is -equal_order[1]
+    stepped      kernel ∫ J_m(kr) J_{m+1}(ks) dk, m = 0 … M
     """
 
     equal_order: Array
@@ -54,7 +54,9 @@ class Unit(NamedTuple):
 
 @lru_cache(maxsize=CACHED)
 def unit_energies(nodes: tuple[float, ...], highest: int) -> Unit:
-    """Compute the Galerkin integrals of hat functions on rings for all harmonics.
+    """Compute the Galerkin integrals of half-space kernels with hat functions on rings.
+
+    The integrals ∬ φ_i K φ_j r s dr ds are computed for all angular harmonics.
 
     nodes    radii 0 = x_0 < … < x_n over the unit of length
     highest  highest harmonic M
@@ -83,9 +85,11 @@ def unit_energies(nodes: tuple[float, ...], highest: int) -> Unit:
 
 
 def _shapes(x: Array, element: Numbers, r: Array) -> tuple[Array, Array]:
-    """Evaluate the hats of the inner and the outer node of elements at points (elements, points).
+    """Evaluate the hat functions of the inner and the outer node of elements at given points.
 
-    x        nodes
+    Both results have the shape (elements, points).
+
+    x        radii of the nodes
     element  index of each element
     r        points in each element (elements, points)
     """
@@ -94,11 +98,12 @@ def _shapes(x: Array, element: Numbers, r: Array) -> tuple[Array, Array]:
 
 
 def _pairs(x: Array) -> Iterator[Pairs]:
-    """Yield quadrature points r < s of all pairs of elements, in groups with equal quadrature.
+    """Yield quadrature points r < s for double integrals over all pairs of elements of the radius.
 
-    A group contains the elements of r and of s (k,), and r, s, s - r and weights (k, points).
+    Pairs of elements are grouped by their distance: a group has equal quadrature. A group contains
+    the elements of r and of s (k,), and r, s, s - r and weights (k, points).
 
-    x  nodes
+    x  radii of the nodes
     """
     count = len(x) - 1
     length = np.diff(x)
@@ -138,12 +143,12 @@ def _square(first: int, second: int) -> tuple[Array, Array, Array]:
 
 
 def transforms(nodes: tuple[float, ...], highest: int, kappa: Array) -> Array:
-    """Compute the Hankel transforms ∫ φ J_m(κx) x dx of hats on rings, for m = 0 … M + 1.
+    """Compute the Hankel transforms ∫ φ J_m(κx) x dx of hat functions φ on rings, for layers.
 
-    The shape is (M + 2, κ, n + 1).
+    The shape is (M + 2, κ, n + 1), for m = 0 … M + 1.
 
     nodes    radii x of the nodes (n + 1,)
-    highest  highest harmonic M
+    highest  highest angular harmonic M
     kappa    wavenumbers κ
     """
     x = np.array(nodes)
@@ -160,10 +165,13 @@ def transforms(nodes: tuple[float, ...], highest: int, kappa: Array) -> Array:
 
 
 def bessel_functions(highest: int, at: Array) -> Iterator[Array]:
-    """Yield the Bessel functions J_0 … J_highest at the points `at`.
+    """Yield the Bessel functions J_0 … J_M at given arguments.
 
     The upward recurrence is used for orders below the argument. For other orders, ratios of
     adjacent orders follow from the downward recurrence (Gautschi 1967).
+
+    highest  highest order M
+    at       arguments
     """
     last, now = j0(at), j1(at)
     yield last
@@ -183,10 +191,11 @@ def bessel_functions(highest: int, at: Array) -> Iterator[Array]:
 
 
 def blocks(kappa: Array, nodes: int, highest: int) -> Iterator[slice]:
-    """Yield slices of the wavenumbers that limit the memory of `transforms`.
+    """Yield slices of the wavenumbers that limit the memory of the Hankel transforms of rings.
 
-    nodes    number of nodes
-    highest  highest harmonic
+    kappa    wavenumbers
+    nodes    number of nodes of the rings
+    highest  highest angular harmonic
     """
     points = WAVE_POINTS * nodes + (highest + 2) * nodes
     step = max(MAX_AT_ONCE // points, 1)

@@ -57,7 +57,7 @@ def solved_state(
     tolerance: float,
     smooth: Array | None = None,
 ) -> PointState:
-    """Solve contact and friction at the end of an increment.
+    """Solve contact and friction at points (rings × angles) at the end of an increment.
 
     points     points of the contact and their compliance
     friction   friction law
@@ -65,9 +65,9 @@ def solved_state(
     before     state at the start of the increment; None before first contact
     tolerance  bound of the residual relative to the largest pressure, friction limit and loads
     smooth     tractions and motion without friction, as an initial guess; None if unknown
-    raises     NotConverged; GrossSliding if T reaches the friction limit, or if T and M exceed the
-               limit load of the contact without them; ContactAtZoneEdge if the contact reaches the
-               last ring
+    raises     NotConverged; GrossSliding if the tangential force reaches the friction limit, or if
+               tangential force and torque exceed the limit load of the contact without them;
+               ContactAtZoneEdge if the contact reaches the last ring
     """
     force, W = float(np.hypot(*_given(loads)[:2])), loads.forces[NORMAL]
     most = None if W is None else friction.carried(W)
@@ -94,12 +94,17 @@ def solved_state(
 def _initial_guesses(
     laws: Laws, before: PointState | None, tolerance: float, smooth: Array | None
 ) -> Iterator[Array]:
-    """Yield initial guesses of tractions and rigid motion for Newton's method, the best one first.
+    """Yield initial guesses of tractions and rigid motion for Newton's method, the best first.
 
-    Before first contact they are the frictionless state and `Laws.closed_guess`. Later they are
-    those of `Laws.initial_guesses`, then a state with the rigid motion at the start of the
-    increment. The last guess helps if all points slip during the iteration, so that the motion is
-    undetermined.
+    Before first contact they are the frictionless state and a state with closed gap. Later they are
+    the extrapolated last increment, the state at the start of the increment, and a state solved
+    with the rigid motion at the start. The last guess helps if all points slip during the
+    iteration, so that the motion is undetermined.
+
+    laws       contact and friction laws of the increment
+    before     state at the start of the increment; None before first contact
+    tolerance  bound of the residual for the last guess
+    smooth     tractions and motion without friction; None if unknown
     """
     if before is None:
         if smooth is not None:
@@ -131,7 +136,14 @@ def _refuse_sliding(
 ) -> None:
     """Raise GrossSliding if the prescribed tangential force and torque reach the limit load.
 
-    The limit load is computed with the friction limit of the contact without these loads.
+    The limit load is that of gross slip. It is computed with the friction limit of the contact
+    without these loads.
+
+    points     points of the contact
+    friction   friction law
+    loads      prescribed loads and motions
+    before     state at the start of the increment; None before first contact
+    tolerance  bound of the residual of the contact without these loads
     """
     normal_contact = solved_state(points, friction, loads.without_shear, before, tolerance)
     given = _given(loads)
@@ -160,8 +172,9 @@ def _limited_step(laws: Laws, at: At, aim: Array) -> Array:
     If nearly all points slip, the step under a prescribed force grows without bound, and the slip
     zone does not represent the motion.
 
-    at   current iterate
-    aim  tractions and motion after the whole step
+    laws  contact and friction laws of the increment
+    at    current iterate
+    aim   tractions and motion after the whole step (3 N + 4,)
     """
     points, inside = laws.points, at.z > 0
     prescribed = np.array([force is not None for force in laws.loads.forces[:NORMAL]])
@@ -182,8 +195,9 @@ def _line_search(laws: Laws, at: At, aim: Array, shortest: float) -> At:
 
     Returns the new iterate.
 
+    laws      contact and friction laws of the increment
     at        current iterate
-    aim       tractions and motion after the whole step
+    aim       tractions and motion after the whole step (3 N + 4,)
     shortest  least fraction of the step
     """
     moved = laws.points.compliance @ aim[:-4]
@@ -196,7 +210,7 @@ def _line_search(laws: Laws, at: At, aim: Array, shortest: float) -> At:
 
 
 def _slides(force: float, carried: float) -> GrossSliding:
-    """Create the error GrossSliding for a tangential force above the friction limit.
+    """Create the error GrossSliding for a tangential force that friction cannot carry.
 
     force    prescribed tangential force [N]
     carried  friction limit of the tangential force [N]
@@ -208,8 +222,10 @@ def _slides(force: float, carried: float) -> GrossSliding:
 
 
 def _end_state(laws: Laws, at: At, before: PointState | None, steps: int) -> PointState:
-    """Create the state at the end of an increment from the converged iterate.
+    """Create the contact state at the end of an increment from the converged Newton iterate.
 
+    laws    contact and friction laws of the increment
+    at      converged iterate
     before  state at the start of the increment; None before first contact
     steps   number of Newton steps
     raises  ContactAtZoneEdge if the contact reaches the last ring
@@ -234,14 +250,15 @@ def _end_state(laws: Laws, at: At, before: PointState | None, steps: int) -> Poi
 
 
 def limit_load_factor(points: Points, limit: Array, given: Array, free: NDArray[np.bool_]) -> float:
-    """Compute the factor by which given loads reach gross slip [1].
+    """Compute the factor by which given loads must be multiplied to reach gross slip [1].
 
-    It is the least dissipation of a rigid slip on which the given loads do unit work (upper bound
-    theorem; Goyal, Ruina and Papadopoulos 1991).
+    The factor is the least dissipation of a rigid slip on which the given loads do unit work (upper
+    bound theorem; Goyal, Ruina and Papadopoulos 1991).
 
-    limit  friction limit µp at the points (N,) [force/length²]
-    given  tangential force along and across θ = 0, and torque, not all zero (3,)
-    free   true for motions that are not prescribed (3,)
+    points  points of the contact
+    limit   friction limit µp at the points (N,) [force/length²]
+    given   tangential force along θ = 0 and across it, and torque, not all zero (3,)
+    free    true for motions that are not prescribed (3,)
     """
     free = free & np.any(points.rigid_motions, axis=1)
     # Scale the twist by its displacement at the last ring, so that all motions have equal units.

@@ -31,15 +31,15 @@ REST, FURTHEST, ASIDE = 1e-6, 2.1, 0.5
 
 
 class At(NamedTuple):
-    """Newton iterate, with the terms of the contact and friction laws. N points.
+    """Iterate of Newton's method, with the terms of the contact and friction laws. N points.
 
-    x         tractions and rigid motion (3 N + 4,)
+    x         tractions q_r, q_θ, p and rigid motion (3 N + 4,)
     residual  error of the laws (3 N,) [force/length²]
-    z         trial pressure p - g/d with the gap g and the compliance d (N,)
+    z         trial pressure p - g/d with the gap g and the compliance d of the point (N,)
     y         trial shear q - Δs/d with the slip Δs of the increment (2, N)
     limit     friction limit of the trial pressure (N,)
-    u         displacements by the tractions, times areas (3 N,) [length³]
-    worst     largest dimensionless residual
+    u         displacements by the tractions, times areas of the points (3 N,) [length³]
+    worst     largest dimensionless residual of laws, loads and motions
     """
 
     x: Array
@@ -84,10 +84,10 @@ class Laws:
         return cls(points, friction, loads, before.moved, before.motion)
 
     def closed_guess(self) -> Array:
-        """Return an initial guess of tractions and motion without a preceding state.
+        """Return an initial guess of tractions and rigid motion for the first contact (3 N + 4,).
 
-        The approach closes the gap wherever the load may cause contact. Under a prescribed force
-        the pressure is uniform.
+        The approach closes the gap at all points where the load may cause contact. Under a
+        prescribed force the pressure is uniform.
         """
         points, size, loads = self.points, len(self.points.areas), self.loads
         depth = points.gap_areas / points.areas
@@ -133,10 +133,10 @@ class Laws:
         return [x + share * before.changed, x]
 
     def at(self, x: Array, u: Array) -> At:
-        """Evaluate the contact and friction laws and their residuals at an iterate.
+        """Evaluate the contact and friction laws and their residuals at a Newton iterate.
 
-        x  tractions and rigid motion (3 N + 4,)
-        u  displacements by these tractions, times areas (3 N,) [length³]
+        x  tractions q_r, q_θ, p and rigid motion (3 N + 4,)
+        u  displacements by these tractions, times areas of the points (3 N,) [length³]
         """
         points, size, loads = self.points, len(self.points.areas), self.loads
         t, motion = x[:-4], x[-4:]
@@ -180,9 +180,9 @@ class Laws:
 
 
 def _shortened(y: Array, limit: Array) -> Array:
-    """Return factors that shorten trial shear vectors to the friction limit (…).
+    """Return factors that reduce trial shear vectors to the friction limit (…).
 
-    A factor is 1 for a vector below the limit.
+    A factor is 1 for a vector below the limit, otherwise the limit over the length of the vector.
 
     y      trial shear vectors (2, …) [force/length²]
     limit  friction limit (…) [force/length²]

@@ -25,7 +25,7 @@ POINTS = 6  # Gauss points of an element
 
 
 def places(count: int, reach: float, edges: Sequence[float]) -> tuple[float, ...]:
-    """Return the radii of rings over the radius of the largest contact, from 0 on.
+    """Return the radii of rings over the radius of the largest contact, increasing from 0.
 
     The rings are even inside the largest contact, dense at the edges of contacts, and wider
     outside.
@@ -63,13 +63,13 @@ def lay_out(
     friction: float,
     rig: Rig | None = None,
 ) -> Points:
-    """Create the points (rings × angles) of a contact, and their compliance.
+    """Create the points (rings × angles) of a contact, with their compliance.
 
     coupling  elastic response of both bodies
     indenter  shape of the indenter
     edges     contact radii at which rings are dense; the largest determines the layout [length]
-    count     number of rings inside the largest contact
-    highest   highest harmonic, and number of angles of a half circle
+    count     number of rings inside the largest contact, without the dense ones
+    highest   highest angular harmonic of the tractions, and number of angles of a half circle
     circle    angles of a ring
     friction  coefficient of friction µ
     rig       springs of the test machine, which displace all points equally; None without springs
@@ -84,7 +84,7 @@ def lay_out(
     r = radii[:-1, None] + length * v
 
     def integral(field: Array) -> Array:
-        """Return the integrals of a field with the hat function φ of every node, ∫ φ field dr (n,).
+        """Integrate a field with the hat function φ of every node, ∫ φ field dr (n,).
 
         field  values at the Gauss points of the elements (n - 1, points)
         """

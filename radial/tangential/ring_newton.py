@@ -26,9 +26,9 @@ Numbers = NDArray[np.int64]
 
 
 class _Free(NamedTuple):
-    """Free points of a Newton step: slipping and open points.
+    """Slipping and open points of a Newton step. Their displacements are the unknowns of the step.
 
-    Their displacements are unknown. Share, slopes and rests of open points are zero.
+    Share, slopes and rests of open points are zero.
 
     points  indices of the points (n,)
     slips   true for slipping, false for open points (n,)
@@ -48,23 +48,24 @@ class _Free(NamedTuple):
     rests: Array
 
     def displacements(self, m: int) -> Numbers:
-        """Return the indices of the free displacements in a vector of 3 m displacements.
+        """Return the indices of the unknown displacements in the vector of all displacements.
 
-        Slipping and open points have free displacements r and θ. Open points also have a free
-        displacement z.
+        Slipping and open points have unknown displacements r and θ. Open points also have an
+        unknown displacement z. The vector has the components r, θ, z of m points.
 
-        m  number of points
+        m  number of points on the rings with contact
         """
         apart = self.points[~self.slips]
         return np.concatenate([self.points, m + self.points, 2 * m + apart])
 
 
 def _free(at: At, m: int, friction: CoulombFriction, units: Array) -> _Free:
-    """Find the slipping and open points of an iterate, and the terms of their friction law.
+    """Find the slipping and open points of a Newton iterate, with the terms of their friction law.
 
-    at     current iterate
-    m      number of points on the rings with contact
-    units  square roots of the compliance of each component and point, as scales (3 m,)
+    at        current iterate
+    m         number of points on the rings with contact
+    friction  friction law
+    units     square roots of the compliance of each component and point, as scales (3 m,)
     """
     y, limit = at.y[:, :m], at.limit[:m]
     length = np.hypot(*y)
@@ -123,14 +124,16 @@ def newton_iterate(laws: Laws, at: At) -> Array | None:
 
 
 def _imposed(laws: Laws, at: At, rings: int, t: Array) -> Array:
-    """Return the displacements by unit rigid motions and the misfit of the iterate, times areas.
+    """Return the displacements that the rigid motions and the misfit of a Newton iterate impose.
 
-    The shape is (3 m, 5). The first four columns are the rigid motions. The last column is the
-    displacement that contact and stick require at the motion of the iterate, minus that of its
-    tractions.
+    All are multiplied by the areas of the points. The shape is (3 m, 5). The first four columns are
+    the displacements by unit rigid motions. The last column is the displacement that contact and
+    stick require at the motion of the iterate, minus that of its tractions.
 
+    laws   contact and friction laws of the increment
+    at     current iterate
     rings  number of innermost rings, with m points
-    t      tractions of these points (3 m,)
+    t      tractions of these points at the iterate (3 m,)
     """
     points, m = laws.points, rings * laws.points.count
     whole = np.zeros((3, len(at.z)))
@@ -148,15 +151,16 @@ def _imposed(laws: Laws, at: At, rings: int, t: Array) -> Array:
 def _whole(
     laws: Laws, at: At, free: _Free, K: Array, carried: Array, residual: Array
 ) -> tuple[Array, Array]:
-    """Return the linear equations of the laws of free points: matrix of the unknowns and constants.
+    """Assemble the linear equations of slipping and open points for one Newton step.
 
-    A slipping point has the friction limit along its shear direction w, and the linearised friction
-    law across w. An open point has zero pressure.
+    Returns the matrix of the unknown displacements, and the columns of the rigid motions and the
+    constants. A slipping point has the friction limit along its shear direction w, and the
+    linearised friction law across w. An open point has zero pressure.
 
     free      slipping and open points
-    K         stiffness: scaled tractions by scaled displacements (3 m, 3 m)
+    K         stiffness matrix: scaled tractions by scaled displacements (3 m, 3 m)
     carried   tractions by unit rigid motions, and at the iterate (3 m, 5)
-    residual  misfit of the free displacements
+    residual  misfit of the unknown displacements
     """
     n, m = len(free.points), len(K) // 3
     c, s, share = free.c, free.s, free.share
@@ -181,12 +185,14 @@ def _whole(
 
 
 def _loads(laws: Laws, at: At, carried: Array, by_motion: Array) -> Array:
-    """Return the linear equations of the four loads and motions, with their constants last.
+    """Assemble the linear equations of the prescribed loads and motions for one Newton step (4, …).
 
     A prescribed force gives an equation of equilibrium. A prescribed motion gives the value of this
-    motion.
+    motion. The constants are in the last column.
 
-    carried    tractions of the free displacements by unit rigid motions, and at the iterate
+    laws       contact and friction laws of the increment, with the prescribed loads and motions
+    at         current iterate
+    carried    tractions of the unknown displacements by unit rigid motions, and at the iterate
     by_motion  loads of these tractions in the directions of the motions (5, 5)
     """
     rows = np.concatenate([carried, by_motion]).T[:4]
@@ -202,10 +208,10 @@ def _loads(laws: Laws, at: At, carried: Array, by_motion: Array) -> Array:
 
 
 def _solved(laws: tuple[Array, Array], loads: Array) -> Array | None:
-    """Solve the linear system of a Newton step; return None if it is singular.
+    """Solve the linear system of a Newton step; return None if the system is singular.
 
-    laws   equations of the free points, see `_whole`
-    loads  equations of loads and motions, see `_loads`
+    laws   equations of slipping and open points: matrix, and columns of motions and constants
+    loads  equations of loads and motions (4, unknowns + 1), constants last
     """
     rows, left = laws
     n = len(rows)

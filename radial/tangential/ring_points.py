@@ -26,15 +26,16 @@ INVERSES, ROOM, ROUND_OFF = 3, 1 << 23, 1e-12
 
 @dataclass(frozen=True, eq=False)
 class Points:
-    """Points of a contact (nodes of rings times angles), and their compliance.
+    """Points of a contact on rings times angles, and their elastic compliance.
 
-    The compliance is that of both bodies and the rig's springs. There are n nodes and `count`
-    angles. Fields have the shape (n count,), with the angle as the fast index. Vectors have the
-    shape (3 n count,), with the components r, θ, z as the slow index. φ are the hat functions of
-    the nodes.
+    The compliance is that of both bodies and the rig's springs. There are n nodes along the radius
+    and `count` angles. Fields have the shape (n count,), with the angle as the fast index. Vectors
+    have the shape (3 n count,), with the components r, θ, z as the slow index. φ are the hat
+    functions of the nodes.
 
     radii     radii of the nodes (n,) [length]
-    energies  Galerkin matrices of `ring_compliance` up to harmonic J (J + 1, 3, 3, n, n)
+    energies  Galerkin matrices of the compliance, for angular harmonics up to J (J + 1, 3, 3, n, n)
+              [length^5/force]
     weights   ∫ φ r dr (n,) [length²]
     arms      ∫ φ r² dr (n,) [length³]
     gap       ∫ φ f r dr with the undeformed gap f at first contact (n,) [length³]
@@ -82,19 +83,22 @@ class Points:
         return self._at_points(self.arms)
 
     def _at_points(self, of_nodes: Array) -> Array:
-        """Distribute integrals with the hat function of every node over the angles of its ring.
+        """Distribute integrals over the radius to the points of all angles (n count,).
+
+        Each integral contains the hat function φ of a node. The values are those of the full
+        circle.
 
         of_nodes  ∫ φ … dr of the nodes (n,)
-        returns   values at the points, for the full circle (n count,)
         """
         return np.repeat(of_nodes, self.count) * (2 * np.pi / self.count)
 
     @cached_property
     def rigid_motions(self) -> Array:
-        """Return the displacements (r, θ) by unit rigid motions, times areas (3, 2 n count).
+        """Return the displacements r, θ of the points by unit rigid motions, times their areas.
 
-        The motions are a shift along θ = 0, a shift across it, and a twist. Motions that symmetry
-        excludes are 0.
+        The shape is (3, 2 n count). The motions are a shift along θ = 0, a shift across it, and a
+        twist. Motions that symmetry excludes are 0. The scalar product with the shear gives force
+        and torque.
         """
         nodes, nothing = len(self.weights), np.zeros_like(self.areas)
         cos, sin = np.tile(np.cos(self.angles), nodes), np.tile(np.sin(self.angles), nodes)
@@ -137,19 +141,21 @@ class Points:
 
     @cached_property
     def tractions(self) -> Callable[[int], Array]:
-        """Return a function that gives the inverse of the compliance on the innermost rings.
+        """Return a function that computes the inverse compliance matrix of the innermost rings.
 
         The argument of the function is the number of rings. The inverse (3 rings count, 3 rings
         count) maps displacements times areas to tractions, if no other ring carries any. It is
-        scaled by √`softness` on both sides [1]. The inverses are cached.
+        scaled by the square root of the compliance of each point on both sides [1]. The inverses
+        are cached.
         """
         count = max(INVERSES, ROOM // self.compliance.nbytes)
         return lru_cache(maxsize=count)(self._tractions)
 
     def _tractions(self, rings: int) -> Array:
-        """Compute the inverse of the compliance on the innermost rings, harmonic by harmonic.
+        """Compute the inverse of the compliance matrix on the innermost rings.
 
-        Harmonics are not coupled. The inverse is scaled by √`softness` on both sides [1].
+        The inverse is computed for each angular harmonic, because harmonics are not coupled. It is
+        scaled by the square root of the compliance of each point on both sides [1].
 
         rings  number of rings
         """
@@ -195,10 +201,11 @@ class Points:
 
     @staticmethod
     def _over_harmonics(rigid_motions: Array, harmonic_matrices: Array) -> Array:
-        """Assemble a matrix between points from the matrices of all harmonics.
+        """Assemble a matrix between points from the matrices of all angular harmonics.
 
-        rigid_motions      matrices from values at the angles to harmonics (3, harmonics, count)
-        harmonic_matrices  matrices between nodes (harmonics, 3, 3, n, n)
+        rigid_motions      transform from values at the angles to harmonics, of r, θ, z (3,
+                           harmonics, count)
+        harmonic_matrices  matrices between nodes, for each harmonic (harmonics, 3, 3, n, n)
         """
         (_, count, angles), nodes = rigid_motions.shape, harmonic_matrices.shape[-1]
         whole = np.empty((3, nodes, angles, 3, nodes, angles))
@@ -214,7 +221,7 @@ class Points:
         return replace(self, energies=self.energies[:1], circle=Circle.ONE)
 
     def every_angle(self, field: Array) -> Array:
-        """Repeat an axisymmetric field at all angles of these points (…, n count).
+        """Repeat an axisymmetric field, known on one angle per ring, at all angles (…, n count).
 
         If the field contains the area of a point as a factor, divide the result by the number of
         angles.
@@ -279,12 +286,13 @@ class Points:
         return float(np.min(beyond) if len(beyond) else r[last] ** 2)
 
     def stick_area(self, share: Array, shear: Array, bound: Array) -> float:
-        """Return the area of the stick zone, resolved below the distance of points [length²].
+        """Compute the area of the stick zone, resolved below the distance of points [length²].
 
         The stick zone of an axisymmetric contact ends where `share`, linear in r, is 1. See
         `stick_border` for other contacts.
 
-        share  trial shear |q - Δs/d| over the friction limit, see `PointState` (n count,)
+        share  trial shear |q - Δs/d| over the friction limit, with the slip Δs of the increment and
+               the compliance d of the point (n count,)
         shear  q_r and q_θ (2, n count) [force/length²]
         bound  friction limit µp (n count,) [force/length²]
         """
@@ -330,7 +338,7 @@ class Points:
 
     @cached_property
     def _spline(self) -> Callable[[float, tuple[float, ...]], Array]:
-        """Return a function that gives the matrix of angular interpolation of fields.
+        """Return a function that gives the matrix of angular interpolation of fields on rings.
 
         The matrix interpolates from the angles of the points to other angles, by a periodic spline.
         Its shape is (angles, other angles).

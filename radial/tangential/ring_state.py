@@ -17,13 +17,13 @@ Prescribed = tuple[float | None, ...]
 
 @dataclass(frozen=True)
 class Loads:
-    """Prescribed loads and rigid motions at the end of an increment.
+    """Prescribed loads and rigid motions of the indenter at the end of an increment.
 
     Of each load and its conjugate motion one is None.
 
     forces   tangential force T along θ = 0 and across it, torque M, normal force W [force, force
              length]
-    motions  shifts along and across, twist, approach [length, radian]
+    motions  shifts along θ = 0 and across it, twist, approach [length, radian]
     """
 
     forces: Prescribed
@@ -33,17 +33,20 @@ class Loads:
     def without_shear(self) -> Loads:
         """Return loads with zero instead of the prescribed tangential force and torque.
 
-        Prescribed motions and the normal load are unchanged.
+        Prescribed motions and the normal load are unchanged. Used to solve the contact whose
+        friction limit determines gross slip.
         """
         tangential = (None if force is None else 0.0 for force in self.forces[:NORMAL])
         return Loads((*tangential, self.forces[NORMAL]), self.motions)
 
     def resting(self, motion: Array) -> Loads:
-        """Return loads with a given rigid motion instead of prescribed tangential force and torque.
+        """Return loads that prescribe a rigid motion instead of tangential force and torque.
 
-        Prescribed shifts and twist and the normal load are unchanged.
+        Prescribed shifts and twist and the normal load are unchanged. Used for an initial guess
+        with the motion at the start of the increment.
 
-        motion  shifts along and across θ = 0, twist (and approach, which is not used)
+        motion  shifts along θ = 0 and across it, twist (and approach, which is not used) [length,
+                radian]
         """
         prescribed = zip(self.forces[:NORMAL], self.motions[:NORMAL], motion, strict=False)
         tangential = (float(was) if force is not None else now for force, now, was in prescribed)
@@ -52,18 +55,21 @@ class Loads:
 
 @dataclass(frozen=True)
 class PointState:
-    """State of a contact at points at the end of an increment. N points.
+    """Contact with friction at points (rings × angles) at the end of an increment. N points.
 
-    tractions       q_r, q_θ, p (3 N,) [force/length²]
-    moved           tangential displacements u_r, u_θ times area (2 N,) [length³]
-    slip_increment  slip Δs of the increment times area (2 N,) [length³]
-    motion          rigid motion: shifts along and across, twist, approach (4,) [length, radian]
+    tractions       radial shear, circumferential shear and pressure: q_r, q_θ, p (3 N,)
+                    [force/length²]
+    moved           tangential displacements u_r, u_θ times the area of each point (2 N,) [length³]
+    slip_increment  slip Δs of the increment times the area of each point (2 N,) [length³]
+    motion          rigid motion: shifts along θ = 0 and across it, twist, approach (4,) [length,
+                    radian]
     changed         change of tractions and motion in the increment (3 N + 4,)
     share           trial shear |q - Δs/d| over the friction limit, d the compliance of the point
                     (N,); ≤ 1 at sticking points, infinite outside the contact
     energy          elastic energy ½ ∫ (p u_z + q·u) dA of the bodies and the rig's springs [force
                     length]
-    residual        residual of the laws over the largest pressure, friction limit and load [1]
+    residual        residual of the contact and friction laws over the largest pressure, friction
+                    limit and load [1]
     steps           number of Newton steps
     """
 
@@ -100,11 +106,17 @@ class PointState:
         return carried(points, self.tractions)
 
     def every_angle(self, points: Points) -> PointState:
-        """Extend an axisymmetric state with one angle per ring to all angles of the points."""
+        """Extend an axisymmetric state from one angle per ring to all angles of given points.
+
+        Used when a tangential load begins to act on an axisymmetric contact.
+
+        points  points of the contact with tangential load
+        """
 
         def parts(field: Array, count: int) -> Array:
-            """Repeat each component of a field at all angles.
+            """Repeat each component of an axisymmetric field at all angles.
 
+            field  components at the rings (count × rings,)
             count  number of components
             """
             return points.every_angle(field.reshape(count, -1)).ravel()
@@ -120,12 +132,12 @@ class PointState:
 
 
 def carried(points: Points, tractions: Array) -> Array:
-    """Return the resultants of tractions (4,) [force, force length].
+    """Compute the resultants of tractions on a contact (4,) [force, force length].
 
-    They are the tangential force along and across θ = 0, the torque and the normal force.
+    They are the tangential force along θ = 0 and across it, the torque and the normal force.
 
-    points     points of the contact
-    tractions  q_r, q_θ, p (3 N,) [force/length²]
+    points     points of the contact, with their areas
+    tractions  q_r, q_θ, p at the points (3 N,) [force/length²]
     """
     q, p = np.split(tractions, [2 * len(points.areas)])
     return np.append(points.rigid_motions @ q, points.areas @ p)

@@ -63,20 +63,22 @@ def _borders(
     places: Array,
     deep: int,
 ) -> Array:
-    """Return the position of the border of the stick zone between adjacent points (n - 1, …).
+    """Find the border of the stick zone between adjacent points (n - 1, …).
 
-    Points are adjacent on the first axis. The position is 0 at the first and 1 at the second of two
-    points. It has no meaning where both points stick or both do not.
+    Points are adjacent on the first axis. The position of the border is 0 at the first and 1 at the
+    second of two points. It has no meaning where both points stick or both do not. The distance
+    from full slip d = µp - q·n at the last sticking points determines the position; n is the
+    direction of the shear in the slip zone.
 
-    directions  angle of the shear of each point
-    size        magnitude of the shear
-    bound       friction limit
+    directions  angle of the shear of each point [radian]
+    size        magnitude of the shear [force/length²]
+    bound       friction limit µp [force/length²]
     sticks      true for sticking points
     table       coefficients of the polynomial that gives the distance of the border from the ratio
                 of d
     places      coordinates of the points along the axis (n,)
-    deep        number of further sticking points required to distinguish the powers 1/2 and 3/2; in
-                a narrow zone d decreases towards its other side
+    deep        number of further sticking points required to distinguish the powers 1/2 and 3/2 of
+                d; in a narrow zone d decreases towards its other side
     """
     found = np.full((len(bound) - 1, *bound.shape[1:]), UNTOLD)
     slips = (bound > 0) & ~sticks
@@ -106,12 +108,15 @@ def _missing(
     j: NDArray[np.intp],
     direction: Array,
 ) -> Array:
-    """Return the distance d of sticking points from full slip, NaN for other points.
+    """Compute the distance d = µp - q·n of sticking points from full slip [force/length²].
 
-        d = µp - q·n
+    q is the shear and n its direction in the slip zone. The value is NaN for other points.
 
-    near, j    indices of the points
-    direction  angle of n, the direction of the shear in the slip zone
+    directions, size  angle and magnitude of the shear of all points
+    bound             friction limit µp of all points
+    sticks            true for sticking points
+    near, j           indices of the points to evaluate
+    direction         angle of n [radian]
     """
     known = (near >= 0) & (near < len(bound))
     near = np.clip(near, 0, len(bound) - 1)
@@ -122,14 +127,16 @@ def _missing(
 def _off(
     last: Array, before: Array, further: Array, deep: Mask, even: Array, table: tuple[float, ...]
 ) -> Array:
-    """Return the distance of the border from the last sticking point over that of the next point.
+    """Estimate the distance of the stick border from the last sticking point.
 
-    d is the distance of a point from full slip.
+    The distance is relative to that between this point and the next one. d = µp - q·n is the
+    distance of a point from full slip. It is proportional to the power 1/2 or 3/2 of the distance
+    from the border.
 
     last, before, further  d of the last three sticking points, from the border inwards
     deep                   true where the powers 1/2 and 3/2 can be distinguished
     even                   distance to the next point over the distance to the previous point
-    table                  coefficients of the polynomial for the power 1/2
+    table                  coefficients of the polynomial in last/before for the power 1/2
     """
     # Interpolate d to equal distances of points: d² is linear in the position near a root.
     before = np.sqrt(last**2 + np.maximum(before**2 - last**2, 0.0) * even)
@@ -142,9 +149,9 @@ def _off(
 
 
 def _evenness(places: Array, at: NDArray[np.intp], step: int) -> Array:
-    """Return the distance of points to their next point over that to their previous point.
+    """Return the ratio of the distances of points to their next and to their previous point.
 
-    The result is 1 at an end of the axis.
+    Used to interpolate to equal distances of points. The result is 1 at an end of the axis.
 
     places  coordinates of all points along the axis
     at      indices of the points
@@ -159,12 +166,12 @@ def _evenness(places: Array, at: NDArray[np.intp], step: int) -> Array:
 def _direction(
     directions: Array, slips: Mask, at: NDArray[np.intp], step: int, j: NDArray[np.intp]
 ) -> tuple[Array, Array]:
-    """Return the angle of the shear beyond the border of the stick zone, and its change per point.
+    """Find the angle of the shear beyond the border of the stick zone, and its change per point.
 
     If the point beyond the border does not slip, the angle is that of the last sticking point and
     the change is 0.
 
-    directions  angle of the shear of each point
+    directions  angle of the shear of all points [radian]
     slips       true for slipping points
     at, j       indices of the last sticking points
     step        +1 or -1, the direction from these points to the border
@@ -179,13 +186,14 @@ def _direction(
 
 
 def _shares(sticks: Mask, along_rays: Array, along_rings: Array) -> Array:
-    """Return the fraction of the area of each cell that sticks (n - 1, J).
+    """Compute the fraction of the area of each cell that sticks (n - 1, J).
 
     The cells lie between adjacent rings and rays, with points at their corners. The stick zone in a
     cell is a polygon of the sticking corners and the positions of the border on the sides.
 
-    sticks                   true for sticking points (n, J)
-    along_rays, along_rings  positions of the border between adjacent points, see `_borders`
+    sticks       true for sticking points (n, J)
+    along_rays   position of the border between adjacent rings, 0 to 1 (n - 1, J)
+    along_rings  position of the border between adjacent rays, 0 to 1 (n, J)
     """
     low, high = along_rays, np.roll(along_rays, -1, axis=1)
     left, right = along_rings[:-1], along_rings[1:]

@@ -97,9 +97,9 @@ class TangentialState:
 
 
 def _either(prescribed: tuple[float | None, ...], found: Array) -> tuple[float, ...]:
-    """Return the prescribed loads or motions, and computed ones where none is prescribed.
+    """Return the prescribed loads (or motions), with computed values where none is prescribed.
 
-    prescribed  values, or None where the conjugate quantity is prescribed
+    prescribed  values; None where the conjugate quantity is prescribed
     found       computed values
     """
     return tuple(
@@ -157,9 +157,9 @@ def tangential_state(
 def residuals_of(points: Points, friction: CoulombFriction, state: TangentialState) -> Residuals:
     """Compute the residuals of contact, friction and equilibrium at the end of an increment.
 
-    points    points of the contact
+    points    points of the contact, with areas and levers
     friction  friction law
-    state     solved state
+    state     solved state of tractions, slip and loads
     """
     end, prescribed = state.end, state.prescribed.forces
     W, force = float(state.carried[NORMAL]), prescribed[NORMAL]

@@ -109,7 +109,10 @@ class TangentialSteps(StepsOnRings):
         both = Coupling.of(scene)
 
         def smooth(prescribed: Target) -> float:
-            """Return the radius of the frictionless contact under a normal load [length]."""
+            """Return the radius of the frictionless contact under a given normal load [length].
+
+            prescribed  normal force or approach
+            """
             return normal_contact(both.bodies, scene.indenter, prescribed).contact.radius
 
         largest = max(map(smooth, largest_targets(scene)))
@@ -118,7 +121,7 @@ class TangentialSteps(StepsOnRings):
         edges = [largest, *(edge for edge in sorted(ends) if edge * count < NARROW * largest)]
 
         def at(circle: Circle) -> TangentialSteps:
-            """Create the solver with rings that are dense at the edges of the current contacts.
+            """Create the solver with rings that are dense at the contact edges found so far.
 
             circle  angles of the points on a ring
             """
@@ -135,9 +138,10 @@ class TangentialSteps(StepsOnRings):
         return at(circle)
 
     def _radii(self) -> list[float]:
-        """Return contact radii at the ends of the load steps, under the normal load alone [length].
+        """Solve the contact radii at the ends of the load steps, without tangential load [length].
 
-        Load steps that end without contact, or with unchanged normal load, are skipped.
+        The radii are used to place dense rings. Load steps that end without contact, or with
+        unchanged normal load, are skipped.
         """
         state: TangentialState | None = None
         found = []
@@ -203,17 +207,18 @@ class TangentialSteps(StepsOnRings):
         return self._at(Loads(forces, motions), before)
 
     def _vector(self, parts: tuple[float, ...]) -> Pair:
-        """Return the x and y components of a vector with components along and across the load.
+        """Rotate a vector from the axes of the tangential load to the x and y axes of the scene.
 
-        parts  components along and across `direction`, and others that are not used
+        parts  components along and across the direction of the load, and others that are not used
         """
         (x, y), (along, across, *_) = self.direction, parts
         return along * x - across * y, along * y + across * x
 
     def _from(self, vector: Pair | None) -> tuple[float | None, float | None]:
-        """Return the components of a vector along and across the direction of the load.
+        """Rotate a vector from the x and y axes of the scene to the axes of the tangential load.
 
-        Without a vector both components are None.
+        The result has the components along and across the direction of the load. Without a vector
+        both components are None.
 
         vector  x and y components, or None
         """
@@ -223,10 +228,10 @@ class TangentialSteps(StepsOnRings):
         return of_x * x + of_y * y, of_y * x - of_x * y
 
     def _at(self, loads: Loads, before: TangentialState | None) -> TangentialState:
-        """Solve the contact under given loads, from the previous state.
+        """Solve contact and friction under given loads, from the state of the previous increment.
 
-        Loads without tangential component are solved with one angle, as long as no preceding load
-        had a tangential component.
+        Loads without tangential component are solved with one angle per ring, as long as no
+        preceding load had a tangential component.
 
         loads   prescribed loads and motions
         before  state at the end of the previous increment; None without contact
@@ -409,7 +414,8 @@ class TangentialSteps(StepsOnRings):
 
         At the axis all angles have the mean value.
 
-        field  values at the points (n count,)
+        points  points of the contact: n rings with `count` angles each
+        field   values at the points (n count,)
         """
         if points.count == 1:
             return field
@@ -419,10 +425,11 @@ class TangentialSteps(StepsOnRings):
 
     @staticmethod
     def _vectors(points: Points, vector: Array) -> tuple[Array, Array]:
-        """Interpolate radial and circumferential components from the points to the output angles.
+        """Interpolate a vector field from the points to the output angles: components r and θ.
 
-        At the axis all angles have the same vector.
+        At the axis all angles have the same vector. Each result has the shape (n, angles).
 
+        points  points of the contact: n rings with `count` angles each
         vector  components r and θ at the points (2, n count)
         """
         if points.count == 1:
@@ -441,10 +448,13 @@ class TangentialSteps(StepsOnRings):
 
 
 def _moving(points: Points, loads: Loads) -> Loads:
-    """Replace loads on motions that symmetry excludes by a prescribed zero motion.
+    """Replace loads on rigid motions that symmetry excludes by a prescribed zero motion.
 
     Points on one angle exclude shifts. Points on half a circle exclude the shift across θ = 0 and
     the twist.
+
+    points  points of the contact
+    loads   prescribed loads and motions
     """
     has = [*np.any(points.rigid_motions, axis=1), True]
     forces, motions = (
