@@ -81,7 +81,7 @@ def _no_context(fineness: object) -> AbstractContextManager[None]:
 
 @dataclass(frozen=True)
 class RefinementLevel:
-    """Result of one discretisation of a refinement sequence, with error estimates and solve times.
+    """Result of one discretisation (level) of an adaptive refinement, with its error estimates.
 
     fineness           discretisation: cells, elements or rings, increments and tolerance
     result             result of the solver
@@ -109,7 +109,10 @@ class RefinementLevel:
         return float(np.max(largest_so_far(self.values)[-1].get(name, 0.0)))
 
     def errors(self, name: str) -> Iterator[StatedError]:
-        """Return the error estimates of one scalar, one for each load step that has the scalar."""
+        """Yield the error estimates of one scalar, one for each load step that has the scalar.
+
+        name  name of the scalar
+        """
         return (step[name] for step in self.stated.steps if name in step)
 
     def reached(self, name: str) -> float | None:
@@ -235,9 +238,11 @@ class Levels:
         )
 
     def following(self, level: RefinementLevel, by: Refinement) -> tuple[Fineness, float]:
-        """Return a refined discretisation, and the expected CPU time of its solves [s].
+        """Refine the discretisation of a solved level, and estimate the CPU time of the next level.
 
-        level  solved level, which is refined and whose CPU time is scaled by the work of the solves
+        Returns the refined discretisation, and the CPU time of its solve and its coarse solves [s].
+
+        level  solved level, whose measured CPU time is scaled by the work of the solves
         by     refinement factor of each parameter
         """
         finer = self.solver.refined(level.fineness, by)
@@ -257,10 +262,12 @@ class Levels:
         )
 
     def too_large(self, fineness: Fineness) -> str | None:
-        """Return the reason why a discretisation cannot be solved; None if it can.
+        """Return the reason why a discretisation is too large to be solved; None if it is not.
 
         A discretisation is too large if it exceeds the solver's limit of cells, elements or rings,
         or if its estimated memory exceeds the available memory.
+
+        fineness  grid or mesh, increments and tolerance
         """
         ((name, size),) = self.solver.shown(fineness.space).items()
         shown = f"{name} = {size}"
@@ -377,10 +384,14 @@ def refine(
 
 
 def price(levels: Levels, first: RefinementLevel, request: AccuracyRequest) -> Price:
-    """Estimate CPU time and memory of a run with a requested accuracy, from its solved first level.
+    """Estimate CPU time and memory of a run with a requested accuracy, without solving it.
 
-    The discretisation that meets the request is extrapolated from the errors of the first level.
-    Raises AccuracyOutOfReach for a request that cannot be met.
+    The discretisation that meets the request is extrapolated from the errors of the first and
+    coarsest level. Raises AccuracyOutOfReach for a request that cannot be met.
+
+    levels   scene and solver
+    first    solved first level, with its errors
+    request  requested relative errors by name
     """
     shares, _ = targets_of(request, first, levels)
     by = bounded(first.needed(shares, believed=1.0), first.part, FURTHEST)

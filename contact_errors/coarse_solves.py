@@ -55,7 +55,7 @@ Effect: TypeAlias = tuple[Sequence[Values], Sequence[Values]]
 
 @dataclass(frozen=True)
 class Fineness:
-    """Discretisation parameters of one solve.
+    """Discretisation parameters of one solve: grid or mesh, increments and tolerance.
 
     space       grid of cells, mesh of finite elements, or multiple of the default number of rings
     increments  number of increments of every load step
@@ -281,6 +281,9 @@ def solved_run(
     with the result.
 
     Returns the scalars of the result with all comparisons, and the records of the coarse solves.
+
+    solver  solver of the scene with variable discretisation
+    result  result whose errors are estimated
     """
     values, matters, features = values_of(result), with_error(result.scene), solver.features(result)
     run = solver.fineness_of(result)
@@ -289,11 +292,12 @@ def solved_run(
     made: list[CoarseSolveRecord] = []
 
     def solved(differs: str, coarse: Fineness) -> Solved | None:
-        """Solve with a coarse discretisation once, and return the result with its scalars.
+        """Return the result of a coarse solve with its scalars; None if the solver raised an error.
 
-        The solve is recorded. The return value is None if the solver raised an error.
+        Each discretisation is solved once and recorded. A repeated call returns the stored result.
 
         differs  description of the coarse discretisation for the record
+        coarse   grid or mesh, increments and tolerance
         """
         if coarse not in known:
             shown, increments = solver.shown(coarse.space), coarse.increments
@@ -369,8 +373,9 @@ def coarse_tolerance(features: Sequence[Features]) -> float:
 
 
 def changed(space: Any, changes: Mapping[str, Any] | None) -> Any:
-    """Return the mesh parameters of a finite-element solve with some values changed.
+    """Change some mesh parameters of a finite-element solve, for a coarse solve.
 
+    space    mesh parameters, which are copied
     changes  new values by name of the parameter; None for no change
     """
     return space.model_copy(update=changes) if changes else space
@@ -411,8 +416,8 @@ def at_ends(result: Any, resolved: Callable[[Any], Features]) -> Sequence[Featur
 def slip_zone(end: Any, per_length: float) -> tuple[float | None, float | None]:
     """Return stick radius and width of the slip annulus of an axisymmetric contact, in cells.
 
-    Radius and width are None if the state has no stick radius, as without friction. The width is
-    None in full stick.
+    Used to decide if the cells, half elements or half rings resolve the slip. Radius and width are
+    None if the state has no stick radius, as without friction. The width is None in full stick.
 
     end         state at the end of a load step
     per_length  number of cells per unit of length [1/length]
@@ -442,7 +447,8 @@ def _spent(found: Any) -> Mapping[str, int]:
 def recounted(counts: Sequence[int], matters: Sequence[bool]) -> list[tuple[int, ...]]:
     """Choose the numbers of increments of the two coarse solves that measure the increment error.
 
-    Load steps without an increment error keep their number.
+    Load steps without an increment error, whose result does not depend on the increments, keep
+    their number.
 
     counts   number of increments of each load step of the result
     matters  for each load step, true if it has an increment error

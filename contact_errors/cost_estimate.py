@@ -114,8 +114,10 @@ def estimated_run_seconds(solved: float, judged: float, coarse: Work, run: Work)
 def coarse_increments(increments: Sequence[int]) -> tuple[int, ...]:
     """Reduce the numbers of increments of all load steps, for the coarse solve of a time estimate.
 
-    All numbers are reduced by one factor, such that their sum is about `MAX_INCREMENTS`. Smaller
-    sums are not changed.
+    All numbers are reduced by one factor, such that their sum is about 48. Smaller sums are not
+    changed.
+
+    increments  number of increments of each load step
     """
     share = min(1.0, MAX_INCREMENTS / sum(increments))
     return tuple(ceil(share * count) for count in increments)

@@ -237,7 +237,12 @@ def scale(name: str, values: Values) -> float:
 
 
 def is_singular(indenter: ShapedBody) -> bool:
-    """Return true if the exact pressure is infinite below a rim or a tip of the indenter."""
+    """Return true if the exact pressure is infinite below a rim or a tip of the indenter.
+
+    The error of the peak pressure is then undefined, and other scalars converge with a lower order.
+
+    indenter  body with its shape
+    """
     return indenter.rim is not None or indenter.gap_exponent == 1
 
 
@@ -353,7 +358,10 @@ class SolvedRun:
 
     @cached_property
     def _largest(self) -> Sequence[Values]:
-        """Largest absolute value of each scalar from the start to the end of each load step."""
+        """For each load step, largest absolute value of each scalar from the start of the history.
+
+        Errors are compared with this value, because a scalar may pass through zero.
+        """
         return largest_so_far(self.values)
 
     @cached_property

@@ -231,10 +231,10 @@ def _places(field: StressField, body: Body, near: float) -> Mapping[bool, Mappin
 def _between_levels(points: StressPoints, values: Field, extreme: Extreme) -> float:
     """Estimate the error of a largest stress because its maximum lies between two depth levels.
 
-    The stress is computed on discrete depth levels only. The error is twice the excess of a
-    parabola through the largest values on three depth levels over the largest stress. The factor 2
-    accounts for the third-order terms that a parabola omits. The error is 0 on an interface and at
-    the end of a material.
+    The stress is computed at discrete depths (levels) only. A parabola is drawn through the largest
+    values on three levels. The error is twice the excess of its maximum over the largest stress
+    found. The factor 2 accounts for the third-order terms that a parabola omits. The error is 0 on
+    an interface and at the end of a material.
 
     points   points of the stress field
     values   stress measure at the points (…) [force/length^2]
@@ -355,9 +355,9 @@ def _on_disc(
 
 
 def _place(e: Extreme) -> tuple[str, float, float, float, float]:
-    """Return measure, value and position of a largest stress, as a dictionary key.
+    """Return measure, value and position of a largest stress, as the key of its error.
 
-    The largest stress of a body is also the largest of one of its regions. The two have equal keys,
-    so that their error is computed once.
+    The largest stress of a body is also the largest stress of one of its layers or of the
+    substrate. The two have equal keys, so that the error is computed once.
     """
     return e.measure, e.value, e.x, e.y, e.depth

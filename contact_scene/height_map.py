@@ -272,9 +272,10 @@ def _locate(
 
 
 def _continued(rows: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Extrapolate a map by two rows before the first and two after the last row.
+    """Extrapolate a map beyond its outermost rows, for cubic convolution at the boundary.
 
-    The extrapolation in each column is a parabola through three rows.
+    Two rows are added before the first and two after the last row. The extrapolation in each column
+    is a parabola through three rows.
     """
     first = 3.0 * rows[0] - 3.0 * rows[1] + rows[2]
     second = 3.0 * first - 3.0 * rows[0] + rows[1]

@@ -143,9 +143,9 @@ def changed_scene(
 
 
 def _valid(kind: type[D], document: dict[str, Any], context: dict[str, Any]) -> D:
-    """Validate a document as a model, and check the consistency of the tables of a scene.
+    """Validate the tables of a scene file, and check their consistency with each other.
 
-    kind      class of the model
+    kind      class of the model, such as the scene
     document  tables by their keys
     context   context of pydantic's validators: folder of the scene file
 

@@ -69,9 +69,12 @@ class Control(Generic[Value]):
 
 
 def _ramped(begin: Any, end: Any, fraction: float) -> Any:
-    """Interpolate linearly between two numbers, or between two tuples component by component.
+    """Interpolate a force, displacement or bulk strain linearly within a load step.
 
-    fraction  position between `begin` (0) and `end` (1)
+    Tuples are interpolated component by component.
+
+    begin, end  values at the start and the end of the load step
+    fraction    fraction of the load step, from 0 to 1
     """
     if isinstance(end, tuple):
         return tuple(_ramped(*ends, fraction) for ends in zip(begin, end, strict=True))
@@ -162,9 +165,9 @@ def load_path(loading: Sequence[LoadStep], base: Material | None = None) -> tupl
 
 
 def first_direction(ramps: Sequence[LoadRamp]) -> tuple[float, float]:
-    """Return the direction of the first nonzero tangential force or shift, as a unit vector (x, y).
+    """Return the direction of the first nonzero tangential force or shift of a load history.
 
-    Returns (1, 0) without a tangential load.
+    The direction is a unit vector (x, y); it is (1, 0) without a tangential load.
     """
     for ramp in ramps:
         x, y = ramp.tangential.end
