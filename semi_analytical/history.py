@@ -197,12 +197,13 @@ class _Solver:
 def _increment(
     model: ContactModel, last: Increment | None, reached: Reached[State], *, spreads: bool
 ) -> Increment:
-    """Convert a converged state to an increment on the full window.
+    """Convert a converged state to an increment of the results, with all fields on the full window.
 
     Changes and cost are those since the last increment.
 
     last     preceding increment; None for the first
-    spreads  True if the stick zone may have grown, see `stick_area`
+    reached  converged state with its place in the load history
+    spreads  True if the stick zone may have grown; determines the power laws fitted at its border
     """
     state, extend, before = reached.state, model.domain.extend_fields, reached.before
     pressing, sheared = extend(state.pressing), extend(state.sheared) if state.sheared else None
@@ -309,13 +310,13 @@ def _stick(
     *,
     spreads: bool,
 ) -> tuple[float, TangentialState, Increment]:
-    """Compute the stick area as a number of cells; return it with edge-corrected shear and
-    increment.
+    """Compute the stick area as a number of cells, with sub-cell accuracy.
 
-    Force, shift and their work are not corrected.
+    Return the area, the tangential state with edge-corrected shear, and the increment. Force, shift
+    and their work are not corrected.
 
     p        uncorrected pressure of the cells (nx, ny)
-    spreads  True if the stick zone may have grown, see `stick_area`
+    spreads  True if the stick zone may have grown; determines the power laws fitted at its border
     """
     border = corrected.sheared if corrected else None
     if corrected is not None and border is not None:

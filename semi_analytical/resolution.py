@@ -97,8 +97,8 @@ def _remedy(result: Result, found: float) -> str:
 
 
 def _semi_axis(marked: Mask, load: Field, area: float) -> float:
-    """Compute the smaller semi-axis of the marked patches in cells, averaged with their loads as
-    weights.
+    """Compute the smaller semi-axis of contact or stick patches in cells, as a mean weighted by
+    load.
 
     Each patch is replaced by the ellipse of the same area and the same ratio of second moments.
 

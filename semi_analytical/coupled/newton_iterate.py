@@ -41,9 +41,15 @@ class NewtonIterate:
     closing: Motion
 
     def __init__(self, problem: CoupledProblem, start: Tractions, motion: Vector) -> None:
-        """Start at tractions (3, nx, ny), whose pressure is scaled to the normal load in place.
+        """Start Newton's method at tractions (3, nx, ny), whose pressure is scaled to the normal
+        load in place.
 
-        All methods of this class raise NotConverged if there is no natural map.
+        All methods of this class raise NotConverged at the friction limit, for non-finite tractions
+        or without contact.
+
+        problem  coupled problem of the increment
+        start    initial tractions (q_x, q_y, p)
+        motion   initial guess of the rigid tangential motion
         """
         start[2] = problem.normal_load.admissible(np.where(np.isfinite(problem.gap), start[2], 0.0))
         self._problem = problem
@@ -104,9 +110,13 @@ def reached(problem: CoupledProblem, tractions: Tractions, motion: Vector) -> tu
 
 
 def natural_map(problem: CoupledProblem, point: Point) -> Natural:
-    """Evaluate the natural map of contact and friction at an iterate.
+    """Evaluate the contact and friction conditions at an iterate, written as a natural map.
 
-    raises  NotConverged at the friction limit, for non-finite tractions or without contact
+    The natural map yields zones, residuals and slip of the iterate.
+
+    problem  coupled problem of the increment
+    point    tractions, displacements and rigid motion of the iterate
+    raises   NotConverged at the friction limit, for non-finite tractions or without contact
     """
     bound = problem.friction_limit(np.maximum(point.tractions[2], 0.0))
     if problem.tangential_load.exhausts(bound) or not np.all(np.isfinite(point.tractions)):

@@ -75,10 +75,12 @@ class FilmLaw:
 
     @cached_property
     def _ratios(self) -> CubicSpline:
-        """Ratios of Φ1, Φ2 and Φ3 with layers to their values without layers, as functions of ln s.
+        """Effect of the layers on three basic edge pressures, as functions of ln s (interpolating
+        splines).
 
-        Φn are the edge pressures of the module; s is the distance from the edge over the layer
-        thickness.
+        Each ratio is a pressure Φn, n = 1, 2, 3, with layers over its value without layers. Sums of
+        the Φn are the pressures that end smoothly at the edge. s is the distance from the edge over
+        the layer thickness.
         """
         from scipy.interpolate import CubicSpline  # its import takes as long as a small contact
 
@@ -156,6 +158,8 @@ class FilmLaw:
 
     def _values(self, s: Field, c: Field) -> Field:
         """Compute the edge pressure law, its derivative, √s and the derivative of √s; shape (4, n).
+
+        The law is √s times a ratio that depends on the layers and on c.
 
         s  distances s > 0 from the edge over the layer thickness (n,)
         c  coefficient of the second term of the law (n,)

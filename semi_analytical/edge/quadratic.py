@@ -12,9 +12,11 @@ from semi_analytical.edge.clipped_power_means import mean_power
 
 @dataclass(frozen=True)
 class Quadratic:
-    """Quadratics f + f_x dx + f_y dy + (f_xx dx² + 2 f_xy dx dy + f_yy dy²)/2 about places (x, y).
+    """Quadratic functions of the position, one about each of several cells or points (x, y).
 
-    All arrays have one shape. Lengths are in cells. The edge correction represents φ by such
+    Each function is f + f_x dx + f_y dy + (f_xx dx² + 2 f_xy dx dy + f_yy dy²)/2, with the
+    distances dx, dy from (x, y) in cells. All arrays have one shape. The edge correction represents
+    φ = p^(1/α), a function of the pressure p that vanishes smoothly at the contact edge, by such
     quadratics.
     """
 
@@ -29,7 +31,7 @@ class Quadratic:
 
     @property
     def slope(self) -> Field:
-        """Magnitude of the gradient of the quadratics at their places."""
+        """Magnitude of the gradient of each quadratic at the point about which it is expanded."""
         return np.hypot(self.f_x, self.f_y)
 
     def chosen(self, which: Mask | Indices | slice) -> Quadratic:
@@ -81,7 +83,8 @@ class Quadratic:
         )
 
     def cell_mean(self, exponent: float | Field) -> Field:
-        """Compute the mean of φ_+^exponent over the unit cell about each place.
+        """Compute the mean of the power φ_+^exponent of each quadratic φ over the unit cell about
+        its point.
 
         The linear part of the quadratic represents φ in the cell. Negative φ counts as zero. The
         exponent 0 yields the fraction of the cell with positive φ.
@@ -96,5 +99,5 @@ class Quadratic:
 
     @property
     def mean(self) -> Field:
-        """Mean of the quadratics over the unit cell about each place."""
+        """Mean of each quadratic over the unit cell about the point of its expansion."""
         return np.asarray(self.f + (self.f_xx + self.f_yy) / 24)

@@ -58,12 +58,19 @@ class EdgeShape:
 
     @cached_property
     def nearest(self) -> Indices:
-        """Indices (2, nx, ny) of the cell of the region that is nearest to each cell."""
+        """Indices (2, nx, ny) of the cell of the contact or stick region that is nearest to each
+        cell."""
         found = distance_transform_edt(self.depth == 0, return_distances=False, return_indices=True)
         return np.asarray(found)
 
     def fits(self, i: Indices, j: Indices) -> Fits:
-        """Fit quadratics to φ about cells (i, j) of the region, shape (n,)."""
+        """Fit quadratics to the cell means of φ about cells of the region.
+
+        φ = p^(1/α) is a smooth function that vanishes at the edge of the region, with the traction
+        p.
+
+        i, j  indices of the cells (n,)
+        """
         return fit_about(self.phi, self.weight, i, j, self.stencil, domain=self.domain)
 
     def nearest_to(self, x: Field, y: Field) -> Indices:
@@ -74,10 +81,11 @@ class EdgeShape:
         return self.nearest[:, i, j]
 
     def about(self, x: Field, y: Field) -> tuple[Quadratic, Mask]:
-        """Expand φ about places near the edge of the region by local fits; mark reliable fits.
+        """Expand φ about places near the edge of the region, by local fits.
 
-        At places outside the region the fit about the nearest cell of the region is used. A fit
-        centred outside has one-sided data and a hundredfold error.
+        φ = p^(1/α) is a smooth function that vanishes at the edge, with the traction p. At places
+        outside the region the fit about the nearest cell of the region is used. A fit centred
+        outside has one-sided data and a hundredfold error.
 
         x, y     places in index coordinates (n,)
         returns  quadratics of φ about the places, and True for reliable fits (n,)
@@ -86,10 +94,11 @@ class EdgeShape:
         return fits.quadratic.about(x, y), reliable(fits)
 
     def about_cells(self, adjacent: "AdjacentCells", fits: Fits) -> tuple[Quadratic, Field]:
-        """Expand φ about cells of the region and cells adjacent to the region, shape (n,).
+        """Expand φ about cells of the region and about cells adjacent to the region, shape (n,).
 
-        The second result is the rms residual of the fits over the change of φ across a cell. It is
-        infinite for fits with few data.
+        φ = p^(1/α) is a smooth function that vanishes at the edge of the region, with the traction
+        p. The second result is the rms residual of the fits over the change of φ across a cell. It
+        is infinite for fits with few data.
 
         adjacent  cells, and the fits that determine φ there
         fits      fits about `adjacent.fitted`
@@ -104,11 +113,14 @@ class EdgeShape:
         return Quadratic(*means[:-1]), means[-1]
 
     def edge_points(self, x: Field | Indices, y: Field | Indices) -> tuple[Quadratic, Mask]:
-        """Expand φ about the edge points nearest to places (x, y), shape (n,).
+        """Find the edge points nearest to given places, and expand φ about these points, shape
+        (n,).
 
-        The second result marks reliable fits. The edge points are found by Newton steps along the
-        gradient, with new fits in the first REFITS steps. At the edge points φ is zero up to
-        rounding.
+        φ = p^(1/α) vanishes at the edge, with the traction p. Newton steps along the gradient find
+        the edge points, with new fits in the first REFITS steps. At the edge points φ is zero up to
+        rounding. The second result is True for reliable fits.
+
+        x, y  places in index coordinates (n,)
         """
         at_x, at_y = x.astype(float), y.astype(float)
         for _ in range(REFITS):

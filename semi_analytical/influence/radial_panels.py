@@ -47,13 +47,13 @@ def coefficients_of(values: Array) -> Array:
 
 
 def places_on_panels(edges: Array, r: Array) -> Iterator[tuple[int, Indices, Array]]:
-    """Assign distances to panels; yield panel index, indices of the distances, and places in [-1,
-    1].
+    """Assign distances from a point force to the panels of an interpolation table.
 
     Panels without distances are skipped.
 
-    edges  panel bounds (panels + 1,)
-    r      distances (n,)
+    edges   panel bounds (panels + 1,)
+    r       distances (n,)
+    yields  panel index, indices of its distances, and their positions on the panel in [-1, 1]
     """
     panels = np.clip(np.searchsorted(edges, r) - 1, 0, len(edges) - 2)
     for panel in map(int, np.flatnonzero(np.bincount(panels))):
@@ -63,10 +63,10 @@ def places_on_panels(edges: Array, r: Array) -> Iterator[tuple[int, Indices, Arr
 
 
 def interpolated(coefficients: Array, place: Array) -> Array:
-    """Evaluate the functions of one panel from their Chebyshev coefficients (functions, places).
+    """Interpolate tabulated functions of the distance on one panel, shape (functions, positions).
 
-    coefficients  (NODES, functions)
-    place         places on the panel in [-1, 1] (places,)
+    coefficients  Chebyshev coefficients of the functions on the panel (NODES, functions)
+    place         positions on the panel in [-1, 1] (positions,)
     """
     found = np.empty((coefficients.shape[1], len(place)))
     for start in range(0, len(place), AT_ONCE):
@@ -76,7 +76,8 @@ def interpolated(coefficients: Array, place: Array) -> Array:
 
 
 def _polynomials(place: Array) -> Array:
-    """Evaluate the Chebyshev polynomials at places on a panel (NODES, places).
+    """Evaluate the first NODES Chebyshev polynomials T_k at positions in [-1, 1], (NODES,
+    positions).
 
     The recursion T_{m+k} = 2 T_m T_k - T_{m-k} doubles the number of polynomials in each step.
     """

@@ -55,8 +55,10 @@ class RadialTable:
 
     @property
     def core(self) -> float:
-        """Bound of the first panel, on which the response is that of a half-space plus a smooth
-        remainder."""
+        """Bound of the first panel of the table [length], which contains the point of the force.
+
+        On this panel the response is that of a half-space plus a smooth remainder.
+        """
         return float(self.edges[1])
 
     def remainder(self) -> RadialTable:

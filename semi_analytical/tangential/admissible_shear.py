@@ -285,14 +285,16 @@ def natural_shear(
     gamma: float,
     motion: Vector,
 ) -> NaturalShear:
-    """Evaluate the natural map of the tangential problem, used by semismooth Newton methods.
+    """Evaluate the natural map P(z) of the tangential problem at a shear q, for semismooth Newton
+    methods.
 
-    With a spring, z has the motion of the contact after the step and the slip that of the present
-    extension; the two are equal in a solution.
+    z is q + γ times the slip, and P the projection on the admissible shears. The shear is a
+    solution if P(z) = q. With a spring, z has the motion of the contact after the step, and the
+    slip has that of the present extension; the two are equal in a solution.
 
     load    prescribed tangential load
     q       shear (2, nx, ny)
-    apart   displacement that stick requires minus actual displacement, c - u (2, nx, ny) [length]
+    apart   displacement that stick requires minus actual displacement (2, nx, ny) [length]
     bound   friction limit µp (nx, ny)
     gamma   γ, inverse self-compliance of a cell [force/length^3]
     motion  initial guess of the rigid motion
