@@ -50,10 +50,11 @@ class AngularGrid:
 
     @property
     def norms(self) -> Vector:
-        """Factors c_n (harmonics,) with Σ_j weight_j f_j cos nθ_j = c_n f_n for the amplitudes f_n.
+        """Normalisation factors c_n of the angular harmonics cos nθ and sin nθ (harmonics,).
 
-        f_j are the values at the points θ_j of a ring. c_n is 2π for constants and for the harmonic
-        that alternates from point to point, and π for all others.
+        For a field f with the amplitudes f_n, Σ_j weight_j f(θ_j) cos nθ_j = c_n f_n over the
+        points θ_j of a ring. c_n is 2π for n = 0 and for the harmonic that alternates from point to
+        point, and π for all others.
         """
         powers = [np.sum(d**2 / self.weights, axis=1) for d in (self.cosines, self.sines)]
         return np.asarray(1 / np.maximum(*powers))
@@ -76,7 +77,12 @@ class AngularGrid:
         return np.stack([f @ wave for f, wave in zip(amplitudes, waves, strict=True)])
 
     def modes(self, angles: Vector) -> tuple[Matrix, Matrix]:
-        """Compute cos nθ and sin nθ of all harmonics n at angles θ, each (harmonics, angles)."""
+        """Compute cos nθ and sin nθ of all harmonics n at given angles, each (harmonics, angles).
+
+        Used to evaluate a field between the points of the grid from its harmonic amplitudes.
+
+        angles  θ (angles,) [radian]
+        """
         phase = np.outer(np.arange(self.highest + 1), angles)
         return np.cos(phase), np.sin(phase)
 
@@ -106,9 +112,10 @@ def end_grid(highest: int) -> AngularGrid:
 def mid_grid(highest: int) -> AngularGrid:
     """Create the angular grid θ_j = π(j + ½)/J, j = 0…J−1, without the points θ = 0 and θ = π.
 
-    The grid can represent sin Jθ, but not cos Jθ.
+    The grid can represent sin Jθ, but not cos Jθ. Used for tractions that are given at these
+    angles.
 
-    highest  J, highest harmonic
+    highest  J, highest harmonic and number of points on the half circle
     """
     J = highest
     cosines = np.zeros((J + 1, J))

@@ -56,9 +56,10 @@ class PointCompliance:
 
     @cached_property
     def motion(self) -> Field:
-        """Tangential displacement of the points per unit shift or twist (2, points).
+        """Tangential displacement of the points per unit shift or twist of the indenter (2, points).
 
-        The shift or twist is that of the indenter.
+        The displacement is dimensionless for a unit shift, and a length for a twist of 1 radian.
+        The displacement is zero if the symmetry of the solve excludes a tangential motion.
         """
         if self.grid.highest == 0:
             return self.rings.motion
@@ -76,9 +77,10 @@ class PointCompliance:
 
     @cached_property
     def along(self) -> Field:
-        """Factors of the shear q in the tangential load (2, points): the load is Σ along · q.
+        """Factors that integrate the shear q over the surface to the tangential load (2, points).
 
-        The load is a force [factors in length^2] or a torque [factors in length^3].
+        The load is Σ along · q over all points: a force [factors in length^2] or a torque [factors
+        in length^3].
         """
         return np.asarray(self.areas * self.motion)
 
@@ -169,7 +171,11 @@ class PointCompliance:
 
     @cached_property
     def _e_x_around(self) -> Field:
-        """Components r and θ of the unit vector along x at all angles (2, angles)."""
+        """Components r and θ of the unit vector along x at all angles of the grid (2, angles).
+
+        x is the direction of the tangential load. Used for a shift of the indenter and for the
+        traction on the axis. The component θ is zero on a grid that cannot represent it.
+        """
         cos, sin = np.cos(self.grid.angles), np.sin(self.grid.angles)
         return np.stack([cos, np.where(np.any(self.grid.sines, axis=0), -sin, 0.0)])
 

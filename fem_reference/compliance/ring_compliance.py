@@ -29,8 +29,8 @@ class RingCompliance:
     """Displacement amplitudes of surface rings per traction amplitude, for all angular harmonics.
 
     A ring is a circle around the axis on the surface, through a corner node or a Gauss point.
-    Displacements are integrated, and tractions interpolated, with one function φ of the radius for
-    each ring.
+    Tractions are sums of functions φ(r), one for each ring. Displacements and gaps are integrated
+    with the same functions φ.
 
     radii      ascending radii of the rings (rings,) [length]
     areas      ∫ φ r dr (rings,) [length^2]
@@ -68,14 +68,16 @@ class RingCompliance:
 def ring_compliance(
     model: ContactModel, path: Path, highest: int = 0, at_gauss_points: bool = False
 ) -> RingCompliance:
-    """Compute the compliance of the surface rings from the nodal compliances of a model.
+    """Compute the compliance of the surface rings from the compliance of the surface nodes.
 
-    A ring is a circle around the axis on the surface. Nodal compliances that are missing in the
-    model are computed.
+    A ring is a circle around the axis on the surface, and carries one traction value. Nodal
+    compliances that the model has not computed yet are computed here.
 
-    path             tractions of the solve
+    model            the two bodies with their meshes, nodal compliances and undeformed gap
+    path             tractions that the solve computes, such as pressure alone
     highest          highest angular harmonic; zero unless pressure and shear are coupled
-    at_gauss_points  True for rings at the Gauss points instead of the corner nodes
+    at_gauss_points  True for rings through the Gauss points of the element edges, False for rings
+                     through the corner nodes
     """
     nodes = model.radii
     basis: TractionBasis = gauss_points(nodes, model.rim) if at_gauss_points else model.hats

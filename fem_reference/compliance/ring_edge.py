@@ -57,12 +57,15 @@ FEWEST = 5
 
 
 def beyond_pressure(*bodies: Body) -> Beyond:
-    """Compute the polynomial for the distance of the contact edge from the last ring with pressure.
+    """Compute the polynomial that locates the contact edge beyond the last ring with pressure.
 
-    The result contains the coefficients, lowest power first. The argument is the ratio of the
-    pressures of the last two rings with pressure, the value is the distance in elements. The
-    correction for square elements is the mean over the bodies, weighted with their compliances. At
-    least one body must deform.
+    The argument of the polynomial is the ratio of the pressures of the last two rings with
+    pressure. Its value is the distance of the edge from the last of these rings, in elements. The
+    result contains the coefficients, lowest power first. They depend on Poisson's ratio of the
+    outermost materials, because finite elements deviate from a half-plane at the edge.
+
+    bodies  the bodies in contact, at least one of them deformable; their corrections are averaged
+            with weights proportional to their compliances
     """
     outermost = [body.elastic_materials[0] for body in bodies if body.deforms]
     gives = np.array([1.0 / m.plane_strain_modulus for m in outermost])
@@ -71,17 +74,22 @@ def beyond_pressure(*bodies: Body) -> Beyond:
 
 
 class Edge(Protocol):
-    """Rule for the radius at which a traction decreases to zero like the root of the distance."""
+    """Interface of rules that locate an edge of the contact or of the stick zone between two rings.
+
+    At such an edge a traction decreases to zero like the square root of the distance from the edge.
+    `HatEdge` is the rule for tractions at corner nodes, `GaussEdge` the rule for Gauss points.
+    """
 
     @property
     def of_stick(self) -> "Edge":
-        """Rule for the edge of the stick zone, where the shear reaches the friction limit.
+        """Rule that locates the edge of the stick zone, for use with this rule of the contact edge.
 
-        The rule applies to the difference between the friction limit and the shear.
+        The rule applies to the difference between the friction limit and the shear. This difference
+        decreases to zero at the edge of the stick zone.
         """
 
     def radius(self, radii: Field, values: Field, last: int, step: int = 1) -> float:
-        """Compute the radius at which a traction given on rings decreases to zero [length].
+        """Compute the radius between two rings at which a traction decreases to zero [length].
 
         radii   radii of the rings, circles around the axis on the surface (n,) [length]
         values  traction at the rings (n,), positive at the ring `last` and before it, zero at the
@@ -93,27 +101,36 @@ class Edge(Protocol):
 
 @dataclass(frozen=True)
 class HatEdge:
-    """Rule for the edge of tractions that are interpolated with hat functions.
+    """Rule that locates the edge of tractions given at corner nodes and linear in between.
 
-    beyond  coefficients of the polynomial for the distance in elements from the last ring to the
-            edge, in powers of the ratio of the last two positive values
+    The distance of the edge from the last ring with a positive traction follows from the ratio of
+    the last two positive tractions.
+
+    beyond  coefficients of the polynomial from this ratio to the distance in elements, lowest power
+            first
     """
 
     beyond: Beyond = BEYOND
 
     @property
     def of_stick(self) -> "HatEdge":
-        """Rule of a half-plane for the edge of the stick zone.
+        """Rule that locates the edge of the stick zone: the polynomial of a half-plane.
 
-        The rule has no correction for finite elements.
+        The correction for finite elements at the contact edge does not apply to the stick zone.
         """
         return HatEdge()
 
     def radius(self, radii: Field, values: Field, last: int, step: int = 1) -> float:
-        """Compute the radius at which a traction given on rings decreases to zero [length].
+        """Compute the radius between two nodes at which a traction decreases to zero [length].
 
-        The distance from the last ring with a positive value follows from the ratio of the last two
-        positive values. Arguments are those of `Edge.radius`.
+        The distance from the last node with a positive value follows from the ratio of the last two
+        positive values.
+
+        radii   radii of the corner nodes (n,) [length]
+        values  traction at the nodes (n,), positive at the node `last` and before it, zero at the
+                next one
+        last    index of the last node with a positive value
+        step    +1 if the values decrease outwards, -1 if they decrease inwards
         """
         before, after = last - step, last + step
         width = radii[after] - radii[last]
@@ -132,7 +149,10 @@ class HatEdge:
 
 @dataclass(frozen=True)
 class GaussEdge:
-    """Rule for the edge of tractions at Gauss points.
+    """Rule that locates the edge of tractions given at the Gauss points of the element edges.
+
+    The squares of the tractions near the edge are fitted by a parabola in r². The zero of the
+    parabola is the edge.
 
     element  length of an element edge on the surface [length]
     """
@@ -145,11 +165,17 @@ class GaussEdge:
         return self
 
     def radius(self, radii: Field, values: Field, last: int, step: int = 1) -> float:
-        """Compute the radius at which a traction given at Gauss points decreases to zero [length].
+        """Compute the radius between Gauss points at which a traction decreases to zero [length].
 
         The squares of the values near the edge are fitted by a parabola in r², whose zero is the
         result. If there are too few values or no zero nearby, the result is the middle between the
-        last point and the next. Arguments are those of `Edge.radius`.
+        last point and the next.
+
+        radii   radii of the Gauss points (n,) [length]
+        values  traction at the points (n,), positive at the point `last` and before it, zero at the
+                next one
+        last    index of the last point with a positive value
+        step    +1 if the values decrease outwards, -1 if they decrease inwards
         """
         beyond = last + step
         middle = radii[last]

@@ -14,9 +14,10 @@ ROUND_OFF = 4e-16
 
 
 def into_discs(q: Field, bound: Vector) -> Field:
-    """Reduce shear vectors that exceed the friction limit to the limit.
+    """Limit the shear at every point to the friction limit, without a change of direction.
 
-    The directions of the vectors do not change.
+    Shear vectors longer than the friction limit are shortened to the limit. All others are
+    unchanged.
 
     q      shear vectors (2, points) [force/length^2]
     bound  friction limit of each point (points,) [force/length^2]
@@ -29,17 +30,18 @@ def into_discs(q: Field, bound: Vector) -> Field:
 def project(
     q: Field, bound: Vector, stiffness: Vector, along: Field, total: float | None
 ) -> tuple[Field, float]:
-    """Compute the projection of a shear field onto the set of admissible shears.
+    """Compute the admissible shear that is nearest to a given shear field.
 
-    The metric is Σ d |·|². The result is P(q + λ along/d), with P the projection of each vector
-    onto its disc, and the multiplier λ. The resultant increases with λ. λ is found by Newton's
-    method within a shrinking bracket, which therefore converges.
+    A shear is admissible if every vector is within the friction limit of its point and, under a
+    prescribed load T, the resultant is equal to T. Distances are measured by Σ d |·|² with the
+    weights d. Return P(q + λ along/d), where P limits each vector to its friction limit, and the
+    multiplier λ of the load. λ is found by Newton's method within a shrinking bracket.
 
-    q          shear vectors (2, points)
-    bound      friction limit, the radius of each disc (points,)
-    stiffness  d > 0 (points,)
+    q          shear vectors (2, points) [force/length^2]
+    bound      friction limit (points,) [force/length^2]
+    stiffness  d > 0 (points,), mean diagonal of the compliance matrix at each point
     along      factors of the shear in the resultant Σ along · q (2, points)
-    total      prescribed resultant T, smaller than Σ bound |along|; None if it is not prescribed
+    total      T, smaller than Σ bound |along|; None if the load is not prescribed, then λ = 0
     """
     if total is None:
         return into_discs(q, bound), 0.0
@@ -68,11 +70,13 @@ def project(
 
 
 def _slope(moved: Field, bound: Vector, along: Field, push: Field) -> float:
-    """Compute the derivative of the resultant of the projected shear by the multiplier λ.
+    """Compute the derivative of the tangential load by the multiplier λ of the load.
 
-    Vectors that exceed the friction limit change their direction only.
+    The load is the resultant of the shear after its limitation to the friction limit. Used by the
+    Newton iteration for λ in `project`. Vectors that exceed the friction limit change their
+    direction only.
 
-    moved  shear vectors before the projection (2, points)
+    moved  shear vectors before the limitation (2, points)
     bound  friction limit (points,)
     along  factors of the shear in the resultant (2, points)
     push   derivative of the shear vectors by λ (2, points)
@@ -87,7 +91,9 @@ def _slope(moved: Field, bound: Vector, along: Field, push: Field) -> float:
 
 
 def _between(low: float, high: float, jump: float) -> float:
-    """Return a trial value inside the bracket of the multiplier λ.
+    """Return a trial value of the load multiplier λ inside its bracket.
+
+    Used if a Newton step for λ leaves the bracket. The value is the middle of a finite bracket.
 
     low, high  ends of the bracket, which may be infinite
     jump       distance of the value from the finite end if the other end is infinite

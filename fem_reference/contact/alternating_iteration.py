@@ -67,9 +67,12 @@ class CoupledProblem:
         return self.friction.limit(carrying)
 
     def mean_friction(self, pressure: Vector) -> float:
-        """Compute the mean friction limit divided by the mean pressure [1].
+        """Compute the mean coefficient of friction of the contact, Σ w µp / Σ w p [1].
 
-        Both means are over the contact. The result is 0 without contact.
+        w are the areas of the points. Used to relate shear residuals to the friction limit. The
+        result is 0 without contact.
+
+        pressure  p at the points (points,) [force/length^2]
         """
         w, p = self.compliance.areas, np.maximum(pressure, 0.0)
         return over(float(np.sum(w * self.friction.limit(p))), float(np.sum(w * p)))
@@ -126,11 +129,16 @@ class AlternationFailed(NotConverged):
 def solve_coupled(
     problem: CoupledProblem, pressure: Vector, shear: Field, tolerance: float
 ) -> CoupledSolution:
-    """Solve pressure and shear of an increment by the alternating iteration.
+    """Solve pressure and shear of an increment by alternating between the two problems.
 
+    Each iteration solves the shear at the last pressure and then the pressure at this shear.
+    Without coupling of the two problems, one iteration is exact.
+
+    problem          compliance, gap, friction and prescribed loads of the increment
     pressure, shear  initial guess of the tractions (points,) and (2, points)
     tolerance        limit of the change of the pressure in one iteration, Σ w |p' − p| / Σ w p'
-                     [1]. In the end, the shear is solved to 1/10 of this tolerance
+                     [1], with the point areas w. In the last iteration, the relative residual of
+                     the shear is at most 1/10 of this tolerance
     raises           AlternationFailed
     """
     w, target = problem.compliance.areas, problem.normal
@@ -167,29 +175,32 @@ def solve_coupled(
 
 
 def _change(areas: Vector, p: Vector, answer: Vector) -> float:
-    """Compute the change of the pressure in one iteration, relative to the new pressure [1].
+    """Compute the change of the pressure in one alternating iteration, Σ w |p' − p| / Σ w p' [1].
 
+    Used as the convergence criterion. The result is infinite if the new pressure carries no load.
+
+    areas   w, areas of the points (points,) [length^2]
     p       pressure before the iteration (points,)
-    answer  pressure after the iteration (points,)
+    answer  p', pressure after the iteration (points,)
     """
     carried = float(np.sum(areas * answer))
     return float(np.sum(areas * np.abs(answer - p))) / carried if carried > 0 else np.inf
 
 
 def sides_of(pressure: Vector) -> Sides:
-    """Return the active set of the normal problem that belongs to a pressure (points,).
+    """Return an initial guess of the contact area for the normal problem: the points with pressure.
 
-    Points with pressure are free (0). All others are at the lower bound zero (-1). Used as a guess
-    of the active set.
+    The entries (points,) are those of `BoxSolution.sides`: 0 for points in contact, -1 for points
+    without pressure.
     """
     return np.where(pressure > 0, 0, -1).astype(np.int8)
 
 
 def approach_of(problem: CoupledProblem, pressed: BoxSolution) -> float:
-    """Return the rigid approach of a solution of the normal problem [length].
+    """Return the rigid approach of the indenter after a solve of the normal problem [length].
 
-    The result is the prescribed approach. Under a prescribed force, it is the multiplier of the
-    force.
+    Under a prescribed approach the result is this approach. Under a prescribed force it is the
+    Lagrange multiplier of the force.
 
     pressed  solution of the normal problem
     """
@@ -198,13 +209,13 @@ def approach_of(problem: CoupledProblem, pressed: BoxSolution) -> float:
 
 
 def press(problem: CoupledProblem, q: Field, guess: Sides) -> BoxSolution:
-    """Solve the normal problem: the pressure at a given shear.
+    """Solve the normal problem of an increment: the pressure at a given shear.
 
-    Under a prescribed force, the approach is part of the solution. Raise NotConverged, or
-    LinAlgError.
+    Under a prescribed force, the approach is the multiplier of the solution. Raise NotConverged, or
+    LinAlgError if the compliance matrix is not positive definite.
 
-    q      shear at the points (2, points)
-    guess  guess of the active set: 0 for points in contact, -1 for others (points,)
+    q      shear at the points (2, points) [force/length^2]
+    guess  guess of the contact area: 0 for points in contact, -1 for others (points,)
     """
     compliance, target = problem.compliance, problem.normal
     w, K = compliance.areas, compliance.matrix
@@ -222,11 +233,12 @@ def press(problem: CoupledProblem, q: Field, guess: Sides) -> BoxSolution:
 
 
 def _shear(problem: CoupledProblem, p: Vector, start: Field, tolerance: float) -> TangentialState:
-    """Solve the tangential problem: the shear at a given pressure, at points with friction.
+    """Solve the tangential problem of an increment: the shear at a given pressure.
 
-    If the prescribed load is at the friction limit, the shear is the limit at all points.
+    Unknowns are the shears of the points whose friction limit is positive. If the prescribed load
+    is at the friction limit (gross slip), the shear is the limit at all points.
 
-    p          pressure (points,)
+    p          pressure (points,) [force/length^2]
     start      initial guess of the shear (2, points)
     tolerance  limit of the relative residual of the shear [1]
     """

@@ -21,7 +21,10 @@ P = TypeVar("P")
 
 @dataclass(frozen=True)
 class Penalty:
-    """Stiffness of the penalty springs, and limits on the updates of the multipliers.
+    """Parameters of the penalty method: spring stiffness, and limits on the multiplier updates.
+
+    The penalty method places springs between the surfaces, so that the surfaces overlap. Updates of
+    the multipliers (augmented Lagrangian) reduce this overlap.
 
     factor         c of the stiffness ε = c E* / h [1], with the contact modulus E* of the outermost
                    materials and the length h of an element edge in contact
@@ -57,19 +60,21 @@ def augmented(
     penalty: Penalty,
     fewest: int,
 ) -> list[P]:
-    """Repeat the penalty solve of an increment until the remaining overlap is allowed.
+    """Repeat the penalty solve of an increment with updated multipliers until the overlap is small.
 
-    Each solve is a pass. The multipliers are updated after each pass. Return the solutions of all
-    passes. The last one is the best. One update of stiff springs removes nearly all of the error of
-    the penalty (Alart and Curnier 1991, Comput. Methods Appl. Mech. Eng. 92, 353; Simo and Laursen
-    1992, Comput. Struct. 42, 97). At Gauss points the displacements do not determine all pressures,
-    and updates beyond the allowed error would accumulate oscillations.
+    Each solve is a pass. The tractions of a pass are the multipliers of the next pass. Return the
+    solutions of all passes; the last one is the best. One update of stiff springs removes nearly
+    all of the error of the penalty (Alart and Curnier 1991, Comput. Methods Appl. Mech. Eng. 92,
+    353; Simo and Laursen 1992, Comput. Struct. 42, 97). At Gauss points the displacements do not
+    determine all pressures, and updates beyond the allowed error would accumulate oscillations.
 
-    first   solution of the first pass
-    again   function from the solution of a pass to that of the next pass
-    left    function of a solution: its overlap over the displacement of the bodies [1]
-    fewest  least number of updates, unless `penalty.augmentations` is smaller
-    raises  SurfacesOverlap if the overlap after the last update is not allowed
+    first    solution of the first pass
+    again    function that computes the next pass from the solution of a pass
+    left     function that returns the relative error of a pass that the penalty causes [1], such as
+             overlap over approach
+    penalty  largest number of updates, and largest allowed error `penalty.overlap`
+    fewest   least number of updates, unless `penalty.augmentations` is smaller
+    raises   SurfacesOverlap if the error after the last update is not allowed
     """
     passes = [first]
     for update in range(penalty.augmentations + 1):

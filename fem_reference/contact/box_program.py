@@ -33,10 +33,12 @@ ROUND_OFF = 1e-13
 
 @dataclass(frozen=True)
 class Total:
-    """Linear condition v·x = t of a program, such as a prescribed normal force.
+    """Linear condition v·x = t on the unknowns x of a quadratic program.
 
-    weights  v, positive for all components whose bounds differ
-    value    t
+    In the normal problem, x is the pressure and the condition prescribes the normal force.
+
+    weights  v (n,), positive for all components whose bounds differ; point areas for a normal force
+    value    t, such as the normal force
     """
 
     weights: Field
@@ -45,7 +47,10 @@ class Total:
 
 @dataclass(frozen=True)
 class BoxProgram:
-    """Quadratic program ½ xᵀA x - cᵀx with bounds on the n components of x.
+    """Quadratic program: minimise ½ xᵀA x - cᵀx with lower <= x <= upper.
+
+    The normal problem has this form. The unknowns x (n,) are then the pressures of the points, with
+    the lower bound 0.
 
     matrix        A (n, n), symmetric and positive definite
     right         c (n,)
@@ -105,9 +110,11 @@ def solve_box(program: BoxProgram, guess: Sides) -> BoxSolution:
 
 
 def _on_free(program: BoxProgram, sides: Sides) -> tuple[Field, float]:
-    """Solve for the free components of x with all others at their bounds.
+    """Solve a quadratic program ½ xᵀA x - cᵀx with a given active set of its bounds.
 
-    Return x and the multiplier λ of the linear condition.
+    Components at a bound keep the value of the bound. The equations of the free components are
+    solved exactly. Return x (n,) and the multiplier λ of the linear condition v·x = t, or 0 without
+    a condition.
 
     sides  active set: -1 at the lower bound, 0 free, +1 at the upper bound (n,)
     """
@@ -135,6 +142,9 @@ def _on_free(program: BoxProgram, sides: Sides) -> tuple[Field, float]:
 def _gradient(program: BoxProgram, x: Field, multiplier: float) -> Field:
     """Compute the gradient A x - c - λ v of the Lagrangian of a quadratic program (n,).
 
+    A and c define the energy ½ xᵀA x - cᵀx. The sign of the gradient at a bound decides if the
+    component becomes free.
+
     multiplier  λ of the linear condition v·x = t
     """
     gradient = program.matrix @ x - program.right
@@ -146,13 +156,15 @@ def _gradient(program: BoxProgram, x: Field, multiplier: float) -> Field:
 def _moved(
     program: BoxProgram, x: Field, multiplier: float, sides: Sides, fixed: NDArray[np.bool_]
 ) -> Sides:
-    """Update the active set of a quadratic program after a solve for its free components.
+    """Update the active set of the bounds of a quadratic program after a solve.
 
-    Free components beyond a bound are fixed at this bound. Fixed components whose gradient points
-    inwards become free.
+    Free components beyond a bound are fixed at this bound. Components at a bound become free if the
+    energy decreases towards the inside.
 
-    sides  active set: -1 at the lower bound, 0 free, +1 at the upper bound (n,)
-    fixed  True for components whose two bounds are equal (n,)
+    x           solution with the previous active set (n,)
+    multiplier  λ of the linear condition v·x = t
+    sides       previous active set: -1 at the lower bound, 0 free, +1 at the upper bound (n,)
+    fixed       True for components whose two bounds are equal (n,)
     """
     little = ROUND_OFF * np.max(np.abs(x), initial=0.0)
     gradient = _gradient(program, x, multiplier)
@@ -208,7 +220,10 @@ def _descend(program: BoxProgram, fixed: NDArray[np.bool_], spent: int) -> BoxSo
 
 
 def _feasible(program: BoxProgram) -> Field:
-    """Return a point x that satisfies the bounds and the linear condition of a program (n,)."""
+    """Return a point x (n,) that satisfies the bounds and the linear condition of a program.
+
+    Used as the initial point of the primal active-set method for a quadratic program.
+    """
     lower, upper, total = program.lower, program.upper, program.total
     if total is None:
         return np.where(np.isfinite(upper), 0.5 * (lower + upper), lower)
@@ -224,13 +239,15 @@ def _feasible(program: BoxProgram) -> Field:
 def _room(
     program: BoxProgram, x: Field, goal: Field, sides: Sides
 ) -> tuple[float, int | None, int]:
-    """Compute the largest step of a quadratic program that violates no bound.
+    """Compute the largest part of a step towards a minimiser that violates no bound.
 
-    The step goes from x towards the minimiser of the free components. Return the fraction of the
-    step, the component that reaches its bound first, and the bound (-1 lower, +1 upper). The
-    component is None if the full step is admissible.
+    The step of a quadratic program goes from x to `goal`. Return the part of the step (0 to 1), the
+    index of the component that reaches its bound first, and the bound (-1 lower, +1 upper). The
+    index is None if the full step is admissible.
 
-    goal  minimiser of the free components (n,)
+    x      current feasible point (n,)
+    goal   minimiser of the free components (n,)
+    sides  active set: -1 at the lower bound, 0 free, +1 at the upper bound (n,)
     """
     step = np.where(sides == 0, goal - x, 0.0)
     limit = np.where(step < 0, program.lower, program.upper)

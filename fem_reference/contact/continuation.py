@@ -37,13 +37,15 @@ def solve_by_continuation(
 ) -> CoupledSolution:
     """Solve the coupled pressure and shear of an increment by continuation.
 
-    The parameter is the compliance of springs between the surfaces, which is reduced to zero.
+    Springs between the surfaces make the solution unique. Their compliance is the continuation
+    parameter and is reduced from a large value to zero. Used if the alternating iteration and
+    Newton's method fail.
 
     start      initial guess of tractions and rigid motion
-    tolerance  limit of the norm of the residual, as in `solve_by_newton` [1]
-    raises     NotConverged if the path does not begin, or does not end within MAX_STEPS. If the
-               path does not end, the stated residual is the spring compliance over the compliance
-               of the bodies
+    tolerance  limit of the relative residual of the contact and friction laws [1]
+    raises     NotConverged if no solution with soft springs is found, or if the springs do not
+               vanish within MAX_STEPS steps. In the second case, the stated residual is the last
+               spring compliance over the compliance of the bodies
     """
     points = len(problem.compliance.areas)
     itself = np.diagonal(problem.compliance.matrix)[2 * points :] / problem.compliance.areas
@@ -58,7 +60,10 @@ def solve_by_continuation(
 
 @dataclass(frozen=True)
 class _Reached:
-    """Converged point on the continuation path.
+    """Converged point on the continuation path of an increment.
+
+    The path consists of the solutions of the contact problem for decreasing compliance of springs
+    between the surfaces.
 
     root         iterate with its slipping points
     values       scaled unknowns: tractions, rigid motion and spring compliance (3 points + 3,)
@@ -73,11 +78,13 @@ class _Reached:
 
 
 class _Path:
-    """Current point on the continuation path, direction of the path, and length of the next step.
+    """State of a continuation: current point on the path, direction, and length of the next step.
 
-    Lengths along the path refer to scaled unknowns. Units are the mean pressure, the friction limit
-    of this mean for the shear, the approach, and the compliance of the bodies at a point for the
-    springs. The unit of the shift is the larger of shift and approach.
+    The path consists of the solutions of a contact problem for decreasing compliance of springs
+    between the surfaces. Lengths along the path refer to scaled unknowns. Pressures are scaled by
+    the mean pressure and shears by the friction limit of this mean. The approach is scaled by its
+    initial value, the shift by the larger of shift and approach, and the spring compliance by the
+    compliance of the bodies at a point.
     """
 
     def __init__(self, problem: CoupledProblem, begun: Root, softness: float) -> None:
@@ -91,7 +98,9 @@ class _Path:
         self._direction, self._sign = self._tangent(derivative, -self._softer)
 
     def lost(self, tolerance: float) -> NotConverged:
-        """Create the exception that the continuation path is not followed any further.
+        """Create the exception that the continuation ended before the springs vanished.
+
+        The exception states the last spring compliance over the compliance of the bodies.
 
         tolerance  tolerance that the exception states [1]
         """
@@ -99,12 +108,13 @@ class _Path:
         return NotConverged("the path of continuation", self._solves, left, tolerance)
 
     def step(self, tolerance: float) -> Root | None:
-        """Try one step along the continuation path.
+        """Try one step along the continuation path towards zero spring compliance.
 
-        Return the solution without springs if the path has reached its end. Return None otherwise.
-        If the correction fails, the next step is shorter.
+        A step extrapolates the path and corrects the result by Newton's method. If the correction
+        fails, the next step is shorter. Return the solution without springs if the step ends there,
+        and None otherwise.
 
-        tolerance  limit of the norm of the residual at the end of the path [1]
+        tolerance  limit of the residual norm of the solution without springs [1]
         """
         ahead = self._values + self._length * self._direction
         if ahead[-1] > 0:
@@ -124,9 +134,11 @@ class _Path:
         return reached.root
 
     def _go_to(self, reached: _Reached) -> None:
-        """Move the current point of the continuation to a converged point.
+        """Accept a converged point of the continuation path as the current point.
 
-        The direction of the path and the step length are updated.
+        The direction of the path and the length of the next step are updated.
+
+        reached  converged point, with the derivative of the equations there
         """
         direction, sign = self._tangent(reached.derivative, self._direction)
         self._values = reached.values
@@ -135,10 +147,10 @@ class _Path:
             self._length = min(GROWTH * self._length, LONGEST)
 
     def _shorten(self) -> None:
-        """Reduce the step length of the continuation by half after a correction that failed.
+        """Halve the step length of the continuation after a failed correction.
 
-        Below the least length the point is at a kink. The direction is then replaced by that on the
-        other side of the kink.
+        If the step length falls below SHORTEST, the point is at a kink of the path. The direction
+        is then replaced by the direction on the other side of the kink.
         """
         self._length /= 2
         if self._length > SHORTEST:
@@ -149,9 +161,10 @@ class _Path:
         self._length = 100 * BEYOND_KINK
 
     def _corrected(self, ahead: Vector, across: Vector, tolerance: float) -> _Reached | None:
-        """Compute the intersection of the continuation path with a plane by Newton's method.
+        """Compute the point in which the continuation path meets a plane, by Newton's method.
 
-        Return None if Newton's method fails.
+        Return None if Newton's method fails. The unknowns are tractions, rigid motion and spring
+        compliance, scaled.
 
         ahead      point of the plane at which Newton's method starts (3 points + 3,)
         across     normal of the plane, a unit vector (3 points + 3,)
@@ -180,13 +193,13 @@ class _Path:
         return np.asarray(jacobian * self._scales)
 
     def _tangent(self, derivative: Matrix, along: Vector) -> tuple[Vector, float]:
-        """Compute the unit tangent of the continuation path.
+        """Compute the unit tangent of the continuation path, and the sign of a determinant.
 
-        Return also the sign of the determinant of the extended derivative.
+        The determinant is that of the derivative of the equations, extended by the row `along`. A
+        tangent that preserves this sign continues the path in its direction.
 
-        derivative  derivative of the equations by the scaled unknowns
-        along       vector with which the tangent has a positive scalar product; last row of the
-                    extended derivative
+        derivative  derivative of the equations by the scaled unknowns (3 points + 2, 3 points + 3)
+        along       vector with which the tangent has a positive scalar product (3 points + 3,)
         """
         right = np.append(np.zeros(len(derivative)), 1.0)
         tangent = self._solved(derivative, along, right)
@@ -194,11 +207,14 @@ class _Path:
         return tangent / np.linalg.norm(tangent), float(sign)
 
     def _solved(self, derivative: Matrix, last: Vector, right: Vector) -> Vector:
-        """Solve the linear system of a derivative that is extended by one last row.
+        """Solve the square linear system of a derivative and one additional row.
+
+        The derivative has one row fewer than unknowns, because the spring compliance is an unknown.
 
         derivative  derivative of the equations by the scaled unknowns (3 points + 2, 3 points + 3)
-        last        last row (3 points + 3,)
+        last        additional row (3 points + 3,)
         right       right-hand side (3 points + 3,)
+        raises      NotConverged if the system is singular
         """
         self._solves += 1
         try:

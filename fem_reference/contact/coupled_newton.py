@@ -30,7 +30,7 @@ SUFFICIENT = 1e-3
 
 @dataclass(frozen=True)
 class Start:
-    """Initial guess of the tractions and the rigid motion of an increment.
+    """Initial guess for the solve of an increment: tractions and rigid motion of the indenter.
 
     pressure  pressure at the points (points,) [force/length^2]
     shear     shear at the points (2, points) [force/length^2]
@@ -46,7 +46,7 @@ class Start:
 
 @dataclass(frozen=True)
 class Root:
-    """Converged iterate of Newton's method.
+    """Solution of the contact equations of an increment, found by Newton's method.
 
     at       iterate: tractions, rigid motion and spring compliance
     in_slip  True for slipping points (points,)
@@ -61,9 +61,10 @@ class Root:
 def solve_by_newton(problem: CoupledProblem, start: Start, tolerance: float) -> CoupledSolution:
     """Solve the coupled pressure and shear of an increment by the semismooth Newton method.
 
+    problem    compliance, gap, friction and prescribed loads of the increment
     start      initial guess of tractions and rigid motion
-    tolerance  limit of Σ w |p − ⟨z_z⟩| / Σ w p + Σ w |q − P(z_t)| / Σ w µp plus the error of the
-               prescribed loads [1]; symbols as in `natural_map`
+    tolerance  limit of the relative residual [1]: pressure residual over the normal load, plus
+               shear residual over the friction limit, plus the errors of the prescribed loads
     raises     NotConverged
     """
     found = root(problem, start, tolerance)
@@ -71,8 +72,12 @@ def solve_by_newton(problem: CoupledProblem, start: Start, tolerance: float) -> 
 
 
 def root(problem: CoupledProblem, start: Start, tolerance: float, springs: float = 0.0) -> Root:
-    """Find a root of the contact equations of an increment, with springs between the surfaces.
+    """Find a root of the contact equations of an increment by the semismooth Newton method.
 
+    The equations are the contact and friction laws at all points and the prescribed loads. Springs
+    between the surfaces are optional and serve the continuation.
+
+    start      initial guess of tractions and rigid motion
     tolerance  limit of the norm of the residual [1]
     springs    compliance of the springs [length^3/force]; zero without springs
     raises     NotConverged
@@ -101,13 +106,13 @@ def root(problem: CoupledProblem, start: Start, tolerance: float, springs: float
 
 
 def _step(jacobian: Matrix, right: Vector) -> Vector:
-    """Compute the Newton step, the solution of the linearised contact equations.
+    """Compute the Newton step of the contact equations: solve the linearised equations.
 
-    Equations with a diagonal entry alone are eliminated first. These are the equations of points
-    without contact, and of components that symmetry excludes.
+    Equations with one diagonal entry are solved first. They belong to points without contact, and
+    to components that symmetry excludes.
 
-    jacobian  generalised derivative of the equations, without the column of the spring compliance
-    right     negative residual
+    jacobian  generalised derivative of the equations (3 points + 2, 3 points + 2)
+    right     negative residual (3 points + 2,)
     """
     diagonal = np.diagonal(jacobian)
     alone = (np.count_nonzero(jacobian, axis=1) == 1) & (diagonal != 0)
@@ -119,13 +124,13 @@ def _step(jacobian: Matrix, right: Vector) -> Vector:
 
 
 def _first(problem: CoupledProblem, start: Start, springs: float) -> tuple[Iterate, int]:
-    """Create the first iterate of Newton's method, and count the linear systems that it requires.
+    """Create the first iterate of Newton's method from the initial guess of an increment.
 
-    If the initial guess has no pressure, the first iterate is the solution of the frictionless
-    contact. Between separated bodies no force depends on any motion, so that no Newton step is
-    defined.
+    Return also the number of linear systems solved. If the guess has no pressure, the first iterate
+    is the solution of the frictionless contact, because Newton's step is undefined for separated
+    bodies. Prescribed motions replace those of the guess.
 
-    springs  compliance of the springs between the surfaces [length^3/force]
+    springs  compliance of springs between the surfaces [length^3/force]
     """
     pressure, approach, solves = start.pressure, start.approach, 0
     if not np.any(pressure > 0):
@@ -141,12 +146,13 @@ def _first(problem: CoupledProblem, start: Start, springs: float) -> tuple[Itera
 
 
 def _nearer(equations: Equations, at: Iterate, change: Vector, bound: float) -> Iterate | None:
-    """Search along a Newton step for an iterate whose residual norm is below a bound.
+    """Search along a Newton step of the contact equations for an iterate with a smaller residual.
 
-    The step is halved up to MAX_HALVINGS times. Return the first iterate below the bound. If there
-    is none, return the iterate with the least residual norm, because at a kink all steps may
-    increase the norm. Return None if no residual norm is finite.
+    The step is halved up to MAX_HALVINGS times. Return the first iterate whose residual norm is
+    below the bound. If there is none, return the iterate with the least norm, because at a kink all
+    steps may increase the norm. Return None if no norm is finite.
 
+    at      iterate at which the step starts
     change  Newton step (3 points + 3,)
     bound   limit of the residual norm [1]
     """

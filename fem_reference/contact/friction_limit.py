@@ -12,9 +12,11 @@ AT_LIMIT = 1e-6
 
 
 def reaches_limit(load: float | None, capacity: float) -> bool:
-    """Return True if a tangential force or torque reaches the friction limit (gross slip).
+    """Return True if a tangential load reaches the friction limit of the contact (gross slip).
 
-    load      force or torque; None if the motion is prescribed
+    The largest load that friction can carry is reached within the relative distance AT_LIMIT.
+
+    load      force or torque; None if the motion is prescribed, then the result is False
     capacity  largest load that friction can carry
     """
     return load is not None and abs(load) >= capacity * (1 - AT_LIMIT)
@@ -38,8 +40,10 @@ def contact_status(
 ) -> ContactStatus:
     """Determine the contact status: full stick, partial slip, gross sliding, or no stick area left.
 
-    loaded    True for points in contact that can carry shear
-    stuck     True for those of these points that stick
+    Gross sliding requires that the tangential load reaches the friction limit.
+
+    loaded    True for points in contact that can carry shear (points,)
+    stuck     True for points in contact that can carry shear and stick (points,)
     carried   tangential force or torque of the shear, of either sign; None if no tangential motion
               of the indenter is possible
     capacity  largest load that friction can carry

@@ -54,13 +54,15 @@ WIDEST_ZONE = 1.25
 def advance(
     contact: PointContact, before: PointState | None, loads: Loads, tolerance: float
 ) -> PointState:
-    """Solve one increment and return the contact state at its end.
+    """Solve one load increment: compute the contact state at its end from the state at its start.
 
-    All residuals of the state are at most the tolerance.
+    All residuals of the computed state are at most the tolerance.
 
-    before  state at the start of the increment; None before first contact
-    loads   prescribed loads or motions at the end of the increment
-    raises  NotConverged, SurfacesOverlap, GrossSliding, NothingTouches
+    contact    contact problem at the points of the surface, without loads
+    before     state at the start of the increment; None before first contact
+    loads      prescribed loads or motions at the end of the increment
+    tolerance  upper limit of every residual [1]
+    raises     NotConverged, SurfacesOverlap, GrossSliding, NothingTouches
     """
     _refuse_unresolved(contact, loads)
     before = before or contact.untouched()
@@ -87,19 +89,24 @@ def _refuse_unresolved(contact: PointContact, loads: Loads) -> None:
 
 @dataclass(frozen=True)
 class _Pass:
-    """Solution of the contact problem for given multipliers, with its displacements and residuals.
+    """Solution of one penalty pass of an increment, with its displacements and residuals.
 
-    With a penalty an increment consists of several passes with updated multipliers.
+    With a penalty an increment consists of several solves, called passes. The tractions of a pass
+    are the multipliers of the next pass. The exact contact law needs one pass with zero
+    multipliers.
 
-    multiplier        tractions without the contribution of the penalty springs, r, θ, z (3, points)
-    displacement      tangential displacement of the bodies (2, points) [length]
-    law_gap           gap plus the strain of the springs (points,), zero in contact [length]
-    passed            slip of the indenter relative to the body in the increment, minus the strain
-                      of the springs (2, points) [length]
-    motion            shift [length] or twist [radian]; None at the friction limit under a
-                      prescribed load
-    outer_iterations  number of alternating iterations in all attempts
-    solves            number of linear systems in all attempts
+    problem       compliance, gap, friction and prescribed loads of the pass
+    solution      tractions and rigid motion
+    multiplier    tractions without the contribution of the penalty springs, r, θ, z (3, points)
+    displacement  tangential displacement of the bodies (2, points) [length]
+    law_gap       gap plus the strain of the springs (points,), zero in contact [length]
+    passed        slip of the indenter relative to the body in the increment, minus the strain of
+                  the springs (2, points) [length]
+    motion        shift [length] or twist [radian]; None at the friction limit under a prescribed
+                  load
+    outer_iterations
+                  number of alternating iterations in all attempts
+    solves        number of linear systems in all attempts
     """
 
     problem: CoupledProblem
@@ -137,13 +144,18 @@ class _Pass:
 
     @property
     def overlap_share(self) -> float:
-        """Largest overlap of the surfaces divided by the rigid approach [1]."""
+        """Largest overlap that the penalty springs permit, divided by the rigid approach [1].
+
+        Used as the relative error of the penalty in the normal direction.
+        """
         return over(self.overlap, abs(self.solution.approach))
 
 
 @dataclass(frozen=True)
 class _Increment:
-    """Increment from a contact state to prescribed loads, with the solves for its passes.
+    """Solver of one increment: from a contact state to prescribed loads, in one or several passes.
+
+    A pass is a solve with given multipliers of the penalty law. The exact law needs one pass.
 
     before     contact state at the start of the increment
     loads      prescribed loads or motions at the end of the increment
@@ -156,12 +168,13 @@ class _Increment:
     tolerance: float
 
     def first(self) -> _Pass:
-        """Solve the first pass of the increment: the contact problem with the initial multipliers.
+        """Solve the first penalty pass of the increment: the contact problem with initial multipliers.
 
-        Without a penalty it is the only pass, and the multipliers are zero. With a penalty at nodes
-        the multipliers are the tractions at the start of the increment, or zero if updates are not
-        allowed. At Gauss points the multiplier of the shear is the shear at the start. That of the
-        pressure is zero, because oscillations would accumulate over the increments otherwise.
+        Without a penalty this pass is the only one, and the multipliers are zero. With a penalty at
+        nodes the multipliers are the tractions at the start of the increment, or zero if updates
+        are not allowed. At Gauss points the multiplier of the shear is the shear at the start. The
+        multiplier of the pressure is zero there, because oscillations would accumulate over the
+        increments otherwise.
         """
         before, penalty = self.before, self.contact.penalty
         multiplier = np.zeros_like(before.tractions)
@@ -173,10 +186,12 @@ class _Increment:
         return self._solve(multiplier, before.tractions, motion)
 
     def again(self, last: _Pass) -> _Pass:
-        """Solve the next pass of the increment: the contact problem with updated multipliers.
+        """Solve the next penalty pass of the increment: the contact problem with updated multipliers.
 
-        The multipliers are the tractions of the last pass. The numbers of iterations and linear
-        systems are the sums over all passes.
+        The multipliers are the tractions of the last pass. In the result, the numbers of iterations
+        and linear systems are the sums over all passes.
+
+        last  solution of the last pass
         """
         motion = last.motion, last.solution.approach
         after = self._solve(last.tractions, last.tractions, motion)
@@ -187,16 +202,18 @@ class _Increment:
         return replace(after, outer_iterations=outer_iterations, solves=solves)
 
     def left(self, one: _Pass) -> float:
-        """Compute the relative error that the penalty causes in a pass of the increment [1].
+        """Compute the relative error that the penalty springs cause in one pass of the increment [1].
 
-        The error follows from the deformation of the penalty springs. The error is the larger of
-        two ratios. The first is the overlap over the approach. The second is the tangential strain
-        of the springs over the largest tangential displacement in the history, both as means
-        weighted with the shear.
+        Passes are repeated until this error is allowed. The error is the larger of two ratios. The
+        first is the overlap over the approach. The second is the tangential strain of the springs
+        over the largest tangential displacement in the history, both as means weighted with the
+        shear.
 
         At Gauss points the error is multiplied by (WIDEST_ZONE × contact radius / radius of the
         mesh's contact zone)², at most 1. The discretisation error is proportional to the inverse of
         this square, and the error of the penalty need not be smaller.
+
+        one  solution of the pass
         """
         moved = self.moved(one) + ROUND_OFF * abs(one.solution.approach)
         left = max(one.overlap_share, over(self.weighted(one, one.strain[:2]), moved))
@@ -208,24 +225,33 @@ class _Increment:
         return left * min(1.0, WIDEST_ZONE * reached / rings.reach) ** 2
 
     def moved(self, one: _Pass) -> float:
-        """Compute the largest mean tangential displacement of the history up to a pass [length].
+        """Compute the largest mean tangential displacement of the bodies in the history [length].
 
-        The mean is weighted with the shear.
+        The history ends with the given pass. The mean over the contact is weighted with the shear.
+        The tangential error of the penalty springs is relative to this displacement.
+
+        one  solution of a pass of the increment
         """
         return max(self.before.moved, self.weighted(one, one.displacement))
 
     def weighted(self, one: _Pass, vectors: Field) -> float:
-        """Compute the mean length of vectors over the contact, weighted with the shear of a pass.
+        """Compute the mean length of tangential vectors over the contact, weighted with the shear.
 
+        The result has the unit of the vectors and is 0 without shear.
+
+        one      solution of the pass whose shear is the weight
         vectors  vectors at the points, such as displacements (2, points)
         """
         shear = self.contact.compliance.areas * length(one.solution.shear)
         return over(float(np.sum(shear * length(vectors))), float(np.sum(shear)))
 
     def state(self, passes: list[_Pass]) -> PointState:
-        """Create the contact state at the end of the increment from the solution of its last pass.
+        """Create the contact state at the end of the increment from its last penalty pass.
 
-        passes  solutions of all passes
+        At Gauss points, the tractions for the contact edge are those of the first pass with a small
+        overlap.
+
+        passes  solutions of all passes; the exact law has one pass
         """
         contact, before, last = self.contact, self.before, passes[-1]
         compliance, problem, solution = contact.compliance, last.problem, last.solution
@@ -269,10 +295,11 @@ class _Increment:
         )
 
     def _solve(self, multiplier: Field, start: Field, motion: tuple[float | None, float]) -> _Pass:
-        """Solve the contact problem for given multipliers until all residuals meet the tolerance.
+        """Solve one penalty pass: the contact problem of the increment for given multipliers.
 
-        The residuals follow from displacements that are computed again from the final tractions,
-        harmonic by harmonic, without the compliance matrix.
+        The solve is repeated with a smaller tolerance of the algorithm until all residuals meet the
+        tolerance. The residuals follow from displacements that are computed again from the final
+        tractions, harmonic by harmonic, without the compliance matrix.
 
         multiplier  tractions without the contribution of the penalty springs, r, θ, z (3, points)
         start       initial guess of the tractions r, θ, z (3, points)
@@ -321,7 +348,9 @@ class _Increment:
         outer_iterations: int,
         solves: int,
     ) -> _Pass:
-        """Compute displacements, slip and residuals of a solution, and return them as a pass.
+        """Compute displacements, slip and residuals of a solution of the contact problem.
+
+        Return the solution together with these fields as a pass of the increment.
 
         multiplier  tractions without the contribution of the penalty springs, r, θ, z (3, points)
         outer_iterations, solves
@@ -360,10 +389,11 @@ class _Increment:
         )
 
     def _touching_share(self, p: Vector, at_edges: Vector) -> Vector:
-        """Compute the contact fraction of the increment at every point (points,), ray by ray.
+        """Compute the contact fraction at every point: the part of the increment in contact (points,).
 
-        The contact fraction is the part of the increment in which the point is in contact, see
-        `touching_share`. Used to count slip only while the surfaces are in contact.
+        The fraction follows from the motion of the contact edge along the ray of the point, and is
+        between 0 and 1. A ray is the set of points at one angle. Used to count slip only while the
+        surfaces are in contact.
 
         p         pressure at the end of the increment (points,)
         at_edges  pressure from which the contact edge at the end is computed (points,)
@@ -487,17 +517,18 @@ def _solved(problem: CoupledProblem, start: Start, tolerance: float) -> CoupledS
 def touching_share(
     radii: Field, apart_before: Mask, apart: Mask, edge_before: float, edge: float
 ) -> Field:
-    """Compute the contact fraction of an increment for each ring, from 0 to 1.
+    """Compute the contact fraction of an increment for each ring: the part of it in contact, 0 to 1.
 
     Particles slip past each other only while they are in contact. If the contact edge moves from a₀
     to a₁ and passes a ring of radius r, the ring is in contact for the fraction |a - r|/|a₁ - a₀|
     of the motion, with a the larger of a₀ and a₁. This fraction is correct to first order in the
     increment, in which the motion follows the radius.
 
-    radii              radii of the rings [length]
+    radii  radii of the rings, circles around the axis on the surface (rings,) [length]
     apart_before, apart
-                       True for rings with a gap at the start, and at the end
-    edge_before, edge  a₀ and a₁ [length], 0 without contact
+           True for rings with a gap at the start, and at the end (rings,)
+    edge_before, edge
+           a₀ and a₁ [length], 0 without contact
     """
     widest, travel = max(edge_before, edge), abs(edge - edge_before)
     passed = apart_before != apart

@@ -24,8 +24,11 @@ def reported(
 ) -> Increment:
     """Convert a contact state at the points of the surface to an increment of the result.
 
-    Fields have the shape (rings, angles), or (rings,) if the state is axisymmetric.
+    The fields of the result have the shape (rings, angles), or (rings,) if the state is
+    axisymmetric.
 
+    contact    contact problem at the points of the surface
+    state      converged state at the end of the increment
     direction  unit vector (x, y) of the tangential load, from which angles are counted
     place      load step, and index of the increment in the load step
     """
@@ -68,11 +71,14 @@ def _with_shear(
 ) -> Increment:
     """Add shear, slip, stick zone and tangential load to an increment of the result.
 
-    The names of the fields depend on the path of the plan: circumferential in torsion, along the
-    load without coupling, otherwise radial and circumferential.
+    In torsion, shear and slip are circumferential. Without coupling of pressure and shear they are
+    along the load. Otherwise they have a radial and, under a tangential load, a circumferential
+    component.
 
-    pressed  increment with pressure and gap
-    edges    radius of the contact edge on every ray (angles,) [length]
+    pressed    increment with pressure and gap
+    state      converged state at the points of the surface
+    direction  unit vector (x, y) of the tangential load
+    edges      radius of the contact edge on every ray (angles,) [length]
     """
     sheared = replace(
         pressed,
@@ -108,17 +114,20 @@ def _with_shear(
 
 
 def _shown(contact: PointContact, values: NDArray[Scalar]) -> NDArray[Scalar]:
-    """Convert a scalar field at points to the shape (rings, angles) or (rings,).
+    """Convert a scalar field at the points of the surface to the shape of the result.
 
-    The result has the shape (rings,) if the contact is axisymmetric.
+    The shape is (rings,) if the contact is axisymmetric, else (rings, angles).
+
+    values  field at the points, such as the pressure (points,)
     """
     return _ring(contact, contact.compliance.scalar_on_grid(values))
 
 
 def _ring(contact: PointContact, on_grid: NDArray[Scalar]) -> NDArray[Scalar]:
-    """Remove the angle axis of a field (rings, 1) if the contact is axisymmetric.
+    """Remove the axis of angles from a field of the result if the contact is axisymmetric.
 
-    Other fields (rings, angles) are returned unchanged.
+    An axisymmetric field (rings, 1) becomes (rings,). Other fields (rings, angles) are returned
+    unchanged.
     """
     return on_grid[:, 0] if contact.axisymmetric else on_grid
 
@@ -142,9 +151,12 @@ def _contact_area(contact: PointContact, edges: Field) -> float:
 
 
 def _stick_area(contact: PointContact, state: PointState, edges: Field) -> float:
-    """Compute the area of the stick zone [length^2].
+    """Compute the area of the stick zone at the end of an increment [length^2].
 
-    The area is ½∫c² dθ with the radius c of the edge of the stick zone on every ray.
+    The area is ½∫c² dθ with the radius c of the edge of the stick zone on every ray. The area is at
+    most the contact area.
+
+    edges  radius of the contact edge on every ray (angles,) [length]
     """
     contact_area = _contact_area(contact, edges)
     if state.status is ContactStatus.FULL_STICK and contact.at_gauss_points:

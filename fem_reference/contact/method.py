@@ -32,11 +32,16 @@ HIGHEST = 8
 
 @dataclass(frozen=True)
 class ContactMethod:
-    """Solve the increments of a scene and convert their states to increments of the result.
+    """Solver of the increments of a scene by the exact or the penalty law of contact.
 
+    The load stepping calls this class for each increment. The class also converts contact states to
+    increments of the result.
+
+    model    the two bodies with their meshes, compliances, undeformed gap and friction
+    plan     tractions that the solve computes, and numbers of increments
     penalty  parameters of the penalty law; None for the exact laws of Signorini and Coulomb
-    around   angular points on the half circle, counted from the direction of the load, for
-             Path.HARMONICS; None for end_grid(8)
+    around   angular points on the half circle, counted from the direction of the load, for coupled
+             bodies under a tangential load; None for end_grid(8)
     """
 
     model: ContactModel

@@ -23,7 +23,10 @@ LEAST_FRICTION = 1e-6  # least friction coefficient by which the residual of she
 
 @dataclass(frozen=True)
 class Iterate:
-    """Unknowns of an increment: tractions, rigid motion, and compliance of additional springs.
+    """Unknowns of the contact equations of an increment, at one iteration of Newton's method.
+
+    The unknowns are the tractions, the rigid motion of the indenter, and the compliance of
+    additional springs between the surfaces, which serve the continuation.
 
     tractions  components r, θ, z of the tractions at the points, r outermost (3 points,)
     shift      tangential shift or twist of the indenter
@@ -38,24 +41,29 @@ class Iterate:
 
     @property
     def values(self) -> Vector:
-        """All unknowns in one vector (3 points + 3,).
+        """All unknowns of the contact equations in one vector (3 points + 3,).
 
-        The order is tractions, shift, approach, spring compliance.
+        The order is tractions, shift or twist, approach, spring compliance.
         """
         return np.append(self.tractions, [self.shift, self.approach, self.springs])
 
     @classmethod
     def of(cls, values: Vector) -> "Iterate":
-        """Create an iterate from the vector of its unknowns (3 points + 3,)."""
+        """Create an iterate of the contact equations from the vector of its unknowns.
+
+        values  tractions, shift or twist, approach and spring compliance (3 points + 3,)
+        """
         shift, approach, springs = (float(value) for value in values[-3:])
         return cls(values[:-3], shift, approach, springs)
 
 
 class Equations:
-    """Contact equations of an increment: laws at all points, then prescribed loads.
+    """Contact equations of an increment: the laws at all points, then the prescribed loads.
 
-    The contact and friction laws are written as a natural map. The unknowns are tractions, rigid
-    motion and the compliance of springs between the surfaces.
+    Newton's method and the continuation solve these equations. The contact and friction laws are
+    written as equations between each traction and its projection onto the admissible tractions
+    (natural map). The unknowns are tractions, rigid motion and the compliance of springs between
+    the surfaces.
     """
 
     def __init__(self, problem: CoupledProblem) -> None:
@@ -70,17 +78,24 @@ class Equations:
         self.scale = float(np.mean(self.w))
 
     def missed(self, at: Iterate) -> Vector:
-        """Compute the residual vector of the contact equations at an iterate (3 points + 2,).
+        """Compute the residual vector of the contact equations of an increment (3 points + 2,).
 
-        The last two entries belong to the prescribed loads.
+        The first entries are the residuals of shear (r, then θ) and pressure at the points. The
+        last two entries belong to the prescribed tangential and normal load.
+
+        at  iterate: tractions, rigid motion and spring compliance
         """
         return self._equations(at)[0]
 
     def linearised(self, at: Iterate) -> tuple[Vector, Matrix, Mask]:
-        """Compute the residual vector, its generalised derivative, and the mask of slipping points.
+        """Compute the residual vector of the contact equations and its generalised derivative.
 
-        The derivative (3 points + 2, 3 points + 3) is with respect to the unknowns of an iterate.
-        At a kink of the natural map, the derivative is that of the side on which the iterate is.
+        Return also the mask of the slipping points (points,). The residual has the shape (3 points
+        + 2,). The derivative (3 points + 2, 3 points + 3) is with respect to the unknowns of an
+        iterate. At a kink of the equations, the derivative is that of the side on which the iterate
+        is.
+
+        at  iterate: tractions, rigid motion and spring compliance
         """
         n, K, w = self.n, self.K, self.w
         missed, z_t, z_z, bound = self._equations(at)
@@ -127,7 +142,7 @@ class Equations:
         return missed, jacobian, in_slip & (bound > 0)
 
     def size(self, missed: Vector, at: Iterate) -> float:
-        """Compute the norm of a residual vector [1].
+        """Compute the norm of a residual vector of the contact equations [1].
 
         The norm is the sum of the pressure residuals relative to the normal load and of the shear
         residuals relative to the friction limit. The norm is infinite without a prescribed normal
@@ -150,9 +165,10 @@ class Equations:
         )
 
     def solution(self, at: Iterate, in_slip: Mask, solves: int) -> CoupledSolution:
-        """Convert a converged iterate to a solution that satisfies all inequalities exactly.
+        """Convert a converged iterate to tractions that satisfy the contact and friction laws exactly.
 
-        The pressure is set to ⟨z_z⟩ and the shear to P(z_t). The iterate must not contain springs.
+        The pressure is set to its positive part. Each shear vector is limited to the friction
+        limit. The iterate must not contain springs.
 
         in_slip  True for slipping points (points,)
         solves   number of linear systems solved
@@ -165,10 +181,15 @@ class Equations:
         return CoupledSolution(p, q, at.approach, at.shift, in_slip, 0, solves)
 
     def _equations(self, at: Iterate) -> tuple[Vector, Field, Vector, Vector]:
-        """Compute the residual vector and the arguments of the natural map at an iterate.
+        """Compute the residual vector of the contact equations and its intermediate fields.
 
+        The equations are p = ⟨z_z⟩ with z_z = p − w g/d_z, and q = P(z_t) with z_t = q + w s/d_t.
+        Here p is the pressure, g the gap, q the shear, s the slip, w the area of a point and d its
+        diagonal compliance. ⟨⟩ is the positive part, and P limits z_t to the friction limit µ⟨z_z⟩.
         Return the residual (3 points + 2,), z_t (2, points), z_z (points,) and the friction limit
-        µ⟨z_z⟩ (points,).
+        (points,).
+
+        at  iterate: tractions, rigid motion and spring compliance
         """
         problem, n = self.problem, self.n
         q, p = at.tractions[: 2 * n].reshape(2, n), at.tractions[2 * n :]

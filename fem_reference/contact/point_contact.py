@@ -59,9 +59,10 @@ class PointContact:
 
     @property
     def at_gauss_points(self) -> bool:
-        """True if the points are Gauss points of the element edges.
+        """True if tractions are given at Gauss points of the element edges, as for the penalty law.
 
-        The displacements cannot distinguish the pressures of all Gauss points.
+        The displacements cannot distinguish the pressures of all Gauss points, so that these
+        pressures may oscillate.
         """
         return isinstance(self.rings.edge, GaussEdge)
 
@@ -88,9 +89,12 @@ class PointContact:
         )
 
     def lifted(self, state: PointState) -> PointState:
-        """Extend an axisymmetric contact state to the points of this contact problem.
+        """Extend an axisymmetric contact state to several points on each ring.
 
-        The axisymmetric state has one point per ring.
+        Used when the first tangential load on coupled bodies ends the axisymmetry. Every point
+        takes the values of its ring.
+
+        state  state with one point per ring
         """
         ring = self.compliance.ring_of_point
         lifted: dict[str, Any] = {

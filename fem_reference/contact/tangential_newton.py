@@ -26,7 +26,9 @@ GRADIENT_STEPS = 2
 
 @dataclass(frozen=True)
 class ShearProblem:
-    """Tangential problem on the contact points at a given pressure.
+    """Tangential problem at a given pressure: find the shear of least energy below the friction limit.
+
+    The energy is ½ qᵀKq − cᵀq of the shear q at the contact points.
 
     compliance  K (2 points, 2 points), components outermost, with w u_t = K q
     target      c = w (u_t − ω of the previous state − u_t by the new pressure) (2, points): the
@@ -46,17 +48,19 @@ class ShearProblem:
     control: TangentialTarget
 
     def stiffness(self) -> Vector:
-        """Compute the weights d of the metric Σ d |q|², in which discs remain discs (points,).
+        """Compute the weights d of the norm Σ d |q|² of shear vectors q (points,).
 
-        d is the mean of the two diagonal entries of the compliance matrix at a point.
+        d is the mean of the two diagonal entries of the compliance matrix at a point. Equal weights
+        of both components leave the friction limit of a point a disc.
         """
         diagonal = np.diagonal(self.compliance).reshape(2, -1)
         return np.asarray(0.5 * (diagonal[0] + diagonal[1]))
 
     def forced(self) -> Field:
-        """Return the linear term c of the energy of the shear, including a prescribed shift.
+        """Return the linear term c of the energy ½ qᵀKq − cᵀq of the shear q (2, points).
 
-        The shape is (2, points). Without a prescribed shift, c is the target of the problem.
+        A prescribed shift or twist of the indenter is included in c. Without one, c is the target
+        of the problem.
         """
         motion = self.control.motion
         return self.target if motion is None else self.target + motion * self.along
@@ -81,11 +85,14 @@ class TangentialState:
 
 
 def solve_shear(problem: ShearProblem, start: Field, tolerance: float) -> TangentialState:
-    """Solve the tangential problem: the shear, and the shift if the load is prescribed.
+    """Solve the tangential problem at a given pressure: the shear, and the shift of the indenter.
+
+    Newton steps for fixed stick and slip zones alternate with a projection onto the admissible
+    shears.
 
     start      initial guess of the shear (2, points)
-    tolerance  limit of Σ w|q − P(q − ∇/d)| / Σ w|q| [1], with the gradient ∇ of the energy and the
-               projection P onto the admissible shears
+    tolerance  limit of Σ w|q − P(q − ∇/d)| / Σ w|q| [1], with the areas w, the gradient ∇ of the
+               energy, the projection P onto the admissible shears and the weights d of its norm
     raises     NotConverged
     """
     K, c, d = problem.compliance, problem.forced(), problem.stiffness()
@@ -122,18 +129,21 @@ def solve_shear(problem: ShearProblem, start: Field, tolerance: float) -> Tangen
 
 
 def _sum(areas: Vector, vectors: Field) -> float:
-    """Compute the integral of the length of vectors over the contact area.
+    """Compute the integral of the magnitude of the shear over the contact area [force].
+
+    Used to make the residual of the tangential problem relative.
 
     areas    areas that the points represent (points,) [length^2]
-    vectors  shear vectors at the points (2, points)
+    vectors  shear vectors, or changes of shear vectors, at the points (2, points)
     """
     return float(np.sum(areas * np.sqrt(vectors[0] ** 2 + vectors[1] ** 2)))
 
 
 def _lowest(K: Matrix, slope: Field, q: Field, end: Field) -> tuple[Field, float]:
-    """Return the shear of least energy on the line from q to `end`, and the decrease of the energy.
+    """Minimise the energy of the tangential problem on the line between two shear fields.
 
-    The energy is that of the tangential problem, ½ qᵀKq − cᵀq.
+    The energy is ½ qᵀKq − cᵀq. Return the shear of least energy and the decrease of the energy from
+    q.
 
     K       compliance matrix (2 points, 2 points)
     slope   gradient of the energy at q (2, points)
@@ -151,17 +161,18 @@ def _lowest(K: Matrix, slope: Field, q: Field, end: Field) -> tuple[Field, float
 def _newton_point(
     problem: ShearProblem, c: Field, z: Field, length: Vector, in_slip: Mask, d: Vector
 ) -> Field:
-    """Compute the shear that Newton's method predicts for fixed stick and slip zones.
+    """Compute the shear that solves the tangential problem for fixed stick and slip zones.
 
-    Unknowns are both components at sticking points, and at slipping points the component
-    perpendicular to n = z/|z|. The component along n is equal to the friction limit. A change of
-    the direction of a slipping vector adds the stiffness (|z| − bound) d / bound.
+    The result is the target of one Newton step. Unknowns are both components at sticking points,
+    and at slipping points the component perpendicular to n = z/|z|. The component along n is equal
+    to the friction limit. A change of the direction of a slipping vector adds the stiffness (|z| −
+    bound) d / bound.
 
     c        linear term of the energy (2, points)
     z        shear minus gradient/d, plus the multiplier term of a prescribed load (2, points)
     length   |z| (points,)
     in_slip  True for slipping points (points,)
-    d        weights of the metric (points,)
+    d        weights of the norm Σ d |q|² (points,)
     """
     K, bound = problem.compliance, problem.bound
     points = len(bound)
@@ -173,9 +184,12 @@ def _newton_point(
     turning = (length[slip] - bound[slip]) * d[slip] / bound[slip]
 
     def on_unknowns(rows: Matrix) -> Matrix:
-        """Restrict rows (2 points, k) of a matrix to the unknowns of the Newton step.
+        """Restrict the rows of a matrix to the unknowns of the Newton step for the shear.
 
-        These are both components at sticking points, then the perpendicular one at slipping points.
+        The unknowns are both components at sticking points, then the component perpendicular to the
+        slip at slipping points.
+
+        rows  matrix with a row for each component of each point (2 points, k)
         """
         across = rows[points + slip]
         across *= n[0][:, None]
