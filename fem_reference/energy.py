@@ -25,7 +25,11 @@ def accounted(
     increment: Increment,
     on_strain: float = 0.0,
 ) -> Increment:
-    """Add input work, elastic energy and the uncertainty of the dissipated energy to an increment.
+    """Add input work, elastic energy and the error of the dissipated energy to an increment.
+
+    If the elastic energy and the work of the loads are defined, the stored input work is elastic
+    energy plus dissipated energy, and the difference from the work of the loads is stored as
+    `unresolved_work`.
 
     before     previous increment of the history; None for the first increment
     on_strain  work of the shear on the imposed strain of the lower body in this increment [force
@@ -48,8 +52,11 @@ def input_work(before: Increment | None, increment: Increment) -> float | None:
     """Compute the work of all loads since the start of the history by the trapezoidal rule.
 
     The work is Σ ½ (f₀ + f₁)(ω₁ - ω₀) over the increments [force length]. f are the normal force,
-    tangential force and torque, ω the conjugate motions of the indenter. Return None as soon as a
-    motion is undefined, that is at the friction limit under force control.
+    tangential force and torque at the start (0) and end (1) of an increment. ω are the conjugate
+    motions of the indenter: approach, shift and twist. Return None as soon as a motion is
+    undefined, that is at the friction limit under force control.
+
+    before  previous increment, whose work is continued; None for the first increment
     """
     worked = 0.0 if before is None else before.trapezoidal_work
     forces, motions = (np.zeros(4), np.zeros(4)) if before is None else _loads(before)
@@ -65,7 +72,10 @@ def dissipation_uncertainty(
     """Estimate the error of the dissipated energy caused by finite increments [force length].
 
     The estimate is Σ ∫ |q₁ - q₀| |s₁ - s₀| dA over the increments of path-dependent load steps: the
-    change of shear times the change of slip. Return None if the dissipated energy is None.
+    change of the shear q times the change of the slip s in an increment. Return None if the
+    dissipated energy is None.
+
+    before  previous increment, whose estimate is continued; None for the first increment
     """
     if increment.dissipated_energy is None:
         return None
@@ -106,10 +116,13 @@ def _changed(name: str, before: Increment | None, increment: Increment) -> Field
 def elastic_energy(scene: Scene, plan: Plan, increment: Increment) -> float | None:
     """Compute the elastic energy ½ ∫ (p u_z + q·u) dA of both bodies [force length].
 
-    Within the contact u_z = approach - initial gap, and u = slip + rigid tangential motion, so that
-    no displacement has to be computed. Return None if these relations do not hold: in
-    path-dependent load steps or for coupled bodies, where particles may slip before their contact,
-    and if the motion is undefined.
+    p and q are pressure and shear, u_z and u the displacements of the surfaces. Within the contact
+    u_z = approach - initial gap, and u = slip + rigid tangential motion, so that no displacement
+    has to be computed. Return None if these relations do not hold: in path-dependent load steps or
+    for coupled bodies, where particles may slip before their contact, and if the motion is
+    undefined.
+
+    plan  tractions of the solve, and the load steps that are path-dependent
     """
     if plan.path not in UNCOUPLED or any(plan.path_matters[: increment.step]):
         return None
@@ -153,10 +166,11 @@ def _hats(radii: Field) -> Hats:
 
 
 def _loads(increment: Increment) -> tuple[Field, Field | None]:
-    """Return the forces and the conjugate motions of an increment.
+    """Return the forces and the conjugate motions of an increment, for the work of the loads.
 
-    The forces are (W, T_x, T_y, M_z). The motions are (approach, shift along x, shift along y,
-    twist). The motions are None if the shift or the twist is undefined.
+    The forces are (W, T_x, T_y, M_z): normal force, tangential force and torque. The motions are
+    (approach, shift along x, shift along y, twist). The motions are None if the shift or the twist
+    is undefined.
     """
     force, shift = increment.tangential_force, increment.tangential_shift
     torque, twist = increment.torque, increment.twist

@@ -38,9 +38,13 @@ DEEP = 100.0
 
 
 def sections_of(scene: Scene, discretisation: FiniteElementDiscretisation) -> list[SectionMesh]:
-    """Create the meshes of the deformable bodies of a scene, without a solve.
+    """Create the finite-element meshes of the deformable bodies of a scene.
 
-    Equal bodies share one mesh.
+    The contact on these meshes is not solved. Used to count elements for the cost estimate. Equal
+    bodies share one mesh, which occurs once in the list. A contact radius that is not prescribed is
+    estimated first.
+
+    discretisation  element sizes, and the prescribed contact radius, if there is one
     """
     radius = meshed_radius(scene, discretisation.contact_radius)
     sections = ContactModel.of(scene, discretisation, radius).sections
@@ -61,8 +65,8 @@ def meshed_radius(scene: Scene, prescribed: float | None) -> float:
 def expected_radius(scene: Scene) -> float:
     """Estimate the largest contact radius of the load history, without friction [length].
 
-    Half-spaces and thick layers have closed forms. Contacts of bodies with other layers are solved
-    on a coarse mesh.
+    The fine elements of the mesh are laid out for this radius. Half-spaces and thick layers have
+    closed forms. Contacts of bodies with other layers are solved on a coarse mesh.
     """
     guess = max(_half_space_radius(scene, ramp) for ramp in scene.load_path())
     layered = scene.body.layers or scene.indenter.layers
@@ -76,10 +80,11 @@ def expected_radius(scene: Scene) -> float:
 
 
 def _extremes(scene: Scene) -> list[LoadRamp]:
-    """Return the load ramp with the largest final force and that with the largest final approach.
+    """Return the load steps with the largest normal load, for the estimate of the contact radius.
 
-    A load ramp is the linear change of the loads in one load step. The list has one ramp for each
-    kind of normal control that occurs in the history.
+    The list contains the load ramp with the largest final force and the load ramp with the largest
+    final approach, as far as force or approach control occurs in the history. A load ramp is the
+    linear change of the loads in one load step.
     """
     ramps = scene.load_path()
     kinds = [[r for r in ramps if r.normal.kind is kind and r.normal.end] for kind in ControlKind]
@@ -87,10 +92,12 @@ def _extremes(scene: Scene) -> list[LoadRamp]:
 
 
 def _bare_radius(scene: Scene, ramp: LoadRamp) -> float:
-    """Estimate the contact radius of a load step between half-spaces of the outermost materials.
+    """Estimate the contact radius at the end of a load step from the outermost materials [length].
 
-    The layers and the substrate below the outermost material are neglected. The radius is that at
-    the end of the load step [length].
+    Each body is a half-space of its outermost material. The layers and the substrate below are
+    neglected. Used to recognise thick layers, and as the estimate for them.
+
+    ramp  linear change of the loads in the load step
     """
     outermost = [
         body.model_copy(update={"material": body.layers[0].material, "layers": ()})
@@ -105,8 +112,10 @@ def _bare_radius(scene: Scene, ramp: LoadRamp) -> float:
 def _half_space_radius(scene: Scene, ramp: LoadRamp) -> float:
     """Estimate the contact radius at the end of a load step by half-space theory [length].
 
-    Each half-space has the mean of (1-ν²)/E over all layers of the body. Raise UnsupportedScene if
-    the shape of the indenter has no closed form.
+    Each body is a half-space with the mean of (1-ν²)/E over its layers and its substrate. Raise
+    UnsupportedScene if the shape of the indenter has no closed form.
+
+    ramp  linear change of the loads in the load step
     """
     indenter, end, exponent = scene.indenter, ramp.normal.end, scene.indenter.gap_exponent
     if indenter.rim is not None:
@@ -126,9 +135,10 @@ def _half_space_radius(scene: Scene, ramp: LoadRamp) -> float:
 
 
 def _softness(body: Body) -> float:
-    """Compute the mean of (1-ν²)/E over the elastic materials of a body [length^2/force].
+    """Compute the mean of (1-ν²)/E over the layers and the substrate of a body [length^2/force].
 
-    Each material has the same weight. The mean is 0 for a rigid body.
+    Used as the compliance of a half-space that replaces the layered body in a first estimate. Each
+    material has the same weight. The mean is 0 for a rigid body.
     """
     parts = body.elastic_materials
     return sum(1 / part.plane_strain_modulus for part in parts) / max(1, len(parts))
@@ -162,12 +172,12 @@ def _coarse_radius(scene: Scene, ramp: LoadRamp, guess: float) -> float:
 
 
 def _coarse(scene: Scene, radius: float) -> FiniteElementDiscretisation:
-    """Return the discretisation of the coarse mesh for contacts up to a given radius.
+    """Return the discretisation of the coarse mesh that serves to estimate the contact radius.
 
-    The coarse mesh serves to estimate the contact radius. Its outer boundary is limited to
-    LARGEST_COARSE_BOX contact radii if the layers are thin enough.
+    The outer boundary of the mesh is limited to LARGEST_COARSE_BOX contact radii if the layers are
+    thin enough.
 
-    radius  largest contact radius [length]
+    radius  largest contact radius for which the mesh is laid out [length]
     """
     to_radius = Scales(radius, outermost_modulus(scene)).dimensionless
     bodies = [to_radius(body) for body in (scene.body, scene.indenter)]

@@ -46,7 +46,9 @@ class Increment(RingIncrement):
 
 @dataclass(frozen=True)
 class Result:
-    """Result of a load history on one mesh: all increments, with scene, discretisation and plan.
+    """Result of a finite-element contact solve: the converged states of all increments.
+
+    The scene, the discretisation, the meshes and the contact method of the solve are included.
 
     sections    meshes of the lower body and of the indenter, in units of `radius`; None for a rigid
                 body

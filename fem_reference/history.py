@@ -34,10 +34,9 @@ from fem_reference.plan import Path
 def solved_increments(method: ContactMethod, tolerance: float) -> Iterator[Increment]:
     """Solve the load history of a scene and yield its increments in order.
 
-    The errors are those of `resumable_solve`.
-
     method     contact method of the scene
     tolerance  upper limit of every residual [1]
+    raises     NotConverged and GrossSliding, with the last converged increment as `last_state`
     """
     return (increment for increment, _ in resumable_solve(method, tolerance))
 
@@ -45,7 +44,9 @@ def solved_increments(method: ContactMethod, tolerance: float) -> Iterator[Incre
 def resumable_solve(
     method: ContactMethod, tolerance: float, since: Checkpoint | None = None
 ) -> Iterator[tuple[Increment, ResumePoint[PointState]]]:
-    """Solve the load history of a scene and yield its increments with their resume points.
+    """Solve the load history of a scene and yield each increment with its resume point.
+
+    A resume point contains the contact state from which an interrupted solve continues.
 
     method     contact method of the scene
     tolerance  upper limit of every residual [1]
@@ -58,10 +59,14 @@ def resumable_solve(
 
 @dataclass(frozen=True)
 class _Solver:
-    """Adapter from a contact method to the load stepping of `contact_scene`.
+    """Finite-element solver in the form that the load stepping of `contact_scene` requires.
 
-    The amount of work does not limit the bisection of increments here, so that `spent` and
-    `most_spent` are zero.
+    The load stepping calls `advance` for each increment and `report` for its result. It could limit
+    the repetition of increments with smaller steps by their work. This limit is not used here, so
+    that `spent` and `most_spent` are zero.
+
+    method     contact method of the scene
+    tolerance  upper limit of every residual [1]
     """
 
     scene: Scene
@@ -70,10 +75,10 @@ class _Solver:
     most_spent: float = 0.0
 
     def spent(self) -> float:
-        """Return the work that the solver has spent so far, always 0 here.
+        """Return the work that the solver has spent on the history so far: always 0 here.
 
-        The load stepping can limit the bisection of increments by their work. This solver sets no
-        limit.
+        The load stepping may use the work to limit the bisection of increments that do not
+        converge. The finite-element solver sets no such limit.
         """
         return 0.0
 
@@ -124,10 +129,13 @@ class _Solver:
         return accounted(self.scene, self.method.plan, last, increment, resisted)
 
     def _along(self, ramp: LoadRamp) -> ScalarControl | None:
-        """Return the control of the twist or of the tangential motion.
+        """Return the prescribed tangential load or motion of a load step as a scalar control.
 
-        The tangential motion is projected on the plan's direction. Return None if the plan has
-        neither torsion nor a tangential load.
+        In torsion the result is the control of twist or torque. Under a tangential load it is the
+        component of force or shift along the direction of the load. Return None without torsion and
+        without a tangential load.
+
+        ramp  linear change of the loads in the load step
         """
         path, control = self.method.plan.path, ramp.tangential
         if path is Path.TWISTING:

@@ -37,14 +37,18 @@ def required_bytes(elements: int, unknowns: int, components: int, with_pressure:
 def run_bytes(factoring: float) -> float:
     """Estimate the peak memory of a whole run, including libraries and figures [byte].
 
-    factoring  result of `required_bytes` for the largest section, an upper bound
+    factoring  upper bound of the memory to factorise the stiffness of the largest mesh, from
+               `required_bytes` [byte]
     """
     return LIBRARIES + max(DRAWING, PART_IN_USE * factoring)
 
 
 def largest_bytes(elements: int, several_motions: bool) -> int:
-    """Estimate the memory to assemble and factorise a section from its number of elements [byte].
+    """Estimate the memory to factorise the stiffness of a mesh from its number of elements [byte].
 
+    Used for the cost estimate before a solve.
+
+    elements         number of elements of the mesh of one body
     several_motions  True to assume motions with 3 displacement components, False for 2 components
                      (normal loading)
     """

@@ -25,9 +25,10 @@ from fem_reference.scales import Scales
 
 
 class ContactModel:
-    """Hold two bodies with their meshes, and compute the compliances of their surfaces.
+    """Two bodies in contact with their meshes, and the compliances of their surfaces.
 
-    A compliance is computed at its first use and stored. Lengths and forces have the units of the
+    The contact methods read the elasticity, the undeformed gap and the friction from this class. A
+    compliance is computed at its first use and stored. Lengths and forces have the units of the
     scene. Only the meshes are in the units of `scales`.
 
     sections        meshes of the lower body and of the indenter; None for a rigid body
@@ -136,10 +137,12 @@ class ContactModel:
         return np.asarray(0.5 * (C[0, :, 0] - C[0, :, 1] - C[1, :, 0] + C[1, :, 1]))
 
     def _condensed(self, of: Motion) -> NodalCompliance:
-        """Return the compliance of the two surfaces in one motion.
+        """Return the compliance of the two surfaces for one kind of loading, in units of the scene.
 
-        The compliance is computed at its first use and stored. The result has the units of the
-        scene and contains the compliance of the rig's springs.
+        The compliance is computed at its first use and stored. The compliance of the rig's springs
+        is included.
+
+        of  displacement field of one angular harmonic, such as that of normal loading or torsion
         """
         if of not in self._compliances:
             condensed = composite(*self.sections, of)
@@ -154,11 +157,13 @@ class ContactModel:
         return self._compliances[of]
 
     def _springs(self, of: Motion) -> Field:
-        """Compute the displacement of the nodes by the rig's springs, per unit nodal force.
+        """Compute the displacement of the nodes by the springs of the test rig, per nodal force.
 
-        The springs displace all nodes equally. The result has one row and one column for each
-        component of the motion, shape (c, c) [length/force]. It is zero for motions without a
-        spring.
+        The springs are in series with the contact and displace all nodes equally. The result has
+        one row and one column for each displacement component, shape (c, c) [length/force]. It is
+        zero for motions without a spring.
+
+        of  displacement field of one angular harmonic, such as that of normal loading
         """
         down, along = compliances(self.scene.rig)
         compliance = {PRESSING: down, SHEARING: along}.get(of, 0.0)

@@ -51,9 +51,7 @@ class Path(Enum):
 
 @dataclass(frozen=True)
 class Plan:
-    """Plan of a solve: effects that are computed, and numbers of increments.
-
-    Effects that do not occur in the scene need no work.
+    """Description of a solve: the tractions that it computes, and the increments of each load step.
 
     path          tractions of the solve
     direction     unit vector (x, y) of the tangential load, (1, 0) without one
@@ -70,8 +68,9 @@ class Plan:
 
 
 def plan(scene: Scene) -> Plan:
-    """Determine the effects and the numbers of increments that a scene requires.
+    """Determine the tractions that a scene requires, and the increments of each load step.
 
+    Effects that do not occur in the scene, such as friction or torsion, are omitted from the solve.
     Raise UnsupportedScene if the scene is not axisymmetric, or combines loads that this solver does
     not support.
     """
@@ -103,7 +102,7 @@ def plan(scene: Scene) -> Plan:
 
 
 def _path(friction: bool, loaded: bool, twisted: bool, couples: bool) -> Path:
-    """Determine the tractions of the solve from the effects of the scene.
+    """Determine which tractions the solve computes, from the loads and the friction of the scene.
 
     friction  True if the scene has friction
     loaded    True if a load step has a tangential force or shift
@@ -153,10 +152,12 @@ def _increments(scene: Scene, matters: tuple[bool, ...]) -> tuple[int, ...]:
 
 
 def _path_increments(scene: Scene, ramp: LoadRamp) -> int:
-    """Determine the number of increments of a path-dependent load step for an error of about 1 %.
+    """Determine the number of increments of a load step whose final state depends on this number.
 
-    The error is that of the shear. If only the tangential force changes, each increment is at most
-    LARGEST_SHARE of the friction limit.
+    The error of the shear by finite increments is about 1 %. If only the tangential force changes,
+    each increment is at most LARGEST_SHARE of the friction limit.
+
+    ramp  linear change of the loads in the load step
     """
     friction = scene.friction
     by_force = ramp.normal.kind is ramp.tangential.kind is ControlKind.FORCE
@@ -174,10 +175,14 @@ def _path_increments(scene: Scene, ramp: LoadRamp) -> int:
 def _effects(
     scene: Scene, path: Path, acting: tuple[bool, bool, bool, bool], why_coupled: str
 ) -> tuple[Effect, ...]:
-    """Return all effects of a solve, each with the reason for or against its computation.
+    """Return all effects of a solve, each with the reason why it is computed or omitted.
 
+    An effect is a part of the problem, such as friction or torsion. The list is printed for the
+    user.
+
+    path         tractions that the solve computes
     acting       True for friction, a tangential load, torsion, and coupling, in this order
-    why_coupled  reason for or against relative tangential displacement by pressure
+    why_coupled  reason why pressure causes relative tangential displacement, or does not
     """
     has_friction, loaded, twisted, couples = acting
     return (
@@ -203,10 +208,12 @@ def _effects(
 
 
 def _cross_slip(path: Path) -> Effect:
-    """Return the effect "slip across the load", with the reason for or against its computation.
+    """Return the effect "slip across the load", with the reason why it is computed or omitted.
 
     Poisson's ratio causes slip perpendicular to a tangential load (Munisamy, Hills and Nowell
-    1994).
+    1994). This slip is computed only by a solve on several angular harmonics.
+
+    path  tractions that the solve computes
     """
     name = "slip across the load"
     if path is Path.SHEARING:
@@ -276,6 +283,11 @@ def _refuse_loads(scene: Scene, loaded: bool, twisted: bool, coupled: bool) -> N
 
 
 def _turns(one: tuple[float, float], other: tuple[float, float]) -> bool:
-    """Return True if two tangential loads (x, y) are not along one line, within round-off."""
+    """Return True if two tangential loads have different lines of action, within round-off.
+
+    Used to refuse scenes whose tangential load changes its direction.
+
+    one, other  tangential loads (x, y)
+    """
     cross = one[0] * other[1] - one[1] * other[0]
     return abs(cross) > STRAIGHT * hypot(*one) * hypot(*other)

@@ -16,9 +16,10 @@ LEAST_SLIP = 1e-3
 
 
 def over(part: float, whole: float) -> float:
-    """Compute the quotient part / whole, also for a zero denominator.
+    """Divide two numbers of a residual or relative error, also if the denominator is zero.
 
-    Return 0 if `part` is zero, and infinity if only `whole` is zero.
+    part, whole  numerator and denominator; the result is 0 if `part` is zero, and infinity if only
+                 `whole` is zero
     """
     if not part:
         return 0.0
@@ -49,12 +50,12 @@ def penetration(gap: Field, weights: Field, approach: float) -> float:
 
 
 def friction_cone(size: Field, bound: Field) -> float:
-    """Compute the largest excess of the shear over the friction limit µp.
+    """Compute the residual of the friction limit: the largest excess of the shear over µp [1].
 
-    The excess is relative to the largest limit [1].
+    The excess is relative to the largest friction limit of all points.
 
-    size   magnitude of the shear at the points [force/length^2]
-    bound  friction limit µp at the points [force/length^2]
+    size   magnitude of the shear at the points (points,) [force/length^2]
+    bound  friction limit µp at the points (points,) [force/length^2]
     """
     largest = np.max(bound)
     return 0.0 if largest == 0 else float(np.maximum(0.0, np.max(size - bound)) / largest)

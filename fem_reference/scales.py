@@ -31,8 +31,9 @@ class Scales:
         return self.force * self.length
 
     def dimensionless(self, body: Body) -> Body:
-        """Return a copy of a body whose layer thicknesses and Young's moduli are in these units.
+        """Return a copy of a body in dimensionless units, for the mesh and the stiffness.
 
+        Layer thicknesses are divided by the unit of length, Young's moduli by the unit of stress.
         The copy has no surface shape, because the mesh requires the layers and materials only.
         """
         layers = tuple(

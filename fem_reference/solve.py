@@ -125,10 +125,13 @@ def _solver(
 def _counted(
     model: ContactModel, history: Iterator[tuple[Increment, ResumePoint[PointState]]]
 ) -> Iterator[tuple[Increment, ResumePoint[PointState]]]:
-    """Yield the increments of a history with their numbers of sparse factorisations.
+    """Yield the increments of a load history with the number of sparse factorisations of each.
 
-    Each increment comes with its resume point. Factorisations are counted since the previous
-    increment.
+    The number counts the factorisations since the previous increment. Each increment comes with its
+    resume point.
+
+    model    model of the bodies, which counts its factorisations
+    history  increments with their resume points
     """
     counted = 0
     for increment, point in history:

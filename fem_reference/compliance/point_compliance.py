@@ -56,7 +56,7 @@ class PointCompliance:
 
     @cached_property
     def motion(self) -> Field:
-        """Tangential displacement of the points per unit shift or twist of the indenter (2, points).
+        """Tangential displacement of points per unit shift or twist of the indenter (2, points).
 
         The displacement is dimensionless for a unit shift, and a length for a twist of 1 radian.
         The displacement is zero if the symmetry of the solve excludes a tangential motion.

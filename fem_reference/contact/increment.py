@@ -168,7 +168,7 @@ class _Increment:
     tolerance: float
 
     def first(self) -> _Pass:
-        """Solve the first penalty pass of the increment: the contact problem with initial multipliers.
+        """Solve the first penalty pass of the increment, with the initial multipliers.
 
         Without a penalty this pass is the only one, and the multipliers are zero. With a penalty at
         nodes the multipliers are the tractions at the start of the increment, or zero if updates
@@ -186,7 +186,7 @@ class _Increment:
         return self._solve(multiplier, before.tractions, motion)
 
     def again(self, last: _Pass) -> _Pass:
-        """Solve the next penalty pass of the increment: the contact problem with updated multipliers.
+        """Solve the next penalty pass of the increment, with updated multipliers.
 
         The multipliers are the tractions of the last pass. In the result, the numbers of iterations
         and linear systems are the sums over all passes.
@@ -202,7 +202,7 @@ class _Increment:
         return replace(after, outer_iterations=outer_iterations, solves=solves)
 
     def left(self, one: _Pass) -> float:
-        """Compute the relative error that the penalty springs cause in one pass of the increment [1].
+        """Compute the relative error that the penalty springs cause in one pass [1].
 
         Passes are repeated until this error is allowed. The error is the larger of two ratios. The
         first is the overlap over the approach. The second is the tangential strain of the springs
@@ -389,9 +389,9 @@ class _Increment:
         )
 
     def _touching_share(self, p: Vector, at_edges: Vector) -> Vector:
-        """Compute the contact fraction at every point: the part of the increment in contact (points,).
+        """Compute the part of the increment in which every point is in contact (points,).
 
-        The fraction follows from the motion of the contact edge along the ray of the point, and is
+        The part follows from the motion of the contact edge along the ray of the point, and is
         between 0 and 1. A ray is the set of points at one angle. Used to count slip only while the
         surfaces are in contact.
 
@@ -517,7 +517,7 @@ def _solved(problem: CoupledProblem, start: Start, tolerance: float) -> CoupledS
 def touching_share(
     radii: Field, apart_before: Mask, apart: Mask, edge_before: float, edge: float
 ) -> Field:
-    """Compute the contact fraction of an increment for each ring: the part of it in contact, 0 to 1.
+    """Compute the contact fraction of each ring: the part of an increment in contact, 0 to 1.
 
     Particles slip past each other only while they are in contact. If the contact edge moves from a₀
     to a₁ and passes a ring of radius r, the ring is in contact for the fraction |a - r|/|a₁ - a₀|

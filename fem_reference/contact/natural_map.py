@@ -165,7 +165,7 @@ class Equations:
         )
 
     def solution(self, at: Iterate, in_slip: Mask, solves: int) -> CoupledSolution:
-        """Convert a converged iterate to tractions that satisfy the contact and friction laws exactly.
+        """Convert a converged iterate to tractions that satisfy all inequalities exactly.
 
         The pressure is set to its positive part. Each shear vector is limited to the friction
         limit. The iterate must not contain springs.

@@ -26,7 +26,7 @@ GRADIENT_STEPS = 2
 
 @dataclass(frozen=True)
 class ShearProblem:
-    """Tangential problem at a given pressure: find the shear of least energy below the friction limit.
+    """Tangential problem at a given pressure: the shear of least energy below the friction limit.
 
     The energy is ½ qᵀKq − cᵀq of the shear q at the contact points.
 
@@ -187,7 +187,7 @@ def _newton_point(
         """Restrict the rows of a matrix to the unknowns of the Newton step for the shear.
 
         The unknowns are both components at sticking points, then the component perpendicular to the
-        slip at slipping points.
+        shear direction n at slipping points.
 
         rows  matrix with a row for each component of each point (2 points, k)
         """

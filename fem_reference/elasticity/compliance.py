@@ -26,7 +26,7 @@ FOLDERS = ("mesh", "elasticity")
 
 @dataclass(frozen=True, eq=False)
 class NodalCompliance:
-    """Displacement of the surface nodes in the contact zone per unit generalised nodal force.
+    """Compliance of the surface nodes in the contact zone: displacement per generalised force.
 
     The nodes are those of biquadratic elements (Q2). A generalised force is the integral of psi_i t
     r dr, with t the amplitude of the traction and psi_i the quadratic trace function of the node.
@@ -55,11 +55,14 @@ class NodalCompliance:
 
 
 def condense(section: SectionMesh, motion: Motion) -> NodalCompliance:
-    """Compute the compliance of the surface of one body in one motion.
+    """Compute the compliance of the surface of one body for one kind of loading.
 
-    A motion is a displacement field of one angular harmonic, such as that of normal loading or
-    torsion. The matrix is computed by one sparse factorisation, or read from the cache. Raise
-    ResourceRefused if the memory is insufficient.
+    The matrix contains displacements of the surface nodes per generalised nodal force. It is
+    computed by one sparse factorisation, or read from the cache. Raise ResourceRefused if the
+    memory is insufficient.
+
+    section  mesh of the meridional section of the body
+    motion   displacement field of one angular harmonic, such as that of normal loading or torsion
     """
     radii, count = section.radii, len(motion.components)
     computed = False
@@ -80,10 +83,12 @@ def composite(
 
     The displacement is that of the lower surface relative to the upper, per force on the lower
     surface. With z into each body, the shear on the upper body has the opposite sign. The sum is
-    therefore C1 + J C2 J with J = diag(1, 1, -1). Raise ValueError for two rigid bodies, or for
-    bodies with different contact nodes.
+    therefore C1 + J C2 J with the compliances C1 and C2 of the bodies and J = diag(1, 1, -1). Raise
+    ValueError for two rigid bodies, or for bodies with different contact nodes.
 
     lower, upper  meshes of the two bodies; None for a rigid body. Equal bodies may share one mesh
+    motion        displacement field of one angular harmonic, such as that of normal loading or
+                  torsion
     """
     bodies = [section for section in (lower, upper) if section is not None]
     if not bodies:

@@ -23,12 +23,13 @@ BLOCK = 64
 
 
 class FactoredSection:
-    """Factorise the stiffness of a meridional section in one harmonic, and compute displacements.
+    """Factorised stiffness of the meridional section of one body in one angular harmonic.
 
-    Unknowns are in the order of elimination, those of the contact zone last. The symmetric matrix
-    is eliminated in this order without pivoting. The last block of the factors is therefore the
-    stiffness of the contact zone after condensation of all other unknowns. The constructor raises
-    ResourceRefused if the memory is insufficient.
+    Used to compute displacements by surface forces, and the compliance of the surface. Unknowns are
+    in the order of elimination, those of the contact zone last. The symmetric matrix is eliminated
+    in this order without pivoting. The last block of the factors is therefore the stiffness of the
+    contact zone after condensation of all other unknowns. The constructor raises ResourceRefused if
+    the memory is insufficient.
 
     section, motion  mesh and harmonic of the factorised problem
     nodes            positions (r, z) of the nodes (2, n)
@@ -62,11 +63,12 @@ class FactoredSection:
         self._far = self._numbering.factor * far[self._numbering.dofs]
 
     def displacement(self, forces: Field, nodes: Indices | slice = EVERYWHERE) -> Field:
-        """Compute the displacements of nodes by generalised forces on the surface.
+        """Compute the displacements of nodes of a body by generalised forces on its surface.
 
-        The result has the shape (c, nodes, k) for c components.
+        The result has the shape (c, nodes, k) for c components and k load cases.
 
-        forces  generalised forces on the m surface nodes (c, m, k)
+        forces  generalised forces on the m surface nodes, the integrals of trace function times
+                traction over r dr (c, m, k)
         nodes   indices of the nodes at which displacements are returned; all nodes by default
         """
         weights = self.motion.resultant_weights(self.section.radii)
@@ -103,9 +105,9 @@ class FactoredSection:
     def _prescribed(self, basis: Basis) -> Field:
         """Return the prescribed displacements on the far boundary for a unit resultant load.
 
-        The values are the displacements of a half-space, or zero for a rigid base or a motion
-        without far field. The array has an entry for every degree of freedom, zero except on the
-        far boundary.
+        The far boundary is the outer edge and the base of the mesh. The displacements are those of
+        a half-space, or zero for a rigid base or for a motion without resultant. The array has an
+        entry for every degree of freedom, zero except on the far boundary.
         """
         values = np.zeros(self._numbering.size)
         outline, far_field = self.section.outline, self.motion.far_field
@@ -156,10 +158,11 @@ def _with_pressure(
 
 
 def _of_elements(basis: Basis, numbering: Numbering) -> tuple[Dofs, Field]:
-    """Return the displacement degrees of freedom of all elements and their factors, both (e, 9 c).
+    """Return the numbers and factors of the displacement unknowns of all elements, both (e, 9 c).
 
-    A nodal displacement is its factor times its degree of freedom. The 9 nodes of each of the c
-    components are contiguous.
+    A nodal displacement is its factor times one degree of freedom. The factor differs from 1 only
+    on the axis, where components are zero or depend on each other. The 9 nodes of each of the c
+    components are contiguous. Used to assemble element matrices.
     """
     shape = (-1, basis.nelems)
     return (

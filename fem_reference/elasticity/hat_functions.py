@@ -23,16 +23,17 @@ SAME = 1e-9
 
 @BilinearForm  # type: ignore[untyped-decorator]
 def product(hat: Any, trace: Any, w: Any) -> Any:
-    """Return the product φ ψ r as integrand of a scikit-fem form.
+    """Return the product φ ψ r that scikit-fem integrates over the radius r.
 
-    φ is a hat function and ψ a quadratic trace function of the radius r.
+    φ is a hat function of the tractions and ψ a quadratic trace function of the displacements. The
+    integrals convert tractions at rings to forces on nodes.
     """
     return hat * trace * w.x[0]
 
 
 @dataclass(frozen=True)
 class TractionBasis(ABC):
-    """Functions φ_j of the radius that span the tractions, and their integrals.
+    """Basis functions φ_j of the radius whose sums represent the surface tractions, with integrals.
 
     There is one function for each of n rings on the surface. ψ_i are the quadratic trace functions
     of the m surface nodes of the displacement.
@@ -49,12 +50,12 @@ class TractionBasis(ABC):
     arms: Field
 
     def compliance(self, nodal: Matrix) -> Matrix:
-        """Compute the ring compliance Mᵀ C M from the nodal compliance C, with M = `products`.
+        """Convert the compliance of the surface nodes to the compliance of the rings (n, n).
 
-        The result (n, n) contains the displacement, integrated over each function φ_i r dr, per
-        unit traction at each ring.
+        The ring compliance Mᵀ C M contains the displacement, integrated over each function φ_i r
+        dr, per unit traction at each ring. M is the matrix `products` of integrals.
 
-        nodal  displacement per generalised force at the surface nodes (m, m) [length/force]
+        nodal  C, displacement per generalised force at the surface nodes (m, m) [length/force]
         """
         weak = self.products.T @ nodal @ self.products
         return np.asarray(weak)

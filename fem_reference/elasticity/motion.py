@@ -20,7 +20,10 @@ FarField = Callable[
 
 @dataclass(frozen=True)
 class Motion:
-    """One harmonic of the displacement, with its conditions on the axis and in the far field.
+    """Displacement field of one angular harmonic, with its conditions on the axis and far away.
+
+    Normal loading, torsion and a tangential load each have one motion. Far from the contact, the
+    displacement of a half-space by the resultant of the tractions is prescribed.
 
     harmonic    n
     components  indices of the components in the motion: u_r (0), u_theta (1), u_z (2)
@@ -44,9 +47,10 @@ class Motion:
         return self.harmonic > 0 or self.components != TORSION.components
 
     def resultant_weights(self, radii: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the factors of the generalised nodal forces in the resultant load, shape (c, m).
+        """Return the factors by which the nodal forces are summed to the resultant load (c, m).
 
-        The resultant is the normal force W, the tangential force T or the torque M_z.
+        The resultant is the normal force W, the tangential force T or the torque M_z. The forces
+        are generalised forces of the c components at m surface nodes.
 
         radii  radii of the surface nodes (m,)
         """

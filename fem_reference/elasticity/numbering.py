@@ -50,8 +50,10 @@ def number_unknowns(
 ) -> Numbering:
     """Number the degrees of freedom of a section and determine the order of their elimination.
 
-    basis  basis of one displacement component
-    mixed  True for elements whose pressure is unknown (e,)
+    section  mesh of the meridional section of a body
+    motion   displacement components, and their conditions on the axis
+    basis    finite-element basis of one displacement component
+    mixed    True for nearly incompressible elements, whose pressure is unknown (e,)
     """
     components, axis = len(motion.components), basis.get_dofs("axis").all()
     surface, far = basis.get_dofs("contact").all(), basis.get_dofs("far").all()
@@ -79,9 +81,10 @@ def number_unknowns(
 
 
 def _elimination_keys(points: NDArray[np.float64], quads: Indices, elements: Indices) -> Indices:
-    """Return two sort keys of each node (2, n) for the order of elimination.
+    """Compute two sort keys of each node for the order of elimination (2, n).
 
-    The second key has priority.
+    Nodes are eliminated in the order of the second key; the first key decides between equal ones.
+    In this order, nodes on the line between two parts of the mesh follow the nodes of both parts.
 
     points, quads  corner positions (2, k), and corner indices of the elements (4, e)
     elements       the 9 nodes of every element (e, 9)
@@ -99,9 +102,13 @@ def _elimination_keys(points: NDArray[np.float64], quads: Indices, elements: Ind
 
 
 def _leaves(points: NDArray[np.float64], quads: Indices) -> Indices:
-    """Return the number of the leaf of the dissection tree that contains each element (e,).
+    """Divide the elements into small groups, the leaves of a binary tree, and number them (e,).
 
-    All subtrees of one level are divided at once, each at the median position of its elements.
+    The mesh is cut in two at the median position of its elements, then each half is cut, and so on.
+    The tree determines the order of elimination. The result contains the number of the leaf of each
+    element.
+
+    points, quads  corner positions (2, k), and corner indices of the elements (4, e)
     """
     corners = points[:, quads]
     low, high = corners.min(axis=1), corners.max(axis=1)

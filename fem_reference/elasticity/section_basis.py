@@ -34,7 +34,16 @@ class ElementQuadLinear(Element):  # type: ignore[misc]
     refdom = RefQuad
 
     def gbasis(self, mapping: Any, X: Any, i: int, tind: Any = None) -> tuple[DiscreteField]:
-        """Evaluate basis function i (0: 1, 1: r, 2: z) at points; see `skfem.Element.gbasis`."""
+        """Evaluate one basis function of the pressure for scikit-fem, at points of the elements.
+
+        The functions are 1, r and z, relative to the middle and the size of the element. The other
+        arguments and the result are those of `skfem.Element.gbasis`.
+
+        mapping, X, tind
+           map from the unit square to the elements, points in the unit square, and indices of the
+           elements; None for all elements
+        i  index of the function: 0 for 1, 1 for r, 2 for z
+        """
         at = mapping.F(X, tind)
         if i == 0:
             return (DiscreteField(np.ones_like(at[0])),)

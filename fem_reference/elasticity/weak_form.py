@@ -60,9 +60,14 @@ def element_stiffness(
 
     The 9 nodal values of a component are contiguous. The volume strain is projected onto linear
     functions of an element (Q2-P1) in every material. This projection prevents locking of nearly
-    incompressible layers and is exact for quadratic displacements. Elements marked `mixed` in
-    `dilatation` have no resistance to volume strain in this matrix, because their pressure is a
-    separate unknown.
+    incompressible layers and is exact for quadratic displacements. Nearly incompressible elements
+    have no resistance to volume strain in this matrix, because their pressure is a separate
+    unknown.
+
+    basis       finite-element basis of one displacement component
+    section     mesh with the materials of the elements
+    harmonic    angular harmonic n
+    components  indices of the components in the motion: u_r (0), u_theta (1), u_z (2)
     """
     strain = _strains_of(basis, harmonic, components)
     volume = _projected_volume(basis, strain)
@@ -79,19 +84,26 @@ def element_stiffness(
 
 
 def volume_strain(basis: Basis, harmonic: int, components: Components) -> Field:
-    """Compute the volume strain of the shape functions, projected onto linear functions.
+    """Compute the volume strain of the shape functions, as linear functions in each element.
 
     The result (e, 9 c, 3) contains the coefficients of 3 orthonormal linear functions, for each of
-    the 9 shape functions of each of the c components.
+    the 9 shape functions of each of the c components. The projection onto linear functions prevents
+    locking of nearly incompressible materials.
+
+    basis       finite-element basis of one displacement component
+    harmonic    angular harmonic n
+    components  indices of the components in the motion: u_r (0), u_theta (1), u_z (2)
     """
     return _projected_volume(basis, _strains_of(basis, harmonic, components))
 
 
 def volume_strain_at(basis: Basis, points: Basis, strain: Field) -> Field:
-    """Evaluate the projected volume strain at the quadrature points of a basis, shape (e, q).
+    """Evaluate the volume strain, given by linear functions in each element, at points (e, q).
 
-    basis   displacement basis with which the strain was projected
-    points  displacement basis at whose quadrature points the strain is evaluated
+    Used to recover the stress at points other than those of the stiffness.
+
+    basis   displacement basis with which the volume strain was projected onto linear functions
+    points  displacement basis at whose q quadrature points the strain is evaluated
     strain  coefficients of the 3 orthonormal linear functions of each element (e, 3)
     """
     return np.einsum("ep,epq->eq", strain, _orthonormal(basis, _linear(points)))
@@ -115,31 +127,35 @@ def _strains_of(basis: Basis, harmonic: int, components: Components) -> dict[str
 
 
 def _projected_volume(basis: Basis, strain: dict[str, Field]) -> Field:
-    """Project the volume strain of the shape functions onto linear functions (e, 9 c, 3).
+    """Project the volume strain of the shape functions onto linear functions of each element.
 
-    The 3 linear functions of an element are orthonormal.
+    The result (e, 9 c, 3) contains the coefficients of 3 orthonormal linear functions, for the 9
+    shape functions of each of the c components.
 
-    strain  strains of the shape functions by name, as returned by `_strains_of`
+    strain  strains of the shape functions at the quadrature points, by name (e, 9 c, q)
     """
     volume = sum(strain[name] for name in NORMAL if name in strain) * basis.dx[:, None]
     return np.asarray(volume @ _orthonormal(basis, _linear(basis)).transpose(0, 2, 1))
 
 
 def _linear(basis: Basis) -> Field:
-    """Evaluate the linear functions of the pressure at the quadrature points (e, 3, q).
+    """Evaluate the basis functions of the pressure, 1, r and z, at the quadrature points (e, 3, q).
 
-    The functions of every element are 1, r and z.
+    The functions of an element are measured from its middle. The volume strain is projected onto
+    these functions.
+
+    basis  displacement basis whose quadrature points are used
     """
     return np.stack([np.asarray(field[0]) for field in pressure_basis(basis).basis], axis=1)
 
 
 def _orthonormal(basis: Basis, linear: Field) -> Field:
-    """Transform the functions 1, r and z of every element to orthonormal linear functions.
+    """Transform the linear functions 1, r and z of each element to orthonormal functions (e, 3, q).
 
-    The shape is (e, 3, q) for q points.
+    The volume strain is projected onto these functions.
 
     basis   displacement basis whose quadrature defines the scalar product
-    linear  values of 1, r and z at the points at which the result is evaluated (e, 3, q)
+    linear  values of 1, r and z at the q points at which the result is evaluated (e, 3, q)
     """
     functions = _linear(basis)
     gram = (functions * basis.dx[:, None]) @ functions.transpose(0, 2, 1)
@@ -164,7 +180,12 @@ class Dilatation:
 
 
 def dilatation(section: SectionMesh) -> Dilatation:
-    """Compute the resistance of every element of a section to a change of volume."""
+    """Compute the resistance of every element of a section to a change of volume.
+
+    Determine also the nearly incompressible elements, whose pressure is a separate unknown.
+
+    section  mesh with the materials of the elements
+    """
     nu = np.array([m.poisson_ratio for m in section.outline.materials])[section.layer]
     softness = (1.0 - 2.0 * nu) / (2.0 * shear_moduli(section))  # nu / lambda
     mixed = 2.0 * nu > STIFFEST * (1.0 - 2.0 * nu)

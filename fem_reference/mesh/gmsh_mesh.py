@@ -48,10 +48,17 @@ class GmshMissing(SolverError):
 def gmsh_section_mesh(
     body: Body, elements_per_radius: int, box: float | None = None, zone: float = CONTACT_ZONE
 ) -> SectionMesh:
-    """Create the mesh of a section by gmsh, for a body whose unit of length is the contact radius.
+    """Create the mesh of the meridional section of a body by gmsh.
 
-    Arguments are those of `section_mesh`. Raise GmshMissing if gmsh or a library that it requires
-    is not installed, and SolverError if gmsh does not fill the section with quadrilaterals.
+    The result verifies the mesh of rectangles by `section_mesh`.
+
+    body    layers and substrate; the unit of length is the contact radius
+    elements_per_radius
+            number of elements per contact radius on the surface of the contact zone
+    box     outer radius and depth of the section, in contact radii; None for a sufficient value
+    zone    least outer radius of the contact zone, in contact radii
+    raises  GmshMissing if gmsh or a library that it requires is not installed; SolverError if gmsh
+            does not fill the section with quadrilaterals; errors of `section_outline`
     """
     outline = section_outline(body, elements_per_radius, box, zone)
     with _gmsh_model() as gmsh:
@@ -79,9 +86,10 @@ def gmsh_section_mesh(
 
 @contextmanager
 def _gmsh_model() -> Iterator[Any]:
-    """Provide the gmsh module with an empty model, as a context manager.
+    """Provide the gmsh module with a new empty model, as a context manager.
 
-    On exit the model is removed and the previous gmsh options are restored.
+    On exit the model is removed and the previous gmsh options are restored. Raise GmshMissing if
+    gmsh cannot be loaded.
     """
     try:
         import gmsh
@@ -120,7 +128,10 @@ def _restore_broken_pipes() -> None:
 
 
 def _set(gmsh: Any, options: Mapping[str, float]) -> None:
-    """Set numerical gmsh options by their names."""
+    """Set numerical gmsh options, such as the meshing algorithm.
+
+    options  value of each option by its gmsh name
+    """
     for name, value in options.items():
         gmsh.option.setNumber(name, value)
 
@@ -167,11 +178,11 @@ def _draw(geometry: Any, outline: SectionOutline) -> None:
 
 
 def _divide(geometry: Any, line: int, elements: NDArray[np.floating[Any]]) -> None:
-    """Set the number of elements of a gmsh line and their geometric progression.
+    """Set the division of a gmsh line into elements whose sizes form a geometric progression.
 
-    Number and progression are those of the given coordinates. The number is rounded up to an even
-    number, because a surface can only be filled with quadrilaterals if its boundary has an even
-    number of elements.
+    The number and the size ratio of the elements are those of the given coordinates. The number is
+    rounded up to an even number, because a surface can only be filled with quadrilaterals if its
+    boundary has an even number of elements.
 
     line      gmsh tag of the line
     elements  coordinates of the element ends along the line

@@ -89,9 +89,9 @@ class SectionMesh:
         return radii
 
     def refined(self) -> "SectionMesh":
-        """Return the mesh with every element divided into 4 elements.
+        """Return a finer mesh in which every element of this mesh is divided into 4 elements.
 
-        The finite-element space of the refined mesh contains that of this mesh.
+        Every finite-element field of this mesh can be represented on the finer mesh.
         """
         mesh = self.mesh.refined()
         finer = replace(self.outline, size=self.outline.size / 2.0)
@@ -133,8 +133,15 @@ def section_mesh(
 ) -> SectionMesh:
     """Create the graded mesh of rectangles for the meridional section of a body.
 
-    The unit of length of the body is the contact radius. Arguments and errors are those of
-    `section_outline`.
+    Elements are equal squares along the surface of the contact zone and grow with the distance from
+    it.
+
+    body    layers and substrate; the unit of length is the contact radius
+    elements_per_radius
+            number of elements per contact radius in the contact zone
+    box     outer radius and depth of the section, in contact radii; None for a sufficient value
+    zone    least outer radius of the contact zone, in contact radii
+    raises  errors of `section_outline`, such as UnsupportedScene for layers that are too thin
     """
     outline = section_outline(body, elements_per_radius, box, zone)
     h = outline.size

@@ -106,13 +106,13 @@ def section_outline(
 
 
 def sufficient_box(body: Body) -> float:
-    """Estimate the least outer radius L of a section, in units of the contact radius.
+    """Estimate the least outer radius L of the mesh of a body, in units of the contact radius.
 
-    The displacement of a half-space of the substrate material is prescribed at this radius. Let x
-    be the sum over the layers of thickness times the relative difference of their stiffness from
-    the substrate. The relative error of the tangential shift is about x / L^2, and that of the
-    approach is smaller. Layers that spread the load (x > 1) cause an error of 0.06 x^2 / L^2. The
-    limit of the error is 1e-5.
+    The displacement of a half-space of the substrate material is prescribed at this radius, with an
+    error due to the layers. Let x be the sum over the layers of thickness times the relative
+    difference of their stiffness from the substrate. The relative error of the tangential shift is
+    about x / L^2, and that of the approach is smaller. Layers that spread the load (x > 1) cause an
+    error of 0.06 x^2 / L^2. The limit of the error is 1e-5.
     """
     thickness = sum(layer.thickness for layer in body.layers)
     x = 0.0
@@ -135,10 +135,14 @@ def _difference(layer: IsotropicMaterial, substrate: IsotropicMaterial) -> float
 
 
 def graded(start: float, end: float, origin: float, size: float) -> NDArray[np.float64]:
-    """Compute the coordinates of graded mesh lines from `start` to `end`, both included.
+    """Compute the coordinates of graded mesh lines between two ends, both included.
 
-    Elements have the given size at `origin`. Neighbouring elements grow by about the factor GROWTH
-    with the distance from there. There are at least LAYER_ELEMENTS elements.
+    Neighbouring elements grow by about the factor GROWTH with the distance from `origin`. There are
+    at least LAYER_ELEMENTS elements.
+
+    start, end  coordinates of the first and the last line
+    origin      coordinate at which elements have the size `size`; it may be outside of the interval
+    size        element size at `origin`
     """
     slope = np.log(GROWTH)
     reach = size * slope / (GROWTH - 1.0)

@@ -40,10 +40,11 @@ GAUSS = 0.5 + np.array([-0.5, 0.5]) / np.sqrt(3.0)
 
 @dataclass(frozen=True, eq=False)
 class Recovery:
-    """Extrapolation of the stress from the 2 x 2 Gauss points of the elements to the nodes.
+    """Method that computes the stress at the nodes from the strains at Gauss points.
 
-    A node on an interface is represented by several points, one for each material. There are n
-    points.
+    The stress at the 2 x 2 Gauss points of an element is extrapolated to its nodes and averaged
+    over the elements that meet there. A node on an interface is represented by several points, one
+    for each material. There are n points.
 
     section, basis  mesh, and basis of one displacement component
     at              the same basis, evaluated at the 2 x 2 Gauss points
@@ -90,9 +91,11 @@ class Recovery:
 
 
 def recovery_of(section: SectionMesh) -> Recovery:
-    """Create the stress recovery on a meridional section.
+    """Create the stress recovery for the mesh of a body, for use with all motions.
 
-    The recovery is independent of the motion.
+    The recovery computes the stress at the nodes from the strains in the elements.
+
+    section  mesh of the meridional section of the body
     """
     xi, eta = (part.ravel() for part in np.meshgrid(GAUSS, GAUSS, indexing="ij"))
     basis = displacement_basis(section)

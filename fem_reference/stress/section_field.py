@@ -76,10 +76,13 @@ class SectionField:
         return self._sorted(self.points[0] == 0.0, self.points[1])
 
     def side(self, depth: float, material: int) -> Indices:
-        """Return the indices of the points on one side of an interface.
+        """Return the indices of the points on one side of an interface between two materials.
 
-        The points have the depth of the interface and belong to one material. The indices are in
-        the order of increasing radius.
+        The indices are in the order of increasing radius. The stress may jump between the two
+        sides.
+
+        depth     depth of the interface [length]
+        material  index of the material on the requested side, 0 for the outermost layer
         """
         on_it = np.isclose(self.points[1], depth, rtol=SAME_DEPTH, atol=0.0)
         return self._sorted(on_it & (self.material == material), self.points[0])
@@ -96,10 +99,11 @@ class SectionField:
         return found[np.lexsort((self.material[found], along[found]))]
 
     def _sum(self, fields: list[Field], as_sine: tuple[int, ...], theta: float) -> Field:
-        """Compute the sum of a field over all motions at the angle theta from the load.
+        """Compute displacement or stress at the angle theta as a sum over the motions of the body.
 
         fields   amplitudes of the field in every motion, such as the stress (6, n)
         as_sine  indices of the components that are ∝ sin n theta; all others are ∝ cos n theta
+        theta    angle from the direction of the load [radian]
         """
         total = np.zeros_like(fields[0])
         for part, field in zip(self.parts, fields, strict=True):

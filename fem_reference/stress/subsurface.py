@@ -50,6 +50,8 @@ def subsurface(
 
     Raises
     ------
+    ValueError
+        The body is rigid.
     UnsupportedScene
         A material is nearly incompressible, so that its pressure does not follow from the strain.
     ResourceRefused
@@ -99,6 +101,9 @@ def _section(body: Body, discretisation: FiniteElementDiscretisation, zone: floa
 
     The elements of a mesh made for displacements grow faster with depth. Such a mesh has a stress
     error of 2e-3 for any element size at the surface.
+
+    body  layers and substrate; the unit of length is the radius of the loaded circle
+    zone  least outer radius of the zone of equal elements, in the same unit
     """
     coarse = max(2, ceil(discretisation.elements_per_radius / 2))
     return section_mesh(body, coarse, discretisation.box, zone).refined()
@@ -132,13 +137,15 @@ class _LoadPoints:
 def _carrying_the_load(
     tractions: SurfaceTractions, points: _LoadPoints, length: float
 ) -> list[tuple[Motion, Field]]:
-    """Return traction amplitudes that are scaled to the normal load of the result.
+    """Compute traction amplitudes whose normal load is equal to that of the contact solve.
 
-    The amplitudes are those at the integration points. The result of a solve has linear
-    interpolation between rings. Tractions with a square root at the edge have a slightly larger
-    load and are reduced accordingly.
+    The contact solve interpolates tractions linearly between rings. Tractions that decrease like a
+    square root at the contact edge have a slightly larger load. All amplitudes are therefore
+    multiplied by the ratio of the loads. Each item of the list contains a motion and its amplitudes
+    at the integration points.
 
-    length  unit of length of the section [length]
+    points  integration points of the tractions
+    length  unit of length of the mesh [length]
     """
     radii, weight = points.radii * length, points.weighted.sum(axis=0)
     found = tractions.amplitudes(radii)

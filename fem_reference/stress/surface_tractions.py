@@ -73,7 +73,8 @@ class SurfaceTractions:
     def loaded_radius(self) -> float:
         """Radius of the last ring with pressure [length].
 
-        If only the axis carries pressure, the radius is that of the next ring.
+        If only the axis carries pressure, the radius is that of the next ring. Used as unit of
+        length of the mesh for the stress unless a contact radius is prescribed.
         """
         loaded = self.pressure.reshape(len(self.radii), -1).max(axis=1) > 0
         last = np.flatnonzero(loaded)[-1]
@@ -81,9 +82,9 @@ class SurfaceTractions:
 
     @property
     def reach(self) -> float:
-        """Radius of the first ring without pressure [length].
+        """Outer radius of the interpolated pressure: the first ring without pressure [length].
 
-        Linear interpolation of the pressure ends at this ring. If all rings carry pressure, the
+        The pressure is interpolated linearly to zero at this ring. If all rings carry pressure, the
         radius is that of the last ring.
         """
         beyond = self.radii[self.radii > self.loaded_radius]
@@ -128,9 +129,10 @@ class SurfaceTractions:
 
     @property
     def _fewest(self) -> float:
-        """Number of elements that carry pressure on the ray with the fewest such elements.
+        """Least number of elements with pressure on any ray of the contact.
 
-        A ray is the set of points at one angle.
+        A ray is the set of points at one angle. The contact edge cannot be located with too few
+        elements.
         """
         return float(np.min(np.count_nonzero(self._rays > 0, axis=0)) / self._per_element)
 
@@ -172,23 +174,26 @@ class SurfaceTractions:
         return np.array([contact_edge(self.radii, ray, edge) for ray in self._rays.T])
 
     def _linear(self, radii: Field, rays: Field) -> Field:
-        """Interpolate tractions linearly between rings and return their harmonics.
+        """Interpolate the surface tractions linearly between rings, and compute their harmonics.
 
-        The shape of the result is (4, radii, harmonics).
+        The result contains amplitudes of the tractions (4, radii, harmonics).
 
-        rays  q_r, q_theta, shear along the load, and pressure (4, rings, angles)
+        radii  radii at which the tractions are evaluated [length]
+        rays   q_r, q_theta, shear along the load, and pressure (4, rings, angles)
         """
         found = [[np.interp(radii, self.radii, ray) for ray in part.T] for part in rays]
         return self._harmonics(np.swapaxes(found, 1, 2))
 
     def _rooted(self, radii: Field, rays: Field) -> Field:
-        """Interpolate tractions that decrease to zero like a square root at the contact edge.
+        """Interpolate surface tractions that decrease like a square root to the contact edge.
 
-        Return the amplitudes of their harmonics (4, radii, harmonics). The ratio of shear to
-        pressure and the smooth factor of the pressure are interpolated between rays first, because
-        the radius of the contact edge differs from ray to ray.
+        The pressure is √(1 - r²/a²) times a smooth factor, with the radius a of the contact edge.
+        The shear is the pressure times a ratio. Factor and ratio are interpolated between the rays
+        first, because a differs from ray to ray. The result contains amplitudes of the tractions
+        (4, radii, harmonics).
 
-        rays  q_r, q_theta, shear along the load, and pressure (4, rings, angles)
+        radii  radii at which the tractions are evaluated [length]
+        rays   q_r, q_theta, shear along the load, and pressure (4, rings, angles)
         """
         factors = np.empty((4, len(radii), rays.shape[2]))
         for ray, edge in enumerate(self._edges):
@@ -213,11 +218,13 @@ class SurfaceTractions:
         return self._harmonics(factors, fine)[..., : self._grid.highest + 1]
 
     def _harmonics(self, values: Field, grid: AngularGrid | None = None) -> Field:
-        """Transform tractions at angles (4, radii, angles) to harmonics (4, radii, harmonics).
+        """Transform surface tractions at several angles to amplitudes of angular harmonics.
 
-        Axisymmetric tractions are returned unchanged.
+        The result has the shape (4, radii, harmonics). Axisymmetric tractions are returned
+        unchanged.
 
-        grid  angular grid of the values; None for the rays of these tractions
+        values  q_r, q_theta, shear along the load, and pressure (4, radii, angles)
+        grid    angular grid of the values; None for the rays on which these tractions are given
         """
         if self.angles is None:
             return values
@@ -229,8 +236,9 @@ class SurfaceTractions:
 def _smooth_factor(radii: Field, at: Field, pressed: Field, edge: float, per_element: int) -> Field:
     """Compute the smooth factor p / √(1 - r²/a²) of the pressure p on one ray, at given radii.
 
-    a is the radius of the contact edge. Near the edge the factor is a straight line, which is
-    fitted without the last element.
+    a is the radius of the contact edge. The factor varies slowly up to the edge and can therefore
+    be interpolated. Near the edge the factor is a straight line, which is fitted without the last
+    element.
 
     radii        radii at which the factor is evaluated [length]
     at, pressed  radii and pressures of the rings with pressure
