@@ -82,9 +82,9 @@ def expected_radius(scene: Scene) -> float:
 def _extremes(scene: Scene) -> list[LoadRamp]:
     """Return the load steps with the largest normal load, for the estimate of the contact radius.
 
-    The list contains the load ramp with the largest final force and the load ramp with the largest
-    final approach, as far as force or approach control occurs in the history. A load ramp is the
-    linear change of the loads in one load step.
+    The list contains the load ramp with the largest final force, if force control occurs in the
+    history, and the load ramp with the largest final approach, if approach control occurs. A load
+    ramp is the linear change of the loads in one load step.
     """
     ramps = scene.load_path()
     kinds = [[r for r in ramps if r.normal.kind is kind and r.normal.end] for kind in ControlKind]

@@ -138,8 +138,8 @@ def _path_matters(ramps: tuple[LoadRamp, ...], path: Path) -> tuple[bool, ...]:
 def _increments(scene: Scene, matters: tuple[bool, ...]) -> tuple[int, ...]:
     """Determine the number of increments of each load step.
 
-    The number is the one that the scene requests, or else the number that path dependence and
-    closed load cycles require.
+    The number is the one that the scene requests, if there is one. Otherwise it is the larger of
+    two numbers: for the path dependence of friction, and for closed load cycles.
 
     matters  for each load step, True if its final state depends on the number of increments
     """

@@ -80,7 +80,9 @@ class CoupledProblem:
     def capacity(self, pressure: Vector) -> float:
         """Compute the largest tangential load that friction can carry under a given pressure.
 
-        The load is a force or a torque.
+        The load is a force, or a torque in torsion. Used to detect gross slip.
+
+        pressure  pressure at the points (points,) [force/length^2]
         """
         lever = np.hypot(*self.compliance.motion)
         return float(np.sum(self.compliance.areas * lever * self.bound(pressure)))

@@ -1,11 +1,10 @@
-"""Convex quadratic programs with bounds, common to the normal and the tangential problem.
+"""Convex quadratic programs with bounds: the form of the normal problem at a given shear.
 
     minimise ½ xᵀA x - cᵀx   with   lower <= x <= upper   and, optionally,   v·x = t
 
-A is symmetric and positive definite. The contact pressure has the bounds (0, ∞). Its gradient is
-the gap, and the multiplier of the prescribed force is the approach. Shear below a given friction
-limit has the bounds ±µp. Its gradient is the slip, and the multiplier is the shift (Tresca's
-problem).
+A is symmetric and positive definite. In the normal problem, x is the pressure with the bounds
+(0, ∞). The gradient A x - c - λ v is the gap, weighted with the areas of the points. The multiplier
+λ of the prescribed force is the approach.
 
 A primal-dual active-set method improves a guess of the components at their bounds (Hintermüller,
 Ito and Kunisch 2002). Each step solves the equations of the free components exactly. No component

@@ -134,7 +134,7 @@ class _Path:
         return reached.root
 
     def _go_to(self, reached: _Reached) -> None:
-        """Accept a converged point of the continuation path as the current point.
+        """Move the current point of the continuation path to a converged point.
 
         The direction of the path and the length of the next step are updated.
 
@@ -147,7 +147,7 @@ class _Path:
             self._length = min(GROWTH * self._length, LONGEST)
 
     def _shorten(self) -> None:
-        """Halve the step length of the continuation after a failed correction.
+        """Reduce the step length of the continuation by half after a failed correction.
 
         If the step length falls below SHORTEST, the point is at a kink of the path. The direction
         is then replaced by the direction on the other side of the kink.
@@ -226,9 +226,10 @@ class _Path:
 def _scales(equations: Equations, at: Iterate, softness: float) -> Vector:
     """Compute the units by which the unknowns of the contact equations are scaled (3 points + 3,).
 
-    Tractions are weighted with the areas of their points.
+    The continuation measures lengths in the scaled unknowns: tractions, rigid motion and spring
+    compliance. Tractions are weighted with the areas of their points.
 
-    at        iterate from which mean pressure and approach are taken
+    at        iterate from which mean pressure, shift and approach are taken
     softness  compliance of the bodies at a point, unit of the spring compliance [length^3/force]
     """
     w, n = equations.w, equations.n

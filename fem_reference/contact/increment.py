@@ -463,7 +463,7 @@ class _Increment:
 
 
 def _solved(problem: CoupledProblem, start: Start, tolerance: float) -> CoupledSolution:
-    """Solve the coupled problem by the first of three algorithms that converges.
+    """Solve pressure and shear of an increment by the first of three algorithms that converges.
 
     The algorithms are alternating iteration, Newton's method and continuation. For coupled bodies
     the alternating iteration provides the initial guess of Newton's method, which then converges to
@@ -471,6 +471,11 @@ def _solved(problem: CoupledProblem, start: Start, tolerance: float) -> CoupledS
     continues. Only the alternating iteration can end at the friction limit, where the motion of the
     indenter is undefined. If the alternating iteration fails, Newton's method and then continuation
     start from the initial guess of the increment.
+
+    problem    compliance, gap, friction and prescribed loads of the increment
+    start      initial guess of tractions and rigid motion
+    tolerance  limit of the relative residual of the algorithm [1]
+    raises     NotConverged
     """
     outer_iterations = spent = 0
     try:

@@ -143,9 +143,11 @@ def _edges(contact: PointContact, state: PointState) -> Field:
 
 
 def _contact_area(contact: PointContact, edges: Field) -> float:
-    """Compute the contact area from the radius of the contact edge on every ray [length^2].
+    """Compute the contact area at the end of an increment, ½∫a² dθ [length^2].
 
-    The area is ½∫a² dθ with the radius a of the edge.
+    a is the radius of the contact edge, and θ the angle around the axis.
+
+    edges  a on every ray (angles,) [length]; a ray is the set of points at one angle
     """
     return float(0.5 * np.sum(contact.compliance.grid.weights * np.square(edges)))
 

@@ -140,10 +140,10 @@ def _sum(areas: Vector, vectors: Field) -> float:
 
 
 def _lowest(K: Matrix, slope: Field, q: Field, end: Field) -> tuple[Field, float]:
-    """Minimise the energy of the tangential problem on the line between two shear fields.
+    """Compute the shear of least energy on the line between two shear fields.
 
-    The energy is ½ qᵀKq − cᵀq. Return the shear of least energy and the decrease of the energy from
-    q.
+    The energy is that of the tangential problem, ½ qᵀKq − cᵀq. Return the shear and the decrease of
+    the energy from q.
 
     K       compliance matrix (2 points, 2 points)
     slope   gradient of the energy at q (2, points)

@@ -50,7 +50,7 @@ class NodalCompliance:
 
     @property
     def harmonic(self) -> int:
-        """Angular harmonic n of the tractions and displacements."""
+        """Angular harmonic n of the tractions and displacements that the compliance relates."""
         return self.motion.harmonic
 
 

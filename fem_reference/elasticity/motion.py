@@ -105,9 +105,13 @@ SHEARING = Motion(1, (0, 1, 2), (1.0, -1.0, 0.0), (np.pi, -np.pi, 0.0), 0, cerru
 
 
 def motion(harmonic: int) -> Motion:
-    """Return the motion of a body under surface tractions of an angular harmonic n >= 0.
+    """Return the form of the displacement field of a body for one angular harmonic n.
 
-    For n = 0 the motion is that of normal loading, not torsion. Raise ValueError for a negative n.
+    The result contains the displacement components and their conditions on the axis and far away.
+    The surface tractions have the same harmonic. For n = 0 the loading is normal, not torsion.
+    Raise ValueError for a negative n.
+
+    harmonic  n >= 0
     """
     if harmonic < 0:
         raise ValueError(f"harmonic {harmonic} is not 0, 1, 2, ...")

@@ -23,7 +23,7 @@ LEAF = 4  # number of elements in a subtree that is not divided further
 
 @dataclass(frozen=True, eq=False)
 class Numbering:
-    """Degrees of freedom of a section, and the order of their elimination.
+    """Degrees of freedom of the mesh of one body, and the order of their elimination.
 
     Each nodal displacement is a factor times one degree of freedom. The displacement components of
     a node on the axis share one degree of freedom.

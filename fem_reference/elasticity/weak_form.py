@@ -127,10 +127,10 @@ def _strains_of(basis: Basis, harmonic: int, components: Components) -> dict[str
 
 
 def _projected_volume(basis: Basis, strain: dict[str, Field]) -> Field:
-    """Project the volume strain of the shape functions onto linear functions of each element.
+    """Compute the projection of volume strains of shape functions onto linear functions.
 
-    The result (e, 9 c, 3) contains the coefficients of 3 orthonormal linear functions, for the 9
-    shape functions of each of the c components.
+    The result (e, 9 c, 3) contains the coefficients of 3 orthonormal linear functions of each
+    element, for the 9 shape functions of each of the c components.
 
     strain  strains of the shape functions at the quadrature points, by name (e, 9 c, q)
     """

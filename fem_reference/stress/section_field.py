@@ -69,9 +69,10 @@ class SectionField:
 
     @cached_property
     def axis(self) -> Indices:
-        """Indices of the points on the axis, in the order of increasing depth.
+        """Indices of the points on the axis of the body, in the order of increasing depth.
 
-        At an interface the point of the upper material is first.
+        Used for the stress along the axis. At an interface the point of the upper material is
+        first.
         """
         return self._sorted(self.points[0] == 0.0, self.points[1])
 

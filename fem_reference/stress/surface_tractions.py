@@ -35,17 +35,20 @@ BETWEEN_RAYS = 2  # number of rays for the tractions per ray of the solution
 
 @dataclass(frozen=True, eq=False)
 class SurfaceTractions:
-    """Tractions on the lower body as functions of the radius; names and signs as in `Increment`.
+    """Tractions on the lower body as functions of the radius, for the stress below the surface.
 
-    By default the tractions are linear between rings. With `rooted`, the pressure is √(1 - r²/a²)
-    times a linear interpolant, with the radius a of the contact edge on every ray. The shear is
-    then the pressure times a linear interpolant. This form matters for the stress near an edge,
-    which depends on the tractions of the last element.
+    Pressure and shear are fields of an increment, given on rings. By default the tractions are
+    linear between rings. With `rooted`, the pressure is √(1 - r²/a²) times a linear interpolant,
+    with the radius a of the contact edge on every ray. The shear is then the pressure times a
+    linear interpolant. This form matters for the stress near an edge, which depends on the
+    tractions of the last element.
 
-    radii   radii of the rings (rings,) [length]
-    angles  None, or angles (angles,) for fields (rings, angles)
+    radii   radii of the rings, circles around the axis on the surface (rings,) [length]
+    angles  None for axisymmetric fields (rings,), or angles of the rays (angles,) for fields
+            (rings, angles)
     rooted  True if pressure and shear decrease to zero like the root of the distance from the edge
-    edge    polynomial for the distance of the edge from the last ring, see `beyond_pressure`
+    edge    coefficients of the polynomial from the ratio of the last two pressures to the distance
+            of the edge from the last ring with pressure, in elements
     """
 
     radii: Field
@@ -106,10 +109,12 @@ class SurfaceTractions:
         return np.array([np.sum(amplitudes), np.sum(amplitudes[::2]) - np.sum(amplitudes[1::2])])
 
     def amplitudes(self, radii: Field) -> list[tuple[Motion, Field]]:
-        """Compute the traction amplitudes of all motions at given radii.
+        """Compute the amplitudes of the surface tractions in all angular harmonics, at given radii.
 
-        Each item of the list contains a motion and the amplitudes (c, radii) of its components
-        among q_r, q_theta and p [force/length^2].
+        Each item of the list contains a motion (harmonic and displacement components) and the
+        amplitudes (c, radii) of its components among q_r, q_theta and p [force/length^2].
+
+        radii  radii at which the tractions are evaluated [length]
         """
         nothing = np.zeros_like(self.pressure)
         shear = (self.shear_radial, self.shear_circumferential, self.shear_along_load)
