@@ -158,7 +158,12 @@ def _sheared(
 
 
 def _hats(radii: Field) -> Hats:
-    """Create the hat functions whose corner nodes are the given rings (rings,) [length]."""
+    """Create the hat functions over the radius whose corner nodes are the given rings.
+
+    Used to integrate fields of an increment over the surface.
+
+    radii  radii of the rings, circles around the axis on the surface (rings,) [length]
+    """
     nodes = np.empty(2 * len(radii) - 1)
     nodes[::2] = radii
     nodes[1::2] = 0.5 * (radii[:-1] + radii[1:])

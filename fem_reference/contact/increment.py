@@ -138,7 +138,11 @@ class _Pass:
 
     @property
     def overlap(self) -> float:
-        """Largest overlap of the surfaces that the penalty springs permit [length]."""
+        """Largest overlap of the surfaces that the penalty springs permit [length].
+
+        The overlap is the normal deformation of the springs at points with pressure. The exact law
+        has none.
+        """
         loaded = self.solution.pressure > 0
         return float(np.max(np.abs(self.strain[2]), where=loaded, initial=0.0))
 

@@ -83,8 +83,10 @@ def length(vectors: Field) -> Vector:
 
 
 def longest(vectors: Field) -> float:
-    """Compute the Euclidean length of the longest vector among all points.
+    """Compute the largest magnitude of a tangential vector field among all points.
 
-    vectors  tangential vectors at the points, such as shear or slip (2, points)
+    Used as the displacement to which the residual of the slip direction is relative.
+
+    vectors  tangential vectors at the points, such as displacements (2, points)
     """
     return float(np.max(length(vectors)))

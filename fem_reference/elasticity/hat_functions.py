@@ -83,7 +83,9 @@ class Hats(TractionBasis):
 
 
 def corners_under(nodes: Field, reach: float) -> int:
-    """Count the corner nodes from the axis out to a given radius.
+    """Count the corner nodes on the surface from the axis out to a given radius.
+
+    Used to end the tractions at the rim of the indenter.
 
     nodes  radii of corner and midside nodes, alternating; corners have the even indices [length]
     reach  outer radius [length]

@@ -23,7 +23,8 @@ class Motion:
     """Displacement field of one angular harmonic, with its conditions on the axis and far away.
 
     Normal loading, torsion and a tangential load each have one motion. Far from the contact, the
-    displacement of a half-space by the resultant of the tractions is prescribed.
+    displacement of a half-space by the resultant of the tractions is prescribed, or zero if there
+    is no resultant.
 
     harmonic    n
     components  indices of the components in the motion: u_r (0), u_theta (1), u_z (2)
