@@ -108,6 +108,7 @@ def _solved_increments(
 
     The increments of the checkpoint come first. Newly solved increments follow.
 
+    scene     contact problem
     solver    solver of single increments, created by `_solver`
     plan      number of increments of each load step
     store     checkpoints; None if the run stores none
@@ -196,6 +197,10 @@ class _Solver(StepsOnRings):
         """Create the solver of load steps without friction for a scene.
 
         The output rings are placed over the largest contact of the load history.
+
+        scene           contact problem
+        discretisation  number of output rings, and tolerance of the residuals
+        fineness        multiple of the numbers of polynomials and quadrature points
         """
         bodies = Bodies.of(scene)
         largest = tuple(

@@ -55,6 +55,8 @@ def _radius(bodies: Bodies, scene: Scene, target: Target) -> float:
     The contact has no friction. Below an indenter with a rim, the radius of the rim is returned.
     Otherwise a secant iteration with few polynomials gives the radius to a few percent.
 
+    bodies  normal response of both bodies
+    scene   contact problem, with the indenter
     target  prescribed normal force or approach
     """
     if scene.indenter.rim is not None:

@@ -30,7 +30,11 @@ PUSHED, WHOLE, PER_WAVE_PUSHED, DRAWN = 133 << 20, 246 << 20, 8_600, 181 << 20
 def estimated_bytes(scene: Scene, plan: Plan) -> int:
     """Estimate the peak memory of a run, including the coarse solve and the figures [byte].
 
-    Raises UnsupportedScene if the largest contact is too large for the thickness of its layers.
+    The coarse solve serves the error estimate. Raises UnsupportedScene if the largest contact is
+    too large for the thickness of its layers.
+
+    scene  contact problem
+    plan   effects of the scene, and number of increments of each load step
     """
     reported = LIGHT * sum(plan.increments)
     libraries = LIBRARIES + reported

@@ -143,6 +143,7 @@ def _twists(ramp: LoadRamp, curved: bool) -> bool:
     The load step has a nonzero torque or twist, or the twist is free while the tangential loads of
     the history are not on one line.
 
+    ramp    load step
     curved  true if the tangential loads of the history are not on one line
     """
     return bool(ramp.twisting.end) or (curved and ramp.twisting.kind is ControlKind.FORCE)
@@ -173,7 +174,12 @@ def _circle(
 
 
 def _normal_changes_in_torsion(ramps: tuple[LoadRamp, ...]) -> bool:
-    """Return true if the normal load changes in the first load step with torsion or a later one."""
+    """Return true if the normal load changes in the first load step with torsion or a later one.
+
+    The shear of torsion then has no closed form.
+
+    ramps  load steps of the history
+    """
     twisted = False
     for ramp in ramps:
         twisted = twisted or bool(ramp.twisting.end)

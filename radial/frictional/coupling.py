@@ -117,12 +117,12 @@ class Coupling:
         return np.asarray(found)
 
     def added(self, waves: Waves, radius: float) -> Array:
-        """Return the contribution of layers to the surface responses at wavenumbers k (4, κ).
+        """Compute the contribution of layers to the surface responses at wavenumbers k (4, κ).
 
         The responses are displacements per unit traction, times k [length²/force]: c11 along the
         wave vector, c12 coupling, c22 normal, csh transverse. They are summed over both bodies.
-        Wavenumbers are k = κ/radius.
 
+        waves   dimensionless wavenumbers κ = k times radius
         radius  contact radius [length]
         """
         k = waves.rule[0] / radius

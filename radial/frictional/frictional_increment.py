@@ -54,7 +54,7 @@ class FrictionalState:
 
     @property
     def normal_force(self) -> float:
-        """Return the normal force: the prescribed value, or that of the solved contact [force]."""
+        """Return the normal force: prescribed, or computed under a prescribed approach [force]."""
         return self.end.load if self.target.force is None else self.target.force
 
     @property
@@ -134,11 +134,13 @@ def frictional_state(
 
 
 def stick_share(end: FrictionalContact) -> float:
-    """Return the stick radius over the contact radius [1].
+    """Compute the stick radius over the contact radius from the slip of the nodes [1].
 
     The stick radius is that of a circle with the area of the stick zone. Near the border of the
     stick zone, slip is proportional to the power 3/2 of the distance. This law determines the
     border between two nodes.
+
+    end  solved contact at the end of the increment
     """
     x, slides = end.rings.x, end.sliding != 0
     slides[0] = False
@@ -157,10 +159,12 @@ def stick_share(end: FrictionalContact) -> float:
 
 
 def finite_pressure(end: FrictionalContact) -> Array:
-    """Return the pressure at the nodes, with a finite value at the axis (n + 1,) [force/length²].
+    """Return the nodal pressure with a finite value at the axis (n + 1,) [force/length²].
 
     Below a tip the pressure at the axis is infinite. It is replaced by the pressure at the adjacent
     node.
+
+    end  solved contact
     """
     p = end.pressure
     return p if np.isfinite(p[0]) else np.concatenate([p[1:2], p[1:]])

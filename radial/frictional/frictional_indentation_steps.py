@@ -94,7 +94,10 @@ class FrictionalSteps(StepsOnRings):
 
         The output rings are placed over the largest contact of the load history.
 
-        fineness  multiple of the number of rings, and of the number of solves within an increment
+        scene           contact problem
+        discretisation  number of output rings, and tolerance of the residuals
+        fineness        multiple of the number of rings, and of the number of solves within an
+                        increment
         """
         coupling = Coupling.of(scene)
         largest = tuple(
@@ -326,13 +329,14 @@ class FrictionalSteps(StepsOnRings):
         return of_contact(increment, self.scene.rig)
 
     def _shear(self, state: FrictionalState, p: Array, r: Array) -> Array:
-        """Return the radial shear at the output rings (n,) [force/length²].
+        """Interpolate the radial shear to the output rings (n,) [force/length²].
 
         The ratio of shear to friction limit is interpolated from the nodes and multiplied by the
         friction limit at the rings. Interpolation of the shear would be less accurate.
 
-        p  pressure at the rings (n,) [force/length²]
-        r  radii of the rings (n,) [length]
+        state  state at the end of the increment
+        p      pressure at the rings (n,) [force/length²]
+        r      radii of the rings (n,) [length]
         """
         end = state.end
         share = end.shear[1:-1] / self.friction.limit(end.pressure[1:-1])
@@ -370,7 +374,10 @@ def _beyond(r: Array, field: Array, limit: float) -> Callable[[Array], Array]:
     spline, last = CubicSpline(r, field), r[-1]
 
     def at(radii: Array) -> Array:
-        """Evaluate the interpolated and continued surface field at given radii [length]."""
+        """Evaluate the interpolated and continued surface field at given radii (…).
+
+        radii  radii, inside or outside the contact [length]
+        """
         near = spline(np.minimum(radii, last))
         return np.asarray(limit + (near - limit) * last / np.maximum(radii, last))
 

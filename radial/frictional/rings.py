@@ -55,7 +55,7 @@ class Rings:
 
     @property
     def count(self) -> int:
-        """Return the number of elements, the intervals between adjacent nodes."""
+        """Return the number n of elements, the intervals between nodes along the radius."""
         return len(self.x) - 1
 
     @cached_property
@@ -89,12 +89,13 @@ class Rings:
 
     @cached_property
     def logarithmic(self) -> tuple[Array, Array]:
-        """Return the direct responses of half-spaces to traction on rings (rows, columns).
+        """Compute the direct responses of half-spaces to tractions on rings (rows, columns).
 
         They are the normal displacement by pressure, ∫ G₀ φ s ds, and the radial displacement by
         radial shear, ∫ G₁ φ s ds. φ is the hat function of a node. The kernel G_m = ∫₀^∞ J_m(kx)
         J_m(ks) dk is logarithmic at s = x and has complete elliptic integrals (Gradshteyn and
         Ryzhik 6.512.1, 8.1). Rows are positions x of displacements, columns nodes of tractions.
+        Lengths are in units of the contact radius.
         """
         inner, length = self.x[:-1], np.diff(self.x)
         v, weights = unit_gauss(POINTS)
@@ -121,12 +122,12 @@ class Rings:
 
     @cached_property
     def sideways(self) -> tuple[Array, Array]:
-        """Return the coupling responses of half-spaces to traction on rings (rows, columns).
+        """Compute the coupling responses of half-spaces to tractions on rings (rows, columns).
 
         They are the normal displacement by radial shear, ∫ₓ¹ φ ds, and the radial displacement by
         pressure, (1/x) ∫₀ˣ φ s ds. φ is the hat function of a node. The kernel ∫₀^∞ J₀(kr) J₁(ks)
         dk is 1/s for r < s, else 0 (Gradshteyn and Ryzhik 6.512.3). Rows are positions x of
-        displacements, columns nodes of tractions.
+        displacements, columns nodes of tractions. Lengths are in units of the contact radius.
         """
         inner, outer = self.x[:-1], self.x[1:]
         x = self.places[:, None]

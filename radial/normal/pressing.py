@@ -111,7 +111,7 @@ class NormalContact:
 
     @property
     def normal_force(self) -> float:
-        """Return the normal force: the prescribed value, or that of the solved contact [force]."""
+        """Return the normal force: prescribed, or computed under a prescribed approach [force]."""
         return self.contact.load if self.target.force is None else self.target.force
 
     @property
@@ -131,6 +131,8 @@ def normal_contact(
 
     The contact radius follows from a secant method, or is that of the rim of the indenter.
 
+    bodies    normal response of both bodies
+    indenter  shape of the indenter
     target    prescribed normal force or approach
     fineness  multiple of the numbers of polynomials and quadrature points
     raises    NotConverged, and UnsupportedScene for a gap that is not smooth
@@ -215,11 +217,18 @@ def first_radius(bodies: Bodies, indenter: ShapedBody, target: Target) -> float:
     Under a prescribed approach the estimate is the radius r at which the undeformed gap f(r) equals
     the approach. Under a prescribed force, E r f(r) equals the force, with the upper bound E of all
     moduli. An estimate from below saves time, because larger radii are more expensive with layers.
+
+    bodies    normal response of both bodies
+    indenter  shape of the indenter
+    target    prescribed normal force or approach
     """
     modulus = bodies.stiffest
 
     def short(r: float) -> bool:
-        """Return true if a radius r [length] is smaller than the estimate of the contact radius."""
+        """Return true if a trial radius is smaller than the estimate of the contact radius.
+
+        r  trial radius [length]
+        """
         gap = float(indenter.initial_gap(r, 0.0))
         if target.force is None:
             return gap < (target.approach or 0.0)

@@ -108,10 +108,13 @@ def profile(indenter: ShapedBody, radius: float, fineness: int = 1) -> Profile:
 
 
 def _coefficients(indenter: ShapedBody, radius: float, count: int) -> Array:
-    """Return the Chebyshev coefficients in 2r/a - 1 of the undeformed gap over a contact [length].
+    """Fit a Chebyshev series in 2r/a - 1 to the undeformed gap over a contact.
 
-    radius  contact radius a [length]
-    count   number of Chebyshev points and coefficients
+    Returns the coefficients (count,) [length].
+
+    indenter  shape of the indenter
+    radius    contact radius a [length]
+    count     number of Chebyshev points and coefficients
     """
     places, fit = _fit(count)
     return np.asarray(fit @ indenter.initial_gap(radius * places, 0.0))

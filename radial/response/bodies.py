@@ -94,12 +94,13 @@ class Bodies:
 
 @lru_cache(maxsize=CACHED)
 def added_by(stack: Stack, waves: Waves, radius: float) -> SurfaceScalars:
-    """Compute the surface response of a body minus that of a half-space of its outermost material.
+    """Compute the contribution of layers to the surface response of one body at wavenumbers (κ,).
 
-    The responses are displacements per unit traction at the wavenumbers κ/radius (κ,)
-    [length³/force].
+    The result is the response of the body minus that of a half-space of its outermost material. The
+    responses are displacements per unit traction [length³/force].
 
-    waves   dimensionless wavenumbers κ
+    stack   the body with its layers
+    waves   dimensionless wavenumbers κ, the wavenumber times `radius`
     radius  contact radius [length]
     """
     return remainder_scalars(stack, waves.rule[0] / radius)

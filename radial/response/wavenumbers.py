@@ -49,7 +49,7 @@ class Waves(NamedTuple):
 
     @property
     def rule(self) -> tuple[Array, Array]:
-        """Return the quadrature points κ (n,) and their weights (n,)."""
+        """Return the Gauss points κ (n,) of the wavenumbers, and their quadrature weights (n,)."""
         return _rule(self)
 
     def even_transforms(self, count: int) -> Array:

@@ -155,7 +155,10 @@ def _least_squares(
     """
 
     def terms(s: Array, angle: Array) -> Array:
-        """Return the terms cos mθ s^k of the least-squares fit at points (…, terms)."""
+        """Return the terms cos mθ s^k of the least-squares fit at points (…, terms).
+
+        s, angle  coordinates s = 1 - r²/a² and θ of the points (…)
+        """
         return np.stack([
             np.cos(m * angle) * s**k for m in range(HARMONICS + 1) for k in range(powers + 1)
         ], axis=-1)  # fmt: skip

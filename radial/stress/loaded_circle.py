@@ -40,7 +40,7 @@ class LoadedCircle:
 
     @property
     def is_round(self) -> bool:
-        """Return true if the tractions are axisymmetric."""
+        """Return true if the tractions are axisymmetric, so that `smooth` has one angle."""
         return self.smooth.shape[2] == 1
 
     @property

@@ -120,9 +120,11 @@ def _initial_guesses(
 
 
 def _given(loads: Loads) -> Array:
-    """Return the prescribed tangential force along and across θ = 0, and the torque (3,).
+    """Return the prescribed tangential forces along and across θ = 0, and the torque (3,).
 
     The units are force and force length. Components with a prescribed motion are 0.
+
+    loads  prescribed loads and motions
     """
     return np.array([force or 0.0 for force in loads.forces[:NORMAL]])
 

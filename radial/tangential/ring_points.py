@@ -217,7 +217,10 @@ class Points:
 
     @cached_property
     def round(self) -> Points:
-        """Return the points of an axisymmetric contact: the same nodes with one angle."""
+        """Return the points for an axisymmetric contact: equal nodes with one angle per ring.
+
+        Used as long as no tangential load acts.
+        """
         return replace(self, energies=self.energies[:1], circle=Circle.ONE)
 
     def every_angle(self, field: Array) -> Array:

@@ -85,12 +85,12 @@ class PointState:
 
     @property
     def pressure(self) -> Array:
-        """Return the pressure at the points (N,) [force/length²]."""
+        """Return the pressure p at all points of the contact (N,) [force/length²]."""
         return self.tractions[2 * len(self.share) :]
 
     @property
     def shear(self) -> Array:
-        """Return the radial and circumferential shear at the points (2, N) [force/length²]."""
+        """Return the radial and circumferential shear at all points (2, N) [force/length²]."""
         return self.tractions[: 2 * len(self.share)].reshape(2, -1)
 
     @property
@@ -99,9 +99,11 @@ class PointState:
         return float(self.motion[NORMAL])
 
     def forces(self, points: Points) -> Array:
-        """Return the resultants of the tractions (4,) [force, force length].
+        """Compute the resultants of the tractions (4,) [force, force length].
 
-        They are the tangential force along and across θ = 0, the torque and the normal force.
+        They are the tangential force along θ = 0 and across it, the torque and the normal force.
+
+        points  points of the contact, with their areas
         """
         return carried(points, self.tractions)
 

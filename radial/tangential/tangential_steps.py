@@ -100,7 +100,10 @@ class TangentialSteps(StepsOnRings):
         The radii of the contacts at the ends of the load steps are solved first, because rings are
         dense at the edges.
 
-        angle_factor  factor of the planned number of angles
+        scene           contact problem
+        discretisation  settings, of which only the tolerance of the residuals is used
+        plan            effects of the scene, numbers of rings and angles
+        angle_factor    factor of the planned number of angles
         """
         assert scene.friction is not None
         assert plan.circle is not None
@@ -176,7 +179,10 @@ class TangentialSteps(StepsOnRings):
         return ramp.normal.prescribed(fraction, reached)
 
     def spent(self) -> float:
-        """Return the number of Newton steps of all solves up to now."""
+        """Return the number of Newton steps of all solves up to now.
+
+        The number limits the bisection of an increment that does not converge.
+        """
         return float(sum(self.taken))
 
     def advance(
@@ -276,7 +282,11 @@ class TangentialSteps(StepsOnRings):
     def _without_friction(self, points: Points, loads: Loads) -> Array:
         """Return tractions and rigid motion of the contact without friction, as an initial guess.
 
-        Newton's method needs far fewer steps from this guess than from `Laws.closed_guess`.
+        Newton's method needs far fewer steps from this guess than from `Laws.closed_guess`. The
+        shape is (3 N + 4,), with N points.
+
+        points  points of the contact
+        loads   prescribed loads and motions, of which only the normal one is used
         """
         found = self._pressed(loads)
         p = pressure(found.contact, points.radii / found.contact.radius)
@@ -371,7 +381,8 @@ class TangentialSteps(StepsOnRings):
         too narrow if no point slips although pressure displaces the surfaces relative to each
         other.
 
-        step  number of the load step; only the first one is checked
+        state  state at the end of the load step
+        step   number of the load step; only the first one is checked
         """
         sticks = state.status is ContactStatus.FULL_STICK
         if sticks and step == 1 and state.circle is Circle.ONE and coupling(self.scene)[0]:
@@ -388,8 +399,9 @@ class TangentialSteps(StepsOnRings):
         Interpolation exceeds the limit near the border of the stick zone. Alternating projections
         remove the excess.
 
-        shear  q_r and q_θ at the output angles (2, n, angles) [force/length²]
-        limit  friction limit (n, angles) [force/length²]
+        points  points of the contact, with the output angles
+        shear   q_r and q_θ at the output angles (2, n, angles) [force/length²]
+        limit   friction limit (n, angles) [force/length²]
         """
         angles = points.output_angles
         cos, sin, one = np.cos(angles), np.sin(angles), np.ones_like(angles)

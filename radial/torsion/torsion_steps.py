@@ -43,13 +43,13 @@ class TorsionState:
 
     @property
     def torque(self) -> float:
-        """Return the torque: the prescribed value, or that of the shear [force length]."""
+        """Return the torque: prescribed, or computed under a prescribed twist [force length]."""
         kind, value = self.prescribed
         return value if kind is ControlKind.FORCE else self.path.torque
 
     @property
     def twist(self) -> float:
-        """Return the twist of the indenter: the prescribed value, or the computed one [radian]."""
+        """Return the twist of the indenter: prescribed, or computed under a torque [radian]."""
         kind, value = self.prescribed
         return self.path.twist if kind is ControlKind.FORCE else value
 

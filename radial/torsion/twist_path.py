@@ -74,12 +74,12 @@ class TwistPath:
 
     @property
     def twist(self) -> float:
-        """Return the twist φ of the indenter [radian]."""
+        """Return the twist φ of the indenter after the history of branches [radian]."""
         return _sum(self.branches, "twist")
 
     @property
     def torque(self) -> float:
-        """Return the torque M [force length]."""
+        """Return the torque M after the history of branches [force length]."""
         return _sum(self.branches, "torque")
 
     @property
