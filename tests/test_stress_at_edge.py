@@ -1,5 +1,8 @@
 """Stress that sees the edge of the contact between the cells."""
 
+from dataclasses import replace
+from typing import Any
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -140,6 +143,26 @@ def test_a_field_says_whether_the_edge_was_fitted(reason: str | None) -> None:
         assert field.how["edge"] == {"fitted": False, "because": reason}
         assert not tension.on_edge
         assert tension.value < 0.95 * exact
+
+
+def test_an_edge_fitted_on_one_side_of_a_mirror_plane_alone_stays_a_candidate(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    means = ellipse_means(CELLS, (RADIUS, RADIUS), (23.5, 23.5))
+    grid = SurfaceGrid((CELLS, CELLS), (float(CELLS), float(CELLS)))
+    body = Body(material=IsotropicMaterial(young_modulus=1.0, poisson_ratio=NU))
+    state = LoadedBodies("", body, body, 1, {"x": grid.x, "y": grid.y}, {"pressure": means}, None)
+
+    def partly(*given: Any, **options: Any) -> None:
+        edge = near_edge(*given, **options)
+        below = edge.phi.chosen(edge.phi.y < np.median(edge.phi.y) - 3)
+        raise EdgeNotSeen("seen in part", replace(edge, phi=below))
+
+    monkeypatch.setattr("semi_analytical.stress.near_edge", partly)
+    field = stress_on_cells(state, depths=[0.0])
+    assert field.edge is not None
+    assert np.all(field.edge.points.y < -2)
+    assert field.how["edge"] == {"fitted": False, "because": "seen in part"}
 
 
 def test_a_stress_that_is_largest_far_behind_the_contact_is_found() -> None:

@@ -174,7 +174,9 @@ def _below(
     how = _how(edge, why)
     rows = None if volume else _rows(grid, pressure, shear, section_only)
     if edge is not None and rows is not None and not section_only:
-        edge = replace(edge, phi=edge.phi.chosen(edge.phi.y >= rows[0]))
+        upper = edge.phi.y >= rows[0]
+        if np.any(upper):  # an edge that is fitted in part may have points on one side only
+            edge = replace(edge, phi=edge.phi.chosen(upper))
     sections, largest, planes = [], [], []
     for field in _each_level(
         state, body, grid, levels, pressure, shear, None if why else edge, rows
