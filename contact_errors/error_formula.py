@@ -264,7 +264,7 @@ class Comparison:
     part          part of the error to which the parameter contributes
     base, coarse  scalars of the finer and of the coarser solve at the end of each load step
     ratios        coarsening factor of the parameter at the end of each load step; 1 if the
-                  parameter has no effect up to this step
+                  parameter has no effect up to this step, 0 if `coarse` has no error by it
     """
 
     part: Part
